@@ -119,7 +119,7 @@ def notebook_of(opened: Opened | None, line: int) -> Reply:
     options = {"start": start_text(answer), "control": dialect.name, "settings": dict(dialect.modes.settings)}
     told = "".join(f", {name}={value!r}" for name, value in options.items() if value)
     code = f"import contoursolve\n\ncontoursolve.explore({chr(10).join(texts)!r}{told})"
-    cell = {
+    cell: dict[str, object] = {
         "cell_type": "code",
         "id": "contour",
         "metadata": {},

@@ -1,5 +1,6 @@
 """Pages about rules, in a folder of this server alone: any editor can open them, and none needs a network."""
 
+import atexit
 from collections.abc import Iterable
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -12,6 +13,7 @@ class Pages:
 
     def __init__(self) -> None:
         self._folder = TemporaryDirectory(prefix="contoursolve-", ignore_cleanup_errors=True)
+        atexit.register(self._folder.cleanup)
 
     def uri(self, code: str, dialect: Dialect | None) -> str:
         """Where the page about a rule is; empty if there is none."""

@@ -1,6 +1,7 @@
 """The server: what it can do, and what it does with each message of its client."""
 
 import asyncio
+import logging
 from collections.abc import Callable, Mapping
 from functools import wraps
 from pathlib import Path
@@ -18,6 +19,8 @@ from contoursolve.lsp.findings import actions_of, diagnostics_of
 from contoursolve.lsp.opened import Opened, Options, read_options
 from contoursolve.lsp.pages import Pages
 from contoursolve.lsp.reading import Completer, folds_of, hints_of, hover_of, signatures_of, symbols_of
+
+logger = logging.getLogger(__name__)
 
 SECTION = "contoursolve"
 STATUS, PICTURE = "contoursolve/status", "contoursolve/picture"
@@ -52,10 +55,15 @@ class Server(LanguageServer):
         self.checking[uri] = asyncio.get_running_loop().create_task(self._check(self.opened[uri]))
 
     async def _check(self, opened: Opened) -> None:
-        await asyncio.sleep(0)
-        while not opened.program.check(AT_ONCE):
+        try:
             await asyncio.sleep(0)
-        self._tell(opened)
+            while not opened.program.check(AT_ONCE):
+                await asyncio.sleep(0)
+            self._tell(opened)
+        except Exception as error:  # what is told stays as it was, and the next edit is examined again
+            logger.exception("%s was not examined", opened.uri)
+            message = f"{opened.program.name} was not examined: {type(error).__name__}: {error}; please report it"
+            self.window_show_message(types.ShowMessageParams(types.MessageType.Error, message))
 
     def _tell(self, opened: Opened) -> None:
         """Send the findings about a program, and how it stands."""
