@@ -41,8 +41,7 @@ local function drive()
   local found = vim.diagnostic.get(0, errors)[2]
   vim.api.nvim_win_set_cursor(0, { found.lnum + 1, found.col })
   local params = vim.lsp.util.make_range_params(0, "utf-16")
-  params.context = { diagnostics = { found.user_data and found.user_data.lsp or found } }
-  params.context.diagnostics[1].range = params.range
+  params.context = { diagnostics = { { range = params.range, message = found.message, severity = 1 } } }
   local actions = ask("textDocument/codeAction", params)
   seen.actions = vim.tbl_map(function(each) return each.title end, actions)
   local action = actions[1].edit and actions[1] or ask("codeAction/resolve", actions[1])
