@@ -56,5 +56,5 @@ def test_an_edit_costs_what_depends_on_it(corner):
     for number in range(ROUNDS):
         edits.append(edit(program, number % 5 + 1))
         alone.append(check_alone(around, number % 5 + 1))
-    print(f"\n{corner}: an edit {1e3 * median(edits):.1f} ms, the contour alone {1e3 * median(alone):.1f} ms")
+    print(f"\n{corner}: an edit {1e3 * median(edits):.1f} ms, the contour alone {1e3 * median(alone):.1f} ms")  # noqa: T201 - what was measured
     assert median(edits) < 2 * median(alone)
