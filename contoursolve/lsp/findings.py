@@ -17,7 +17,11 @@ _SEVERITY = {
 SOURCE = "contoursolve"
 CONTROL_UNKNOWN = "control-unknown"
 SAFE, PLACEHOLDER = "safe", "placeholder"
+MORE = "more-findings"
 LONGEST_TITLE = 160
+
+MOST_FINDINGS = 500
+"""Of one program. A program for another control may have some in every line, and no editor shows them all."""
 
 
 def diagnostics_of(opened: Opened) -> list[types.Diagnostic]:
@@ -27,7 +31,13 @@ def diagnostics_of(opened: Opened) -> list[types.Diagnostic]:
         message = f"{opened.program.trouble}; choose one in the editor's settings, or state it in a comment"
         severity = types.DiagnosticSeverity.Warning
         return [types.Diagnostic(place, message, severity, CONTROL_UNKNOWN, source=SOURCE)]
-    return [_diagnostic(opened, finding) for finding in opened.program.diagnostics]
+    findings = opened.program.diagnostics
+    told = [_diagnostic(opened, finding) for finding in findings[:MOST_FINDINGS]]
+    if len(findings) > MOST_FINDINGS:
+        message = f"{len(findings) - MOST_FINDINGS:,} more findings from here on: mend the first ones, or run 'check'"
+        place = _range(opened, findings[MOST_FINDINGS].span)
+        told.append(types.Diagnostic(place, message, types.DiagnosticSeverity.Warning, MORE, source=SOURCE))
+    return told
 
 
 def _diagnostic(opened: Opened, finding: Diagnostic) -> types.Diagnostic:

@@ -2,7 +2,7 @@
 
 import asyncio
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from functools import wraps
 from pathlib import Path
@@ -11,6 +11,7 @@ from urllib.parse import urlsplit
 
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol, lsp_method
 from pygls.uris import to_fs_path
 
 from contoursolve import DIALECTS, Severity, Status, __version__
@@ -24,6 +25,9 @@ from contoursolve.lsp.reading import Completer, folds_of, hints_of, hover_of, si
 logger = logging.getLogger(__name__)
 
 SECTION = "contoursolve"
+Steps = Iterator[tuple[Any, tuple[Any, ...], None]]
+"""Handlers that pygls calls one after the other, with their arguments."""
+
 STATUS, PICTURE = "contoursolve/status", "contoursolve/picture"
 
 PATIENCE = 5.0
@@ -33,11 +37,31 @@ AT_ONCE = 8
 """Blocks and contours that are examined before the next message is looked at."""
 
 
+class Protocol(LanguageServerProtocol):
+    """The protocol without the texts that pygls keeps besides: applying a change to its own text, it overwrites the
+    places of the change (`position_from_client_units` of pygls 2.1), and it has other ends of lines."""
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
+    def lsp_text_document__did_open(self, params: types.DidOpenTextDocumentParams) -> Steps:
+        """Tell the server alone."""
+        yield self.fm.features[types.TEXT_DOCUMENT_DID_OPEN], (params,), None
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)
+    def lsp_text_document__did_change(self, params: types.DidChangeTextDocumentParams) -> Steps:
+        """Tell the server alone."""
+        yield self.fm.features[types.TEXT_DOCUMENT_DID_CHANGE], (params,), None
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_CLOSE)
+    def lsp_text_document__did_close(self, params: types.DidCloseTextDocumentParams) -> Steps:
+        """Tell the server alone."""
+        yield self.fm.features[types.TEXT_DOCUMENT_DID_CLOSE], (params,), None
+
+
 class Server(LanguageServer):
     """One client, and the programs that it has open."""
 
     def __init__(self) -> None:
-        super().__init__(SECTION, __version__)
+        super().__init__(SECTION, __version__, protocol_cls=Protocol)
         self.opened: dict[str, Opened] = {}
         self.checking: dict[str, asyncio.Task[None]] = {}
         self.options, self.pages = Options(), Pages()
@@ -165,7 +189,8 @@ def initialize(params: types.InitializeParams) -> None:
     given = params.initialization_options
     table = given if isinstance(given, dict) else _table(given)
     server.has_client_commands = table.get("clientCommands") is True
-    server.options = read_options(table)
+    # Some clients send their whole configuration, with the name of its section.
+    server.options = read_options(table.get(SECTION, table))
 
 
 def _table(record: Any) -> Mapping[str, Any]:

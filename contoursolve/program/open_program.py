@@ -392,7 +392,9 @@ class OpenProgram:
                 if part.answer is not None:
                     lines = part.answer.lines
                     now = tuple(line - lines[0] + start + 1 for line in lines)
-                    yield from ((finding, now) for finding in part.findings)
+                    for finding in part.findings:
+                        line = finding.span.line  # a contour tells of the block behind it, too
+                        yield finding, now if line <= start + part.count else (line,)
             start += part.count
         last = self._parts[-1]
         self._bring_up(last)

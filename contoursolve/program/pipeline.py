@@ -73,9 +73,11 @@ class Result(Shown, Struct, frozen=True):
         return any(each.severity is Severity.ERROR for each in self.diagnostics)
 
     def lines_of(self, finding: Diagnostic) -> tuple[int, ...]:
-        """The lines that a fix of a finding replaces: those of its contour, or its own."""
+        """The lines that a fix of a finding replaces: those of its contour, or its own; a contour tells of the block
+        behind it, too."""
         own = next((each for each in self.answers if finding in each.diagnostics), None)
-        return own.lines if own else (self.place(finding.span).line,)
+        line = self.place(finding.span).line
+        return own.lines if own and line <= own.lines[-1] else (line,)
 
     def place(self, span: Span) -> Span:
         """The place itself, or for what was stated apart from the program the block that it is about."""

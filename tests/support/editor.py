@@ -84,6 +84,14 @@ class Editor:
         self.client.exit(None)
         await self.client.stop()
 
+    def close(self) -> None:
+        """Close all programs, and forget what was told."""
+        for uri in self.texts:
+            document = types.TextDocumentIdentifier(uri)
+            self.client.text_document_did_close(types.DidCloseTextDocumentParams(document))
+        for told in (self.texts, self.versions, self.found, self.statuses, self.shown, self.messages):
+            told.clear()
+
     async def ask(self, answer: Awaitable[Any]) -> Any:
         return await asyncio.wait_for(answer, PATIENCE)
 
@@ -148,18 +156,43 @@ def edits_of(action: types.CodeAction) -> list[types.TextEdit]:
     return change.edits
 
 
-def in_editor(use: Callable[[Editor], Coroutine[Any, Any, None]], section: dict[str, Any] | None = None) -> None:
-    """Start a server, use it, and stop it."""
+class Served:
+    """A server that is kept for several uses. Programs that were opened in one of them are closed behind it."""
 
-    async def run() -> None:
+    def __init__(self, section: dict[str, Any] | None = None, **options: Any) -> None:
+        self._runner = asyncio.Runner()
+        self.editor = self._runner.run(self._start(section, options))
+
+    async def _start(self, section: dict[str, Any] | None, options: dict[str, Any]) -> Editor:
         editor = Editor(section)
-        await editor.start()
-        try:
-            await use(editor)
-        finally:
-            await editor.stop()
+        self.answer = await editor.start(**options)
+        return editor
 
-    asyncio.run(run())
+    def __call__(self, use: Callable[[Editor], Coroutine[Any, Any, None]]) -> None:
+        """Use it."""
+
+        async def used() -> None:
+            try:
+                await use(self.editor)
+            finally:
+                self.editor.close()
+
+        self._runner.run(used())
+
+    def stop(self) -> None:
+        self._runner.run(self.editor.stop())
+        self._runner.close()
+
+
+def in_editor(
+    use: Callable[[Editor], Coroutine[Any, Any, None]], section: dict[str, Any] | None = None, **options: Any
+) -> None:
+    """Start a server, use it, and stop it."""
+    served = Served(section, **options)
+    try:
+        served(use)
+    finally:
+        served.stop()
 
 
 def random_edit(lines: list[str], draw: random.Random) -> tuple[tuple[int, int], tuple[int, int], str]:
