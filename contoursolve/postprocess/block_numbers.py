@@ -78,19 +78,19 @@ _ANOTHER = "names blocks of another program"
 TEXT_JUMPS: Mapping[str, tuple[TextJump, ...]] = {
     "iso": (_text(r"(?<![A-Z])GOTO[ \t]*+(?P<target>(?:N[ \t]*+)?\d++(?![\d.\[#])|[^ \t]*+)"),),
     "sinumerik": (
-        _text(r"\bGOTO[BFC]?\b[ \t]*+(?P<target>N\d++\b|:\d++|[A-Z_]\w++(?![\[(<])|.*+)"),
-        _text(r"\bREPEATB?\b(?P<targets>.*+)"),
-        _text(r"\bCALL[ \t]++BLOCK\b(?P<targets>.*+)"),
-        _text(r"\bCALL\b(?![ \t]++BLOCK\b).*?\bBLOCK\b", _ANOTHER),
-        _text(r"\bRET[ \t]*+\([ \t,]*+[^ \t,)][^)]*+\)?", _ELSEWHERE),
+        _text(r"(?<![A-Z_])GOTO[BFC]?\b[ \t]*+(?P<target>N\d++\b|:\d++|[A-Z_]\w++(?![\[(<])|.*+)"),
+        _text(r"(?<![A-Z_])REPEATB?\b(?P<targets>.*+)"),
+        _text(r"(?<![A-Z_])CALL[ \t]++BLOCK\b(?P<targets>.*+)"),
+        _text(r"(?<![A-Z_])CALL\b(?![ \t]++BLOCK\b).*?\bBLOCK\b", _ANOTHER),
+        _text(r"(?<![A-Z_])RET[ \t]*+\([ \t,]*+[^ \t,)][^)]*+\)?", _ELSEWHERE),
         # The profile of a turning cycle; the text of a message is no jump.
         _text(r"^(?!.*\bMSG\b).*?(?P<targets>\"N\d++(?::N\d++)?\".*+)"),
     ),
     "isg": (
         _text(r"\$GOTO[ \t]*+(?P<target>N[ \t]*+\d++\b|\[[^\]]*+\]|.*+)"),
-        _text(r"\bL[ \t]++SEQUENCE\b(?=.*\bNAME\b)", _ANOTHER),
-        _text(r"\bL[ \t]++SEQUENCE\b(?=.*\bN[ \t]*+[^\d \tA])", _COMPUTES),
-        _text(r"\bL[ \t]++SEQUENCE\b(?P<targets>.*+)"),
+        _text(r"(?<![A-Z_])L[ \t]++SEQUENCE\b(?=.*\bNAME\b)", _ANOTHER),
+        _text(r"(?<![A-Z_])L[ \t]++SEQUENCE\b(?=.*\bN[ \t]*+[^\d \tA])", _COMPUTES),
+        _text(r"(?<![A-Z_])L[ \t]++SEQUENCE\b(?P<targets>.*+)"),
     ),
 }
 """The statements that name blocks, by the name of the syntax.
@@ -99,7 +99,7 @@ Fanuc, Haas, Mitsubishi: custom macro; SINUMERIK: job planning, program jumps an
 manual, control blocks and L SEQUENCE.
 """
 
-_NAMED = re.compile(r"(?<![\w$])N[ \t]*+(\d++)\b", re.IGNORECASE | re.ASCII)
+_NAMED = re.compile(r"(?<![A-Z_$])N[ \t]*+(\d++)(?!(?!N\d|TO\b)\w)", re.IGNORECASE | re.ASCII)
 _TARGET = re.compile(r"(?:N[ \t]*+)?(\d++)", re.IGNORECASE | re.ASCII)
 _WORD = re.compile(r"[A-Z][ \t]*+\+?+(\d++)\.?+", re.IGNORECASE | re.ASCII)
 _OWN_NUMBER = re.compile(r"[ \t]*+(?>(?:/\d?+)?)[ \t]*+N[ \t]*+(\d++)(?![\d.])", re.IGNORECASE | re.ASCII)

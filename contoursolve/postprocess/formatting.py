@@ -96,8 +96,9 @@ def _is_doubtful(block: Block, addresses: Container[str]) -> bool:
 
 def _same(one: Block, other: Block) -> bool:
     """Whether two blocks say the same, with other blanks."""
-    is_plain = not other.faults and other.macro is None
-    return is_plain and one.is_skippable == other.is_skippable and _meanings(one) == _meanings(other)
+    if other.faults or other.macro or one.is_skippable != other.is_skippable:
+        return False
+    return _BLANK.sub("", one.text) == _BLANK.sub("", other.text) and _meanings(one) == _meanings(other)
 
 
 def _meanings(block: Block) -> list[tuple[object, ...]]:
