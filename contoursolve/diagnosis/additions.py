@@ -32,9 +32,9 @@ _ANY = Decimal(1)
 class Addition(Struct, frozen=True):
     """A word that a block may still take.
 
-    `text` is the word, with its value where the geometry fixes that and with `?` where it is still to be chosen; `line`
-    is the program line into which it goes, and `replacement` all lines of the contour with it. `contour` is the one
-    that the block then has, None where other words are missing, or the value is.
+    `text` is the word. It has its value where the geometry fixes that, and `?` where it is still to be chosen. It goes
+    into the program line `line`; `replacement` has all lines of the contour with it. `contour` is the one that the
+    block has then. It is None where other words are missing, or the value is.
     """
 
     address: str

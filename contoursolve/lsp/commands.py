@@ -77,7 +77,10 @@ def convert_program(opened: Opened | None, control: str) -> Reply:
         return {"text": None, "message": NOT_OPEN}
     program = opened.program
     try:
-        found = contoursolve.convert(program.text, control, control=program.dialect, name=program.name)
+        settings = opened.conventions
+        found = contoursolve.convert(
+            program.text, control, control=program.dialect, settings=settings, name=program.name
+        )
     except ValueError as error:
         return {"text": None, "message": str(error)}
     message = _what_was_left(found)

@@ -109,11 +109,17 @@ class Opened:
         document = types.OptionalVersionedTextDocumentIdentifier(self.uri, self.version)
         return types.WorkspaceEdit(document_changes=[types.TextDocumentEdit(document, [*changes])])
 
-    def _settings(self) -> dict[str, str]:
-        """The client's settings, and those of the project file on top."""
-        own = {CONTROL: self.options.control} if self.options.control else {}
+    @property
+    def conventions(self) -> dict[str, str]:
+        """The settings of all controls, the client's and those of the project file on top."""
         project = {} if isinstance(self._project, str) else self._project
-        return {**own, **self.options.settings, **project}
+        return {name: value for name, value in {**self.options.settings, **project}.items() if name != CONTROL}
+
+    def _settings(self) -> dict[str, str]:
+        """The same, and what names the control."""
+        project = {} if isinstance(self._project, str) else self._project
+        control = project.get(CONTROL, self.options.control)
+        return {**self.conventions, **({CONTROL: control} if control else {})}
 
 
 def _project_of(path: Path | None) -> dict[str, str] | str:

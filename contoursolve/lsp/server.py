@@ -33,6 +33,9 @@ STATUS, PICTURE = "contoursolve/status", "contoursolve/picture"
 PATIENCE = 5.0
 """Seconds until a client that was asked for its options has to answer."""
 
+REST = 0.15
+"""Seconds without a further edit until a program is examined that is edited faster than it can be."""
+
 AT_ONCE = 8
 """Blocks and contours that are examined before the next message is looked at."""
 
@@ -79,13 +82,17 @@ class Server(LanguageServer):
 
     def begin_check(self, uri: str) -> None:
         """Examine what an edit made necessary, a little at a time; what was begun before that is left."""
-        if uri in self.checking:
-            self.checking[uri].cancel()
-        self.checking[uri] = asyncio.get_running_loop().create_task(self._check(self.opened[uri]))
+        before = self.checking.get(uri)
+        is_hurried = before is not None and not before.done()
+        if before is not None:
+            before.cancel()
+        rest = REST if is_hurried else 0.0
+        self.checking[uri] = asyncio.get_running_loop().create_task(self._check(self.opened[uri], rest))
 
-    async def _check(self, opened: Opened) -> None:
+    async def _check(self, opened: Opened, rest: float) -> None:
         try:
             await self._until_configured()
+            await asyncio.sleep(rest)
             while not opened.program.check(AT_ONCE):
                 await asyncio.sleep(0)
             self._tell(opened)
@@ -99,7 +106,6 @@ class Server(LanguageServer):
         with suppress(TimeoutError):
             await asyncio.wait_for(self.is_configured.wait(), PATIENCE)
         self.is_configured.set()
-        await asyncio.sleep(0)
 
     def _tell(self, opened: Opened) -> None:
         """Send the findings about a program, and how it stands."""

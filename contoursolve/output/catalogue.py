@@ -76,8 +76,10 @@ def rule_lines(rule: Rule, controls: Iterable[str]) -> list[str]:
 
 
 def rule_page(code: str, dialects: Iterable[Dialect]) -> str:
-    """A page of Markdown about the rule of a code: what is wrong, what to do, blocks that are wrong and right, and its
-    place in the manual of each control that has it. Raises LookupError if none has."""
+    """A page of Markdown about a rule: what is wrong and what to do, with blocks that are wrong and right.
+
+    It names the place in the manual of each control that has the rule. Raises LookupError if none has it.
+    """
     found = [(each, rule) for each in dialects for rule in each.rules if rule.code == code]
     if not found:
         raise LookupError(f"no rule has the code {code!r}")

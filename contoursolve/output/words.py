@@ -24,12 +24,11 @@ def end_text(answer: Answer) -> str:
 
 
 def start_text(answer: Answer) -> str:
-    """The words that lead to the start point of a contour, as its control reads them where coordinates count from zero;
-    empty where that is not known.
+    """The words that lead to the start point of a contour, as its control reads coordinates; empty if it is unknown.
 
     >>> import contoursolve
     >>> start_text(contoursolve.solve("G111 X100. A180. K-30. B120.", start="X40. Z0.").answers[0])
-    'Z0. X40.'
+    'Z0 X40.'
     """
     values, lexicon = answer.start.values, answer.claim.lexicon
     if not answer.start.is_known:
@@ -39,8 +38,11 @@ def start_text(answer: Answer) -> str:
 
 
 class StatedWord(Struct, frozen=True):
-    """A word of a contour: its key (`A`, or `2:,A` where two blocks have one), what it means, its value as it is
-    written with its unit (mm, in, deg; None for a variable or `?`), and the points and corners that it fixes."""
+    """A word of a contour, with its key: `A`, or `2:,A` where two blocks have one.
+
+    `meaning` says what it is. `value` and `unit` (mm, in, deg) are as written; a variable or `?` has no value. `fixes`
+    names the points and corners that it fixes.
+    """
 
     key: str
     word: Word
@@ -56,11 +58,8 @@ def stated_words(answer: Answer) -> tuple[StatedWord, ...]:
 
     >>> import contoursolve
     >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5.", start="X40. Z0.").answers[0]
-    >>> [(each.word.text, each.meaning, each.fixes) for each in stated_words(answer)][2:]
-    ... # doctest: +NORMALIZE_WHITESPACE
-    [('K-30.', 'Z distance from start to virtual intersection', ('V1',)),
-     ('B120.', 'travel direction of line 2, from +Z, counter-clockwise', ('line 2',)),
-     ('P5.', 'radius of the first rounding', ('corner 1',))]
+    >>> [(each.key, each.value, each.unit, each.fixes) for each in stated_words(answer)][2:]
+    [('K', -30.0, 'mm', ('V1',)), ('B', 120.0, 'deg', ('line 2',)), ('P', 5.0, 'mm', ('corner 1',))]
     """
     givens = {given.name: given.word for given in answer.profile.givens.values() if given.word}
     ignored = {fact.given for fact in answer.profile.ignored}
