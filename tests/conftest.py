@@ -20,14 +20,17 @@ settings.register_profile("dev", max_examples=10, deadline=None, derandomize=Tru
 settings.register_profile("ci", settings.get_profile("dev"), max_examples=80)
 settings.load_profile("dev")
 
+CHROMIUM = (("chromium", "chromium-browser"), "chromium (Debian: apt-get install chromium)")
 PROGRAMS = {
-    "interpreter": (("rs274",), "rs274 (Debian: apt-get install linuxcnc-uspace)"),
-    "browser": (("chromium", "chromium-browser"), "chromium (Debian: apt-get install chromium)"),
+    "interpreter": ((("rs274",), "rs274 (Debian: apt-get install linuxcnc-uspace)"),),
+    "browser": (CHROMIUM,),
+    "editor": (CHROMIUM, (("node",), "node 20, 22 or 24"), (("npm",), "npm")),
 }
 """The programs of which tests with a marker need one, and how to get them."""
 
 PACKAGES = {
     "browser": ("playwright", "jupyterlab", "ipykernel", "anywidget", "htpy"),
+    "editor": ("playwright", "pygls", "lsprotocol"),
     "notebook": ("nbclient", "nbformat", "ipykernel"),
     "site": ("zensical", "mkdocstrings_handlers"),
 }
@@ -38,12 +41,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("contoursolve")
     group.addoption("--insist", action="store_true", help="fail where a program or a package is missing, not skip")
     group.addoption("--sarif-schema", metavar="FILE", help="the SARIF 2.1.0 schema, which our output is held against")
+    group.addoption("--code-server", metavar="FOLDER", help="where code-server is, or is to stay for the next time")
     group.addoption("--screenshots", metavar="FOLDER", help="where tests with a browser leave what they saw")
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:
     own = {mark.name for mark in item.iter_markers()}
-    missing = [advice for marker in own & PROGRAMS.keys() for advice in missing_of(*PROGRAMS[marker])]
+    missing = [advice for marker in own & PROGRAMS.keys() for need in PROGRAMS[marker] for advice in missing_of(*need)]
     packages = {name for marker in own & PACKAGES.keys() for name in PACKAGES[marker]}
     packages |= {name for mark in item.iter_markers("needs") for name in mark.args}
     missing += [name for name in sorted(packages) if find_spec(name) is None]
