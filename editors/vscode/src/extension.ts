@@ -14,10 +14,11 @@ import { LanguageClient, type LanguageClientOptions, RevealOutputChannelOn, type
 import { chooseControl, convert, expand, explore, report } from "./commands";
 import { PictureView } from "./picture";
 import { LANGUAGES, type Status } from "./protocol";
-import { choosePython, findPython, onInterpreterChange, spell } from "./python";
+import { choosePython, findPython, onInterpreterChange, type Python, spell } from "./python";
 import { StatusBar } from "./status";
 
 let client: LanguageClient | undefined;
+let running: Python | undefined;
 /** One start or stop at a time. */
 let turn: Promise<void> = Promise.resolve();
 
@@ -37,24 +38,24 @@ export async function activate(context: ExtensionContext): Promise<void> {
   register("drawBeside", async (uri?: string, line?: number) => picture.open(await editorOf(uri, line)));
   register("exploreContour", async (uri?: string, line?: number) => {
     const editor = await editorOf(uri);
-    await withServer((running) => explore(running, editor.document, line ?? editor.selection.active.line));
+    await withServer((client) => explore(client, editor.document, line ?? editor.selection.active.line));
   });
   register("expandProgram", async (uri?: string) => {
     const document = await documentOf(uri);
-    await withServer((running) => expand(running, document));
+    await withServer((client) => expand(client, document));
   });
   register("convertProgram", async (uri?: string) => {
     const document = await documentOf(uri);
-    await withServer((running) => convert(running, document));
+    await withServer((client) => convert(client, document));
   });
   register("showReport", async (uri?: string) => {
     const document = await documentOf(uri);
-    await withServer((running) => report(running, document));
+    await withServer((client) => report(client, document));
   });
   register("chooseControl", () => withServer(chooseControl));
 
-  const interpreter = await onInterpreterChange(restart);
-  if (interpreter) context.subscriptions.push(interpreter);
+  // The Python extension may take its time; contour blocks need not wait for it.
+  void onInterpreterChange(() => running, restart).then((listener) => listener && context.subscriptions.push(listener));
   context.subscriptions.push(
     workspace.onDidGrantWorkspaceTrust(restart),
     workspace.onDidChangeConfiguration((event) => {
@@ -71,6 +72,7 @@ export async function deactivate(): Promise<void> {
 
 async function start(folder: string, output: LogOutputChannel, status: StatusBar, picture: PictureView): Promise<void> {
   const python = await findPython(folder);
+  running = python;
   if (!python) return;
   output.info(`The server runs with ${spell(python)}`);
   // -P: a file of the user's folder must not stand in for a Python package.
@@ -122,7 +124,8 @@ function showPage(address: string): Promise<{ success: boolean }> | undefined {
   return Promise.resolve(commands.executeCommand("markdown.showPreviewToSide", uri)).then(() => ({ success: true }));
 }
 
-async function withServer(run: (running: LanguageClient) => Promise<void>): Promise<void> {
+async function withServer(run: (client: LanguageClient) => Promise<void>): Promise<void> {
+  await turn;
   if (!client?.isRunning()) {
     const restart = "Restart the Server";
     const answer = await window.showErrorMessage("The server of contoursolve does not run.", restart);
@@ -150,10 +153,8 @@ async function editorOf(uri?: string | Uri, line?: number): Promise<TextEditor> 
   const seen = window.visibleTextEditors.find((editor) => editor.document.uri.toString() === address.toString());
   const editor = await window.showTextDocument(address, seen?.viewColumn ? { viewColumn: seen.viewColumn } : {});
   if (typeof line === "number") {
-    const { range } = editor.document.lineAt(line);
-    if (!editor.selection.active.isEqual(range.start) && editor.selection.active.line !== line) {
-      editor.selection = new Selection(range.start, range.start);
-    }
+    const { start } = editor.document.lineAt(line).range;
+    if (editor.selection.active.line !== line) editor.selection = new Selection(start, start);
   }
   return editor;
 }

@@ -3,7 +3,7 @@ import { execFile } from "node:child_process";
 import { access } from "node:fs/promises";
 import { homedir } from "node:os";
 import { join } from "node:path";
-import { ConfigurationTarget, env, extensions, type Uri, window, workspace } from "vscode";
+import { ConfigurationTarget, type Disposable, env, extensions, type Uri, window, workspace } from "vscode";
 
 /** A command that starts Python, such as `py -3`. */
 export interface Python {
@@ -37,9 +37,14 @@ export async function choosePython(): Promise<void> {
   if (file) await workspace.getConfiguration("contoursolve").update("python", file, ConfigurationTarget.Global);
 }
 
-/** Calls back when the Python extension, if there is one, changes its interpreter. */
-export async function onInterpreterChange(changed: () => void): Promise<{ dispose(): void } | undefined> {
-  return (await pythonExtension())?.onDidChangeActiveEnvironmentPath?.(changed);
+/** Calls back when the Python extension, if there is one, has another interpreter than the one that runs. */
+export async function onInterpreterChange(
+  running: () => Python | undefined,
+  changed: () => void,
+): Promise<Disposable | undefined> {
+  return (await pythonExtension())?.onDidChangeActiveEnvironmentPath?.(async () => {
+    if (!fromSetting() && (await activeInterpreter()) !== running()?.command) changed();
+  });
 }
 
 function fromSetting(): Python | undefined {
@@ -88,7 +93,8 @@ async function advise(chosen: Python | undefined, usable: Python | undefined): P
   }
   const command = `${spell(usable)} -m pip install "contoursolve[lsp]"`;
   const copy = "Copy";
-  const message = `This Python lacks contoursolve. Type in a terminal: ${command} Then run "contoursolve: Restart the Server".`;
+  const next = 'Type this in a terminal, and run "contoursolve: Restart the Server"';
+  const message = `This Python lacks contoursolve. ${next}: ${command}`;
   const answer = await window.showErrorMessage(message, copy, choose);
   if (answer === copy) await env.clipboard.writeText(command);
   if (answer === choose) await choosePython();
@@ -104,7 +110,7 @@ export function spell(python: Python): string {
 interface Environments {
   getActiveEnvironmentPath(resource?: Uri): { path: string };
   resolveEnvironment(path: unknown): Promise<{ executable: { uri?: Uri } } | undefined>;
-  onDidChangeActiveEnvironmentPath?(listener: () => void): { dispose(): void };
+  onDidChangeActiveEnvironmentPath?(listener: () => void): Disposable;
 }
 
 async function pythonExtension(): Promise<Environments | undefined> {
