@@ -26,6 +26,8 @@ if TYPE_CHECKING:
         solve_file,
         solve_program,
     )
+    from contoursolve.controls import DIALECTS
+    from contoursolve.diagnosis.additions import Addition, LegalBlock, legal_blocks, ways_to_complete, words_to_add
     from contoursolve.diagnosis.examine import Answer, Depth, Policy
     from contoursolve.diagnosis.solutions import Listing, list_solutions
     from contoursolve.diagnostics.extras import MissingExtraError
@@ -47,9 +49,17 @@ if TYPE_CHECKING:
     )
     from contoursolve.gcode import Block, Program, Word
     from contoursolve.notebook import explore
+    from contoursolve.output.catalogue import rule_page
     from contoursolve.output.construction import construction_lines
+    from contoursolve.output.contours import path_table
+    from contoursolve.output.report import report_page
+    from contoursolve.output.words import StatedWord, end_text, form_text, start_text, stated_words
+    from contoursolve.postprocess.block_numbers import BlockNumber, Replacement, block_number_at, rename_block
     from contoursolve.postprocess.expansion_report import Conversion, Expansion
+    from contoursolve.postprocess.formatting import format_program
+    from contoursolve.program.open_program import OpenContour, OpenProgram
     from contoursolve.program.pipeline import Result
+    from contoursolve.program.project import SettingError, find_settings
     from contoursolve.program.recognise import UnknownControlError
     from contoursolve.reading.dialect import Dialect
     from contoursolve.sketch import Drawings, Drawn, Sketch
@@ -60,10 +70,13 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "DIALECTS",
+    "Addition",
     "Answer",
     "ArcSegment",
     "Basis",
     "Block",
+    "BlockNumber",
     "Completion",
     "Contour",
     "Conversion",
@@ -78,52 +91,74 @@ __all__ = [
     "FamilyError",
     "Feasible",
     "Found",
+    "LegalBlock",
     "LineSegment",
     "Listing",
     "MissingExtraError",
+    "OpenContour",
+    "OpenProgram",
     "Policy",
     "Program",
     "Region",
+    "Replacement",
     "Result",
     "Sensitivity",
+    "SettingError",
     "Severity",
     "Sketch",
+    "StatedWord",
     "Status",
     "Tolerances",
     "UnknownControlError",
     "UnreadableProgramError",
     "Word",
+    "block_number_at",
     "check",
     "check_file",
     "completions",
     "construction_lines",
     "convert",
+    "end_text",
     "expand",
     "explore",
     "family",
     "feasible",
+    "find_settings",
     "find_word",
+    "form_text",
+    "format_program",
+    "legal_blocks",
     "list_solutions",
     "parse",
+    "path_table",
     "read_program",
     "region",
+    "rename_block",
+    "report_page",
+    "rule_page",
     "sensitivity",
     "solve",
     "solve_file",
     "solve_program",
+    "start_text",
+    "stated_words",
     "tolerances",
+    "ways_to_complete",
     "what_if",
+    "words_to_add",
 ]
 
 _ROOMS = {
     "solving.contour": ("ArcSegment", "Contour", "LineSegment"),
     "diagnostics.finding": ("Basis", "Diagnosis", "Diagnostic", "Severity"),
-    "controls": ("Dialect",),
+    "controls": ("DIALECTS", "Dialect"),
     "diagnosis.examine": ("Answer", "Depth", "Policy"),
     "diagnosis.solutions": ("Listing", "list_solutions"),
     "diagnostics.extras": ("MissingExtraError",),
     "output.construction": ("construction_lines",),
+    "postprocess.block_numbers": ("BlockNumber", "Replacement", "block_number_at", "rename_block"),
     "postprocess.expansion_report": ("Conversion", "Expansion"),
+    "postprocess.formatting": ("format_program",),
     "families": (
         "Family",
         "FamilyError",
@@ -140,11 +175,27 @@ _ROOMS = {
         "tolerances",
     ),
     "notebook": ("explore",),
+    "program.open_program": ("OpenContour", "OpenProgram"),
     "program.pipeline": ("Result",),
     "program.recognise": ("UnknownControlError",),
     "sketch": ("Drawings", "Drawn", "Sketch"),
     "solving": ("Status",),
     "gcode": ("Block", "Program", "Word"),
+    "diagnosis.additions": (
+        "Addition",
+        "LegalBlock",
+        "legal_blocks",
+        "words_to_add",
+        "ways_to_complete",
+    ),
+    "output.catalogue": ("rule_page",),
+    "output.contours": ("path_table",),
+    "output.report": ("report_page",),
+    "output.words": ("StatedWord", "end_text", "form_text", "start_text", "stated_words"),
+    "program.project": (
+        "SettingError",
+        "find_settings",
+    ),
     "try_edits": ("Completion", "completions", "what_if"),
 }
 """Where the public names live; the others are in `api`."""

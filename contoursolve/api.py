@@ -17,7 +17,7 @@ from contoursolve.gcode import STANDARD_INPUT, Directive, Program, UnreadablePro
 from contoursolve.geometry import Length
 from contoursolve.postprocess.numbering import Numbers
 from contoursolve.program.pipeline import Result, Run, run
-from contoursolve.program.project import configure, find_settings
+from contoursolve.program.project import configure, find_settings, restate_control, stated_settings
 from contoursolve.program.recognise import choose, find_dialect
 from contoursolve.reading.dialect import Dialect
 
@@ -160,8 +160,9 @@ def solve_file(
     Raises UnreadableProgramError, SettingError, and as `solve`.
     """
     folder = Path() if str(path) == STANDARD_INPUT else Path(path).parent
-    own = find_settings(folder) | dict(settings or {})
-    return solve_program(read_program(path), control=control, units=units, rules=rules, facts=facts, settings=own)
+    program = read_program(path)
+    own = find_settings(folder) | stated_settings(block.text for block in program.blocks) | dict(settings or {})
+    return solve_program(program, control=control, units=units, rules=rules, facts=facts, settings=own)
 
 
 def check_file(
@@ -362,6 +363,7 @@ def convert(
         raise ValueError(f"a program is converted for the same kind of machine: {kinds}{advice}")
     post = post_of(target)
     found = expand(text, post=post, comments=comments, control=dialect, units=units, rules=rules, name=name)
+    found = replace(found, text=found.text and restate_control(found.text, target.name))
     if found.text is None or dialect is None:
         return Conversion(found.text, found.control, target.name, found.summary, None)
     unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")

@@ -27,6 +27,7 @@ from contoursolve.cli.printing import say
 from contoursolve.diagnostics.extras import MissingExtraError, need
 from contoursolve.diagnostics.json_text import json_text
 from contoursolve.families import FamilyError, RefusedError, name_of
+from contoursolve.gcode import parse
 from contoursolve.gcode.files import CannotWriteError
 from contoursolve.program.pipeline import FactPlaceError
 from contoursolve.program.project import SettingError
@@ -70,8 +71,8 @@ def read_options(options: dict[str, Any]) -> dict[str, Any]:
     """The arguments of a function about a block, from the options of a command, after a warning on standard error if
     its start point may be meant otherwise."""
     rest = {name: options[name] for name in ("start", "control", "units", "rules")}
-    rest["settings"] = settings_of(Path(), options["assignments"])
     block = "\n".join(options["blocks"])
+    rest["settings"] = settings_of(parse(block, "<block>"), options["assignments"])
     for finding in solve(block, **rest, depth="verdict").diagnostics:
         if finding.about is ReadIssue.START_IN_INCREMENTS:
             say(f"{finding.severity.value}: {finding.message}; {finding.help}", err=True)

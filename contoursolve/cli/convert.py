@@ -8,7 +8,6 @@ from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
     control_option,
-    folder_of,
     rules_option,
     settings_of,
     settings_option,
@@ -80,7 +79,7 @@ def convert(
                 control=control,
                 units=units,
                 rules=rules,
-                settings=settings_of(folder_of(tape), assignments),
+                settings=settings_of(tape, assignments),
                 name=name,
             )
     except UnreadableProgramError as error:

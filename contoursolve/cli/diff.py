@@ -8,7 +8,6 @@ from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
     control_option,
-    folder_of,
     print_findings,
     read,
     rules_option,
@@ -23,7 +22,7 @@ from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import Program
 from contoursolve.geometry import Length
 from contoursolve.program.pipeline import Result, run
-from contoursolve.program.project import SettingError, configure
+from contoursolve.program.project import CONTROL, SettingError, configure
 from contoursolve.program.recognise import UnknownControlError, recognise
 from contoursolve.reading import ReadIssue
 from contoursolve.reading.dialect import Dialect
@@ -129,8 +128,9 @@ def _dialect_of(
 ) -> Dialect:
     """The control of a program: the one that is named, or that it shows, or another."""
     try:
-        settings = settings_of(folder_of(program), assignments)
-        named = {**DIALECTS, **PLAIN}[control] if isinstance(control, str) else control
+        settings = settings_of(program, assignments)
+        name = control or settings.get(CONTROL)
+        named = {**DIALECTS, **PLAIN}[name] if isinstance(name, str) else name
         dialect = named or recognise(program.blocks) or otherwise
         if dialect is not None:
             return configure(dialect, settings)

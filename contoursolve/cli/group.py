@@ -25,6 +25,7 @@ _COMMANDS = {
     "rules": "catalogue:rules",
     "explain": "catalogue:explain",
     "facts": "catalogue:facts",
+    "lsp": "lsp:lsp",
 }
 """Where each command is: a module of this room, and the name there."""
 

@@ -24,7 +24,7 @@ from contoursolve.output.findings import EXPLAINING
 from contoursolve.output.listing import lines_of_findings, short_findings
 from contoursolve.output.plain_text import harmless
 from contoursolve.program.pipeline import FactPlaceError, Result, Run
-from contoursolve.program.project import SettingError, find_settings, read_setting
+from contoursolve.program.project import SettingError, find_settings, read_setting, stated_settings
 from contoursolve.program.recognise import UnknownControlError
 from contoursolve.reading.dialect import Dialect
 
@@ -255,7 +255,7 @@ def examine(program: Program, start: str | None, assignments: Sequence[str], opt
 def follow(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Run:
     """The same as a stream."""
     try:
-        settings = settings_of(folder_of(program), assignments)
+        settings = settings_of(program, assignments)
         return follow_program(program, start=start, settings=settings, **options)
     except SettingError as error:
         raise CouldNotRunError(str(error)) from None
@@ -265,11 +265,9 @@ def follow(program: Program, start: str | None, assignments: Sequence[str], opti
         raise CouldNotRunError(f"{program.name}: {error}") from None
 
 
-def settings_of(folder: Path, assignments: Sequence[str]) -> dict[str, str]:
-    """The settings of the project file of a folder, and those of `--set` on top. Raises SettingError."""
-    return find_settings(folder) | dict(map(read_setting, assignments))
-
-
-def folder_of(program: Program | Tape) -> Path:
-    """Where the search for a project file begins: beside the program, or here for what is no file."""
-    return Path() if program.name.startswith("<") else Path(program.name).parent
+def settings_of(program: Program | Tape, assignments: Sequence[str]) -> dict[str, str]:
+    """The settings of the project file beside a program, or here for what is no file; those that the program states on
+    top, and then those of `--set`. Raises SettingError."""
+    folder = Path() if program.name.startswith("<") else Path(program.name).parent
+    lines = program.lines() if isinstance(program, Tape) else (block.text for block in program.blocks)
+    return find_settings(folder) | stated_settings(lines) | dict(map(read_setting, assignments))

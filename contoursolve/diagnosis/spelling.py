@@ -126,6 +126,9 @@ class Meanings:
             if each.is_code or not _is_between(begins, each.span.column, each.span.end_column)
         ]
 
+    def __bool__(self) -> bool:
+        return bool(self._found)
+
     def at(self, place: Span) -> Lookalike | None:
         """The word that is meant at a place; None unless all there is of such words."""
         stretch = self._text[place.column - 1 : place.end_column - 1]
@@ -154,7 +157,7 @@ def meant_words(claim: ParsedContour) -> tuple[Lookalike, ...]:
             continue
         meanings, ends = Meanings(block), {each.span.end_column: each for each in block.words}
         meant = [meanings.at(span) for span in (*unread, *(word.span for word in unknown))]
-        behind = [word for word in unknown if respelled(word, claim.form.allowed)]
+        behind = [word for word in unknown if word.address.startswith(",") and respelled(word, claim.form.allowed)]
         meant += [_comma_behind(ends.get(word.span.column), word) for word in behind]
         found |= {each.span: each for each in meant if each}
     return tuple(found[span] for span in sorted(found))

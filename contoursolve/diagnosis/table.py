@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterator
-from itertools import combinations
+from itertools import combinations, islice
 
 from msgspec import Struct
 
@@ -58,9 +58,33 @@ def tabulate(form: ContourForm, dialect: Dialect) -> Iterator[Row]:
             yield _row(form, dialect, frozenset(chosen))
 
 
+MOST_TRIED = 1_000
+"""Sets of words of a form among which the smallest legal ones are looked for."""
+
+
+def legal_samples(form: ContourForm, dialect: Dialect) -> Iterator[tuple[Row, str]]:
+    """The smallest sets of words of a form's sample that are legal and make a contour: the row of each, and its
+    blocks."""
+    sample, found = _sample(form), list[frozenset[str]]()
+    texts = [word for block in sample.blocks for word in _OPTIONAL.findall(block)]
+    sets = (frozenset(chosen) for size in range(len(texts) + 1) for chosen in combinations(texts, size))
+    for chosen in islice(sets, MOST_TRIED):
+        if any(each <= chosen for each in found):
+            continue
+        row = _row(form, dialect, chosen)
+        if not (row.refusals or row.warnings or row.ignored or row.faults or row.other):
+            found.append(chosen)
+            yield row, "\n".join(" ".join(line.split()) for line in _lines(sample, chosen))
+
+
+def _lines(sample: Sample, chosen: frozenset[str]) -> list[str]:
+    """The blocks of a sample with some of the words that may be left out."""
+    return [_OPTIONAL.sub(lambda word: word[1] if word[1] in chosen else "", block) for block in sample.blocks]
+
+
 def _row(form: ContourForm, dialect: Dialect, chosen: frozenset[str]) -> Row:
     sample = _sample(form)
-    lines = [_OPTIONAL.sub(lambda word: word[1] if word[1] in chosen else "", block) for block in sample.blocks]
+    lines = _lines(sample, chosen)
     state = advance(
         dialect.initial_state(Length.MM), parse_block(sample.before, 1, dialect.modes.syntax), dialect.modes
     )

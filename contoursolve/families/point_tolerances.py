@@ -19,7 +19,6 @@ from contoursolve.families.spec import (
     BlockOptions,
     FamilyError,
     Template,
-    call,
     find_words,
     first_error,
     ranges_of,
@@ -27,7 +26,7 @@ from contoursolve.families.spec import (
     unit_word,
 )
 from contoursolve.families.targets import end_name, place_of
-from contoursolve.gcode import Word
+from contoursolve.gcode import Word, call
 from contoursolve.geometry import Length, Plane, Unit
 from contoursolve.numeric.intervals import Array
 from contoursolve.solving import Point

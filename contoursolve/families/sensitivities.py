@@ -17,8 +17,8 @@ from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnostics.display import Shown
 from contoursolve.families.case_classes import CaseClass, case_in, half_circles, results_of
 from contoursolve.families.free_words import check_block, factor_of
-from contoursolve.families.spec import BlockOptions, FamilyError, call, first_error, spec_of
-from contoursolve.gcode import Word
+from contoursolve.families.spec import BlockOptions, FamilyError, first_error, spec_of
+from contoursolve.gcode import Word, call
 from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble
 from contoursolve.numeric.angle import direction
 from contoursolve.numeric.expressions import Compiled, Tape

@@ -18,7 +18,7 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Answer, Depth, Policy
 from contoursolve.diagnostics.choices import choice_of
 from contoursolve.diagnostics.finding import Diagnostic, Severity
-from contoursolve.gcode import FACT, Directive, Program, Word, spell
+from contoursolve.gcode import FACT, Directive, Program, Word, call, spell
 from contoursolve.geometry import Length
 from contoursolve.numeric.columns import Array
 from contoursolve.program.pipeline import Result, run
@@ -341,12 +341,6 @@ def with_value(word: Word, value: str) -> str:
 
 _NEVER = ("G", "N", "M")
 """What says what the other words mean."""
-
-
-def call(word: Word, words: Sequence[Word]) -> str:
-    """The name of a word among all: its letter, with its line where several have it."""
-    is_alone = sum(each.address == word.address for each in words) == 1
-    return word.address if is_alone else f"{word.span.line}:{word.address}"
 
 
 def called(word: str) -> str:

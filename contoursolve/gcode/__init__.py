@@ -6,6 +6,7 @@ then `lexer`.
 
 from contoursolve.gcode.lexer import (
     LONGEST_BLOCK,
+    SKIP,
     find_words,
     parse,
     parse_block,
@@ -43,6 +44,7 @@ from contoursolve.gcode.word import (
     Passage,
     Program,
     Word,
+    call,
     number_of,
     spell,
 )
@@ -52,6 +54,7 @@ __all__ = [
     "FACT",
     "ISO",
     "LONGEST_BLOCK",
+    "SKIP",
     "STANDARD_INPUT",
     "Block",
     "Directive",
@@ -64,6 +67,7 @@ __all__ = [
     "Syntax",
     "UnreadableProgramError",
     "Word",
+    "call",
     "decode",
     "find_lookalikes",
     "find_words",

@@ -85,6 +85,12 @@ def number_of(text: str, address: str) -> str:
     return text.strip()[len(address) :].strip("=() \t")
 
 
+def call(word: Word, words: Sequence[Word]) -> str:
+    """The name of a word among all: its letter, with its line where several have it."""
+    is_alone = sum(each.address == word.address for each in words) == 1
+    return word.address if is_alone else f"{word.span.line}:{word.address}"
+
+
 class Macro(Enum):
     """Macro statements that a block may consist of."""
 

@@ -15,8 +15,7 @@ from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.fill import FARTHEST
 from contoursolve.diagnosis.solutions import Listed, list_solutions
 from contoursolve.diagnostics.finding import Diagnostic, Fix
-from contoursolve.families.spec import call
-from contoursolve.gcode import FACT, Program, Word, parse, spell
+from contoursolve.gcode import FACT, Program, Word, call, parse, spell
 from contoursolve.geometry import Unit
 from contoursolve.program.pipeline import Result
 from contoursolve.solving import Status

@@ -13,10 +13,11 @@ from contoursolve.families import End, FamilyError, Feasible, Interval, Way, fea
 from contoursolve.gcode import Word
 from contoursolve.geometry import Unit
 from contoursolve.notebook.exploration import Exploration, words_of
-from contoursolve.output.contours import count_text, form_text, found_value, path_table, solution_rows, stated_value
+from contoursolve.output.contours import count_text, path_table, solution_rows
 from contoursolve.output.findings import effect_of, finding_pieces
 from contoursolve.output.html import bounded, short, worst_of
 from contoursolve.output.listing import sources_of
+from contoursolve.output.words import form_text, found_value, meaning_of, stated_value
 from contoursolve.pictures import Theme, draw_answer
 from contoursolve.reading import ReadIssue
 
@@ -80,7 +81,7 @@ def _fields(answer: Answer) -> Iterator[Data]:
         yield {
             "key": key,
             "word": short(word.text),
-            "meaning": claim.form.meanings.get(names[word.span]) or row.meaning,
+            "meaning": meaning_of(names[word.span], word, answer),
             "unit": unit,
             "value": None if value is None else round(value, 6) + 0.0,
             "state": "free" if word.is_asked else "ignored" if word in ignored else "given",

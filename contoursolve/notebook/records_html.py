@@ -23,7 +23,7 @@ from contoursolve.notebook.records import (
     text_of,
     word_table,
 )
-from contoursolve.output.contours import check_table, form_text, path_table
+from contoursolve.output.contours import check_table, path_table
 from contoursolve.output.families import (
     effect_table,
     found_table,
@@ -50,6 +50,7 @@ from contoursolve.output.html import (
     words_table,
 )
 from contoursolve.output.listing import listed, sources_of, summary_line
+from contoursolve.output.words import form_text
 from contoursolve.program.pipeline import Result
 from contoursolve.reading.rules import Rule
 from contoursolve.solving.contour import Contour

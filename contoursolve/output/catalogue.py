@@ -75,6 +75,24 @@ def rule_lines(rule: Rule, controls: Iterable[str]) -> list[str]:
     return lines
 
 
+def rule_page(code: str, dialects: Iterable[Dialect]) -> str:
+    """A page of Markdown about the rule of a code: what is wrong, what to do, blocks that are wrong and right, and its
+    place in the manual of each control that has it. Raises LookupError if none has."""
+    found = [(each, rule) for each in dialects for rule in each.rules if rule.code == code]
+    if not found:
+        raise LookupError(f"no rule has the code {code!r}")
+    pages = []
+    for rule in dict.fromkeys(rule for _, rule in found):
+        controls = ", ".join(each.title for each, own in found if own is rule)
+        told = (f"{rule.title}.", f"What to do: {rule.advice}.", rule.note and f"Good to know: {rule.note}.")
+        alarm = f"Alarm of the control: {rule.alarm.number} ({rule.alarm.evidence.value})." if rule.alarm else ""
+        source = f"Source: {rule.source}."
+        pages += [f"## {controls}", *filter(None, told), *filter(None, (alarm, source))]
+        for title, examples in (("Wrong:", rule.rejected), ("Right:", rule.accepted)):
+            pages += [line for each in examples for line in (title, f"```gcode\n{each}\n```")]
+    return "\n\n".join((f"# {code}", *pages)) + "\n"
+
+
 def _short(line: str) -> str:
     return line if len(line) <= 100 else line[:96] + " ..."  # noqa: PLR2004 - a terminal's width
 

@@ -1,7 +1,6 @@
 """A contour as text and as tables: what was given, every element of the path, all solutions, what was checked."""
 
 from collections.abc import Iterator
-from decimal import Decimal
 
 from msgspec.structs import replace
 
@@ -9,11 +8,12 @@ from contoursolve.diagnosis.examine import Answer, AskedValue, list_alternatives
 from contoursolve.diagnosis.solutions import Listed, Listing, list_solutions, printed_certificate
 from contoursolve.diagnosis.wording import axis_labels, coordinate_texts, coordinates, count, length_of, short_name
 from contoursolve.diagnostics.finding import Diagnosis, Verdict
-from contoursolve.gcode import FACT, Word
-from contoursolve.geometry import Length, Turn, Unit
+from contoursolve.gcode import FACT
+from contoursolve.geometry import Length, Turn
 from contoursolve.output.plain_text import Table, columns, printable
+from contoursolve.output.words import form_text, found_value, meaning_of, stated_words
 from contoursolve.program.pipeline import Result
-from contoursolve.reading import ContourForm, Convention
+from contoursolve.reading import Convention
 from contoursolve.solving.contour import ArcSegment, Contour
 
 _VERDICT = {Verdict.PASSED: "passed", Verdict.FOUND: "see finding", Verdict.NOT_RUN: "not run"}
@@ -48,11 +48,6 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
     if is_explained and answer.contour is None and answer.diagnosis:
         lines += ["", *check_table(answer.diagnosis).lines()]
     return [*lines, ""]
-
-
-def form_text(answer: Answer) -> str:
-    """What kind of contour it is, in the control's words."""
-    return f"{answer.claim.form.name} ({answer.claim.form.title})"
 
 
 def resting_texts(answer: Answer, control: str) -> Iterator[str]:
@@ -134,59 +129,27 @@ def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[
 
 def given_table(answer: Answer) -> Table:
     """Word, value, unit and meaning of everything that was given."""
-    form, plane, unit, rows = answer.claim.form, answer.plane, short_name(answer.unit.value), []
+    plane, unit, rows = answer.plane, short_name(answer.unit.value), []
     starts = coordinate_texts([float(value or 0) for value in answer.start.values], plane, answer.unit)
     for axis, value, text, is_diameter in zip(plane.axes, answer.start.values, starts, plane.diameters, strict=True):
         shown = ("unknown", "") if value is None else (text, unit)
         rows.append((f"start {axis}", *shown, "where the contour begins" + (" (diameter)" if is_diameter else "")))
-    ignored = {fact.given for fact in answer.profile.ignored}
-    words = {given.name: given.word for given in answer.profile.givens.values() if given.word}
-    seen: set[int] = set()
-    for name, word in sorted(words.items(), key=lambda item: item[1].span):
-        if id(word) in seen:
-            continue
-        seen.add(id(word))
-        meaning = _meaning(name, word, answer, form) + (" - ignored" if name in ignored else "")
-        if word.address == FACT:
-            rows.append((printable(word.text), "", "", "further fact"))
+    for each in stated_words(answer):
+        meaning = each.meaning + (" - ignored" if each.is_ignored else "")
+        if each.word.address == FACT:
+            rows.append((printable(each.word.text), "", "", "further fact"))
         else:
-            rows.append((word.text, *_cells(*stated_value(word, answer)), meaning))
+            rows.append((each.word.text, *_cells(each.value, each.unit), meaning))
     for asked in answer.answers:
         question = asked.question
-        meaning = f"asked: {_meaning(question.name, question.word, answer, form)}".strip(": ")
+        meaning = f"asked: {meaning_of(question.name, question.word, answer)}".strip(": ")
         number = ("?", "") if asked.value is None else _cells(*found_value(asked, answer))
         rows.append((printable(question.word.text), *number, meaning))
+    words = {given.name: given.word for given in answer.profile.givens.values() if given.word}
     by_point = {choice.point: words[choice.given].text for choice in answer.profile.choices if choice.given in words}
     for point, side in answer.sides.items():
         rows.append((f"choice {point}", side.value, "", f"of two intersections, by {by_point[point]}"))
     return Table("What was given", ("word", "value", "unit", "meaning"), rows, left=(0, 2, 3))
-
-
-def _meaning(name: str, word: Word, answer: Answer, form: ContourForm) -> str:
-    row = answer.claim.lexicon.addresses.get(word.address)
-    return form.meanings.get(name) or (row.meaning if row else "")
-
-
-def stated_value(word: Word, answer: Answer) -> tuple[float | None, str]:
-    """What a word states, as it is written, and its unit: mm, in, deg, or none where only the sign counts."""
-    lexicon = answer.claim.lexicon
-    row = lexicon.addresses[word.address]
-    return _as_written(lexicon.value(word, answer.unit), row.unit, answer.unit, is_diameter=row.is_diameter)
-
-
-def found_value(asked: AskedValue, answer: Answer) -> tuple[float | None, str]:
-    """The value of a word that was asked for, in the same terms."""
-    question = asked.question
-    return _as_written(asked.value, question.unit, answer.unit, is_diameter=question.is_diameter)
-
-
-def _as_written(
-    value: float | Decimal | None, kind: Unit, unit: Length, *, is_diameter: bool
-) -> tuple[float | None, str]:
-    if kind is not Unit.MM:
-        return None if value is None else float(value), "deg" if kind is Unit.DEGREE else ""
-    shown = None if value is None else float(value) * (2 if is_diameter else 1) / float(unit.in_mm)
-    return shown, short_name(unit.value)
 
 
 _FORMATS = {"mm": "z.4f", "in": "z.5f", "deg": ".4f", "": "+g"}

@@ -15,7 +15,6 @@ from contoursolve.diagnosis.wording import coordinates, count
 from contoursolve.diagnostics.finding import Diagnostic, Label, Severity
 from contoursolve.diagnostics.source import Evidence
 from contoursolve.gcode import Block
-from contoursolve.output.contours import form_text
 from contoursolve.output.html import (
     checks_table,
     figure,
@@ -32,6 +31,7 @@ from contoursolve.output.html import (
 )
 from contoursolve.output.listing import sources_of, summary_line
 from contoursolve.output.plain_text import printable
+from contoursolve.output.words import form_text
 from contoursolve.program.pipeline import Result
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"

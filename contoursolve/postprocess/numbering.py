@@ -8,16 +8,12 @@ from math import hypot, sqrt
 
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
+from contoursolve.postprocess.block_numbers import LONG, PROFILE_CYCLES, SHORT
 from contoursolve.reading import Code, Effect, Modes, State, apply_modes, codes_of
 from contoursolve.tolerance import ARC_START
 
-SHORT, LONG = 9_999, 99_999
-"""The highest block number: four digits, unless the program itself uses five."""
-
 _NUMBER = re.compile(r"(?:[NPQ]|GOTO)[ \t]*([0-9]{1,5})(?![0-9])", re.IGNORECASE)
 """What is a block number or may be the number of a block that is jumped to, in comments, too."""
-
-_PROFILE_CYCLES = frozenset({70, 71, 72, 73})
 
 
 class Numbers:
@@ -57,7 +53,7 @@ class Numberer:
         """Keep in mind with which block a profile ends; the reason if that is one that has become several."""
         codes = [code for code in codes_of(block, self._modes) if isinstance(code, Code)]
         word = block.find("Q")
-        is_call = any(code.effect is Effect.SINGLE and code.number in _PROFILE_CYCLES for code in codes)
+        is_call = any(code.effect is Effect.SINGLE and code.number in PROFILE_CYCLES for code in codes)
         if not is_call or word is None or word.number is None:
             return ""
         if word.number in self._divided:

@@ -1,6 +1,8 @@
 """The order of the stages: from the text of a program to its contours and findings."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from copy import copy
+from functools import partial
 from itertools import islice
 from typing import TYPE_CHECKING, cast
 
@@ -159,7 +161,7 @@ class Run:
         control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
         self.frame = Result(program, control, (), (), start, tuple(facts), settings, policy)
         goes_on = depth is Depth.FULL
-        self._examiner = _Examiner(dialect, unit, policy, depth, together, goes_on=goes_on)
+        self._examiner = Examiner(dialect, unit, policy, depth, together, goes_on=goes_on)
 
     def __iter__(self) -> Iterator[Answer | Diagnostic]:
         program, examiner, is_told = self.frame.program, self._examiner, False
@@ -195,7 +197,7 @@ def walk(
     """Every block and every contour of a program in order; blocks that are not a sequence are read as they are needed,
     so that a program of any length takes no more memory than some thousand lines, or its longest contour. Plain lines
     are read into words only where that matters. Contours are solved one by one, or `together`."""
-    return _Examiner(dialect, unit, policy, depth, together).steps(blocks, start)
+    return Examiner(dialect, unit, policy, depth, together).steps(blocks, start)
 
 
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
@@ -221,7 +223,17 @@ _WHOLE = 32_768
 """The same for a program that has been read: the more there are of a kind, the less each of them takes."""
 
 
-class _Examiner:
+class Checkpoint(Struct, frozen=True):
+    """What an examination knows of a program before one of its blocks."""
+
+    state: State
+    previous: Previous | None
+    marks: Marks
+    start_unit: Length
+    start_counts: bool | None
+
+
+class Examiner:
     """One pass over one program: the modal state as it goes, and the findings outside contours."""
 
     def __init__(
@@ -265,6 +277,29 @@ class _Examiner:
                 window, size = [], min(2 * size, most)
         self.queue.settle()
         yield from (other.step if isinstance(other, Pending) else other for other in window)
+
+    def checkpoint(self, state: State) -> Checkpoint:
+        """What is known before a block, in a state."""
+        return Checkpoint(state, self.previous, copy(self.marks), self.start_unit, self.start_counts)
+
+    def resume(
+        self, blocks: Sequence[Block], index: int, known: Checkpoint, start: Program | None
+    ) -> Iterator[tuple[Step, int, Checkpoint]]:
+        """The steps of a program that is at hand from a block on, one by one, each with the number of lines from its
+        first one on that it rests on, one more than there are where it rests on the end; and what is known behind it.
+        Contours are not solved together."""
+        self.previous, self.marks = known.previous, copy(known.marks)
+        self.start_unit, self.start_counts = known.start_unit, known.start_counts
+        while index < len(blocks):
+            view = View(blocks, index)
+            found, after = self._find(view, known.state)
+            taken, leave = self._take(view, found, after, known.state, start)
+            known, index = self.checkpoint(leave()), index + after
+            yield taken.step if isinstance(taken, Pending) else taken, view.reach, known
+
+    def begin(self, start: Program | None) -> Checkpoint:
+        """What is known before a program, behind the block that states its start point apart."""
+        return self.checkpoint(self._begin(cast("Dialect", self.dialect), start))
 
     def _begin(self, dialect: Dialect, start: Program | None) -> State:
         """The modal state before a program, behind the block that states its start point apart."""
@@ -326,39 +361,47 @@ class _Examiner:
                 more = list(islice(rest, _BATCH))
                 held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
-            block = view[0]
-            found = dialect.find(view, 0, state, dialect.modes)
-            after = 1
-            if isinstance(found, ParsedContour):
-                after += found.blocks[-1].line - block.line
+            found, after = self._find(view, state)
             if not is_whole and not (view.says_something(after) and view.holds(after + _BEHIND)):
                 # Whether a contour goes on is known at the next block that says something.
                 more = list(islice(rest, _BATCH))
                 held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
-            blocks_of_step = (block,) if after == 1 else tuple(view[:after])
-            self.diagnostics += (finding for each in blocks_of_step for finding in self.marks.look(each))
-            if isinstance(found, ParsedContour) and found.form.is_contour:
-                self._check_units(start, found)
-                step = Step(blocks_of_step, state, findings=self._findings())
-                pending = self.queue.add(found, step, view, after, self.previous)
-                self.previous = found.blocks, state
-                yield pending
-                state = self.queue.leave(pending)
-            else:
-                before = state
-                state = advance(state, block, dialect.modes)
-                if isinstance(found, ParsedContour):
-                    # Read as a contour is, but none.
-                    answer = self._examine(found, Pending(found, Step((), before), view, after))
-                    self.diagnostics += answer.diagnostics if answer.start.is_known else ()
-                    self._check_units(start, found)
-                else:
-                    self._check_block(block)
-                    self._check_slips(view, (before, state))
-                self.previous = ((block,), before) if block.words else self.previous
-                yield Step(blocks_of_step, before, findings=self._findings())
+            taken, leave = self._take(view, found, after, state, start)
+            yield taken
+            state = leave()
             held, index = go_on(held, index, after)
+
+    def _find(self, view: View, state: State) -> tuple[ParsedContour | None, int]:
+        """What begins at the first of some blocks, read as a contour is, and how many lines it has."""
+        dialect = cast("Dialect", self.dialect)
+        found = dialect.find(view, 0, state, dialect.modes)
+        return found, found.blocks[-1].line - view[0].line + 1 if isinstance(found, ParsedContour) else 1
+
+    def _take(
+        self, view: View, found: ParsedContour | None, after: int, state: State, start: Program | None
+    ) -> tuple[Step | Pending, Callable[[], State]]:
+        """The step of so many blocks, and what gives the state behind it."""
+        block, modes = view[0], cast("Dialect", self.dialect).modes
+        blocks = (block,) if after == 1 else tuple(view[:after])
+        self.diagnostics += (finding for each in blocks for finding in self.marks.look(each))
+        if isinstance(found, ParsedContour) and found.form.is_contour:
+            self._check_units(start, found)
+            step = Step(blocks, state, findings=self._findings())
+            pending = self.queue.add(found, step, view, after, self.previous)
+            self.previous = found.blocks, state
+            return pending, partial(self.queue.leave, pending)
+        behind = advance(state, block, modes)
+        if isinstance(found, ParsedContour):
+            # Read as a contour is, but none.
+            answer = self._examine(found, Pending(found, Step((), state), view, after))
+            self.diagnostics += answer.diagnostics if answer.start.is_known else ()
+            self._check_units(start, found)
+        else:
+            self._check_block(block)
+            self._check_slips(view, (state, behind))
+        self.previous = ((block,), state) if block.words else self.previous
+        return Step(blocks, state, findings=self._findings()), lambda: behind
 
     def _check_slips(self, blocks: Sequence[Block], states: tuple[State, State]) -> None:
         """Whether the first of some lines would be a contour without a slip."""
@@ -411,9 +454,8 @@ class _Examiner:
         dialect, blocks, after, state = self.dialect, pending.view, pending.after, pending.step.before
         if dialect is None:
             raise ValueError("without a control there is no contour")
-        answer = examine(
-            found, self.rules, self.policy, lambda: next_place(blocks[after:], found, dialect.modes), self.depth
-        )
+        behind = islice(blocks, after, None)
+        answer = examine(found, self.rules, self.policy, lambda: next_place(behind, found, dialect.modes), self.depth)
         if answer.contour is not None and any(value.value is not None for value in answer.answers):
             from contoursolve.diagnosis.fill import fill_in  # noqa: PLC0415 - few blocks ask for a value
 

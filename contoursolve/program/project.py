@@ -7,9 +7,15 @@ one table a control:
 
     [nct-99m]
     circle-circle-q = "right-is-negative"
+
+A program says the same for itself in a comment among its first lines, which counts more:
+
+    (contoursolve control: nct-99m, circle-circle-q: right-is-negative)
 """
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +48,56 @@ def find_settings(folder: Path) -> dict[str, str]:
             if table is not None:
                 return _settings(table, file)
     return {}
+
+
+_STATED = re.compile(r"[(;]\s*+contoursolve\s++control\s*+:(?P<stated>[^()\r\n]*+)", re.IGNORECASE)
+FIRST_LINES = 10
+"""Of a program, among which it may state its control: an editor looks there, too, for what is meant for it."""
+
+
+def stated_settings(lines: Iterable[str]) -> dict[str, str]:
+    """What a comment among the first lines of a program states, as settings by `control.name`: its control, and
+    settings of that.
+
+    Raises SettingError, naming the line.
+
+    >>> stated_settings(["O0001", "(contoursolve control: nct-99m, circle-circle-q: right-is-negative)"])
+    {'control': 'nct-99m', 'nct-99m.circle-circle-q': 'right-is-negative'}
+    """
+    for number, line in enumerate(islice(lines, FIRST_LINES), 1):
+        comment = _STATED.search(line)
+        if comment is not None:
+            control, *others = (part.strip() for part in comment["stated"].split(","))
+            try:
+                return _read_stated(control, others)
+            except SettingError as error:
+                raise SettingError(f"program line {number}: {error}") from None
+    return {}
+
+
+def restate_control(text: str, control: str) -> str:
+    """A program's text with another control in the comment that states its own, if it has one."""
+    lines = text.splitlines(keepends=True)
+    for number, line in enumerate(lines[:FIRST_LINES]):
+        comment = _STATED.search(line)
+        if comment is not None:
+            begin, end = comment.span("stated")
+            lines[number] = f"{line[:begin]} {control}{line[end:]}"
+            break
+    return "".join(lines)
+
+
+def _read_stated(control: str, others: Iterable[str]) -> dict[str, str]:
+    if control not in DIALECTS:
+        raise SettingError(f"there is no control {control!r}; choose from {', '.join(DIALECTS)}")
+    settings = {CONTROL: control}
+    for other in others:
+        name, colon, value = (part.strip() for part in other.partition(":"))
+        if not colon or not name or not value:
+            raise SettingError(f"{other!r} is no setting; write NAME: VALUE behind the control")
+        settings[f"{control}.{name}"] = value
+    check_settings(settings)
+    return settings
 
 
 def read_setting(text: str) -> tuple[str, str]:

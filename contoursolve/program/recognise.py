@@ -1,11 +1,11 @@
 """For which control a program is: as its name says, or as its blocks show."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.wording import either, join
 from contoursolve.gcode import Block, Program, Word
-from contoursolve.program.project import CONTROL, check_settings, configure
+from contoursolve.program.project import CONTROL, check_settings, configure, stated_settings
 from contoursolve.reading import plain_lines, words_of
 from contoursolve.reading.dialect import Dialect
 
@@ -19,19 +19,26 @@ class UnknownControlError(ValueError):
 
 
 def choose(
-    control: str | Dialect | None, program: Program, settings: Mapping[str, str] | None = None
+    control: str | Dialect | None,
+    program: Program,
+    settings: Mapping[str, str] | None = None,
+    recognise_by: Callable[[Iterable[Block]], Dialect | None] | None = None,
 ) -> Dialect | None:
-    """The control of this name, or that is given as its tables, or else the one that a program is written for; with
-    those of the settings by `control.name` that are about it. None if no block shows the control.
+    """The control of this name, or that is given as its tables, or else the one that a program states in a comment or
+    is written for; with those of the settings by `control.name` that are about it. None if no block shows the control.
+    Blocks are recognised by `recognise`, or by another way that is given.
 
     Raises UnknownControlError, which lists the choices, if there is no such control or the program shows several, and
     SettingError if there is no such setting.
     """
-    found = named_control(control, settings) or recognise(program.blocks)
+    # Tables that are given say all of a control: what the program states of it is in them already.
+    stated = {} if isinstance(control, Dialect) else stated_settings(block.text for block in program.blocks)
+    own = stated | dict(settings or {})
+    found = named_control(control, own) or (recognise_by or recognise)(program.blocks)
     if found is None:
-        check_settings(settings or {})
+        check_settings(own)
         return None
-    return configure(found, settings)
+    return configure(found, own)
 
 
 def named_control(control: str | Dialect | None, settings: Mapping[str, str] | None) -> Dialect | None:
@@ -48,6 +55,40 @@ def find_dialect(control: str) -> Dialect:
     return DIALECTS[control]
 
 
+def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
+    """What a block shows of its control: words that several controls have, axes of a lathe that move, `own` and `sign`
+    with the name of a control, and what tells a mill from a lathe. Of a control that is `known` by its own words
+    nothing more is looked for."""
+    if _PLAIN.fullmatch(block.text):
+        # Most lines only move: what they show is which axes there are.
+        line = words_of(block.text)
+        axes = [axis for address, axis in _TURNED.items() if address in line]
+        return frozenset([*axes, _MILLED] if "Y" in line else axes)
+    stated = {word.address for word in block.words}
+    codes = {word.number for word in block.words if word.address == "G"}
+    shown = {*(stated & _SHARED), *(_TURNED[address] for address in stated & _TURNED.keys())}
+    if codes & _PLANES:
+        shown.add(PLANE)
+    # G90 is a turning cycle of a lathe, but not beside a motion or a plane.
+    is_absolute = _ABSOLUTE in codes and bool(codes & _BESIDE_ABSOLUTE)
+    if is_absolute or codes & _OF_A_MILL or "Y" in stated:
+        shown.add(_MILLED)
+    if stated & {"Z", "W"} and stated & _SHARED:
+        shown.add(_CORNER_ON_Z)
+    for name, dialect in DIALECTS.items():
+        words = () if f"own {name}" in known else _signs(dialect, block)
+        if words:
+            shown.add(f"sign {name}")
+        if any(word.address not in _SHARED for word in words):
+            shown.add(f"own {name}")
+    return frozenset(shown)
+
+
+def _signs(dialect: Dialect, block: Block) -> list[Word]:
+    """The words of a block that show a control."""
+    return [word for word in dialect.signs(block) if word.address not in dialect.rare]
+
+
 class Recogniser:
     """For which control the blocks of a program are, as far as they show."""
 
@@ -56,37 +97,24 @@ class Recogniser:
         """What first showed each control, by its name."""
         self._own: set[str] = set()
         """The controls that words of their own showed."""
-        self._shared: set[str] = set()
-        """The words that several controls have."""
-        self._axes: set[str] = set()
-        """The axes of a lathe that move."""
-        self._is_plane_selected = self._is_milled = self._is_turned = False
+        self._shown: set[str] = set()
+        self._is_turned = False
 
     def look(self, block: Block) -> None:
         """Take a block into account."""
-        if _PLAIN.fullmatch(block.text):
-            # Most lines only move: what they show is which axes there are.
-            if not self._is_milled:
-                line = words_of(block.text)
-                self._is_milled = "Y" in line
-                self._axes |= {axis for address, axis in _TURNED.items() if address in line}
+        self.take(block, shown_by(block, self._shown))
+
+    def take(self, block: Block, shown: frozenset[str]) -> None:
+        """The same for a block of which it is known what it shows."""
+        if shown <= self._shown:
             return
-        stated = {word.address for word in block.words}
-        codes = {word.number for word in block.words if word.address == "G"}
-        self._shared |= stated & _SHARED
-        self._axes |= {_TURNED[address] for address in stated & _TURNED.keys()}
-        self._is_plane_selected |= bool(codes & _PLANES)
-        # G90 is a turning cycle of a lathe, but not beside a motion or a plane.
-        is_absolute = _ABSOLUTE in codes and bool(codes & _BESIDE_ABSOLUTE)
-        self._is_milled |= is_absolute or bool(codes & _OF_A_MILL) or "Y" in stated
-        self._is_turned |= not self._is_plane_selected and bool(stated & {"Z", "W"} and stated & _SHARED)
         for name, dialect in DIALECTS.items():
-            if name not in self._own:
-                words = [word for word in dialect.signs(block) if word.address not in dialect.rare]
-                if words:
-                    self.signs.setdefault(name, _sign(words, block))
-                if any(word.address not in _SHARED for word in words):
-                    self._own.add(name)
+            if f"sign {name}" in shown and name not in self.signs:
+                self.signs[name] = _sign(_signs(dialect, block), block)
+            if f"own {name}" in shown:
+                self._own.add(name)
+        self._shown |= shown
+        self._is_turned |= _CORNER_ON_Z in shown and PLANE not in self._shown
 
     @property
     def is_sure(self) -> bool:
@@ -105,19 +133,22 @@ class Recogniser:
     def _fits(self, dialect: Dialect) -> bool:
         """Whether it has all the words, and is for such a machine: a program for a mill that selects no plane has
         contours in X and Y."""
-        if not self._shared <= dialect.modes.lexicon.addresses.keys() - dialect.rare:
+        shared = self._shown & _SHARED
+        if not shared <= dialect.modes.lexicon.addresses.keys() - dialect.rare:
             return False
         if dialect.name in self._own:
             return True
         is_lathe = any(dialect.plane.diameters)
         # An angle in a program that moves X and Z alone is that of a lathe.
-        is_angle_turned = not self._is_plane_selected and _ANGLE in self._shared and len(self._axes) > 1
+        is_angle_turned = PLANE not in self._shown and _ANGLE in shared and self._shown >= {*_TURNED.values()}
         is_turned = self._is_turned or is_angle_turned
-        return not self._is_milled if is_lathe else self._is_milled or not is_turned
+        is_milled = _MILLED in self._shown
+        return not is_milled if is_lathe else is_milled or not is_turned
 
 
 _PLAIN = plain_lines("UVWXYZ")
 _SHARED = frozenset({",A", ",C", ",R"})
+_MILLED, PLANE, _CORNER_ON_Z = "milled", "plane", "corner on Z"
 _ANGLE, _TURNED = ",A", {"X": "X", "U": "X", "Z": "Z", "W": "Z"}
 _PLANES, _OF_A_MILL = frozenset({17, 18, 19}), frozenset({17, 19, 91})
 _ABSOLUTE, _BESIDE_ABSOLUTE = 90, frozenset({0, 1, 18})
@@ -162,8 +193,7 @@ def sign_of(block: Block, dialect: Dialect) -> str:
 def sign_against(block: Block, dialect: Dialect, other: Dialect) -> str:
     """What shows that a block is for another control, and is no word of this one; empty if nothing does."""
     own = dialect.modes.lexicon.addresses
-    signs = (word for word in other.signs(block) if word.address not in other.rare)
-    foreign = [word for word in signs if word.address not in _SHARED or word.address not in own]
+    foreign = [word for word in _signs(other, block) if word.address not in _SHARED or word.address not in own]
     return _sign(foreign, block) if foreign else ""
 
 

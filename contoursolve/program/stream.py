@@ -12,10 +12,11 @@ Line = Block | Passage
 
 
 class View(Sequence[Block]):
-    """The blocks from a place on; plain lines are read into words when somebody looks at them."""
+    """The blocks from a place on; plain lines are read into words when somebody looks at them. `reach` is how many were
+    looked at; one that is not there counts, too."""
 
-    def __init__(self, held: list[Line], index: int) -> None:
-        self.held, self.first = held, index
+    def __init__(self, held: Sequence[Line], index: int) -> None:
+        self.held, self.first, self.reach = held, index, 0
         self.blocks: list[Block] = []
         self.rest = each_block(held, index)
 
@@ -30,6 +31,7 @@ class View(Sequence[Block]):
 
     def __getitem__(self, index: int | slice) -> Block | list[Block]:
         last = (len(self) if index.stop is None else index.stop) if isinstance(index, slice) else index + 1
+        self.reach = max(self.reach, last)
         self.blocks += islice(self.rest, max(0, last - len(self.blocks)))
         return self.blocks[index]
 
@@ -44,9 +46,12 @@ class View(Sequence[Block]):
 
     def lines(self, first: int) -> Iterator[tuple[int, str]]:
         """The lines from an index on as text, with their numbers."""
+        reach = 1
         for place in range(self.first, len(self.held)):
             each = self.held[place]
             count = len(each.lines) if isinstance(each, Passage) else 1
+            reach += count
+            self.reach = max(self.reach, reach)
             if first < count and isinstance(each, Passage):
                 yield from enumerate(each.lines[max(0, first) :], each.line + max(0, first))
             elif first < count and not isinstance(each, Passage):

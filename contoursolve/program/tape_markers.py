@@ -22,15 +22,20 @@ class Marks:
         self.context = context
         self.first: Span | None = None
         """The first block, as long as no % has come before or behind it."""
-        self.before: tuple[Span, int] | None = None
-        """The first block of a program that did not begin with %, and the line of the % behind it."""
+        self.before: tuple[Span, Span] | None = None
+        """The first block of a program that did not begin with %, and the % behind it."""
         self.after: Span | None = None
         """The first block behind that %."""
-        self.opened = 0
-        """The line of the % that begins the program."""
-        self.closed = 0
-        """The line of the % that ends it."""
+        self.opened: Span | None = None
+        """The % that begins the program."""
+        self.closed: Span | None = None
+        """The % that ends it."""
         self.is_done = False
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Marks) and vars(self) == vars(other)
+
+    __hash__ = None  # type: ignore[assignment]
 
     def look(self, line: Block | Passage) -> Iterator[Diagnostic]:
         """What the next line, or the next lines that only move, show to be outside."""
@@ -47,7 +52,7 @@ class Marks:
             if mark is not None:
                 if line.words and line.words[0].span.column <= mark.start():
                     yield from self._say(line.span)
-                yield from self._mark(line.line)
+                yield from self._mark(Span(line.line, mark.start() + 1, mark.end() + 1))
                 return
             span = line.span if line.words or line.macro or line.faults else None
         if span is not None:
@@ -63,29 +68,29 @@ class Marks:
         else:
             self.first = self.first or span
 
-    def _mark(self, line: int) -> Iterator[Diagnostic]:
+    def _mark(self, mark: Span) -> Iterator[Diagnostic]:
         """A %."""
         if self.before is not None:
             span, first = self.before
             if self.after is not None:
                 # There are two, so that the first one begins the program.
                 yield self._outside(span, "before", "begins", first)
-            self.before, self.closed = None, line if self.after is not None else first
+            self.before, self.closed = None, mark if self.after is not None else first
         elif self.opened:
-            self.closed = self.closed or line
+            self.closed = self.closed or mark
         elif self.first is not None and not self.closed:
-            self.before = self.first, line
+            self.before = self.first, mark
         else:
-            self.opened = line
+            self.opened = mark
 
     def finish(self) -> Iterator[Diagnostic]:
         """What the end of the program shows to be outside."""
         if self.before is not None and self.after is not None:
             yield self._outside(self.after, "behind", "ends", self.before[1])
 
-    def _outside(self, span: Span, side: str, does: str, line: int) -> Diagnostic:
+    def _outside(self, span: Span, side: str, does: str, mark: Span) -> Diagnostic:
         rule, place = self.context.row(ReadIssue.TEXT_OUTSIDE), replace(self.context, place=span)
-        return report(place, rule, Basis.RULE, [], side=side, does=does, mark=f"program line {line}")
+        return report(place, rule, Basis.RULE, [], side=side, does=does, mark=f"program line {mark.line}")
 
 
 def _first_words(passage: Passage) -> Span | None:

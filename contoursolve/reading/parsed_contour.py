@@ -1,6 +1,6 @@
 """A contour found in a program: its form, blocks and words, and where it leaves the tool."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from enum import Enum
@@ -235,7 +235,7 @@ def end_of_contour(value: float, span: Span, *, is_skippable: bool = False) -> P
     return Position(Decimal(value), "the end of this contour", span, is_skippable)
 
 
-def next_place(blocks: Sequence[Block], claim: ParsedContour, modes: Modes) -> tuple[Decimal, Decimal] | None:
+def next_place(blocks: Iterable[Block], claim: ParsedContour, modes: Modes) -> tuple[Decimal, Decimal] | None:
     """Where the next block with words ends, mm, if it is a line and both its coordinates are known."""
     block = next((block for block in blocks if block.words), None)
     if block is None or block.faults:

@@ -27,6 +27,7 @@ FLOORS = (
     "output try_edits",
     "notebook",
     "__init__",
+    "lsp",
     "cli",
     "__main__",
 )

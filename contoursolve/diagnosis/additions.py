@@ -1,0 +1,156 @@
+"""What may still be written: the words that a block may take, the sets of them that complete it, and the legal forms of
+a control."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from decimal import Decimal
+from itertools import combinations, islice
+
+from msgspec import Struct
+
+from contoursolve.analysis import analyse
+from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.repairs import find_repairs
+from contoursolve.diagnosis.table import legal_samples
+from contoursolve.gcode import spell
+from contoursolve.geometry import Given, assemble
+from contoursolve.reading import ParsedContour, read
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import check
+from contoursolve.solving.contour import Contour
+
+MOST_ADDED = 3
+"""Words that complete a block; of a block that lacks more, all is still open."""
+
+MOST_WAYS = 12
+
+_ANY = Decimal(1)
+"""The value of a word of which only matters that it is there."""
+
+
+class Addition(Struct, frozen=True):
+    """A word that a block may still take.
+
+    `text` is the word, with its value where the geometry fixes that and with `?` where it is still to be chosen; `line`
+    is the program line into which it goes, and `replacement` all lines of the contour with it. `contour` is the one
+    that the block then has, None where other words are missing, or the value is.
+    """
+
+    address: str
+    meaning: str
+    text: str
+    line: int
+    replacement: str
+    contour: Contour | None = None
+
+
+class LegalBlock(Struct, frozen=True):
+    """An example of a block, or of several, that a control accepts: the smallest set of words of its form, with values
+    that make a contour."""
+
+    form: str
+    title: str
+    addresses: tuple[str, ...]
+    text: str
+
+
+def words_to_add(answer: Answer, dialect: Dialect) -> tuple[Addition, ...]:
+    """Every word that the blocks of a contour may still take: no rule refuses it beside the others, and they do not say
+    already what it says.
+
+    >>> import contoursolve
+    >>> from contoursolve.controls import YASNAC_LX3
+    >>> answer = contoursolve.solve("G111 A135. K-10. B180. U20.", start="X40. Z0.").answers[0]
+    >>> [each.text for each in words_to_add(answer, YASNAC_LX3)]
+    ['P?', 'Q?', 'C?', 'D?']
+    """
+    claim = answer.claim
+    fixed = {}
+    if answer.contour is None:
+        for repair in find_repairs(answer, dialect).repairs:
+            if len(repair.edits) == 1 and repair.edits[0].kind is EditKind.ADD:
+                edit = repair.edits[0]
+                fixed[edit.address, edit.line] = edit.text, repair.contour
+    found = []
+    for name in _possible(claim, dialect):
+        address, index = claim.vocabulary[name]
+        line, row = claim.blocks[index].line, claim.lexicon.addresses.get(address)
+        text, contour = fixed.get((address, line), (spell(address, "?"), None))
+        blocks = apply_edits(claim.blocks, [Edit(EditKind.ADD, address, text=text, line=line)])
+        meaning = claim.form.meanings.get(name) or (row.meaning if row else "")
+        found.append(Addition(address, meaning, text, line, "\n".join(blocks), contour))
+    return tuple(found)
+
+
+def ways_to_complete(answer: Answer, dialect: Dialect) -> tuple[tuple[str, ...], ...]:
+    """The smallest sets of addresses that complete the blocks of a contour, each refused by no rule; nothing for one
+    that is complete.
+
+    >>> import contoursolve
+    >>> from contoursolve.controls import YASNAC_LX3
+    >>> answer = contoursolve.solve("G111 A135. B180. Z-40.", start="X40. Z0.").answers[0]
+    >>> ways_to_complete(answer, YASNAC_LX3)
+    (('X',), ('U',), ('I',), ('K',))
+    """
+    return tuple(
+        tuple(answer.claim.vocabulary[name][0] for name in names)
+        for names in islice(_completing(answer.claim, dialect), MOST_WAYS)
+    )
+
+
+def legal_blocks(dialect: Dialect) -> tuple[LegalBlock, ...]:
+    """Examples of all forms of a control; the smallest sets of words of each."""
+    return tuple(
+        LegalBlock(form.name, form.title, row.addresses, text)
+        for form in dialect.forms
+        if form.sample is not None and form.is_contour
+        for row, text in islice(legal_samples(form, dialect), MOST_WAYS)
+    )
+
+
+def _completing(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, ...]]:
+    """The smallest sets of names that complete a contour."""
+    if _is_complete(claim, dialect, ()):
+        return
+    possible = [*_possible(claim, dialect)]
+    found: list[frozenset[str]] = []
+    for size in range(1, MOST_ADDED + 1):
+        for names in combinations(possible, size):
+            if not any(other <= {*names} for other in found) and _is_complete(claim, dialect, names):
+                found.append(frozenset(names))
+                yield names
+
+
+def _is_complete(claim: ParsedContour, dialect: Dialect, names: tuple[str, ...]) -> bool:
+    """Whether the words of a contour and some more are legal and determine it."""
+    if _refusals(claim, dialect, names):
+        return False
+    return analyse(assemble(read(_with(claim, names), frozenset()))).is_determined
+
+
+def _possible(claim: ParsedContour, dialect: Dialect) -> Iterator[str]:
+    """The names that may be stated besides."""
+    refused = _refusals(claim, dialect, ())
+    for name, (address, index) in claim.vocabulary.items():
+        block = claim.blocks[index]
+        if name in claim.words or address not in claim.lexicon.addresses or block.find(address) is not None:
+            continue
+        if _refusals(claim, dialect, (name,)) <= refused:
+            system = assemble(read(_with(claim, (name,)), frozenset()))
+            tied = {system.facts[fact].given for fact in analyse(system).tied}
+            if name not in tied:
+                yield name
+
+
+def _refusals(claim: ParsedContour, dialect: Dialect, names: tuple[str, ...]) -> set[str]:
+    """The rules that refuse the words of a contour and some more, or ignore one of them."""
+    stated = {**claim.stated(), **dict.fromkeys(names)}
+    return {offence.rule.code for offence in check(dialect.rules, claim.form.roles, stated)}
+
+
+def _with(claim: ParsedContour, names: tuple[str, ...]) -> ParsedContour:
+    """A contour that states more; with what values does not matter."""
+    units = {name: claim.lexicon.addresses[claim.vocabulary[name][0]].unit for name in names}
+    more = {name: Given(name, _ANY, unit, None) for name, unit in units.items()}
+    return replace(claim, givens={**claim.givens, **more})

@@ -1,0 +1,75 @@
+"""Places in a text: a client counts lines from 0 and UTF-16 units, contoursolve lines and characters from 1."""
+
+from collections.abc import Callable, Sequence
+
+from lsprotocol import types
+
+from contoursolve import OpenProgram
+
+_FAR = 0xFFFF
+"""The last character that takes one unit of UTF-16."""
+
+
+class Places:
+    """The places of one program, in the units that the client counts."""
+
+    def __init__(self, program: OpenProgram, encoding: types.PositionEncodingKind | str) -> None:
+        self.program = program
+        self._width = _WIDTHS.get(encoding, _WIDTHS[types.PositionEncodingKind.Utf16])
+
+    def text(self, line: int) -> str:
+        """A line, without its end."""
+        blocks = self.program.blocks
+        return blocks[line - 1].text if 0 < line <= len(blocks) else ""
+
+    def position(self, line: int, column: int) -> types.Position:
+        """A place as the client counts it; behind the end of a line is its end."""
+        return types.Position(max(line, 1) - 1, sum(map(self._width, self.text(line)[: max(column, 1) - 1])))
+
+    def range(self, line: int, column: int, end_column: int) -> types.Range:
+        """A stretch of a line."""
+        return types.Range(self.position(line, column), self.position(line, end_column))
+
+    def whole(self, first: int, last: int) -> types.Range:
+        """The lines from one to another, without the last one's end."""
+        return types.Range(self.position(first, 1), self.position(last, len(self.text(last)) + 1))
+
+    def place(self, position: types.Position) -> tuple[int, int]:
+        """The line and the column of a place that the client names."""
+        line, units = position.line + 1, position.character
+        for column, character in enumerate(self.text(line), 1):
+            if units <= 0:
+                return line, column
+            units -= self._width(character)
+        return line, len(self.text(line)) + 1
+
+
+def edits(places: Places, changes: Sequence[tuple[int, str]], end: str) -> list[types.TextEdit]:
+    """The edits that write other texts for lines, each from its first character that differs to its last one; `end` is
+    how the program's lines end."""
+    found = []
+    for line, text in changes:
+        old, new = places.text(line), text.replace("\n", end)
+        most = min(len(old), len(new))
+        same = next((at for at in range(most) if old[at] != new[at]), most)
+        most -= same
+        behind = next((at for at in range(most) if old[-1 - at] != new[-1 - at]), most)
+        if old != new:
+            stretch = places.range(line, same + 1, len(old) - behind + 1)
+            found.append(types.TextEdit(stretch, new[same : len(new) - behind]))
+    return found
+
+
+def _units_of_utf16(character: str) -> int:
+    return 2 if ord(character) > _FAR else 1
+
+
+def _units_of_utf8(character: str) -> int:
+    return len(character.encode("utf-8", "surrogatepass"))
+
+
+_WIDTHS: dict[types.PositionEncodingKind | str, Callable[[str], int]] = {
+    types.PositionEncodingKind.Utf16: _units_of_utf16,
+    types.PositionEncodingKind.Utf8: _units_of_utf8,
+    types.PositionEncodingKind.Utf32: len,
+}

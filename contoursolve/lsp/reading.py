@@ -1,0 +1,286 @@
+"""What a client shows about the program under the cursor: hovers, hints, completions, signatures, symbols, folds."""
+
+import re
+from base64 import b64encode
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+
+from lsprotocol import types
+
+from contoursolve import (
+    DIALECTS,
+    Answer,
+    Block,
+    Dialect,
+    LegalBlock,
+    StatedWord,
+    Status,
+    Word,
+    end_text,
+    form_text,
+    legal_blocks,
+    path_table,
+    stated_words,
+    ways_to_complete,
+    words_to_add,
+)
+from contoursolve.lsp.opened import Opened
+from contoursolve.pictures import draw_answer
+
+WIDE = 420
+"""Pixels of a picture in a hover."""
+
+_LEGAL: dict[str, tuple[LegalBlock, ...]] = {}
+"""The legal blocks of the controls that were asked for."""
+
+
+def hover_of(opened: Opened, position: types.Position) -> types.Hover | None:
+    """What the word under the cursor means and fixes, or the whole contour; None where there is nothing to say."""
+    line, column = opened.places.place(position)
+    answer, block = opened.program.contour_at(line), _block(opened, line)
+    word = next((each for each in block.words if each.span.column <= column < each.span.end_column), None)
+    if answer is not None:
+        stated = next((each for each in stated_words(answer) if word and each.word.span == word.span), None)
+        if stated is not None and word is not None:
+            return _hover(opened, _about_word(stated, answer), word)
+        text = _about_contour(answer, is_drawn=opened.options.has_pictures)
+        return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), _lines_of(opened, line))
+    text = _about_plain_word(opened, word) if word is not None else ""
+    return _hover(opened, text, word) if text and word is not None else None
+
+
+def _hover(opened: Opened, text: str, word: Word) -> types.Hover:
+    where = opened.places.range(*_stretch(word))
+    return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), where)
+
+
+def _stretch(word: Word) -> tuple[int, int, int]:
+    """The place of a word without the blanks around it."""
+    begin = word.span.column + len(word.text) - len(word.text.lstrip())
+    return word.span.line, begin, begin + len(word.text.strip())
+
+
+def _about_word(stated: StatedWord, answer: Answer) -> str:
+    value = "" if stated.value is None else f"{stated.value:.5f}".rstrip("0").rstrip(".")
+    lines = [f"**{_plain(stated.word.text)}** {stated.meaning}"]
+    if value:
+        lines.append(f"{value} {stated.unit}".strip() + _in_mm(stated))
+    if stated.is_ignored:
+        lines.append("The control ignores it here.")
+    if stated.fixes:
+        lines.append(f"fixes {', '.join(_with_place(name, answer) for name in stated.fixes)}")
+    return "\n\n".join(lines)
+
+
+def _in_mm(stated: StatedWord) -> str:
+    return f" = {(stated.value or 0) * 25.4:.4f} mm" if stated.unit == "in" else ""
+
+
+def _with_place(name: str, answer: Answer) -> str:
+    """A point with its coordinates; an element or a corner with the place where it ends."""
+    if answer.contour is None:
+        return name
+    rows = {row[0]: row for row in path_table(answer.contour, answer.unit).rows}
+    if name not in rows:
+        return name
+    axes = answer.plane.axes
+    place = " ".join(f"{axis}{text}" for axis, text in zip(axes, rows[name][2:4], strict=True))
+    return f"{name}: {place}" if name in answer.contour.points else f"{name}, which ends at {place}"
+
+
+def _about_plain_word(opened: Opened, word: Word) -> str:
+    dialect = opened.program.dialect
+    if dialect is None:
+        return ""
+    if word.address == "G" and word.number is not None and word.number % 1 == 0:
+        code = dialect.modes.codes.get(int(word.number))
+        return f"**{_plain(word.text)}** {code.meaning}" if code and code.meaning else ""
+    row = dialect.modes.lexicon.addresses.get(word.address)
+    return f"**{_plain(word.text)}** {row.meaning}" if row else ""
+
+
+def _about_contour(answer: Answer, *, is_drawn: bool) -> str:
+    end = end_text(answer)
+    lines = [f"**{_plain(form_text(answer))}**: {answer.status.value}" + (f", ends at {end}" if end else "")]
+    if is_drawn:
+        lines.append(f"![the contour]({image_of(answer)})")
+    if answer.contour is not None:
+        table = path_table(answer.contour, answer.unit)
+        shown = [[*row[:4]] for row in table.rows]
+        head = ["element", "move", *table.header[2:4]]
+        lines.append("\n".join("| " + " | ".join(row) + " |" for row in (head, ["---"] * 4, *shown)))
+    return "\n\n".join(lines)
+
+
+def image_of(answer: Answer) -> str:
+    """A small picture of a contour, as an address that holds all of it."""
+    picture = draw_answer(answer)
+    scale = WIDE / picture.width
+    size = f'width="{WIDE}" height="{picture.height * scale:.0f}" '
+    svg = re.sub(r'width="[\d.]+" height="[\d.]+" ', size, picture.svg, count=1)
+    return f"data:image/svg+xml;base64,{b64encode(svg.encode()).decode()}"
+
+
+def _plain(text: str) -> str:
+    """A text of the program in Markdown."""
+    return re.sub(r"([\\`*_{}\[\]<>#|!])", r"\\\1", text.strip())
+
+
+def _block(opened: Opened, line: int) -> Block:
+    blocks = opened.program.blocks
+    return blocks[min(max(line, 1), len(blocks)) - 1]
+
+
+def _lines_of(opened: Opened, line: int) -> types.Range:
+    contour = next((each for each in opened.program.contours if each.first <= line <= each.last), None)
+    return opened.places.whole(contour.first, contour.last) if contour else opened.places.whole(line, line)
+
+
+def hints_of(opened: Opened, wanted: types.Range) -> Iterator[types.InlayHint]:
+    """The end point behind each solved contour."""
+    for contour in opened.program.contours:
+        end = end_text(contour.answer)
+        if end and wanted.start.line <= contour.last - 1 <= wanted.end.line:
+            at = opened.places.position(contour.last, len(opened.places.text(contour.last)) + 1)
+            yield types.InlayHint(at, f"ends at {end}", padding_left=True)
+
+
+# Completions -------------------------------------------------------------------------------------------------
+
+
+class Completer:
+    """What may be written at one place."""
+
+    def __init__(self, opened: Opened, position: types.Position, *, has_snippets: bool) -> None:
+        self.opened, self.has_snippets = opened, has_snippets
+        self.line, self.column = opened.places.place(position)
+        self.before = opened.places.text(self.line)[: self.column - 1]
+        typed = re.search(r"[#,]?[ ]*[A-Za-z]*\Z", self.before)
+        self.begin = self.column - len(typed[0].lstrip()) if typed else self.column
+
+    def items(self) -> Iterator[types.CompletionItem]:
+        """Words of the contour there, or examples of blocks."""
+        dialect, answer = self.opened.program.dialect, self.opened.program.contour_at(self.line)
+        if self._is_comment:
+            return
+        if dialect is not None and answer is not None:
+            yield from self._words(answer, dialect)
+        elif not re.sub(r"^\s*/?\s*(N\d+)?\s*", "", self.before[: self.begin - 1]):
+            for each in DIALECTS.values() if dialect is None else (dialect,):
+                yield from self._blocks(each)
+
+    @cached_property
+    def _is_comment(self) -> bool:
+        return bool(re.search(r";|\([^)]*\Z", self.before))
+
+    def _words(self, answer: Answer, dialect: Dialect) -> Iterator[types.CompletionItem]:
+        found = [each for each in words_to_add(answer, dialect) if each.line == self.line]
+        for number, each in enumerate(sorted(found, key=lambda each: each.contour is None)):
+            detail = "fixed by the other words" if each.contour is not None else ""
+            yield self._item(each.text, each.text.replace("?", "${1}"), each.meaning, detail, each.address, number)
+
+    def _blocks(self, dialect: Dialect) -> Iterator[types.CompletionItem]:
+        if dialect.name not in _LEGAL:
+            _LEGAL[dialect.name] = legal_blocks(dialect)
+        for number, each in enumerate(_LEGAL[dialect.name]):
+            title = f"{dialect.name}: {each.title}" if self.opened.program.dialect is None else each.title
+            yield self._item(each.text.replace("\n", " / "), _snippet(each.text), title, "", each.text, number)
+
+    def _item(
+        self, label: str, snippet: str, detail: str, documentation: str, filter_: str, number: int
+    ) -> types.CompletionItem:
+        plain = re.sub(r"\$\{\d+:?([^}]*)\}", r"\1", snippet)
+        return types.CompletionItem(
+            label,
+            kind=types.CompletionItemKind.Snippet if "\n" in plain or " " in plain else types.CompletionItemKind.Field,
+            detail=detail,
+            documentation=documentation or None,
+            filter_text=filter_,
+            sort_text=f"{number:03}",
+            insert_text_format=types.InsertTextFormat.Snippet
+            if self.has_snippets
+            else types.InsertTextFormat.PlainText,
+            text_edit=types.TextEdit(
+                self.opened.places.range(self.line, self.begin, self.column), snippet if self.has_snippets else plain
+            ),
+        )
+
+
+def _snippet(text: str) -> str:
+    """A block whose numbers are stops, each with its value."""
+    count = iter(range(1, 1_000))
+    return re.sub(
+        r"(?<=[A-Z=(])(-?\d*\.?\d+\.?)",
+        lambda number: f"${{{next(count)}:{number[0]}}}" if not _is_code(text, number.start()) else number[0],
+        text,
+    )
+
+
+def _is_code(text: str, at: int) -> bool:
+    return text[at - 1] == "G"
+
+
+def signatures_of(opened: Opened, position: types.Position) -> types.SignatureHelp | None:
+    """The sets of words that complete the block under the cursor, and what each of them means."""
+    line, _ = opened.places.place(position)
+    answer, dialect = opened.program.contour_at(line), opened.program.dialect
+    if answer is None or dialect is None:
+        return None
+    stated = " ".join(each.word.text.strip() for each in stated_words(answer) if each.word.span.line == line)
+    additions = {each.address: each.meaning for each in words_to_add(answer, dialect)}
+    ways: Sequence[tuple[str, ...]] = ways_to_complete(answer, dialect)
+    if not ways and answer.status is Status.SOLVED and additions:
+        ways = [tuple(additions)]
+    found = []
+    for way in ways:
+        label = " ".join((stated, *way))
+        begins, at = [], len(stated) + 1
+        for address in way:
+            begins.append((at, at + len(address)))
+            at += len(address) + 1
+        found.append(
+            types.SignatureInformation(
+                label,
+                "may stand besides" if answer.status is Status.SOLVED else "completes the block",
+                [
+                    types.ParameterInformation(place, additions.get(address, ""))
+                    for place, address in zip(begins, way, strict=True)
+                ],
+            )
+        )
+    return types.SignatureHelp(found, 0, 0) if found else None
+
+
+# The program's outline ---------------------------------------------------------------------------------------
+
+
+def symbols_of(opened: Opened) -> Iterator[types.DocumentSymbol]:
+    """The contours, each with its status and its end."""
+    for contour in opened.program.contours:
+        answer, end = contour.answer, end_text(contour.answer)
+        yield types.DocumentSymbol(
+            name=f"{answer.claim.form.name}, line {contour.first}",
+            detail=f"{answer.status.value}{f', ends at {end}' if end else ''}",
+            kind=types.SymbolKind.Function if answer.status is Status.SOLVED else types.SymbolKind.Event,
+            range=opened.places.whole(contour.first, contour.last),
+            selection_range=opened.places.whole(contour.first, contour.first),
+        )
+
+
+_COMMENT = re.compile(r"\s*(?:\([^)]*\)\s*|;.*)+\Z")
+
+
+def folds_of(opened: Opened) -> Iterator[types.FoldingRange]:
+    """Contours of several lines, and comments."""
+    for contour in opened.program.contours:
+        if contour.last > contour.first:
+            yield types.FoldingRange(contour.first - 1, contour.last - 1, kind=types.FoldingRangeKind.Region)
+    first, lines = 0, len(opened.program.blocks)
+    for line in range(1, lines + 2):
+        is_comment = line <= lines and _COMMENT.match(opened.places.text(line)) is not None
+        if is_comment and not first:
+            first = line
+        elif not is_comment and first:
+            if line - 1 > first:
+                yield types.FoldingRange(first - 1, line - 2, kind=types.FoldingRangeKind.Comment)
+            first = 0

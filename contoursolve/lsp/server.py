@@ -1,0 +1,384 @@
+"""The server: what it can do, and what it does with each message of its client."""
+
+import asyncio
+import logging
+from collections.abc import Callable, Mapping
+from functools import wraps
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
+
+from lsprotocol import types
+from pygls.lsp.server import LanguageServer
+from pygls.uris import to_fs_path
+
+from contoursolve import DIALECTS, Severity, Status, __version__
+from contoursolve.lsp import commands
+from contoursolve.lsp.editing import block_number_under, formatted, renamed, target_of
+from contoursolve.lsp.findings import actions_of, diagnostics_of
+from contoursolve.lsp.opened import Opened, Options, read_options
+from contoursolve.lsp.pages import Pages
+from contoursolve.lsp.reading import Completer, folds_of, hints_of, hover_of, signatures_of, symbols_of
+
+logger = logging.getLogger(__name__)
+
+SECTION = "contoursolve"
+STATUS, PICTURE = "contoursolve/status", "contoursolve/picture"
+
+AT_ONCE = 8
+"""Blocks and contours that are examined before the next message is looked at."""
+
+
+class Server(LanguageServer):
+    """One client, and the programs that it has open."""
+
+    def __init__(self) -> None:
+        super().__init__(SECTION, __version__)
+        self.opened: dict[str, Opened] = {}
+        self.checking: dict[str, asyncio.Task[None]] = {}
+        self.options, self.pages = Options(), Pages()
+        self.has_client_commands = False
+
+    def open(self, item: types.TextDocumentItem) -> None:
+        """Begin to follow a program."""
+        path = to_fs_path(item.uri) if urlsplit(item.uri).scheme == "file" else None
+        encoding = self.server_capabilities.position_encoding or types.PositionEncodingKind.Utf16
+        self.opened[item.uri] = Opened(
+            item, Path(path) if path else None, self.options, self.pages, self.client_capabilities, encoding
+        )
+        self.begin_check(item.uri)
+
+    def begin_check(self, uri: str) -> None:
+        """Examine what an edit made necessary, a little at a time; what was begun before that is left."""
+        if uri in self.checking:
+            self.checking[uri].cancel()
+        self.checking[uri] = asyncio.get_running_loop().create_task(self._check(self.opened[uri]))
+
+    async def _check(self, opened: Opened) -> None:
+        try:
+            await asyncio.sleep(0)
+            while not opened.program.check(AT_ONCE):
+                await asyncio.sleep(0)
+            self._tell(opened)
+        except Exception as error:  # what is told stays as it was, and the next edit is examined again
+            logger.exception("%s was not examined", opened.uri)
+            message = f"{opened.program.name} was not examined: {type(error).__name__}: {error}; please report it"
+            self.window_show_message(types.ShowMessageParams(types.MessageType.Error, message))
+
+    def _tell(self, opened: Opened) -> None:
+        """Send the findings about a program, and how it stands."""
+        found = diagnostics_of(opened)
+        self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(opened.uri, found, opened.version))
+        statuses = [contour.answer.status for contour in opened.program.contours]
+        severities = [finding.severity for finding in opened.program.diagnostics]
+        status = {
+            "uri": opened.uri,
+            "control": opened.program.dialect.name if opened.program.dialect else None,
+            "source": opened.source,
+            "contours": len(statuses),
+            "solved": statuses.count(Status.SOLVED),
+            "errors": severities.count(Severity.ERROR),
+            "warnings": severities.count(Severity.WARNING),
+            "message": opened.trouble,
+        }
+        self.protocol.notify(STATUS, status)
+        workspace = self.client_capabilities.workspace
+        if workspace and workspace.inlay_hint and workspace.inlay_hint.refresh_support:
+            self.workspace_inlay_hint_refresh(None)
+        if workspace and workspace.code_lens and workspace.code_lens.refresh_support:
+            self.workspace_code_lens_refresh(None)
+
+    async def checked(self, uri: str) -> Opened | None:
+        """A program with all of it examined; None if it is not open."""
+        while uri in self.checking and not self.checking[uri].done():
+            await asyncio.wait([self.checking[uri]])
+        return self.opened.get(uri)
+
+    def close(self, uri: str) -> None:
+        """Forget a program, and its findings."""
+        task = self.checking.pop(uri, None)
+        if task is not None:
+            task.cancel()
+        if self.opened.pop(uri, None) is not None:
+            self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
+
+    def configure(self, section: Any) -> None:
+        """Follow the client's options."""
+        self.options = read_options(section)
+        self.follow_projects()
+
+    def follow_projects(self) -> None:
+        """Read the project files again."""
+        for uri, opened in self.opened.items():
+            opened.configure(self.options)
+            self.begin_check(uri)
+
+    async def ask_options(self) -> None:
+        """Ask the client for its section, if it can be asked."""
+        workspace = self.client_capabilities.workspace
+        if workspace and workspace.configuration:
+            wanted = types.ConfigurationParams([types.ConfigurationItem(section=SECTION)])
+            sections = await self.workspace_configuration_async(wanted)
+            self.configure(sections[0] if sections else None)
+
+    async def show(self, uri: str, what: str) -> None:
+        """Have the client show a file, or else say where it is."""
+        window = self.client_capabilities.window
+        if window and window.show_document and window.show_document.support:
+            await self.window_show_document_async(types.ShowDocumentParams(uri, take_focus=True))
+        else:
+            message = f"{what}: {to_fs_path(uri)}"
+            self.window_show_message(types.ShowMessageParams(types.MessageType.Info, message))
+
+
+server = Server()
+
+
+def _of_program(read: Callable[[Opened, Any], Any]) -> Callable[[Any], Any]:
+    """A handler of requests about a program, answered when all of it is examined; null if it is not open."""
+
+    @wraps(read)
+    async def handle(params: Any) -> Any:
+        opened = await server.checked(params.text_document.uri)
+        return None if opened is None else read(opened, params)
+
+    handle.__annotations__ = {}
+    return handle
+
+
+@server.feature(types.INITIALIZE)
+def initialize(params: types.InitializeParams) -> None:
+    """Take the client's options."""
+    given = params.initialization_options
+    table = given if isinstance(given, dict) else _table(given)
+    server.has_client_commands = table.get("clientCommands") is True
+    server.options = read_options(table)
+
+
+def _table(record: Any) -> Mapping[str, Any]:
+    """The fields of an object of JSON, which pygls makes a named tuple."""
+    fields = getattr(record, "_asdict", None)
+    if fields is None:
+        return {}
+    return {name: _table(value) if hasattr(value, "_asdict") else value for name, value in fields().items()}
+
+
+@server.feature(types.INITIALIZED)
+async def initialized(_: types.InitializedParams) -> None:
+    """Ask for the options, and to be told of project files that change."""
+    workspace = server.client_capabilities.workspace
+    watching = workspace.did_change_watched_files if workspace else None
+    if watching and watching.dynamic_registration:
+        names = ("**/contoursolve.toml", "**/pyproject.toml")
+        watched = types.DidChangeWatchedFilesRegistrationOptions([types.FileSystemWatcher(name) for name in names])
+        wanted = types.Registration("project-files", types.WORKSPACE_DID_CHANGE_WATCHED_FILES, watched)
+        await server.client_register_capability_async(types.RegistrationParams([wanted]))
+    await server.ask_options()
+
+
+@server.feature(types.WORKSPACE_DID_CHANGE_CONFIGURATION)
+async def change_configuration(params: types.DidChangeConfigurationParams) -> None:
+    """Follow the options; a client that cannot be asked sends them."""
+    workspace = server.client_capabilities.workspace
+    if workspace and workspace.configuration:
+        await server.ask_options()
+        return
+    table = params.settings if isinstance(params.settings, dict) else _table(params.settings)
+    server.configure(table.get(SECTION, table))
+
+
+@server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
+def change_files(_: types.DidChangeWatchedFilesParams) -> None:
+    """A project file has changed."""
+    server.follow_projects()
+
+
+@server.feature(types.TEXT_DOCUMENT_DID_OPEN)
+def did_open(params: types.DidOpenTextDocumentParams) -> None:
+    """Follow a program."""
+    server.open(params.text_document)
+
+
+@server.feature(types.TEXT_DOCUMENT_DID_CHANGE)
+def did_change(params: types.DidChangeTextDocumentParams) -> None:
+    """Follow what is typed."""
+    opened = server.opened.get(params.text_document.uri)
+    if opened is not None:
+        opened.change(params.text_document.version, params.content_changes)
+        server.begin_check(opened.uri)
+
+
+@server.feature(types.TEXT_DOCUMENT_DID_CLOSE)
+def did_close(params: types.DidCloseTextDocumentParams) -> None:
+    """Forget a program."""
+    server.close(params.text_document.uri)
+
+
+@server.feature(types.SHUTDOWN)
+def shutdown(_: Any = None) -> None:
+    """Leave no files behind."""
+    server.pages.close()
+
+
+_QUICK_FIX = types.CodeActionOptions([types.CodeActionKind.QuickFix])
+
+
+@server.feature(types.TEXT_DOCUMENT_CODE_ACTION, _QUICK_FIX)
+@_of_program
+def code_actions(opened: Opened, params: types.CodeActionParams) -> list[types.CodeAction]:
+    """The fixes at a place."""
+    only = params.context.only
+    if only is not None and not any(types.CodeActionKind.QuickFix.value.startswith(kind) for kind in only):
+        return []
+    return [*actions_of(opened, params.range)]
+
+
+@server.feature(types.TEXT_DOCUMENT_HOVER)
+@_of_program
+def hover(opened: Opened, params: types.HoverParams) -> types.Hover | None:
+    """What a word means, or a contour."""
+    return hover_of(opened, params.position)
+
+
+@server.feature(types.TEXT_DOCUMENT_INLAY_HINT)
+@_of_program
+def inlay_hints(opened: Opened, params: types.InlayHintParams) -> list[types.InlayHint]:
+    """Where contours end."""
+    return [*hints_of(opened, params.range)] if opened.options.is_hinting else []
+
+
+@server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=[" ", ",", "#"]))
+@_of_program
+def completion(opened: Opened, params: types.CompletionParams) -> types.CompletionList:
+    """What may be written here."""
+    text = server.client_capabilities.text_document
+    item = text.completion.completion_item if text and text.completion else None
+    found = Completer(opened, params.position, has_snippets=bool(item and item.snippet_support)).items()
+    return types.CompletionList(is_incomplete=True, items=[*found])
+
+
+@server.feature(types.TEXT_DOCUMENT_SIGNATURE_HELP, types.SignatureHelpOptions([" "]))
+@_of_program
+def signature_help(opened: Opened, params: types.SignatureHelpParams) -> types.SignatureHelp | None:
+    """Which words complete the block."""
+    return signatures_of(opened, params.position)
+
+
+@server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+@_of_program
+def document_symbols(opened: Opened, _: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
+    """The contours."""
+    return [*symbols_of(opened)]
+
+
+@server.feature(types.TEXT_DOCUMENT_FOLDING_RANGE)
+@_of_program
+def folding_ranges(opened: Opened, _: types.FoldingRangeParams) -> list[types.FoldingRange]:
+    """Contours and comments."""
+    return [*folds_of(opened)]
+
+
+@server.feature(types.TEXT_DOCUMENT_CODE_LENS)
+@_of_program
+def code_lenses(opened: Opened, _: types.CodeLensParams) -> list[types.CodeLens]:
+    """Above each contour, what can be done with it."""
+    if not opened.options.has_lenses:
+        return []
+    return [
+        types.CodeLens(
+            opened.places.whole(contour.first, contour.first), types.Command(title, name, arguments=arguments)
+        )
+        for contour in opened.program.contours
+        for title, name, arguments in commands.lenses(opened.uri, contour, of_client=server.has_client_commands)
+    ]
+
+
+@server.feature(types.TEXT_DOCUMENT_FORMATTING)
+@_of_program
+def formatting(opened: Opened, _: types.DocumentFormattingParams) -> list[types.TextEdit]:
+    """Blanks and block numbers put right; no word is changed."""
+    return formatted(opened)
+
+
+@server.feature(types.TEXT_DOCUMENT_PREPARE_RENAME)
+@_of_program
+def prepare_rename(opened: Opened, params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
+    """The block number under the cursor."""
+    return block_number_under(opened, params.position)
+
+
+@server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
+@_of_program
+def rename(opened: Opened, params: types.RenameParams) -> types.WorkspaceEdit | None:
+    """Another block number, with all jumps to it."""
+    return renamed(opened, params.position, params.new_name)
+
+
+@server.feature(types.TEXT_DOCUMENT_DEFINITION)
+@_of_program
+def definition(opened: Opened, params: types.DefinitionParams) -> types.Location | None:
+    """The block to which a jump goes."""
+    return target_of(opened, params.position)
+
+
+@server.feature(PICTURE)
+async def picture(params: Any) -> Any:
+    """The contour under the cursor as a picture, with the places of its words."""
+    opened = await server.checked(params.textDocument.uri)
+    if opened is None:
+        return None
+    return commands.picture_of(opened, types.Position(params.position.line, params.position.character))
+
+
+@server.command("contoursolve.expand")
+async def expand(uri: str) -> Any:
+    """The program in plain G-code."""
+    opened = await server.checked(uri)
+    return commands.expand_program(opened)
+
+
+@server.command("contoursolve.convert")
+async def convert(uri: str, control: str) -> Any:
+    """The program in the words of another control."""
+    opened = await server.checked(uri)
+    return commands.convert_program(opened, control)
+
+
+@server.command("contoursolve.report")
+async def report(uri: str) -> Any:
+    """A page about the program."""
+    opened = await server.checked(uri)
+    return commands.report_on(opened)
+
+
+@server.command("contoursolve.explore")
+async def explore(uri: str, line: int) -> Any:
+    """A notebook in which a contour can be moved."""
+    opened = await server.checked(uri)
+    return commands.notebook_of(opened, line + 1)
+
+
+@server.command("contoursolve.controls")
+def controls() -> Any:
+    """The controls that can be chosen."""
+    return [{"name": each.name, "title": each.title} for each in DIALECTS.values()]
+
+
+@server.command("contoursolve.explain")
+async def explain(code: str, control: str) -> None:
+    """Show the page about a rule."""
+    uri = server.pages.uri(code, DIALECTS.get(control))
+    if uri:
+        await server.show(uri, code)
+
+
+@server.command("contoursolve.show")
+async def show(what: str, uri: str, line: int) -> None:
+    """Write a picture, a notebook or the plain program into a file, and show it: for clients without commands of their
+    own."""
+    opened = await server.checked(uri)
+    name, text = commands.file_of(opened, what, line + 1)
+    if text is None:
+        server.window_show_message(types.ShowMessageParams(types.MessageType.Warning, name))
+        return
+    await server.show(server.pages.write(name, [text]), what)

@@ -1,0 +1,117 @@
+"""A contour in words: its form, its end, and its words one by one: what each means, states and fixes."""
+
+from collections.abc import Iterator
+from decimal import Decimal
+from itertools import islice
+
+from msgspec import Struct
+
+from contoursolve.diagnosis.edits import write_word
+from contoursolve.diagnosis.examine import Answer, AskedValue
+from contoursolve.diagnosis.wording import coordinates, short_name
+from contoursolve.gcode import FACT, Word, call
+from contoursolve.geometry import Length, Line, Unit
+
+
+def form_text(answer: Answer) -> str:
+    """What kind of contour it is, in the control's words."""
+    return f"{answer.claim.form.name} ({answer.claim.form.title})"
+
+
+def end_text(answer: Answer) -> str:
+    """Where a contour ends, as the control writes it: `Z-50.2073 X100.0000`; empty where it has no path."""
+    return coordinates(answer.contour.end, answer.plane, answer.unit) if answer.contour else ""
+
+
+def start_text(answer: Answer) -> str:
+    """The words that lead to the start point of a contour, as its control reads them where coordinates count from zero;
+    empty where that is not known.
+
+    >>> import contoursolve
+    >>> start_text(contoursolve.solve("G111 X100. A180. K-30. B120.", start="X40. Z0.").answers[0])
+    'Z0. X40.'
+    """
+    values, lexicon = answer.start.values, answer.claim.lexicon
+    if not answer.start.is_known:
+        return ""
+    places = zip(answer.plane.axes, values, strict=True)
+    return " ".join(write_word(axis, float(value or 0), lexicon, answer.unit) for axis, value in places)
+
+
+class StatedWord(Struct, frozen=True):
+    """A word of a contour: its key (`A`, or `2:,A` where two blocks have one), what it means, its value as it is
+    written with its unit (mm, in, deg; None for a variable or `?`), and the points and corners that it fixes."""
+
+    key: str
+    word: Word
+    meaning: str
+    value: float | None
+    unit: str
+    fixes: tuple[str, ...] = ()
+    is_ignored: bool = False
+
+
+def stated_words(answer: Answer) -> tuple[StatedWord, ...]:
+    """The words that state something about a contour, in the order of the program.
+
+    >>> import contoursolve
+    >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5.", start="X40. Z0.").answers[0]
+    >>> [(each.word.text, each.meaning, each.fixes) for each in stated_words(answer)][2:]
+    ... # doctest: +NORMALIZE_WHITESPACE
+    [('K-30.', 'Z distance from start to virtual intersection', ('V1',)),
+     ('B120.', 'travel direction of line 2, from +Z, counter-clockwise', ('line 2',)),
+     ('P5.', 'radius of the first rounding', ('corner 1',))]
+    """
+    givens = {given.name: given.word for given in answer.profile.givens.values() if given.word}
+    ignored = {fact.given for fact in answer.profile.ignored}
+    ordered = sorted({word.span: word for word in givens.values()}.values(), key=lambda word: word.span)
+    found, seen = [], set[int]()
+    for name, word in sorted(givens.items(), key=lambda item: item[1].span):
+        if id(word) not in seen:
+            seen.add(id(word))
+            value, unit = stated_value(word, answer) if word.address != FACT else (None, "")
+            meaning, key = meaning_of(name, word, answer), call(word, ordered) if word.address != FACT else FACT
+            fixes = tuple(dict.fromkeys(_fixed(name, answer)))
+            found.append(StatedWord(key, word, meaning, value, unit, fixes, name in ignored))
+    return tuple(found)
+
+
+def _fixed(name: str, answer: Answer) -> Iterator[str]:
+    """What the word of a name fixes: a point, a direction, a radius, a corner."""
+    headings = {element.heading: element.name for element in answer.profile.figure.path if isinstance(element, Line)}
+    for fact in answer.profile.facts:
+        if fact.given == name:
+            if name in headings:
+                yield headings[name]
+            else:
+                found = (getattr(fact, part, "") for part in ("point", "head", "center", "radius", "line"))
+                yield from (str(each) for each in islice(filter(None, found), 1))
+    yield from (corner.name for corner in answer.profile.figure.corners if corner.size == name)
+
+
+def meaning_of(name: str, word: Word, answer: Answer) -> str:
+    """What a word means that states the given of a name."""
+    row = answer.claim.lexicon.addresses.get(word.address)
+    return answer.claim.form.meanings.get(name) or (row.meaning if row else "")
+
+
+def stated_value(word: Word, answer: Answer) -> tuple[float | None, str]:
+    """What a word states, as it is written, and its unit: mm, in, deg, or none where only the sign counts."""
+    lexicon = answer.claim.lexicon
+    row = lexicon.addresses[word.address]
+    return _as_written(lexicon.value(word, answer.unit), row.unit, answer.unit, is_diameter=row.is_diameter)
+
+
+def found_value(asked: AskedValue, answer: Answer) -> tuple[float | None, str]:
+    """The value of a word that was asked for, in the same terms."""
+    question = asked.question
+    return _as_written(asked.value, question.unit, answer.unit, is_diameter=question.is_diameter)
+
+
+def _as_written(
+    value: float | Decimal | None, kind: Unit, unit: Length, *, is_diameter: bool
+) -> tuple[float | None, str]:
+    if kind is not Unit.MM:
+        return None if value is None else float(value), "deg" if kind is Unit.DEGREE else ""
+    shown = None if value is None else float(value) * (2 if is_diameter else 1) / float(unit.in_mm)
+    return shown, short_name(unit.value)

@@ -1,0 +1,506 @@
+"""A program that is open in an editor: after each edit only what depends on it is examined again.
+
+The program is held in parts, each with what was known before it and how far it looked ahead. An edit makes those stale
+that it touches or that looked at it. Examination goes on from the first stale part until it knows the same as an old
+part did at the same place; from there on, the old parts hold.
+"""
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from copy import copy
+from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import replace as with_fields
+from enum import Enum
+from itertools import islice
+from operator import is_
+from typing import Any, overload
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from contoursolve.diagnosis.examine import Answer, Depth, Policy, rank
+from contoursolve.diagnostics.choices import choice_of
+from contoursolve.diagnostics.finding import Diagnostic, Fix, Severity
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import ISO, Block, Program, Syntax, parse, parse_block, split_lines
+from contoursolve.gcode.lexer import Blocks
+from contoursolve.geometry import Length, Plane
+from contoursolve.program.pipeline import Checkpoint, Examiner, run
+from contoursolve.program.project import CONTROL, FIRST_LINES, SettingError, stated_settings
+from contoursolve.program.recognise import PLANE, Recogniser, UnknownControlError, choose, shown_by
+from contoursolve.program.solve_queue import Step
+from contoursolve.program.tape_markers import Marks
+from contoursolve.reading.dialect import Dialect
+
+Place = tuple[int, int]
+"""A line and a column, both from 1."""
+
+_LONGEST = 16
+"""Lines of a part without contours and findings."""
+
+_MOST_BLOCKS = 20_000
+"""Blocks that are kept; one takes 50 times the memory of its line."""
+
+_MOST_MOVES = 64
+"""Edits that moved lines that are kept, before all parts are brought up to date with them."""
+
+
+class OpenContour(Struct, frozen=True):
+    """A contour of an open program: its first and last line as they are now. The answer may be older: its own lines are
+    those at which it was found (see `OpenProgram.contour_at`)."""
+
+    first: int
+    last: int
+    answer: Answer
+
+
+@dataclass(slots=True)
+class _Part:
+    """Some lines in a row: one contour, or blocks that are none. The last part has no lines."""
+
+    known: Checkpoint
+    """What is known before it."""
+    count: int
+    reach: int = 1
+    """How many lines from the first one on it rests on."""
+    answer: Answer | None = None
+    beside: tuple[Diagnostic, ...] = ()
+    """Findings that are not about the contour."""
+    findings: tuple[Diagnostic, ...] = ()
+    """Findings about the contour."""
+    age: int = 0
+    """How many of the moves it knows of, and the answer of how many."""
+    answer_age: int = 0
+    is_stale: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class _Move:
+    """All lines from one on are so many lines further down."""
+
+    first: int
+    by: int
+
+    def line(self, line: int) -> int:
+        return line + self.by if line >= self.first else line
+
+
+class _Lines(Sequence[Block]):
+    """The blocks of lines that change, read when somebody looks at them."""
+
+    def __init__(self, texts: list[str]) -> None:
+        self.texts, self.syntax = texts, ISO
+        self._read: dict[int, Block] = {}
+
+    def __len__(self) -> int:
+        return len(self.texts)
+
+    @overload
+    def __getitem__(self, index: int) -> Block: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[Block]: ...
+
+    def __getitem__(self, index: int | slice) -> Block | list[Block]:
+        if isinstance(index, slice):
+            return [self[each] for each in range(len(self))[index]]
+        if not 0 <= index < len(self):
+            raise IndexError(index)
+        block = self._read.get(index)
+        if block is None:
+            if len(self._read) >= _MOST_BLOCKS:
+                self._read = {}
+            block = self._read[index] = parse_block(self.texts[index].rstrip("\r\n"), index + 1, self.syntax)
+        return block
+
+    def spell(self, syntax: Syntax) -> None:
+        """Read them in this syntax from now on."""
+        if self.syntax is not syntax:
+            self.syntax, self._read = syntax, {}
+
+    def change(self, first: int, last: int, texts: Sequence[str]) -> None:
+        """Put others in the place of some."""
+        is_moved = len(texts) != last - first
+        self.texts[first:last] = texts
+        for index in [each for each in self._read if each >= first] if is_moved else range(first, last):
+            self._read.pop(index, None)
+
+
+class OpenProgram:
+    """A program that is open in an editor: its contours and findings follow every edit.
+
+    They are those that `solve` finds in the text as it is, once `check` has returned True.
+
+    >>> program = OpenProgram("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. P50.")
+    >>> program.check(), [each.code for each in program.diagnostics]
+    (True, ['g111-corner-too-large'])
+    >>> program.edit((2, 30), (2, 34), "P5.")
+    >>> program.check(), program.diagnostics
+    (True, ())
+    """
+
+    def __init__(
+        self,
+        text: str = "",
+        *,
+        control: str | Dialect | None = None,
+        units: str = "mm",
+        rules: str = "enforce",
+        settings: Mapping[str, str] | None = None,
+        name: str = "<program>",
+    ) -> None:
+        """Arguments as for `solve`; but what a comment in the program states counts more than `settings`."""
+        self.name = name
+        self.dialect: Dialect | None = None
+        """The control; None where nothing tells it."""
+        self.is_stated = False
+        """Whether a comment in the program states it."""
+        self.trouble = ""
+        """Why the control cannot be told, if it cannot."""
+        self._control, self._settings = control, dict(settings or {})
+        self._unit, self._policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
+        self._lines = _Lines(_split(text))
+        self._shown: Counter[str] | None = None
+        """How many lines show what of the control; None where they are not asked."""
+        self._parts: list[_Part] = []
+        self._moves: list[_Move] = []
+        self._walk: Iterator[None] | None = None
+        self._diagnostics: tuple[Diagnostic, ...] | None = None
+        self._examiner: Examiner | None = None
+        self._choose()
+        self._begin()
+
+    @property
+    def text(self) -> str:
+        """The program as it is now."""
+        return "".join(self._lines.texts)
+
+    @property
+    def blocks(self) -> Sequence[Block]:
+        """Its blocks, each read when it is looked at; behind the end of the last line is one more."""
+        return self._lines
+
+    def configure(self, control: str | Dialect | None, settings: Mapping[str, str]) -> None:
+        """Read the program as one for this control (None: as it shows), with these settings."""
+        if (control, dict(settings)) != (self._control, self._settings):
+            self._control, self._settings = control, dict(settings)
+            self._choose()
+            self._begin()
+
+    def replace(self, text: str) -> None:
+        """Put another text in the place of the whole; lines that are the same at the beginning and the end are not
+        touched."""
+        old, new = self._lines.texts, _split(text)
+        most = min(len(old), len(new))
+        first = next((index for index in range(most) if old[index] != new[index]), most)
+        most -= first
+        same = next((index for index in range(most) if old[-1 - index] != new[-1 - index]), most)
+        self._change(first, len(old) - same, new[first : len(new) - same])
+
+    def edit(self, begin: Place, end: Place, text: str) -> None:
+        """Put a text in the place of what stands from one place to another, the second one not included. A place behind
+        the end of a line, or of the program, is that end."""
+        lines = self._lines.texts
+        (first, start), (last, stop) = (self._within(place) for place in sorted((begin, end)))
+        new, behind = lines[first][:start] + text + lines[last][stop:], last + 1
+        # A carriage return and the line feed behind it are one end of a line.
+        if first and lines[first - 1].endswith("\r") and new.startswith("\n"):
+            first -= 1
+            new = lines[first] + new
+        if behind < len(lines) and new.endswith("\r") and lines[behind].startswith("\n"):
+            new += lines[behind]
+            behind += 1
+        self._change(first, behind, _split(new)[: None if behind == len(lines) else -1])
+
+    def _within(self, place: Place) -> tuple[int, int]:
+        """The index of a line, and an offset in it."""
+        lines, (line, column) = self._lines.texts, place
+        if line > len(lines):
+            return len(lines) - 1, len(lines[-1])
+        return max(line, 1) - 1, min(max(column, 1) - 1, len(lines[max(line, 1) - 1].rstrip("\r\n")))
+
+    def _change(self, first: int, last: int, new: Sequence[str]) -> None:
+        """Put other lines in the place of some, and make stale what rests on them."""
+        gone = self._lines.texts[first:last]
+        if list(new) == gone:
+            return
+        self._lines.change(first, last, new)
+        self._diagnostics = self._walk = None
+        old = self.dialect
+        # Where no control is known, each line may be the one that shows it, or the reason why it cannot be told.
+        if first < FIRST_LINES or self._examiner is None or self._shows_something_else(gone, new):
+            self._choose()
+        if old is None or self.dialect is None or not _alike(old, self.dialect):
+            self._begin()
+        else:
+            self.dialect = old
+            self._make_stale(first, last, len(new) - (last - first))
+
+    def _shows_something_else(self, gone: Sequence[str], come: Sequence[str]) -> bool:
+        """Whether another control may be shown, now that some lines are gone and others have come."""
+        if self._shown is None:
+            return False
+        before, (old, new) = {each for each in self._shown if self._shown[each]}, (map(_shown, gone), map(_shown, come))
+        taken, given = [*old], [*new]
+        for shown in taken:
+            self._shown.subtract(shown)
+        for shown in given:
+            self._shown.update(shown)
+        # Where a plane is selected, their order counts, too.
+        is_ordered = PLANE in before and taken != given
+        return is_ordered or before != {each for each in self._shown if self._shown[each]}
+
+    def _choose(self) -> None:
+        """Find the control."""
+        text = self.text
+        self.trouble, self.is_stated, self._shown = "", False, None
+        try:
+            program = Program(self.name, text, Blocks(text, 1, ISO))
+            stated = stated_settings(self._lines.texts)
+            self.is_stated = CONTROL in stated
+            self.dialect = choose(self._control, program, self._settings | stated, self._recognise)
+        except (UnknownControlError, SettingError) as error:
+            self.dialect, self.trouble = None, str(error)
+
+    def _recognise(self, blocks: Iterable[Block]) -> Dialect | None:
+        """The control that blocks show, as `recognise` does; it is kept what they show."""
+        recogniser, self._shown = Recogniser(), Counter()
+        for block in blocks:
+            shown = shown_by(block)
+            self._shown.update(shown)
+            recogniser.take(block, shown)
+        return recogniser.find()
+
+    def _begin(self) -> None:
+        """Make everything stale."""
+        self._diagnostics, self._walk, self._parts, self._moves, self._examiner = None, None, [], [], None
+        if self.dialect is not None:
+            self._lines.spell(self.dialect.modes.syntax)
+            self._examiner = Examiner(self.dialect, self._unit, self._policy, Depth.FULL, goes_on=True)
+            known = self._examiner.begin(None)
+            self._parts = [_Part(known, len(self._lines), is_stale=True), _Part(known, 0)]
+
+    def _make_stale(self, first: int, last: int, more: int) -> None:
+        """The lines from an index to another are others now, and so many more."""
+        parts: list[_Part] = []
+        changed: _Part | None = None
+        start = 0
+        for part in self._parts:
+            end = start + part.count
+            if start < last and end > first:
+                if changed is None:
+                    changed = part
+                    part.is_stale = True
+                    parts.append(part)
+                else:
+                    changed.count += part.count
+            else:
+                if changed is None and start >= last:
+                    # Between two parts, or behind all.
+                    changed = _Part(part.known, 0, age=part.age, is_stale=True)
+                    parts.append(changed)
+                part.is_stale = part.is_stale or (start < first < start + part.reach)
+                parts.append(part)
+            start = end
+        if changed is None:
+            raise AssertionError("the last part is behind all lines")
+        changed.count += more
+        self._parts = parts
+        if more:
+            self._moves.append(_Move(last + 1, more))
+
+    def check(self, most: int | None = None) -> bool:
+        """Go on examining what is stale, so many blocks and contours of it or all; whether everything is up to date."""
+        self._walk = self._walk or self._examine()
+        if sum(1 for _ in islice(self._walk, most)) == most:
+            return False
+        self._walk = None
+        return True
+
+    def _examine(self) -> Iterator[None]:
+        """Examine each stale part and what follows from it, step by step. Wherever this stops, the parts together are
+        the whole program."""
+        examiner, parts = self._examiner, self._parts
+        if examiner is None:
+            return
+        self._diagnostics = None
+        index = line = 0
+        while index < len(parts):
+            if not parts[index].is_stale:
+                index, line = index + 1, line + parts[index].count
+                continue
+            self._bring_up(parts[index])
+            known, begin = parts[index].known, index
+            walk = examiner.resume(self._lines, line, known, None)
+            while parts[index].count or parts[index].is_stale:
+                here = parts[index]
+                if not here.count:
+                    del parts[index]
+                    continue
+                if not here.is_stale:
+                    self._bring_up(here)
+                    if _knows_the_same(here.known, known):
+                        break
+                here.is_stale, here.known, here.age = True, known, len(self._moves)
+                yield
+                step, reach, behind = next(walk)
+                index += self._take(index, begin, step, reach, known)
+                line, known = line + len(step.blocks), behind
+            else:
+                parts[index].known, parts[index].age = known, len(self._moves)
+        if len(self._moves) > _MOST_MOVES:
+            for part in parts:
+                self._bring_up(part)
+                part.age, part.answer_age = 0, part.answer_age - len(self._moves)
+            self._moves = []
+
+    def _take(self, index: int, begin: int, step: Step, reach: int, known: Checkpoint) -> int:
+        """Put a step in the place of the parts at an index; how many parts more there are before what is behind it."""
+        parts, left, now = self._parts, len(step.blocks), len(self._moves)
+        while left:
+            part = parts[index]
+            if part.count <= left:
+                left -= part.count
+                del parts[index]
+            else:
+                part.count, part.is_stale, left = part.count - left, True, 0
+        before = parts[index - 1] if index > begin else None
+        if step.answer is None and not step.findings and before is not None and _is_plain(before):
+            before.reach = max(before.reach, before.count + reach)
+            before.count += len(step.blocks)
+            return 0
+        findings = step.answer.diagnostics if step.answer else ()
+        new = _Part(known, len(step.blocks), reach, step.answer, step.findings, findings, now, now)
+        parts.insert(index, new)
+        return 1
+
+    def _bring_up(self, part: _Part) -> None:
+        """Bring what a part knows, and its findings, up to date with the lines that have moved."""
+        for move in self._moves[part.age :]:
+            part.known = _moved(part.known, move)
+            part.beside, part.findings = _moved(part.beside, move), _moved(part.findings, move)
+        part.age = len(self._moves)
+
+    @property
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """All findings, in the order of the program."""
+        if self._diagnostics is None:
+            self._diagnostics = tuple(sorted((finding for finding, _ in self.found()), key=rank))
+        return self._diagnostics
+
+    def found(self) -> Iterator[tuple[Diagnostic, tuple[int, ...]]]:
+        """Each finding, with the lines that its fixes replace."""
+        if self._examiner is None:
+            result = run(parse(self.text, self.name), None, self._unit, self._policy)
+            yield from ((finding, result.lines_of(finding)) for finding in result.diagnostics)
+            return
+        is_told, start = False, 0
+        for part in self._parts:
+            if part.beside or part.findings:
+                self._bring_up(part)
+            is_told = is_told or part.answer is not None
+            for finding in part.beside:
+                is_told = is_told or finding.severity is Severity.ERROR
+                yield finding, (finding.span.line,)
+            if part.answer is not None and part.findings:
+                lines = part.answer.lines
+                now = tuple(line - lines[0] + start + 1 for line in lines)
+                yield from ((finding, now) for finding in part.findings)
+            start += part.count
+        last = self._parts[-1]
+        self._bring_up(last)
+        yield from ((finding, (finding.span.line,)) for finding in copy(last.known.marks).finish())
+        if not is_told:
+            finding = self._examiner.nothing_to_solve(self._lines)
+            yield finding, (finding.span.line,)
+
+    @property
+    def contours(self) -> Iterator[OpenContour]:
+        """The contours, in the order of the program."""
+        start = 0
+        for part in self._parts:
+            if part.answer is not None:
+                yield OpenContour(start + 1, start + part.count, part.answer)
+            start += part.count
+
+    def contour_at(self, line: int) -> Answer | None:
+        """The contour on a line, with its words where they are now; None where there is none."""
+        start = 0
+        for part in self._parts:
+            if start < line <= start + part.count:
+                if self._examiner is None or part.answer is None or part.is_stale:
+                    return None
+                if part.answer_age != len(self._moves):
+                    self._bring_up(part)
+                    step, _, _ = next(self._examiner.resume(self._lines, start, part.known, None))
+                    part.answer, part.answer_age = step.answer, len(self._moves)
+                return part.answer
+            start += part.count
+        return None
+
+
+def _split(text: str) -> list[str]:
+    """The lines of a text, each with its end; the last one has none."""
+    lines = split_lines(text)
+    return [*lines, ""] if not lines or lines[-1].endswith(("\r", "\n")) else lines
+
+
+def _shown(line: str) -> frozenset[str]:
+    return shown_by(parse_block(line.rstrip("\r\n"), 1))
+
+
+def _alike(one: Dialect, other: Dialect) -> bool:
+    """Whether two are the same control with the same settings."""
+    return one is other or (one.name == other.name and one.modes.settings == other.modes.settings)
+
+
+def _is_plain(part: _Part) -> bool:
+    """Whether a part may take in another plain block."""
+    return part.answer is None and not part.beside and not part.is_stale and 0 < part.count < _LONGEST
+
+
+def _knows_the_same(one: Checkpoint, other: Checkpoint) -> bool:
+    return one == other
+
+
+_LINES = re.compile(r"(?<=program )lines? \d+(?:, \d+)*(?: and \d+)?")
+"""How messages name lines; `line 1` alone is an element of a contour."""
+
+
+def _moved(record: Any, move: _Move) -> Any:
+    """A record with every line that it names moved."""
+    if isinstance(record, str):
+        if "program line" not in record:
+            return record
+        return _LINES.sub(lambda lines: re.sub(r"\d+", lambda line: str(move.line(int(line[0]))), lines[0]), record)
+    if isinstance(record, Span):
+        line = move.line(record.line)
+        return record if line == record.line else record._replace(line=line)
+    if isinstance(record, Enum | Plane):
+        return record
+    if isinstance(record, tuple):
+        parts = [_moved(each, move) for each in record]
+        return record if all(map(is_, parts, record)) else tuple(parts)
+    if isinstance(record, Mapping):
+        values = {name: _moved(each, move) for name, each in record.items()}
+        return record if all(values[name] is each for name, each in record.items()) else values
+    if isinstance(record, Marks):
+        marks = copy(record)
+        vars(marks).update({name: _moved(each, move) for name, each in vars(record).items() if name != "context"})
+        return marks
+    if isinstance(record, Struct):
+        names = [name for name in record.__struct_fields__ if not (isinstance(record, Fix) and name == "replacement")]
+        changes = _changes(record, names, move)
+        changes |= {"line": move.line(record.line)} if isinstance(record, Block) else {}
+        return replace(record, **changes) if changes else record
+    if is_dataclass(record) and not isinstance(record, type):
+        changes = _changes(record, [each.name for each in fields(record)], move)
+        return with_fields(record, **changes) if changes else record
+    return record
+
+
+def _changes(record: Any, names: Iterable[str], move: _Move) -> dict[str, Any]:
+    old = {name: getattr(record, name) for name in names}
+    new = {name: _moved(each, move) for name, each in old.items()}
+    return {name: each for name, each in new.items() if each is not old[name]}

@@ -1,0 +1,115 @@
+"""A program that is open in an editor has the findings and contours that `solve` finds in its text, after every edit."""
+
+import random
+from pathlib import Path
+
+import pytest
+from mutations import ODD
+
+import contoursolve
+from contoursolve import OpenProgram
+
+ROOT = Path(__file__).parents[2]
+PROGRAMS = sorted([*(ROOT / "notebooks" / "programs").glob("*.nc"), *(ROOT / "docs" / "programs").glob("*.*")])
+CONTROLS = {"plate.nc": "nct-99m", "cover.nc": "nct-99m", "bracket.nc": "isg", "flange.mpf": "siemens-840d"}
+
+
+def random_edit(lines: list[str], draw: random.Random) -> tuple[tuple[int, int], tuple[int, int], str]:
+    """Two places and what is put between them: mostly a word or a few characters, sometimes lines."""
+    line = draw.randrange(len(lines)) + 1
+    column = draw.randrange(len(lines[line - 1]) + 1) + 1
+    match draw.randrange(8):
+        case 0:
+            return (line, column), (line, column), draw.choice(ODD)
+        case 1:
+            return (line, column), (line, column + draw.randrange(1, 6)), ""
+        case 2:
+            return (line, column), (line, column), draw.choice("0123456789.-XZAKPQRI \n")
+        case 3:
+            return (line, 1), (line, 1), draw.choice(lines) + draw.choice(("\n", "\r\n", "\r"))
+        case 4:
+            return (line, 1), (line + draw.randrange(1, 4), 1), ""
+        case 5:
+            return (line, column), (line, column), "\n"
+        case 6:
+            return (
+                (line, len(lines[line - 1]) + 1),
+                (line, 99_999),
+                " " + draw.choice(draw.choice(lines).split() or [""]),
+            )
+        case _:
+            return (line, column), (line, column + 1), draw.choice("0123456789.")
+
+
+def edited(text: str, begin: tuple[int, int], end: tuple[int, int], new: str) -> str:
+    """The text with an edit, by its own reckoning."""
+    lines = contoursolve.gcode.split_lines(text)
+    if not lines or lines[-1][-1:] in "\r\n":
+        lines.append("")
+
+    def offset(line: int, column: int) -> int:
+        if line > len(lines):
+            return len(text)
+        return sum(map(len, lines[: line - 1])) + min(column - 1, len(lines[line - 1].rstrip("\r\n")))
+
+    return text[: offset(*begin)] + new + text[offset(*end) :]
+
+
+def compare(program: OpenProgram, text: str, control: str | None) -> None:
+    assert program.text == text
+    try:
+        fresh = contoursolve.solve(text, control=control)
+    except (contoursolve.UnknownControlError, ValueError) as error:
+        assert program.trouble == str(error)
+        return
+    assert not program.trouble
+    assert program.diagnostics == fresh.diagnostics
+    contours = list(program.contours)
+    assert [(each.first, each.last) for each in contours] == [(each.lines[0], each.lines[-1]) for each in fresh.answers]
+    for contour, answer in zip(contours, fresh.answers, strict=True):
+        now = program.contour_at(contour.first)
+        assert now is not None
+        assert (now.lines, now.status, now.contour, now.diagnostics) == (
+            answer.lines,
+            answer.status,
+            answer.contour,
+            answer.diagnostics,
+        )
+    for finding, lines in program.found():
+        if finding.fixes:
+            assert lines == fresh.lines_of(finding)
+
+
+def edit_at_random(path: Path, seed: int, edits: int, *, is_named: bool) -> None:
+    draw = random.Random(seed)
+    text = contoursolve.gcode.decode(path.read_bytes(), path.name)
+    control = CONTROLS.get(path.name, "yasnac-lx3") if is_named else None
+    program = OpenProgram(text, control=control)
+    for number in range(edits):
+        begin, end, new = random_edit(contoursolve.gcode.split_lines(text) or [""], draw)
+        if begin > end:
+            continue
+        text = edited(text, begin, end, new)
+        program.edit(begin, end, new)
+        if draw.randrange(4):
+            # An edit may come while an earlier one is still examined.
+            assert program.check(None if draw.randrange(2) else 10_000)
+            try:
+                compare(program, text, control)
+            except AssertionError as error:
+                raise AssertionError(f"{path.name}, seed {seed}, edit {number}: {begin} {end} {new!r}") from error
+        else:
+            program.check(draw.randrange(1, 5))
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.name)
+@pytest.mark.parametrize("is_named", [True, False])
+def test_random_edits(path: Path, is_named: bool) -> None:
+    edit_at_random(path, 1, 6, is_named=is_named)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.name)
+@pytest.mark.parametrize("seed", range(4))
+def test_many_random_edits(path: Path, seed: int) -> None:
+    edit_at_random(path, 100 + seed, 60, is_named=bool(seed % 2))
