@@ -3,7 +3,8 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
 
-from contoursolve.gcode import FACT, spell
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import FACT, Word, call, spell
 from contoursolve.geometry import Arc, CornerShape, Given, Length, Plane, Profile, Unit
 from contoursolve.solving import Status
 
@@ -65,6 +66,12 @@ def statement_text(given: Given, value: float, profile: Profile) -> str:
         return f"{word.text.partition('=')[0].strip() if word else given.name} = {number}"
     lines = {each.word.span.line for each in profile.givens.values() if each.word}
     return spell(word.address, number) + (f" (program line {word.span.line})" if len(lines) > 1 else "")
+
+
+def word_keys(words: Iterable[Word]) -> dict[Span, str]:
+    """The key of each word of a contour by its place: its address, with the line where several have it."""
+    ordered = sorted({word.span: word for word in words if word.address != FACT}.values(), key=lambda word: word.span)
+    return {word.span: call(word, ordered) for word in ordered}
 
 
 def by_line(texts: Iterable[tuple[str, int]]) -> str:

@@ -14,8 +14,9 @@ from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, write_word
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.fill import FARTHEST
 from contoursolve.diagnosis.solutions import Listed, list_solutions
+from contoursolve.diagnosis.wording import word_keys
 from contoursolve.diagnostics.finding import Diagnostic, Fix
-from contoursolve.gcode import FACT, Program, Word, call, parse, spell
+from contoursolve.gcode import FACT, Program, Word, parse, spell
 from contoursolve.geometry import Unit
 from contoursolve.program.pipeline import Result
 from contoursolve.solving import Status
@@ -84,9 +85,9 @@ def reset(exploration: Exploration) -> Exploration:
 def words_of(answer: Answer) -> dict[str, Word]:
     """The words of a contour by their keys, in the order of the program: `A` where only one block of the contour has
     that address, else with its line, `2:,A`."""
-    words = {word.span: word for word in answer.claim.words.values() if word.address != FACT}
-    ordered = [words[span] for span in sorted(words)]
-    return {call(word, ordered): word for word in ordered}
+    keys = word_keys(answer.claim.words.values())
+    words = {word.span: word for word in answer.claim.words.values()}
+    return {key: words[span] for span, key in keys.items()}
 
 
 def set_word(exploration: Exploration, key: str, value: float | str) -> Exploration:

@@ -8,8 +8,8 @@ from msgspec import Struct
 
 from contoursolve.diagnosis.edits import write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue
-from contoursolve.diagnosis.wording import coordinates, short_name
-from contoursolve.gcode import FACT, Word, call
+from contoursolve.diagnosis.wording import coordinates, short_name, word_keys
+from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Length, Line, Unit
 
 
@@ -64,13 +64,12 @@ def stated_words(answer: Answer) -> tuple[StatedWord, ...]:
     """
     givens = {given.name: given.word for given in answer.profile.givens.values() if given.word}
     ignored = {fact.given for fact in answer.profile.ignored}
-    ordered = sorted({word.span: word for word in givens.values()}.values(), key=lambda word: word.span)
-    found, seen = [], set[int]()
+    keys, found, seen = word_keys(answer.claim.words.values()), [], set[int]()
     for name, word in sorted(givens.items(), key=lambda item: item[1].span):
         if id(word) not in seen:
             seen.add(id(word))
             value, unit = stated_value(word, answer) if word.address != FACT else (None, "")
-            meaning, key = meaning_of(name, word, answer), call(word, ordered) if word.address != FACT else FACT
+            meaning, key = meaning_of(name, word, answer), keys.get(word.span, FACT)
             fixes = tuple(dict.fromkeys(_fixed(name, answer)))
             found.append(StatedWord(key, word, meaning, value, unit, fixes, name in ignored))
     return tuple(found)

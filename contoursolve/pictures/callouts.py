@@ -8,6 +8,7 @@ from contoursolve.pictures.page import THIN, Box, Dot, Spot, Stroke, TextRun, ar
 from contoursolve.pictures.scene import (
     Aligned,
     Angle,
+    Dimension,
     Leader,
     LinearDimension,
     Mark,
@@ -36,29 +37,32 @@ _SHORT = 22.0
 
 def draw_callouts(canvas: Canvas, scene: Scene) -> None:
     """Everything that has a label in the drawing: first all lines, then the labels, those of words first."""
-    wanted: list[tuple[Spot, TextRun, Spot]] = []
+    wanted: list[tuple[Spot, Dimension, Spot]] = []
     counts: dict[Spot, int] = {}
     for slide in scene.each(Slide):
         _draw_slide(canvas, slide)
     for mark in scene.each(Mark):
         _draw_point(canvas, mark)
     for dimension in scene.dimensions:
-        if isinstance(dimension, Angle):
-            at = canvas.view.place(dimension.at)
-            number = counts.get(at, 0)
-            counts[at] = number + 1
-            spot, away = _draw_angle(canvas, dimension, at, number)
-        elif isinstance(dimension, Aligned):
-            spot, away = _draw_aligned(canvas, dimension)
-        elif isinstance(dimension, LinearDimension) and not dimension.length:
-            spot, away = canvas.view.place(dimension.start), (0.7, -0.7)
-        else:
-            continue
-        wanted.append((spot, TextRun(dimension.text, dimension.role), away))
-    for spot, run, away in wanted:
-        canvas.label(spot, [(run,)], away, run.role)
+        with canvas.about(dimension.word):
+            if isinstance(dimension, Angle):
+                at = canvas.view.place(dimension.at)
+                number = counts.get(at, 0)
+                counts[at] = number + 1
+                spot, away = _draw_angle(canvas, dimension, at, number)
+            elif isinstance(dimension, Aligned):
+                spot, away = _draw_aligned(canvas, dimension)
+            elif isinstance(dimension, LinearDimension) and not dimension.length:
+                spot, away = canvas.view.place(dimension.start), (0.7, -0.7)
+            else:
+                continue
+        wanted.append((spot, dimension, away))
+    for spot, dimension, away in wanted:
+        with canvas.about(dimension.word):
+            canvas.label(spot, [(TextRun(dimension.text, dimension.role),)], away, dimension.role)
     for leader in scene.each(Leader):
-        _draw_leader(canvas, leader)
+        with canvas.about(leader.word):
+            _draw_leader(canvas, leader)
     ways = _ways(canvas, scene)
     for mark in scene.each(Mark):
         if mark.label:

@@ -97,7 +97,8 @@ def _lines(subject: Subject) -> Iterator[tuple[TextRun, ...]]:
             if span.column - 1 < place:
                 continue
             runs.append(TextRun(text[place : span.column - 1], Role.MUTED))
-            runs.append(TextRun(text[span.column - 1 : span.end_column - 1], by_span[span]))
+            shown = text[span.column - 1 : span.end_column - 1]
+            runs.append(TextRun(shown, by_span[span], subject.keys.get(span, "")))
             place = span.end_column - 1
         runs.append(TextRun(text[place:], Role.MUTED))
         yield tuple(run for run in runs if run.text)

@@ -3,6 +3,8 @@
 from collections.abc import Iterator, Mapping, Sequence
 from math import inf
 
+from msgspec.structs import replace
+
 from contoursolve.diagnosis.wording import length_limit
 from contoursolve.diagnostics.source import Span
 from contoursolve.geometry import Arc, Coordinate, CornerShape, Directed, Extent, Fact, Heading, Offset, Radius, Unit
@@ -49,7 +51,7 @@ def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
         if drawn is not None:
             done.add((fact.given, type(fact)))
             measured.add(given.word.span)
-            yield drawn
+            yield replace(drawn, word=subject.keys.get(given.word.span, ""))
     yield from _corners(subject, elements, measured)
     for asked in subject.answer.answers:
         question = asked.question
@@ -61,7 +63,7 @@ def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
         text = f"{word_text(question.word.text).rstrip(' =?')} = {shown}"
         drawn = _dimension(subject, elements, question.fact, text, Role.DERIVED, asked.value)
         if drawn is not None:
-            yield drawn
+            yield replace(drawn, word=subject.keys.get(question.word.span, ""))
 
 
 def _dimension(
@@ -132,7 +134,7 @@ def _corners(subject: Subject, elements: Mapping[str, Segment], measured: set[Sp
             continue
         text = word_text(given.word.text)
         text += " x 45°" if corner.shape is CornerShape.CHAMFER_AXIS_45 else ""
-        role = subject.role(corner.size)
+        role, key = subject.role(corner.size), subject.keys.get(given.word.span, "")
         limits = [
             refusal.values.get("limit", 0) for refusal in subject.known.refusals if refusal.subject == corner.name
         ]
@@ -145,9 +147,9 @@ def _corners(subject: Subject, elements: Mapping[str, Segment], measured: set[Sp
             if at is not None and not isinstance(drawn, ArcSegment):
                 # From the side of the virtual intersection.
                 pointed = Leader(pointed.at, direction(pointed.at, at), text, role)
-            yield pointed
+            yield replace(pointed, word=key)
         elif at is not None:
-            yield Leader(at, (1.0, 1.0), text, role)
+            yield Leader(at, (1.0, 1.0), text, role, key)
 
 
 # Points ------------------------------------------------------------------------------------------------------
@@ -228,7 +230,7 @@ def _mark(subject: Subject, noted: Noted, others: Others, at: Point, spot: Seque
     centers = {element.center for element in profile.figure.path if isinstance(element, Arc)}
     is_center = not centers.isdisjoint(spot) and not shown
     givens = [given for name in spot for given in noted.get(name, ())]
-    words = [TextRun(subject.word(given) or "", subject.role(given)) for given in givens]
+    words = [TextRun(subject.word(given) or "", subject.role(given), subject.key(given)) for given in givens]
     if not (rank or shown or words):
         if is_center:
             yield Mark(at, MarkKind.CENTER)
@@ -257,7 +259,7 @@ def _choosing(subject: Subject, others: Others, at: Point, spot: Sequence[str]) 
         word = subject.word(choice.given)
         # The sign of a radius chooses a centre, and is shown with the radius.
         if choice.point in spot and choice.point in subject.profile.intersections and word is not None:
-            yield TextRun(word, subject.role(choice.given))
+            yield TextRun(word, subject.role(choice.given), subject.key(choice.given))
     for name in spot:
         texts = (text for there, text in others.get(name, ()) if distance(there, at) <= SAME)
         yield from [TextRun(text, Role.GIVEN) for text in texts if text][:1]
@@ -269,4 +271,4 @@ def _computed(subject: Subject, at: Point) -> TextRun:
 
 def _joined(runs: Sequence[TextRun]) -> tuple[TextRun, ...]:
     """Runs with what parts them."""
-    return tuple(TextRun((BETWEEN if number else "") + run.text, run.role) for number, run in enumerate(runs))
+    return tuple(replace(run, text=(BETWEEN if number else "") + run.text) for number, run in enumerate(runs))

@@ -1,8 +1,11 @@
 """A page while it is filled: what is on it, and where labels find room: off the path, off other labels, near what
 they belong to."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from math import ceil, cos, hypot, inf, pi, sin
+
+from msgspec.structs import replace
 
 from contoursolve.pictures.page import (
     ASCENT,
@@ -142,9 +145,19 @@ class Canvas:
         self.texts: list[Text] = []
         self.homeless: list[str] = []
         """Labels for which there was no room."""
+        self.word = ""
+        """The key of the word that is being drawn."""
+
+    @contextmanager
+    def about(self, word: str) -> Iterator[None]:
+        """What is drawn within shows the word of a key."""
+        self.word = word
+        yield
+        self.word = ""
 
     def draw(self, item: Stroke, weight: float = THIN_WEIGHT) -> None:
         """A stroke, with what it weighs against labels; what weighs most is painted over the paper of labels."""
+        item = replace(item, word=self.word) if self.word else item
         (self.thick if weight >= PATH_WEIGHT else self.thin).append(item)
         here = item.start
         for step in item.steps:
@@ -155,7 +168,7 @@ class Canvas:
 
     def fill(self, shape: Shape) -> None:
         """An arrowhead."""
-        self.thick.append(shape)
+        self.thick.append(replace(shape, word=self.word) if self.word else shape)
         first = shape.corners[0]
         for corner in shape.corners[1:]:
             self._mark(first, corner, THIN_WEIGHT)
@@ -170,7 +183,7 @@ class Canvas:
 
     def _add(self, text: Text, box: Box) -> None:
         """A text on paper, so that thin lines stop at it."""
-        self.texts.append(text)
+        self.texts.append(replace(text, word=self.word) if self.word else text)
         self.papers.append(box.filled(Role.PAPER))
         self.taken.append(box)
 

@@ -181,7 +181,7 @@ def _rows(runs: tuple[TextRun, ...]) -> list[tuple[TextRun, ...]]:
             if used and used + wide > most:
                 rows.append([])
                 used = 0.0
-            rows[-1].append(TextRun(shorten(piece, most * MONO, 1.0, is_mono=True), run.role))
+            rows[-1].append(replace(run, text=shorten(piece, most * MONO, 1.0, is_mono=True)))
             used += wide
     kept = [row for row in rows if row][:_MOST_ROWS]
     if len(rows) > _MOST_ROWS:
@@ -193,8 +193,8 @@ def _merged(row: list[TextRun]) -> tuple[TextRun, ...]:
     """Neighbours in one role as one run."""
     found: list[TextRun] = []
     for run in row:
-        if found and found[-1].role is run.role:
-            found[-1] = TextRun(found[-1].text + run.text, run.role)
+        if found and (found[-1].role, found[-1].word) == (run.role, run.word):
+            found[-1] = replace(run, text=found[-1].text + run.text)
         else:
             found.append(run)
     return tuple(found)

@@ -181,15 +181,17 @@ def _draw_distances(canvas: Canvas, rows: Sequence[Row], side: Border, edge: flo
         a, b = canvas.view.place(dimension.start), canvas.view.place(dimension.end)
         level = edge + side.outward * (_FIRST_ROW + row * _PITCH)
         c, d = side.spot(level, a[side.axis]), side.spot(level, b[side.axis])
-        for at, end in ((a, c), (b, d)):
-            if distance(at, end) > _GAP:
-                way = direction(at, end)
-                extension = line(along(at, way, _GAP), along(end, way, _BEYOND), Role.MUTED, 0.7, is_dashed=False)
-                canvas.draw(extension, 0.6)
-        _measure(canvas, c, d, dimension.role)
+        with canvas.about(dimension.word):
+            for at, end in ((a, c), (b, d)):
+                if distance(at, end) > _GAP:
+                    way = direction(at, end)
+                    extension = line(along(at, way, _GAP), along(end, way, _BEYOND), Role.MUTED, 0.7, is_dashed=False)
+                    canvas.draw(extension, 0.6)
+            _measure(canvas, c, d, dimension.role)
         texts.append((dimension, c, d))
     for dimension, c, d in texts:
-        _write(canvas, dimension, ((c[0] + d[0]) / 2, (c[1] + d[1]) / 2))
+        with canvas.about(dimension.word):
+            _write(canvas, dimension, ((c[0] + d[0]) / 2, (c[1] + d[1]) / 2))
 
 
 def _measure(canvas: Canvas, c: Spot, d: Spot, role: Role) -> None:
@@ -227,7 +229,8 @@ def _draw_coordinates(canvas: Canvas, ordinates: Sequence[Ordinate], side: Borde
     sizes = [width_of(each.text, SIZE) + 10.0 if side.axis == FIRST else SIZE + 5.0 for each in entries]
     places = _apart(wanted, sizes)
     for ordinate, at, place in zip(entries, wanted, places, strict=True):
-        _coordinate(canvas, ordinate, side, edge, at, place)
+        with canvas.about(ordinate.word):
+            _coordinate(canvas, ordinate, side, edge, at, place)
 
 
 def _coordinate(canvas: Canvas, ordinate: Ordinate, side: Border, edge: float, at: float, place: float) -> None:

@@ -53,6 +53,8 @@ class Stroke(Struct, frozen=True):
     role: Role
     width: float
     dash: tuple[float, ...] = ()
+    word: str = ""
+    """The key of the word that it shows, if it shows one."""
 
 
 class Shape(Struct, frozen=True):
@@ -60,6 +62,8 @@ class Shape(Struct, frozen=True):
 
     corners: tuple[Spot, ...]
     role: Role
+    word: str = ""
+    """The key of the word that it shows, if it shows one."""
 
 
 class Dot(Struct, frozen=True):
@@ -84,6 +88,8 @@ class TextRun(Struct, frozen=True):
 
     text: str
     role: Role
+    word: str = ""
+    """The key of the word that it shows, if it shows one."""
 
 
 class Box(NamedTuple):
@@ -129,6 +135,8 @@ class Text(Struct, frozen=True):
     is_bold: bool = False
     is_mono: bool = False
     is_turned: bool = False
+    word: str = ""
+    """The key of the word that it shows, if it shows one."""
 
     @property
     def words(self) -> str:

@@ -85,6 +85,7 @@ class LinearDimension(Struct, frozen=True):
     axis: int
     text: str
     role: Role
+    word: str = ""
 
     @property
     def length(self) -> float:
@@ -100,6 +101,7 @@ class Aligned(Struct, frozen=True):
     text: str
     role: Role
     is_beside: bool = False
+    word: str = ""
 
 
 class Ordinate(Struct, frozen=True):
@@ -109,6 +111,7 @@ class Ordinate(Struct, frozen=True):
     axis: int
     text: str
     role: Role
+    word: str = ""
 
 
 class Angle(Struct, frozen=True):
@@ -118,6 +121,7 @@ class Angle(Struct, frozen=True):
     degrees: float
     text: str
     role: Role
+    word: str = ""
 
 
 class Leader(Struct, frozen=True):
@@ -127,6 +131,7 @@ class Leader(Struct, frozen=True):
     away: Point
     text: str
     role: Role
+    word: str = ""
 
 
 class Slide(Struct, frozen=True):

@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from contoursolve.analysis import analyse
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, count_choices
+from contoursolve.diagnosis.wording import word_keys
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT
@@ -73,6 +74,8 @@ class Subject(Struct, frozen=True):
     roles: Mapping[str, Role]
     blamed: frozenset[Span]
     """The words and facts that errors are about."""
+    keys: Mapping[Span, str] = {}
+    """The keys of the words, by their places."""
 
     @property
     def profile(self) -> Profile:
@@ -95,6 +98,11 @@ class Subject(Struct, frozen=True):
     def role(self, given: str) -> Role:
         """What became of a word."""
         return self.roles.get(given, Role.GIVEN)
+
+    def key(self, given: str) -> str:
+        """The key of the word of a given; empty without a word."""
+        found = self.profile.givens.get(given)
+        return self.keys.get(found.word.span, "") if found is not None and found.word is not None else ""
 
     def word(self, given: str) -> str | None:
         """The text of the word of a given; None without a word."""
@@ -122,7 +130,14 @@ class Subject(Struct, frozen=True):
 def subject_of(answer: Answer) -> Subject:
     """All that a picture of a contour shows."""
     known, blamed = find_known(answer), frozenset(_blamed(answer))
-    return Subject(answer, known, tuple(list_trails(answer, known)), _roles(answer, blamed), blamed)
+    return Subject(
+        answer,
+        known,
+        tuple(list_trails(answer, known)),
+        _roles(answer, blamed),
+        blamed,
+        word_keys(answer.claim.words.values()),
+    )
 
 
 # Words -------------------------------------------------------------------------------------------------------

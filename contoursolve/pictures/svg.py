@@ -137,17 +137,22 @@ def _paint(what: str, role: Role, theme: Theme) -> str:
     return f'{attribute} class="{what[0]}-{role.value}"' if theme is Theme.PAGE else attribute
 
 
+def _word(key: str, theme: Theme) -> str:
+    """The attribute that names the word which an element shows, for whoever styles a page."""
+    return f" data-word={quoteattr(_known(key))}" if key and theme is Theme.PAGE else ""
+
+
 def _element(item: Item, theme: Theme) -> str:
+    told = _word(item.word, theme) if not isinstance(item, Dot) else ""
     if isinstance(item, Stroke):
         dash = f' stroke-dasharray="{" ".join(map(_number, item.dash))}"' if item.dash else ""
         shape = "".join(_steps(item))
         join = ' stroke-linejoin="round" stroke-linecap="round"' if not item.dash else ""
-        return (
-            f'<path d="{shape}" {_paint("stroke", item.role, theme)} stroke-width="{_number(item.width)}"{join}{dash}/>'
-        )
+        paint = f'{_paint("stroke", item.role, theme)} stroke-width="{_number(item.width)}"'
+        return f'<path d="{shape}" {paint}{join}{dash}{told}/>'
     if isinstance(item, Shape):
         places = " ".join(map(_place, item.corners))
-        return f'<polygon points="{places}" {_paint("fill", item.role, theme)}/>'
+        return f'<polygon points="{places}" {_paint("fill", item.role, theme)}{told}/>'
     if isinstance(item, Dot):
         fill = _paint("fill", item.role, theme) if item.is_filled else ""
         circle = f'<circle cx="{_number(item.at[0])}" cy="{_number(item.at[1])}" r="{_number(item.radius)}" '
@@ -168,16 +173,18 @@ def _text(text: Text, theme: Theme) -> str:
     if text.is_turned:
         kind += f' transform="rotate(-90 {_place(text.at, " ")})"'
     place = f'x="{_number(text.at[0])}" y="{_number(text.at[1])}" font-size="{_number(text.size)}"{kind}'
-    roles = {run.role for run in text.runs}
-    if len(roles) == 1:
+    roles, told = {run.role for run in text.runs}, _word(text.word, theme)
+    if len(roles) == 1 and not (theme is Theme.PAGE and any(run.word for run in text.runs)):
         inside, fill = _clean(text.words), " " + _paint("fill", next(iter(roles)), theme)
     else:
         inside = "".join(
-            f"<tspan {_paint('fill', run.role, theme)}>{_clean(run.text)}</tspan>" for run in text.runs if run.text
+            f"<tspan {_paint('fill', run.role, theme)}{_word(run.word, theme)}>{_clean(run.text)}</tspan>"
+            for run in text.runs
+            if run.text
         )
         fill = ""
     blanks = ' xml:space="preserve"' if "  " in text.words or text.words != text.words.strip() else ""
-    return f"<text {place}{blanks}{fill}>{inside}</text>"
+    return f"<text {place}{blanks}{fill}{told}>{inside}</text>"
 
 
 def _steps(stroke: Stroke) -> Iterator[str]:
