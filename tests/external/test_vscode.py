@@ -297,14 +297,14 @@ def test_the_picture_follows_the_cursor_and_both_show_a_word(browser, address, p
     editor.status.filter(has_text="yasnac-lx3").wait_for()
     editor.go_to(21, 24)
     editor.command("Draw the Contour Beside")
-    picture.locator("[data-word='P'].marked").first.wait_for()
+    picture.locator("text[data-word='P'].marked").first.wait_for()
     page.screenshot(path=artefacts / "vscode-picture.png")
     assert "corner 1 does not fit" in picture.locator("section").inner_text()
 
     # Another word, another contour, and a block that is none.
     editor.go_to(21, 12)
-    picture.locator("[data-word='A'].marked").first.wait_for()
-    assert picture.locator("[data-word='P'].marked").count() == 0
+    picture.locator("text[data-word='A'].marked").first.wait_for()
+    assert picture.locator("text[data-word='P'].marked").count() == 0
     editor.go_to(17, 12)
     picture.locator("svg title", has_text="line 17").wait_for(state="attached")
     editor.go_to(9)
@@ -337,7 +337,7 @@ def test_the_picture_follows_the_cursor_and_both_show_a_word(browser, address, p
     page.keyboard.type("(")
     picture.locator("[data-word='K']").first.wait_for(state="detached")
     editor.press("Control+Z")
-    picture.locator("[data-word='K'].marked").first.wait_for()
+    picture.locator("text[data-word='K'].marked").first.wait_for()
     editor.check()
 
 
@@ -354,10 +354,11 @@ def test_a_python_without_the_package_is_told_what_to_type(browser, code_server,
         editor.page.screenshot(path=artefacts / "vscode-no-python.png")
         message.get_by_role("button", name="Copy").click()
         message.wait_for(state="detached")
-        assert editor.page.evaluate("navigator.clipboard.readText()") == command
+        editor.page.wait_for_function(COPIED, arg=command)
         editor.check()
 
 
+COPIED = "async command => await navigator.clipboard.readText() === command"
 BACKGROUND = "editor => getComputedStyle(editor).backgroundColor"
 TEXT_IN = """box => {
   const inside = box.getBoundingClientRect(), range = document.createRange();

@@ -29,9 +29,14 @@ export async function convert(client: LanguageClient, document: TextDocument): P
   await showWritten(document, written, control.startsWith("siemens") ? "sinumerik" : "gcode", `for ${control}`);
 }
 
+/** What the server says, as a sentence beside others. */
+function sentence(text: string): string {
+  return text && text.charAt(0).toUpperCase() + text.slice(1) + (/[.!?]$/.test(text) ? "" : ".");
+}
+
 async function showWritten(document: TextDocument, written: Written, language: string, what: string): Promise<void> {
   if (written.text === null) {
-    void window.showErrorMessage(written.message || "contoursolve wrote no program.");
+    void window.showErrorMessage(sentence(written.message) || "contoursolve wrote no program.");
     return;
   }
   const made = await workspace.openTextDocument({ content: written.text, language });
@@ -39,19 +44,19 @@ async function showWritten(document: TextDocument, written: Written, language: s
   const compare = "Compare";
   const name = basename(document.fileName);
   const news = `This is a new document: the program ${what}. ${name} is as it was.`;
-  const answer = await window.showInformationMessage([news, written.message].filter(Boolean).join(" "), compare);
+  const answer = await window.showInformationMessage([news, sentence(written.message)].filter(Boolean).join(" "), compare);
   if (answer) await commands.executeCommand("vscode.diff", document.uri, made.uri, `${name} and the program ${what}`);
 }
 
 export async function explore(client: LanguageClient, document: TextDocument, line: number): Promise<void> {
   const answer = await ask<Notebook>(client, "contoursolve.explore", document.uri.toString(), line);
   if (answer.notebook === null) {
-    void window.showErrorMessage(answer.message || `Line ${line + 1} is no part of a contour.`);
+    void window.showErrorMessage(sentence(answer.message) || `Line ${line + 1} is no part of a contour.`);
     return;
   }
   const made = await workspace.openNotebookDocument("jupyter-notebook", notebookData(answer.notebook));
   await window.showNotebookDocument(made, { viewColumn: ViewColumn.Beside });
-  if (answer.message) void window.showInformationMessage(answer.message);
+  if (answer.message) void window.showInformationMessage(sentence(answer.message));
 }
 
 interface Ipynb {
@@ -83,7 +88,7 @@ let reportPanel: WebviewPanel | undefined;
 export async function report(client: LanguageClient, document: TextDocument): Promise<void> {
   const { html, message } = await ask<Report>(client, "contoursolve.report", document.uri.toString());
   if (html === null) {
-    void window.showErrorMessage(message || "contoursolve wrote no report.");
+    void window.showErrorMessage(sentence(message) || "contoursolve wrote no report.");
     return;
   }
   const name = basename(document.fileName);
@@ -101,7 +106,7 @@ export async function report(client: LanguageClient, document: TextDocument): Pr
   reportPanel.webview.html = html.replace(/<head[^>]*>/i, (head) => head + policy);
   reportPanel.reveal(undefined, true);
   const save = "Save the Page...";
-  const news = ["This is the report. Save it to print or send it.", message].filter(Boolean).join(" ");
+  const news = ["This is the report. Save it to print or send it.", sentence(message)].filter(Boolean).join(" ");
   if ((await window.showInformationMessage(news, save)) !== save) return;
   const beside = document.uri.scheme === "file" ? { defaultUri: Uri.file(document.fileName.replace(/(\.\w+)?$/, ".html")) } : {};
   const target = await window.showSaveDialog({ ...beside, filters: { "Web page": ["html"] } });

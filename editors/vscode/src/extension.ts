@@ -83,10 +83,7 @@ async function start(folder: string, output: LogOutputChannel, status: StatusBar
     outputChannel: output,
     revealOutputChannelOn: RevealOutputChannelOn.Never,
     initializationOptions: { control, settings, inlayHints, codeLenses, pictures, format, clientCommands: true },
-    synchronize: {
-      configurationSection: "contoursolve",
-      fileEvents: workspace.createFileSystemWatcher("**/contoursolve.toml"),
-    },
+    synchronize: { configurationSection: "contoursolve" },
     middleware: { window: { showDocument: (params, token, next) => showPage(params.uri) ?? next(params, token) } },
   };
   const made = new LanguageClient("contoursolve", "contoursolve", server, options);

@@ -46,8 +46,9 @@ function parts(): SVGElement[] {
 
 function prepare(part: SVGElement, text: string | undefined): void {
   const key = part.dataset.word!;
-  const seen = figure.querySelector<SVGElement>(`[data-word="${CSS.escape(key)}"]`);
-  if (seen === part) part.setAttribute("tabindex", "0"); // One stop of the Tab key for each word.
+  const same = parts().filter((other) => other.dataset.word === key);
+  const stop = same.find((other) => other.localName === "text") ?? same[0];
+  if (stop === part) part.setAttribute("tabindex", "0"); // One stop of the Tab key for each word.
   part.setAttribute("role", "button");
   part.setAttribute("aria-label", text ?? key);
   const point = (at: string | null) => {
