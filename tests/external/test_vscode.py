@@ -36,6 +36,7 @@ FLAGS = [
     "--disable-component-update",
     "--disable-sync",
 ]
+CLIPBOARD = ["clipboard-read", "clipboard-write"]
 SECONDS = 40
 SETTINGS = {
     "contoursolve.python": sys.executable,
@@ -167,8 +168,8 @@ def artefacts(request, tmp_path):
 class Editor:
     """A window of the editor with one program; afterwards it has asked nobody but this machine."""
 
-    def __init__(self, browser, address, program, **options):
-        self.context = browser.new_context(viewport={"width": 1600, "height": 1150}, **options)
+    def __init__(self, browser, address, program):
+        self.context = browser.new_context(viewport={"width": 1600, "height": 1150}, permissions=CLIPBOARD)
         self.page = self.context.new_page()
         self.page.set_default_timeout(SECONDS * 1000)
         self.program, self.asked, self.own = program, [], set()
@@ -217,8 +218,13 @@ class Editor:
     def line(self, text):
         return self.page.locator(".view-line", has_text=text)
 
-    def picture(self):
-        """The page of the picture: a frame in a frame."""
+    def copy_all(self):
+        """The text of the document in sight."""
+        self.press("Control+A", "Control+C", "Home")
+        return self.page.evaluate("navigator.clipboard.readText()")
+
+    def webview(self):
+        """The page of a view: a frame in a frame."""
         return self.page.frame_locator("iframe.webview").frame_locator("iframe#active-frame")
 
     def check(self):
@@ -285,6 +291,16 @@ def test_findings_fixes_and_pictures_stand_beside_the_program(browser, address, 
     editor.status.filter(has_text="yasnac-lx3: 2 of 6 solved").wait_for()
     assert editor.problems() == counts - Counter(error=1)
     editor.line("N310").filter(has_text="Z-75.5").wait_for()
+
+    # A page about the rule of the next finding.
+    editor.go_to(25, 23)
+    editor.press("Control+.")
+    page.locator(".action-widget .action.focused").wait_for()
+    for _ in range(5):  # four fixes stand above it
+        
+        editor.press("ArrowDown")
+    editor.press("Enter")
+    editor.webview().locator("h1", has_text="g111-reversed").wait_for()
     page.screenshot(path=artefacts / "vscode-fixed.png")
 
     assert program.read_bytes() == before
@@ -293,7 +309,7 @@ def test_findings_fixes_and_pictures_stand_beside_the_program(browser, address, 
 
 def test_the_picture_follows_the_cursor_and_both_show_a_word(browser, address, program, artefacts):
     editor = Editor(browser, address, program)
-    page, picture = editor.page, editor.picture()
+    page, picture = editor.page, editor.webview()
     editor.status.filter(has_text="yasnac-lx3").wait_for()
     editor.go_to(21, 24)
     editor.command("Draw the Contour Beside")
@@ -341,11 +357,59 @@ def test_the_picture_follows_the_cursor_and_both_show_a_word(browser, address, p
     editor.check()
 
 
+def test_commands_make_new_documents_and_leave_the_program(browser, address, tmp_path, artefacts):
+    program = tmp_path / "work" / "shaft.nc"
+    program.parent.mkdir()
+    shutil.copy(PROGRAMS / "shaft.nc", program)
+    before = program.read_bytes()
+    editor = Editor(browser, address, program)
+    page = editor.page
+    editor.status.filter(has_text="yasnac-lx3: 7 of 7 solved").wait_for()
+
+    editor.command("Expand to Plain G-code")
+    page.get_by_role("tab", name="shaft-plain.nc").wait_for()
+    assert_same_lines(editor.copy_all(), contoursolve.expand(before.decode()).text)
+    editor.press("Control+1")
+    editor.command("Convert for Another Control")
+    page.locator(".quick-input-list .monaco-list-row", has_text="fanuc-lathe").click()
+    page.get_by_role("tab", name="shaft-fanuc-lathe.nc").wait_for()
+    assert_same_lines(editor.copy_all(), contoursolve.convert(before.decode(), "fanuc-lathe").text)
+    page.screenshot(path=artefacts / "vscode-convert.png")
+    assert sum(editor.problems().values()) == 0
+
+    editor.press("Control+1")
+    editor.command("Show the Report")
+    page.get_by_role("tab", name="Report: shaft.nc").wait_for()
+    report = editor.webview()
+    report.locator("article").nth(6).wait_for()
+    assert report.locator("article figure svg").count() == 7
+    page.screenshot(path=artefacts / "vscode-report.png")
+
+    editor.go_to(71, 12)
+    editor.command("Explore the Contour")
+    page.locator(".notebook-editor .view-line", has_text="contoursolve.explore").wait_for()
+    page.screenshot(path=artefacts / "vscode-explore.png")
+
+    editor.press("Control+1")
+    editor.command("Choose the Control")
+    page.locator(".quick-input-list .monaco-list-row", has_text="nct-99m").click()
+    editor.status.filter(has_text="nct-99m: no contours").wait_for()
+    editor.command("Restart the Server")
+    editor.status.wait_for(state="detached")
+    editor.status.filter(has_text="nct-99m: no contours").wait_for()
+    assert program.read_bytes() == before
+    editor.check()
+
+
+def assert_same_lines(found, expected):
+    assert found.splitlines() == expected.splitlines()
+
+
 def test_a_python_without_the_package_is_told_what_to_type(browser, code_server, package, program, tmp_path, artefacts):
     run(sys.executable, "-m", "venv", "--without-pip", "bare", folder=tmp_path)
     python = next(path for path in (tmp_path / "bare").glob("*/python*") if path.stem == "python")
     with serving(code_server, package, tmp_path / "editor", **{"contoursolve.python": str(python)}) as address:
-        editor = Editor(browser, address, program, permissions=["clipboard-read", "clipboard-write"])
+        editor = Editor(browser, address, program)
         message = editor.page.locator(".notification-toast")
         command = f'{python} -m pip install "contoursolve[lsp]"'
         message.filter(has_text="This Python lacks contoursolve. Type this in a terminal").wait_for()

@@ -11,7 +11,7 @@ import {
   workspace,
 } from "vscode";
 import { LanguageClient, type LanguageClientOptions, RevealOutputChannelOn, type ServerOptions } from "vscode-languageclient/node";
-import { chooseControl, convert, expand, explore, report } from "./commands";
+import { chooseControl, convert, expand, explore, isResult, report } from "./commands";
 import { PictureView } from "./picture";
 import { LANGUAGES, type Status } from "./protocol";
 import { choosePython, findPython, onInterpreterChange, type Python, spell } from "./python";
@@ -84,7 +84,11 @@ async function start(folder: string, output: LogOutputChannel, status: StatusBar
     revealOutputChannelOn: RevealOutputChannelOn.Never,
     initializationOptions: { control, settings, inlayHints, codeLenses, pictures, format, clientCommands: true },
     synchronize: { configurationSection: "contoursolve" },
-    middleware: { window: { showDocument: (params, token, next) => showPage(params.uri) ?? next(params, token) } },
+    middleware: {
+      didOpen: (document, next) => (isResult(document) ? Promise.resolve() : next(document)),
+      didChange: (event, next) => (isResult(event.document) ? Promise.resolve() : next(event)),
+      window: { showDocument: (params, token, next) => showPage(params.uri) ?? next(params, token) },
+    },
   };
   const made = new LanguageClient("contoursolve", "contoursolve", server, options);
   made.onNotification("contoursolve/status", (news: Status) => status.take(news));
@@ -143,12 +147,13 @@ async function documentOf(uri?: string | Uri): Promise<TextDocument> {
 /** The editor of an address, or of what is in sight; with the cursor on a line, if one is given. */
 async function editorOf(uri?: string | Uri, line?: number): Promise<TextEditor> {
   const active = window.activeTextEditor;
-  // The button in the title gives an address, and no line.
-  if (!uri && active) return active;
-  if (!uri) throw new Error("Open a program first.");
-  const address = typeof uri === "string" ? Uri.parse(uri) : uri;
+  const address = typeof uri === "string" ? Uri.parse(uri) : (uri ?? active?.document.uri);
+  if (!address) throw new Error("Open a program first.");
+  if (isResult({ uri: address })) throw new Error("Save this document first. contoursolve reads it when it has a file.");
   const seen = window.visibleTextEditors.find((editor) => editor.document.uri.toString() === address.toString());
+  if (seen && seen === active && line === undefined) return seen;
   const editor = await window.showTextDocument(address, seen?.viewColumn ? { viewColumn: seen.viewColumn } : {});
+  // The button in the title gives something else.
   if (typeof line === "number") {
     const { start } = editor.document.lineAt(line).range;
     if (editor.selection.active.line !== line) editor.selection = new Selection(start, start);

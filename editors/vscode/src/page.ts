@@ -14,12 +14,11 @@ window.addEventListener("message", ({ data }: MessageEvent<ToPage>) => {
     notes.replaceChildren(paragraph("hint", data.message));
     return;
   }
-  const { svg, title, words, findings } = data.picture;
+  const { svg, words, findings } = data.picture;
   figure.replaceChildren(...draw(svg));
-  notes.replaceChildren(
-    paragraph("title", title),
-    ...(findings.length ? findings.map((finding) => paragraph("finding", finding)) : [paragraph("hint", "No findings.")]),
-  );
+  // A finding begins with how serious it is.
+  notes.replaceChildren(...findings.map((text) => paragraph(`finding ${text.split(":", 1)[0]}`, text)));
+  if (!findings.length) notes.replaceChildren(paragraph("hint", "No findings."));
   const texts = new Map(words.map((word) => [word.key, word.text]));
   for (const part of parts()) prepare(part, texts.get(part.dataset.word!));
   mark(data.marked);

@@ -17,14 +17,17 @@ import {
   workspace,
 } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
+import { isResult } from "./commands";
 import { LANGUAGES, type Picture, type Word } from "./protocol";
 
 /** What the page says. */
 export type FromPage = { type: "ready" } | { type: "point"; key: string | null } | { type: "go"; key: string };
 
+type Drawing = Pick<Picture, "svg" | "words" | "findings">;
+
 /** What the page is told. */
 export type ToPage =
-  | { type: "picture"; picture: Pick<Picture, "title" | "svg" | "words" | "findings">; marked: string | null }
+  | { type: "picture"; picture: Drawing; marked: string | null }
   | { type: "none"; message: string }
   | { type: "mark"; key: string | null };
 
@@ -101,7 +104,7 @@ export class PictureView implements Disposable {
   }
 
   private follow(editor: TextEditor): void {
-    if (!this.panel || !LANGUAGES.includes(editor.document.languageId)) return;
+    if (!this.panel || !LANGUAGES.includes(editor.document.languageId) || isResult(editor.document)) return;
     this.editor = editor;
     if (this.isShown()) {
       // The same contour: another word of it.
@@ -219,8 +222,8 @@ export class PictureView implements Disposable {
   }
 }
 
-function slim({ title, svg, words, findings }: Picture): Pick<Picture, "title" | "svg" | "words" | "findings"> {
-  return { title, svg, words, findings };
+function slim({ svg, words, findings }: Picture): Drawing {
+  return { svg, words, findings };
 }
 
 function rangeOf({ range: { start, end } }: { range: Word["range"] }): Range {

@@ -43,9 +43,8 @@ export class StatusBar implements Disposable {
       return;
     }
     const icon = status.errors ? "$(error)" : status.warnings ? "$(warning)" : "$(check)";
-    this.item.text = status.control
-      ? `${icon} ${status.control}: ${status.solved} of ${status.contours} solved`
-      : "$(question) no control";
+    const counts = status.contours ? `${status.solved} of ${status.contours} solved` : "no contours";
+    this.item.text = status.control ? `${icon} ${status.control}: ${counts}` : "$(question) no control";
     this.item.tooltip = [tell(status), "Click to choose the control."].join("\n");
     this.item.backgroundColor = status.control ? undefined : new ThemeColor("statusBarItem.warningBackground");
     this.item.show();
