@@ -20,17 +20,14 @@ settings.register_profile("dev", max_examples=10, deadline=None, derandomize=Tru
 settings.register_profile("ci", settings.get_profile("dev"), max_examples=80)
 settings.load_profile("dev")
 
-CHROMIUM = (("chromium", "chromium-browser"), "chromium (Debian: apt-get install chromium)")
 PROGRAMS = {
-    "interpreter": ((("rs274",), "rs274 (Debian: apt-get install linuxcnc-uspace)"),),
-    "browser": (CHROMIUM,),
-    "editor": (CHROMIUM, (("node",), "node 20, 22 or 24"), (("npm",), "npm")),
+    "interpreter": (("rs274",), "rs274 (Debian: apt-get install linuxcnc-uspace)"),
+    "browser": (("chromium", "chromium-browser"), "chromium (Debian: apt-get install chromium)"),
 }
 """The programs of which tests with a marker need one, and how to get them."""
 
 PACKAGES = {
     "browser": ("playwright", "jupyterlab", "ipykernel", "anywidget", "htpy"),
-    "editor": ("playwright", "pygls", "lsprotocol"),
     "notebook": ("nbclient", "nbformat", "ipykernel"),
     "site": ("zensical", "mkdocstrings_handlers"),
 }
@@ -47,7 +44,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_runtest_setup(item: pytest.Item) -> None:
     own = {mark.name for mark in item.iter_markers()}
-    missing = [advice for marker in own & PROGRAMS.keys() for need in PROGRAMS[marker] for advice in missing_of(*need)]
+    missing = [advice for marker in own & PROGRAMS.keys() for advice in missing_of(*PROGRAMS[marker])]
     packages = {name for marker in own & PACKAGES.keys() for name in PACKAGES[marker]}
     packages |= {name for mark in item.iter_markers("needs") for name in mark.args}
     missing += [name for name in sorted(packages) if find_spec(name) is None]

@@ -61,22 +61,24 @@ def words_to_add(answer: Answer, dialect: Dialect) -> tuple[Addition, ...]:
 
     >>> import contoursolve
     >>> from contoursolve.controls import YASNAC_LX3
-    >>> answer = contoursolve.solve("G111 A135. K-10. B180. U20.", start="X40. Z0.").answers[0]
+    >>> answer = contoursolve.solve("G111 A135. K-10. B120. U40.", start="X40. Z0.").answers[0]
     >>> [each.text for each in words_to_add(answer, YASNAC_LX3)]
     ['P?', 'Q?', 'C?', 'D?']
     """
     claim = answer.claim
-    fixed = {}
+    completing: dict[tuple[str, int], tuple[str, Contour | None]] = {}
     if answer.contour is None:
         for repair in find_repairs(answer, dialect).repairs:
             if len(repair.edits) == 1 and repair.edits[0].kind is EditKind.ADD:
                 edit = repair.edits[0]
-                fixed[edit.address, edit.line] = edit.text, repair.contour
-    found = []
-    for name in _possible(claim, dialect):
-        address, index = claim.vocabulary[name]
+                completing[edit.address, edit.line] = edit.text, repair.contour
+    found, possible = [], {*_possible(claim, dialect)}
+    for name, (address, index) in claim.vocabulary.items():
         line, row = claim.blocks[index].line, claim.lexicon.addresses.get(address)
-        text, contour = fixed.get((address, line), (spell(address, "?"), None))
+        # What follows from the others for most values does not where their lines are parallel.
+        if name not in possible and (name in claim.words or (address, line) not in completing):
+            continue
+        text, contour = completing.get((address, line), (spell(address, "?"), None))
         blocks = apply_edits(claim.blocks, [Edit(EditKind.ADD, address, text=text, line=line)])
         meaning = claim.form.meanings.get(name) or (row.meaning if row else "")
         found.append(Addition(address, meaning, text, line, "\n".join(blocks), contour))

@@ -3,6 +3,7 @@
 import asyncio
 import logging
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import wraps
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,9 @@ logger = logging.getLogger(__name__)
 SECTION = "contoursolve"
 STATUS, PICTURE = "contoursolve/status", "contoursolve/picture"
 
+PATIENCE = 5.0
+"""Seconds until a client that was asked for its options has to answer."""
+
 AT_ONCE = 8
 """Blocks and contours that are examined before the next message is looked at."""
 
@@ -38,6 +42,7 @@ class Server(LanguageServer):
         self.checking: dict[str, asyncio.Task[None]] = {}
         self.options, self.pages = Options(), Pages()
         self.has_client_commands = False
+        self.is_configured = asyncio.Event()
 
     def open(self, item: types.TextDocumentItem) -> None:
         """Begin to follow a program."""
@@ -56,7 +61,7 @@ class Server(LanguageServer):
 
     async def _check(self, opened: Opened) -> None:
         try:
-            await asyncio.sleep(0)
+            await self._until_configured()
             while not opened.program.check(AT_ONCE):
                 await asyncio.sleep(0)
             self._tell(opened)
@@ -64,6 +69,13 @@ class Server(LanguageServer):
             logger.exception("%s was not examined", opened.uri)
             message = f"{opened.program.name} was not examined: {type(error).__name__}: {error}; please report it"
             self.window_show_message(types.ShowMessageParams(types.MessageType.Error, message))
+
+    async def _until_configured(self) -> None:
+        """Wait until the client has told its options: with others, the control may be another one."""
+        with suppress(TimeoutError):
+            await asyncio.wait_for(self.is_configured.wait(), PATIENCE)
+        self.is_configured.set()
+        await asyncio.sleep(0)
 
     def _tell(self, opened: Opened) -> None:
         """Send the findings about a program, and how it stands."""
@@ -120,6 +132,7 @@ class Server(LanguageServer):
             wanted = types.ConfigurationParams([types.ConfigurationItem(section=SECTION)])
             sections = await self.workspace_configuration_async(wanted)
             self.configure(sections[0] if sections else None)
+        self.is_configured.set()
 
     async def show(self, uri: str, what: str) -> None:
         """Have the client show a file, or else say where it is."""

@@ -173,8 +173,10 @@ def _text(text: Text, theme: Theme) -> str:
     if text.is_turned:
         kind += f' transform="rotate(-90 {_place(text.at, " ")})"'
     place = f'x="{_number(text.at[0])}" y="{_number(text.at[1])}" font-size="{_number(text.size)}"{kind}'
-    roles, told = {run.role for run in text.runs}, _word(text.word, theme)
-    if len(roles) == 1 and not (theme is Theme.PAGE and any(run.word for run in text.runs)):
+    roles, words = {run.role for run in text.runs}, {run.word for run in text.runs} - {""}
+    is_one = len(text.runs) == 1 or theme is not Theme.PAGE or not words
+    told = _word(text.word or (text.runs[0].word if is_one and words else ""), theme)
+    if len(roles) == 1 and is_one:
         inside, fill = _clean(text.words), " " + _paint("fill", next(iter(roles)), theme)
     else:
         inside = "".join(

@@ -119,8 +119,8 @@ _REPEATS = 10_000
 class BlockNumber(Struct, frozen=True):
     """A block number as it is typed, in its block or in a jump to it.
 
-    `span` are its digits, and `number` is what they say. `line` is where the block with this number is: None if there
-    is none in the program, or several.
+    `span` are its digits, and `number` is what they say. `line` is that of the block: None for a jump to no block of
+    the program, or to one of several.
     """
 
     span: Span
@@ -156,11 +156,12 @@ def block_number_at(
     (10, 1, 6, 8)
     """
     numbers = numbers_of(text, control, settings)
-    for place in (*numbers.own.values(), *numbers.jumps):
-        if place.span.line == line and place.begin <= column <= place.span.end_column:
-            own = numbers.blocks.get((place.section, place.number), ())
-            return BlockNumber(place.span, place.number, own[0].span.line if len(own) == 1 else None)
-    return None
+    places = (each for each in (numbers.own.get(line), *numbers.jumps) if each is not None and each.span.line == line)
+    place = next((each for each in places if each.begin <= column <= each.span.end_column), None)
+    if place is None:
+        return None
+    blocks = [place] if place is numbers.own.get(line) else numbers.blocks.get((place.section, place.number), [])
+    return BlockNumber(place.span, place.number, blocks[0].span.line if len(blocks) == 1 else None)
 
 
 def rename_block(

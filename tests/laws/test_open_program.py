@@ -4,7 +4,7 @@ import random
 from pathlib import Path
 
 import pytest
-from mutations import ODD
+from editor import random_edit
 
 import contoursolve
 from contoursolve import OpenProgram
@@ -12,33 +12,6 @@ from contoursolve import OpenProgram
 ROOT = Path(__file__).parents[2]
 PROGRAMS = sorted([*(ROOT / "notebooks" / "programs").glob("*.nc"), *(ROOT / "docs" / "programs").glob("*.*")])
 CONTROLS = {"plate.nc": "nct-99m", "cover.nc": "nct-99m", "bracket.nc": "isg", "flange.mpf": "siemens-840d"}
-
-
-def random_edit(lines: list[str], draw: random.Random) -> tuple[tuple[int, int], tuple[int, int], str]:
-    """Two places and what is put between them: mostly a word or a few characters, sometimes lines."""
-    line = draw.randrange(len(lines)) + 1
-    column = draw.randrange(len(lines[line - 1]) + 1) + 1
-    match draw.randrange(8):
-        case 0:
-            return (line, column), (line, column), draw.choice(ODD)
-        case 1:
-            return (line, column), (line, column + draw.randrange(1, 6)), ""
-        case 2:
-            return (line, column), (line, column), draw.choice("0123456789.-XZAKPQRI \n")
-        case 3:
-            return (line, 1), (line, 1), draw.choice(lines) + draw.choice(("\n", "\r\n", "\r"))
-        case 4:
-            return (line, 1), (line + draw.randrange(1, 4), 1), ""
-        case 5:
-            return (line, column), (line, column), "\n"
-        case 6:
-            return (
-                (line, len(lines[line - 1]) + 1),
-                (line, 99_999),
-                " " + draw.choice(draw.choice(lines).split() or [""]),
-            )
-        case _:
-            return (line, column), (line, column + 1), draw.choice("0123456789.")
 
 
 def edited(text: str, begin: tuple[int, int], end: tuple[int, int], new: str) -> str:

@@ -1,16 +1,18 @@
 """An editor for tests: a client of the language server that applies edits as an editor does."""
 
 import asyncio
+import random
 import sys
 from collections.abc import Awaitable, Callable, Coroutine
 from typing import Any
 
 from lsprotocol import types
+from mutations import ODD
 from pygls.lsp.client import LanguageClient
 
 from contoursolve.gcode import split_lines
 
-PATIENCE = 8
+PATIENCE = 60
 """Seconds until an answer has to be there."""
 
 CAPABILITIES = types.ClientCapabilities(
@@ -65,8 +67,10 @@ class Editor:
             self.messages.append(params.message)
 
         @client.feature("contoursolve/status")
-        def _(params: Any) -> None:
+        async def _(params: Any) -> None:
             self.statuses[params.uri] = params
+            async with self._told:
+                self._told.notify_all()
 
         await client.start_io(sys.executable, "-W", "error", "-m", "contoursolve", "lsp")
         told = types.InitializeParams(capabilities=options.pop("capabilities", CAPABILITIES), root_uri=None)
@@ -102,10 +106,20 @@ class Editor:
     async def findings(self, uri: str) -> list[types.Diagnostic]:
         """What the server finds in the text as it is now."""
         wanted = self.versions[uri]
-        async with self._told:
-            is_told = lambda: uri in self.found and self.found[uri].version == wanted  # noqa: E731
-            await asyncio.wait_for(self._told.wait_for(is_told), PATIENCE)
+        await self.until(lambda: uri in self.found and self.found[uri].version == wanted)
         return [*self.found[uri].diagnostics]
+
+    async def until(self, holds: Callable[[], bool]) -> None:
+        """Wait until the server has told something."""
+
+        def tried() -> bool:
+            try:
+                return holds()
+            except KeyError:
+                return False
+
+        async with self._told:
+            await asyncio.wait_for(self._told.wait_for(tried), PATIENCE)
 
 
 def offset(text: str, position: types.Position) -> int:
@@ -146,3 +160,30 @@ def in_editor(use: Callable[[Editor], Coroutine[Any, Any, None]], section: dict[
             await editor.stop()
 
     asyncio.run(run())
+
+
+def random_edit(lines: list[str], draw: random.Random) -> tuple[tuple[int, int], tuple[int, int], str]:
+    """Two places and what is put between them: mostly a word or a few characters, sometimes lines."""
+    line = draw.randrange(len(lines)) + 1
+    column = draw.randrange(len(lines[line - 1]) + 1) + 1
+    match draw.randrange(8):
+        case 0:
+            return (line, column), (line, column), draw.choice(ODD)
+        case 1:
+            return (line, column), (line, column + draw.randrange(1, 6)), ""
+        case 2:
+            return (line, column), (line, column), draw.choice("0123456789.-XZAKPQRI \n")
+        case 3:
+            return (line, 1), (line, 1), draw.choice(lines) + draw.choice(("\n", "\r\n", "\r"))
+        case 4:
+            return (line, 1), (line + draw.randrange(1, 4), 1), ""
+        case 5:
+            return (line, column), (line, column), "\n"
+        case 6:
+            return (
+                (line, len(lines[line - 1]) + 1),
+                (line, 99_999),
+                " " + draw.choice(draw.choice(lines).split() or [""]),
+            )
+        case _:
+            return (line, column), (line, column + 1), draw.choice("0123456789.")

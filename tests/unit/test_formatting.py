@@ -220,3 +220,8 @@ def test_the_number_under_the_cursor(line, column, expected) -> None:
 def test_a_formatted_program_has_the_same_findings() -> None:
     program = "G00X40.Z0.\nG111X100.A180.B120.(NO K)"
     assert [each.code for each in check(program)] == [each.code for each in check(format_program(program))] != []
+
+
+def test_of_two_blocks_with_one_number_each_has_its_own_line() -> None:
+    program = "N5 X1\nN5 X2\nGOTO 5"
+    assert [block_number_at(program, line, 2).line for line in (1, 2, 3)] == [1, 2, None]

@@ -69,5 +69,16 @@ def test_the_hook_takes_programs_and_fails_on_a_faulty_one(name, status) -> None
     (hook,) = read_yaml(".pre-commit-hooks.yaml")
     program = ROOT / "notebooks" / "programs" / f"{name}.nc"
     assert re.search(hook["files"], program.name)
-    assert not re.search(hook["files"], "README.md")
     assert CliRunner().invoke(main, [hook["entry"].split()[1], str(program)]).exit_code == status
+
+
+@pytest.mark.parametrize("ending", ["nc", "NC", "cnc", "ngc", "tap", "mpf", "MPF", "spf", "min", "eia", "gcode"])
+def test_the_hook_takes_files_by_their_ending(ending) -> None:
+    (hook,) = read_yaml(".pre-commit-hooks.yaml")
+    assert re.search(hook["files"], f"parts/shaft.{ending}")
+
+
+@pytest.mark.parametrize("name", ["README.md", "stdio.h", "nc", "shaft.nc.bak", "shaft.nc~"])
+def test_the_hook_leaves_other_files(name) -> None:
+    (hook,) = read_yaml(".pre-commit-hooks.yaml")
+    assert not re.search(hook["files"], name)

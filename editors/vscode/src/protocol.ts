@@ -2,7 +2,8 @@
 import type { Range } from "vscode-languageclient";
 import type { LanguageClient } from "vscode-languageclient/node";
 
-export const LANGUAGES = ["gcode", "sinumerik", "klartext"];
+/** What the server reads. Klartext has colours alone: no control that reads it is known yet. */
+export const LANGUAGES = ["gcode", "sinumerik"];
 
 export interface Status {
   uri: string;

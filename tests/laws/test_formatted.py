@@ -1,14 +1,18 @@
-"""Formatting changes blanks and block numbers alone: however a program is damaged, its control reads it as before."""
+"""Formatting changes blanks and block numbers alone: however a program is damaged, its control reads it as before. And
+every jump leads to the block that it led to."""
 
 import random
 import re
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import pytest
+from examples import few_and_many
 from generate_fanuc import random_lathe, random_mill
 from mutations import mutate, windows
 from respell import isg, sinumerik
 
-from contoursolve import format_program, solve
+from contoursolve import Replacement, block_number_at, format_program, rename_block, solve
 from contoursolve.controls import DIALECTS
 from contoursolve.gcode import parse, spelled
 
@@ -125,3 +129,77 @@ def test_a_formatted_program_is_read_as_before(seed: int, count: int) -> None:
         except Exception as error:
             raise AssertionError(f"format_program({text!r}, control={control!r}, block_numbers={step})") from error
     assert numbered > count / 6
+
+
+# --- jumps ----------------------------------------------------------------------------------------------
+
+MACRO, WORDS = False, True
+JUMPS = {
+    "fanuc-lathe": [
+        ("GOTO {}", MACRO),
+        ("IF [#1 EQ 5] GOTO{}", MACRO),
+        ("G71 P{} Q{} U1.", WORDS),
+        ("M99 P{}", WORDS),
+        ("M98 Q{} L2", WORDS),
+    ],
+    "haas-mill": [("M97 P{} L2", WORDS), ("M96 P{} Q5", WORDS), ("IF [#1 EQ 5] M99 P{}", MACRO)],
+    "mitsubishi": [("M98 H{}", WORDS), ("GOTO{}", MACRO)],
+    "siemens-840d": [
+        ("GOTOF N{} ; N10", MACRO),
+        ("REPEAT N{} N{} P=2", MACRO),
+        ("CASE R1 OF 1 GOTOF N{} DEFAULT GOTOB N{}", MACRO),
+        ('CYCLE95("N{}:N{}",1)', WORDS),
+    ],
+    "isg": [("$GOTO N{}", MACRO), ("L SEQUENCE [N{} N{} REPEAT=2]", MACRO)],
+}
+"""Statements that name blocks, and whether they are words, which have a number of their own."""
+
+
+class Drawn(NamedTuple):
+    """A program with jumps: its lines with a gap for each number, the lines that these are of, and the numbers."""
+
+    lines: list[tuple[str, list[int]]]
+    own: dict[int, int]
+    named: list[int]
+    """Lines that have a number, or get one if all blocks with words do."""
+
+    def text(self, numbers: Mapping[int, int]) -> str:
+        """The program with these numbers of its lines."""
+        texts = [text.format(*(numbers[line] for line in targets)) for text, targets in self.lines]
+        return "\n".join(f"N{numbers[line]} {text}" if line in numbers else text for line, text in enumerate(texts, 1))
+
+
+def draw_jumps(rng: random.Random, control: str) -> Drawn:
+    """A main program; some of its blocks have numbers."""
+    count = rng.randint(4, 12)
+    kinds = [rng.choice(JUMPS[control]) if rng.random() < 0.4 else ("G1 X5.", WORDS) for _ in range(count)]
+    kinds.append(("M30", WORDS))
+    numbered = [line for line in range(1, count + 2) if rng.random() < 0.5] or [1]
+    own = dict(zip(numbered, rng.sample(range(1, 2_000), len(numbered)), strict=True))
+    lines = [(text, rng.choices(numbered, k=text.count("{}"))) for text, _ in kinds]
+    return Drawn(lines, own, [line for line, (_, words) in enumerate(kinds, 1) if words is WORDS or line in own])
+
+
+@few_and_many(40, 2_000)
+@pytest.mark.parametrize("control", JUMPS)
+def test_jumps_lead_to_the_same_blocks(control: str, count: int) -> None:
+    rng = random.Random(count)
+    for _ in range(count):
+        drawn, step = draw_jumps(rng, control), rng.choice((1, 5, 10))
+        text = drawn.text(drawn.own)
+        anew = {line: step * place for place, line in enumerate(drawn.named, 1)}
+        assert format_program(text, control=control, block_numbers=step) == drawn.text(anew), text
+        line, number = rng.choice(list(drawn.own)), rng.randint(2_000, 9_999)
+        assert applied(text, rename_block(text, line, number, control=control)) == drawn.text(
+            drawn.own | {line: number}
+        )
+        for place in rename_block(text, line, number, control=control):
+            found = block_number_at(text, place.span.line, place.span.end_column, control=control)
+            assert (found.span, found.number, found.line) == (place.span, drawn.own[line], line)
+
+
+def applied(text: str, changes: Sequence[Replacement]) -> str:
+    lines = text.split("\n")
+    for (line, begin, end), new in ((each.span, each.text) for each in reversed(changes)):
+        lines[line - 1] = lines[line - 1][: begin - 1] + new + lines[line - 1][end - 1 :]
+    return "\n".join(lines)

@@ -1,0 +1,513 @@
+"""The language server as an editor sees it: over the protocol, from a process of its own."""
+
+import asyncio
+import json
+import random
+import re
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from editor import Editor, applied, edits_of, in_editor, random_edit, types
+from examples import some_of
+
+import contoursolve
+from contoursolve import DIALECTS, Severity, end_text, solve
+from contoursolve.gcode import split_lines
+
+PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
+BROKEN = (PROGRAMS / "shaft_broken.nc").read_text()
+SHAFT = "file:///programs/shaft.nc"
+
+
+def at(line: int, character: int) -> types.Position:
+    return types.Position(line - 1, character - 1)
+
+
+def whole(text: str) -> types.Range:
+    return types.Range(types.Position(0, 0), types.Position(text.count("\n") + 1, 0))
+
+
+def stretch(text: str, span: range) -> str:
+    return text[offset_of(text, span.start) : offset_of(text, span.end)]
+
+
+def offset_of(text: str, position: types.Position) -> int:
+    return len(applied(text, types.TextEdit(types.Range(position, types.Position(10**6, 0)), "")))
+
+
+async def actions(editor: Editor, uri: str, where: types.Range) -> list[types.CodeAction]:
+    """The fixes at a place."""
+    document, context = types.TextDocumentIdentifier(uri), types.CodeActionContext([])
+    found = await editor.ask(
+        editor.client.text_document_code_action_async(types.CodeActionParams(document, where, context))
+    )
+    return [each for each in found if isinstance(each, types.CodeAction)]
+
+
+def about(editor: Editor, uri: str, position: types.Position) -> dict[str, object]:
+    return {"text_document": types.TextDocumentIdentifier(uri), "position": position}
+
+
+async def run(editor: Editor, command: str, *arguments: object):
+    wanted = types.ExecuteCommandParams(f"contoursolve.{command}", arguments=[*arguments])
+    return await editor.ask(editor.client.workspace_execute_command_async(wanted))
+
+
+# Findings and fixes ------------------------------------------------------------------------------------------
+
+
+def examples(kind: str) -> list[pytest.ParameterSet]:
+    """A control, and the examples of some of its rules."""
+    return [
+        pytest.param(name, tuple(example for rule in rules for example in getattr(rule, kind)), id=f"{name}-{number}")
+        for name, dialect in DIALECTS.items()
+        for number, rules in enumerate(
+            [dialect.rules[first : first + 12] for first in range(0, len(dialect.rules), 12)]
+        )
+    ]
+
+
+@some_of(("control", "programs"), examples("rejected"), one_in=8)
+def test_findings_of_the_rules_examples_stand_where_solve_finds_them(control, programs):
+    """And each fix, applied as the editor does it, gives the contour that its title promises."""
+
+    async def use(editor: Editor) -> None:
+        for number, text in enumerate(programs):
+            uri = f"file:///programs/{number}.nc"
+            editor.open(uri, text)
+            found, wanted = await editor.findings(uri), solve(text, control=control)
+            assert [(each.code, each.range.start.line + 1) for each in found] == [
+                (each.code, max(each.span.line, 1)) for each in wanted.diagnostics
+            ]
+            lines = text.split("\n")
+            for each, finding in zip(found, wanted.diagnostics, strict=True):
+                if finding.span.line > 0:
+                    marked = lines[finding.span.line - 1][finding.span.column - 1 : finding.span.end_column - 1]
+                    assert stretch(text, each.range) == marked
+                    assert each.code_description.href.startswith("file://")
+            for action in await actions(editor, uri, whole(text)):
+                check_fix(text, action, control)
+
+    in_editor(use, {"control": control})
+
+
+def check_fix(text: str, action: types.CodeAction, control: str) -> None:
+    """That a fix does what its title says."""
+    if action.edit is None:
+        assert action.command.command == "contoursolve.explain"
+        return
+    for edit in reversed(edits_of(action)):
+        text = applied(text, edit)
+    result = solve(text, control=control)
+    promised = re.search(r"ends at (.*?)(?: mm| in)? ", f"{action.title} ")
+    if promised is not None and not action.title.endswith("..."):
+        first = min(edit.range.start.line for edit in edits_of(action)) + 1
+        numbers = re.findall(r"-?\d+\.\d+", action.title.rpartition("ends at ")[2])
+        ends = [re.findall(r"-?\d+\.\d+", end_text(each)) for each in result.answers if each.lines[-1] >= first]
+        if not ends:  # plain motions, which end where their words say
+            ends = [re.findall(r"[XYZ](-?\d+\.?\d*)", text)[-len(numbers) :]]
+        assert any(is_near(numbers, end) for end in ends), (action.title, ends, text)
+
+
+def is_near(numbers: list[str], others: list[str]) -> bool:
+    pairs = zip(numbers, others, strict=False)
+    return len(numbers) == len(others) and all(abs(float(one) - float(other)) < 0.0006 for one, other in pairs)
+
+
+def test_places_count_as_the_protocol_does():
+    """Tabs, wide characters and surrogate pairs before the word; after edits in their midst, too."""
+    head = "G00 X40. Z0.\r\n"
+    text = f"{head}(粗加工 😀)\tG111 X100. A180. K-30. B120. P60. (🛠)"
+
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, text)
+        (found,) = await editor.findings(SHAFT)
+        assert stretch(text, found.range) == "P60."
+        assert (
+            found.range.start.character == len(text[len(head) :].split("P60.", maxsplit=1)[0].encode("utf-16-le")) // 2
+        )
+        smile = text[len(head) :].index("😀")
+        editor.edit(SHAFT, types.TextEdit(types.Range(at(2, smile + 1), at(2, smile + 3)), "😀😀"))
+        (found,) = await editor.findings(SHAFT)
+        assert stretch(editor.texts[SHAFT], found.range) == "P60."
+
+    in_editor(use)
+
+
+def test_a_client_may_count_otherwise():
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, "(粗 😀) G00 X40. Z0.\n(粗 😀) G111 X100. A180. K-30. B120. P60.")
+        (found,) = await editor.findings(SHAFT)
+        assert found.range.start.character == len("(粗 😀) G111 X100. A180. K-30. B120. ".encode())
+
+    async def start() -> None:
+        editor = Editor()
+        general = types.GeneralClientCapabilities(position_encodings=[types.PositionEncodingKind.Utf8])
+        answer = await editor.start(capabilities=types.ClientCapabilities(general=general))
+        assert answer.capabilities.position_encoding == types.PositionEncodingKind.Utf8
+        try:
+            await use(editor)
+        finally:
+            await editor.stop()
+
+    asyncio.run(start())
+
+
+def test_the_broken_shaft_is_mended_fix_by_fix():
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, BROKEN)
+        found = await editor.findings(SHAFT)
+        assert {each.code for each in found} == {each.code for each in solve(BROKEN).diagnostics}
+        large = next(each for each in found if each.code == "g111-corner-too-large")
+        assert large.severity is types.DiagnosticSeverity.Error
+        assert "alarm 146 (assumed)" in large.message
+        reversed_ = next(each for each in found if each.code == "g111-a-ignored")
+        assert reversed_.severity is types.DiagnosticSeverity.Warning
+        assert any("start point" in each.message for each in reversed_.related_information)
+        fix = (await actions(editor, SHAFT, large.range))[0]
+        assert fix.title == "write P2.5 for P4. -> the contour ends at Z-75.500 mm X66.000 mm"
+        assert [each.code for each in fix.diagnostics] == ["g111-corner-too-large"]
+        editor.edit(SHAFT, *edits_of(fix))
+        assert "g111-corner-too-large" not in {each.code for each in await editor.findings(SHAFT)}
+        assert "N310 G111 A180. K-20. P2.5 B90. X66. D0.5\n" in editor.texts[SHAFT]
+        twice = next(each for each in found if each.code == "g111-x-and-u")
+        kept = next(each for each in await actions(editor, SHAFT, twice.range) if each.is_preferred)
+        assert kept.title.startswith("delete")
+        page = Path(re.sub("^file://", "", large.code_description.href)).read_text()
+        assert page.startswith("# g111-corner-too-large")
+        assert "2.8.30" in page
+        await run(editor, "explain", "g111-corner-too-large", "yasnac-lx3")
+        assert editor.shown == [large.code_description.href]
+
+    in_editor(use)
+
+
+def test_what_is_closed_has_no_findings():
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, BROKEN)
+        assert await editor.findings(SHAFT)
+        editor.client.text_document_did_close(types.DidCloseTextDocumentParams(types.TextDocumentIdentifier(SHAFT)))
+        hover = await editor.ask(
+            editor.client.text_document_hover_async(types.HoverParams(**about(editor, SHAFT, at(13, 8))))
+        )
+        assert hover is None
+        assert editor.found[SHAFT].diagnostics == ()
+
+    in_editor(use)
+
+
+# What is shown beside the text -------------------------------------------------------------------------------
+
+TURNED = "O0001 (SHAFT)\n(TURN)\n(THE JOURNAL)\nG00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.\n"
+
+
+def test_hovers_hints_symbols_folds():
+    async def use(editor: Editor) -> None:
+        client, document = editor.client, types.TextDocumentIdentifier(SHAFT)
+        editor.open(SHAFT, TURNED)
+
+        async def hover(line: int, character: int) -> str:
+            found = await editor.ask(
+                client.text_document_hover_async(types.HoverParams(**about(editor, SHAFT, at(line, character))))
+            )
+            return found.contents.value if found else ""
+
+        word = await hover(5, 20)
+        assert word.startswith("**K-30.** Z distance from start to virtual intersection")
+        assert "-30 mm" in word
+        assert "fixes V1: Z-30.0000 X40.0000" in word
+        contour = await hover(5, 2)
+        assert "![the contour](data:image/svg+xml;base64," in contour
+        assert "| corner 2 | G03 | -50.2073 | 100.0000 |" in contour
+        assert await hover(4, 6) == "**X40.** absolute X of the end point (diameter)"
+        assert await hover(2, 2) == ""
+        (hint,) = await editor.ask(
+            client.text_document_inlay_hint_async(types.InlayHintParams(document, whole(TURNED)))
+        )
+        assert (hint.position, hint.label) == (at(5, 37), "ends at Z-50.2073 X100.0000")
+        (symbol,) = await editor.ask(client.text_document_document_symbol_async(types.DocumentSymbolParams(document)))
+        assert (symbol.name, symbol.detail) == ("G111, line 5", "solved, ends at Z-50.2073 X100.0000")
+        folds = await editor.ask(client.text_document_folding_range_async(types.FoldingRangeParams(document)))
+        assert [(each.start_line, each.end_line, each.kind) for each in folds] == [(1, 2, "comment")]
+        lenses = await editor.ask(client.text_document_code_lens_async(types.CodeLensParams(document)))
+        assert [each.command.title for each in lenses] == ["draw", "explore", "expand"]
+        for lens in lenses:
+            await run(editor, lens.command.command.partition(".")[2], *lens.command.arguments)
+        draw, explore, expand = (Path(re.sub("^file://", "", uri)).read_text() for uri in editor.shown)
+        assert draw.startswith("<svg")
+        source = json.loads(explore)["cells"][0]["source"]
+        assert "start='Z0 X40.', control='yasnac-lx3'" in source
+        assert "G03 X100. Z-50.207 I-5. K" in expand or "G03" in expand
+
+    in_editor(use)
+
+
+def test_hints_lenses_and_pictures_can_be_switched_off():
+    async def use(editor: Editor) -> None:
+        document = types.TextDocumentIdentifier(SHAFT)
+        editor.open(SHAFT, TURNED)
+        client = editor.client
+        assert not await editor.ask(
+            client.text_document_inlay_hint_async(types.InlayHintParams(document, whole(TURNED)))
+        )
+        assert not await editor.ask(client.text_document_code_lens_async(types.CodeLensParams(document)))
+        hover = await editor.ask(client.text_document_hover_async(types.HoverParams(**about(editor, SHAFT, at(5, 2)))))
+        assert "data:image" not in hover.contents.value
+
+    in_editor(use, {"inlayHints": False, "codeLenses": False, "pictures": False})
+
+
+async def completed(editor: Editor, line: int, character: int) -> dict[str, types.CompletionItem]:
+    found = await editor.ask(
+        editor.client.text_document_completion_async(
+            types.CompletionParams(**about(editor, SHAFT, at(line, character)))
+        )
+    )
+    return {each.label: each for each in found.items}
+
+
+def test_completions_are_the_words_that_the_block_may_still_take():
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, "G00 X40. Z0.\nG111 A135. K-10. B120. \n")
+        found = await completed(editor, 2, 24)
+        assert {"U?", "X?", "Z?", "P?"} <= found.keys()
+        assert "A?" not in found
+        assert "I?" not in found  # K and A have said it
+        assert found["P?"].detail == "radius of the first rounding"
+        editor.edit(SHAFT, types.TextEdit(types.Range(at(2, 24), at(2, 24)), found["U?"].text_edit.new_text))
+        assert editor.texts[SHAFT].endswith("B120. U${1}\n")
+        editor.edit(SHAFT, types.TextEdit(types.Range(at(2, 24), at(2, 30)), "U40. "))
+        found = await completed(editor, 2, 29)
+        assert {"P?", "Q?", "C?", "D?"} == found.keys()
+        help_ = await editor.ask(
+            editor.client.text_document_signature_help_async(
+                types.SignatureHelpParams(**about(editor, SHAFT, at(2, 29)))
+            )
+        )
+        assert [each.label for each in help_.signatures] == ["A135. K-10. B120. U40. P Q C D"]
+
+    in_editor(use)
+
+
+def test_signatures_are_the_sets_of_words_that_complete_a_block():
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, "G00 X40. Z0.\nG111 A135. B180. Z-40. \n")
+        help_ = await editor.ask(
+            editor.client.text_document_signature_help_async(
+                types.SignatureHelpParams(**about(editor, SHAFT, at(2, 24)))
+            )
+        )
+        assert [each.label for each in help_.signatures] == [f"A135. B180. Z-40. {word}" for word in "XUIK"]
+        assert help_.signatures[2].parameters[0].documentation.startswith("X distance")
+
+    in_editor(use)
+
+
+@pytest.mark.parametrize("control", DIALECTS)
+def test_an_empty_line_offers_the_legal_forms_of_the_control(control):
+    """Each of them is a block that the control accepts."""
+
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, "\n")
+        found = await completed(editor, 1, 1)
+        assert found
+        for each in found.values():
+            text = re.sub(r"\$\{\d+:([^}]*)\}", r"\1", each.text_edit.new_text)
+            assert each.label == text.replace("\n", " / ")
+
+    in_editor(use, {"control": control})
+
+
+# Edits of the whole program ----------------------------------------------------------------------------------
+
+NUMBERED = "N10  G00 X40. Z0.\nN20 G01 X50.F0.2\nGOTO 10\n"
+
+
+def test_formatting_and_block_numbers():
+    async def use(editor: Editor) -> None:
+        client, document = editor.client, types.TextDocumentIdentifier(SHAFT)
+        editor.open(SHAFT, NUMBERED)
+        options = types.FormattingOptions(tab_size=4, insert_spaces=True)
+        edits = await editor.ask(
+            client.text_document_formatting_async(types.DocumentFormattingParams(document, options))
+        )
+        editor.edit(SHAFT, *edits)
+        assert editor.texts[SHAFT] == "N10 G00 X40. Z0.\nN20 G01 X50. F0.2\nGOTO 10\n"
+        place = about(editor, SHAFT, at(3, 7))
+        ready = await editor.ask(client.text_document_prepare_rename_async(types.PrepareRenameParams(**place)))
+        assert ready.placeholder == "10"
+        target = await editor.ask(client.text_document_definition_async(types.DefinitionParams(**place)))
+        assert target.range.start == at(1, 1)
+        change = await editor.ask(client.text_document_rename_async(types.RenameParams(new_name="N300", **place)))
+        editor.edit(SHAFT, *edits_of(SimpleNamespace(edit=change)))
+        assert editor.texts[SHAFT] == "N300 G00 X40. Z0.\nN20 G01 X50. F0.2\nGOTO 300\n"
+        with pytest.raises(Exception, match="N20 is in line 2 already"):
+            await editor.ask(client.text_document_rename_async(types.RenameParams(new_name="20", **place)))
+
+    in_editor(use)
+
+
+def test_formatting_numbers_blocks_where_that_is_wanted():
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, NUMBERED)
+        options = types.FormattingOptions(tab_size=4, insert_spaces=True)
+        edits = await editor.ask(
+            editor.client.text_document_formatting_async(
+                types.DocumentFormattingParams(types.TextDocumentIdentifier(SHAFT), options)
+            )
+        )
+        editor.edit(SHAFT, *edits)
+        assert editor.texts[SHAFT] == "N5 G00 X40. Z0.\nN10 G01 X50. F0.2\nGOTO 5\n"
+
+    in_editor(use, {"format": {"blockNumbers": 5}})
+
+
+# The control -------------------------------------------------------------------------------------------------
+
+AMBIGUOUS = "G00 X40. Z0.\nG01 Z-30. ,R5.\nX60.\n"
+
+
+def test_the_control_comes_from_a_comment_the_project_the_editor_or_the_program(tmp_path):
+    (tmp_path / "project").mkdir()
+    (tmp_path / "project" / "contoursolve.toml").write_text('control = "haas-lathe"\n')
+    uris = [(tmp_path / name).as_uri() for name in ("a.nc", "project/b.nc", "project/c.nc")]
+
+    async def use(editor: Editor) -> None:
+        editor.open(uris[0], AMBIGUOUS)
+        editor.open(uris[1], AMBIGUOUS)
+        editor.open(uris[2], f"(contoursolve control: nct-99m)\n{AMBIGUOUS}")
+        for uri in uris:
+            await editor.findings(uri)
+        told = [(editor.statuses[uri].control, editor.statuses[uri].source) for uri in uris]
+        assert told == [("fanuc-lathe", "editor setting"), ("haas-lathe", "project file"), ("nct-99m", "comment")]
+        editor.section = {}
+        editor.client.workspace_did_change_configuration(types.DidChangeConfigurationParams(None))
+        editor.open("file:///programs/g111.nc", TURNED)
+        await editor.until(lambda: editor.statuses[uris[0]].source == "none")
+        await editor.until(lambda: editor.statuses["file:///programs/g111.nc"].source == "program")
+        (found,) = await editor.findings(uris[0])
+        assert found.code == "control-unknown"
+        assert "editor's settings" in found.message
+        (tmp_path / "project" / "contoursolve.toml").write_text('control = "nothing"\n')
+        change = types.FileEvent(uris[1], types.FileChangeType.Changed)
+        editor.client.workspace_did_change_watched_files(types.DidChangeWatchedFilesParams([change]))
+        await run(editor, "controls")
+        await editor.ask(editor.client.text_document_hover_async(types.HoverParams(**about(editor, uris[1], at(1, 1)))))
+        assert "there is no control 'nothing'" in editor.statuses[uris[1]].message
+
+    in_editor(use, {"control": "fanuc-lathe"})
+
+
+# Commands ----------------------------------------------------------------------------------------------------
+
+
+def test_commands_of_a_client():
+    async def use(editor: Editor) -> None:
+        text = (PROGRAMS / "shaft.nc").read_text()
+        editor.open(SHAFT, text)
+        expanded = await run(editor, "expand", SHAFT)
+        assert expanded["text"] == contoursolve.expand(text).text
+        converted = await run(editor, "convert", SHAFT, "fanuc-lathe")
+        assert converted["text"] == contoursolve.convert(text, "fanuc-lathe").text
+        page = await run(editor, "report", SHAFT)
+        assert page["html"].startswith("<!doctype html>")
+        controls = await run(editor, "controls")
+        assert [each["name"] for each in controls] == [*DIALECTS]
+        line = next(answer.lines[0] for answer in solve(text).answers)
+        params = {"textDocument": {"uri": SHAFT}, "position": {"line": line - 1, "character": 8}}
+        picture = await editor.ask(editor.client.protocol.send_request_async("contoursolve/picture", params))
+        keys = {word.key for word in picture.words}
+        assert keys == set(re.findall(r'data-word="([^"]+)"', picture.svg))
+        for word in picture.words:
+            span = types.Range(
+                types.Position(word.range.start.line, word.range.start.character),
+                types.Position(word.range.end.line, word.range.end.character),
+            )
+            assert stretch(text, span) == word.text
+        refused = await run(editor, "expand", "file:///nowhere.nc")
+        assert refused["text"] is None
+        assert refused["message"]
+
+    in_editor(use)
+
+
+# Endurance ---------------------------------------------------------------------------------------------------
+
+
+def resident(process: int) -> int:
+    """Bytes of memory that a process holds; 0 where that cannot be read."""
+    status = Path(f"/proc/{process}/status")
+    found = re.search(r"VmRSS:\s+(\d+) kB", status.read_text()) if status.exists() else None
+    return int(found[1]) * 1024 if found else 0
+
+
+@pytest.mark.parametrize("edits", [150, pytest.param(10_000, marks=pytest.mark.slow)])
+def test_random_edits_leave_no_stale_findings(edits):
+    """And the server's memory does not grow with them."""
+    draw = random.Random(7)
+
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, BROKEN)
+        held = []
+        for number in range(edits):
+            begin, end, new = random_edit(split_lines(editor.texts[SHAFT]) or [""], draw)
+            if begin > end:
+                continue
+            if len(editor.texts[SHAFT]) > 2 * len(BROKEN):
+                editor.edit(SHAFT, types.TextEdit(whole(editor.texts[SHAFT]), BROKEN))
+            editor.edit(SHAFT, types.TextEdit(types.Range(at(*begin), at(*end)), new))
+            if number % 50 == 49:
+                found, text = await editor.findings(SHAFT), editor.texts[SHAFT]
+                held.append(resident(editor.client._server.pid))
+                try:
+                    wanted = [each.code for each in solve(text).diagnostics]
+                except (contoursolve.UnknownControlError, contoursolve.SettingError):
+                    wanted = ["control-unknown"]
+                assert [each.code for each in found] == wanted
+        later = held[len(held) // 2 :]
+        assert max(later) - held[len(held) // 2] < 64e6
+
+    in_editor(use)
+
+
+HOSTILE = {
+    "nothing": "",
+    "one long line": "G111 " + "X1." * 100_000,
+    "brackets": "G01 X[" + "[" * 50_000,
+    "comments": "(" * 100_000,
+    "control characters": "\0\x01\x02\x1a\x7f\ufeff\ud800".replace("\ud800", "\ufffd") * 1_000,
+    "line ends": "\r\n\r\r\n\n\x0b\x0c\x1c\x85\u2028" * 2_000 + "G111 X100. A180.",
+    "a chain": "G17 G0 X0 Y0\n" + "G1 X1 ,A30\nG1 ,A60\n" * 60,
+    "facts": "G111 X100. (contoursolve: " + "line 1 = 5; " * 2_000 + ")",
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_hostile_programs_do_not_end_the_server(name):
+    async def use(editor: Editor) -> None:
+        text = HOSTILE[name]
+        editor.open(SHAFT, text)
+        await editor.findings(SHAFT)
+        last = text.count("\n")
+        editor.edit(SHAFT, types.TextEdit(types.Range(types.Position(last, 0), types.Position(last, 5)), "G00 X40."))
+        await editor.findings(SHAFT)
+        document = types.TextDocumentIdentifier(SHAFT)
+        await editor.ask(editor.client.text_document_folding_range_async(types.FoldingRangeParams(document)))
+        await completed(editor, last + 1, 3)
+        editor.open("file:///programs/good.nc", TURNED)
+        assert not await editor.findings("file:///programs/good.nc")
+        assert not editor.messages
+
+    in_editor(use)
+
+
+def test_severities_are_those_of_check():
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, BROKEN)
+        names = {Severity.ERROR: "Error", Severity.WARNING: "Warning", Severity.INFO: "Information"}
+        found = await editor.findings(SHAFT)
+        wanted = contoursolve.check(BROKEN)
+        assert [each.severity.name for each in found] == [names[each.severity] for each in wanted]
+
+    in_editor(use)
