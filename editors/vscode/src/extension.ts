@@ -60,7 +60,6 @@ export async function activate(context: ExtensionContext): Promise<void> {
     workspace.onDidGrantWorkspaceTrust(restart),
     workspace.onDidChangeConfiguration((event) => {
       if (event.affectsConfiguration("contoursolve.python")) void restart();
-      else if (event.affectsConfiguration("contoursolve")) picture.refresh();
     }),
   );
   await restart();
@@ -91,7 +90,10 @@ async function start(folder: string, output: LogOutputChannel, status: StatusBar
     },
   };
   const made = new LanguageClient("contoursolve", "contoursolve", server, options);
-  made.onNotification("contoursolve/status", (news: Status) => status.take(news));
+  made.onNotification("contoursolve/status", (news: Status) => {
+    status.take(news);
+    picture.examined(news.uri);
+  });
   made.onDidChangeState(() => {
     if (!made.isRunning()) status.clear();
     picture.refresh();

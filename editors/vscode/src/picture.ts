@@ -11,6 +11,7 @@ import {
   type TextEditor,
   TextEditorRevealType,
   ThemeColor,
+  Uri,
   ViewColumn,
   type WebviewPanel,
   window,
@@ -77,10 +78,17 @@ export class PictureView implements Disposable {
     this.follow(editor);
   }
 
-  /** Asks again: the server or its settings are new. */
+  /** Asks again: the server has come or gone. */
   refresh(): void {
     this.shown = undefined;
     if (this.editor) this.follow(this.editor);
+  }
+
+  /** Asks again where the server has read the same text anew: its settings have changed. */
+  examined(uri: string): void {
+    const document = this.editor?.document;
+    if (document?.uri.toString() !== Uri.parse(uri).toString()) return;
+    if (!this.shown || this.shown.version === document.version) this.refresh();
   }
 
   dispose(): void {

@@ -1,5 +1,5 @@
 /** The status bar: the control of the program in sight, and how many of its contours are solved. */
-import { type Disposable, StatusBarAlignment, ThemeColor, window } from "vscode";
+import { type Disposable, StatusBarAlignment, ThemeColor, Uri, window } from "vscode";
 import { LANGUAGES, type Status } from "./protocol";
 
 const SOURCES: Record<string, string> = {
@@ -20,7 +20,8 @@ export class StatusBar implements Disposable {
   }
 
   take(status: Status): void {
-    this.known.set(status.uri, status);
+    // The server may spell an address otherwise than VS Code does.
+    this.known.set(Uri.parse(status.uri).toString(), status);
     this.show();
   }
 
