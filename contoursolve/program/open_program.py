@@ -6,13 +6,14 @@ part did at the same place; from there on, the old parts hold.
 """
 
 import re
+from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, fields, is_dataclass
 from dataclasses import replace as with_fields
 from enum import Enum
-from itertools import islice
+from itertools import accumulate, islice
 from operator import is_
 from typing import Any, overload
 
@@ -283,30 +284,19 @@ class OpenProgram:
 
     def _make_stale(self, first: int, last: int, more: int) -> None:
         """The lines from an index to another are others now, and so many more."""
-        parts: list[_Part] = []
-        changed: _Part | None = None
-        start = 0
-        for part in self._parts:
-            end = start + part.count
-            if start < last and end > first:
-                if changed is None:
-                    changed = part
-                    part.is_stale = True
-                    parts.append(part)
-                else:
-                    changed.count += part.count
-            else:
-                if changed is None and start >= last:
-                    # Between two parts, or behind all.
-                    changed = _Part(part.known, 0, age=part.age, is_stale=True)
-                    parts.append(changed)
-                part.is_stale = part.is_stale or (start < first < start + part.reach)
-                parts.append(part)
-            start = end
-        if changed is None:
-            raise AssertionError("the last part is behind all lines")
-        changed.count += more
-        self._parts = parts
+        parts = self._parts
+        starts = [*accumulate((part.count for part in parts), initial=0)]
+        # The parts that have changed lines; none where new lines are put between two of them.
+        begin = bisect_right(starts, first) - 1
+        end = max(bisect_left(starts, last), begin + 1)
+        if first == last and starts[begin] == first:
+            begin = end = bisect_left(starts, first)
+        held = parts[begin]
+        changed = _Part(held.known, sum(part.count for part in parts[begin:end]) + more, age=held.age, is_stale=True)
+        for part, start in zip(parts[:begin], starts, strict=False):
+            if start + part.reach > first:
+                part.is_stale = True
+        parts[begin:end] = [changed]
         if more:
             self._moves.append(_Move(last + 1, more))
 
@@ -325,11 +315,8 @@ class OpenProgram:
         if examiner is None:
             return
         self._diagnostics = None
-        index = line = 0
-        while index < len(parts):
-            if not parts[index].is_stale:
-                index, line = index + 1, line + parts[index].count
-                continue
+        while (index := next((at for at, part in enumerate(parts) if part.is_stale), -1)) >= 0:
+            line = sum(part.count for part in parts[:index])
             self._bring_up(parts[index])
             known, begin = parts[index].known, index
             walk = examiner.resume(self._lines, line, known, None)
@@ -395,18 +382,17 @@ class OpenProgram:
             result = run(parse(self.text, self.name), None, self._unit, self._policy)
             yield from ((finding, result.lines_of(finding)) for finding in result.diagnostics)
             return
-        is_told, start = False, 0
+        is_told, start = any(part.answer is not None for part in self._parts), 0
         for part in self._parts:
             if part.beside or part.findings:
                 self._bring_up(part)
-            is_told = is_told or part.answer is not None
-            for finding in part.beside:
-                is_told = is_told or finding.severity is Severity.ERROR
-                yield finding, (finding.span.line,)
-            if part.answer is not None and part.findings:
-                lines = part.answer.lines
-                now = tuple(line - lines[0] + start + 1 for line in lines)
-                yield from ((finding, now) for finding in part.findings)
+                for finding in part.beside:
+                    is_told = is_told or finding.severity is Severity.ERROR
+                    yield finding, (finding.span.line,)
+                if part.answer is not None:
+                    lines = part.answer.lines
+                    now = tuple(line - lines[0] + start + 1 for line in lines)
+                    yield from ((finding, now) for finding in part.findings)
             start += part.count
         last = self._parts[-1]
         self._bring_up(last)
