@@ -168,6 +168,21 @@ def artefacts(request, tmp_path):
     return folder
 
 
+@pytest.fixture
+def window(browser, artefacts, request):
+    """Opens a window of an editor; how it ends is kept, and whom it asked is looked at."""
+    opened = []
+
+    def open_one(address, program):
+        opened.append(Editor(browser, address, program))
+        return opened[-1]
+
+    yield open_one
+    for number, editor in enumerate(opened):
+        editor.page.screenshot(path=artefacts / f"vscode-end-{request.node.name}-{number}.png")
+        editor.check()
+
+
 class Editor:
     """A window of the editor with one program; afterwards it has asked nobody but this machine."""
 
@@ -266,10 +281,10 @@ def program(tmp_path):
     return shutil.copy(PROGRAMS / "shaft_broken.nc", copy)
 
 
-def test_findings_fixes_and_pictures_stand_beside_the_program(browser, address, program, artefacts):
+def test_findings_fixes_and_pictures_stand_beside_the_program(window, address, program, artefacts):
     before = program.read_bytes()
     findings = findings_of(program)
-    editor = Editor(browser, address, program)
+    editor = window(address, program)
     page = editor.page
     editor.status.filter(has_text="yasnac-lx3: 1 of 6 solved").wait_for()
     page.locator(".squiggly-error").first.wait_for()
@@ -308,11 +323,10 @@ def test_findings_fixes_and_pictures_stand_beside_the_program(browser, address, 
     page.screenshot(path=artefacts / "vscode-fixed.png")
 
     assert program.read_bytes() == before
-    editor.check()
 
 
-def test_the_picture_follows_the_cursor_and_both_show_a_word(browser, address, program, artefacts):
-    editor = Editor(browser, address, program)
+def test_the_picture_follows_the_cursor_and_both_show_a_word(window, address, program, artefacts):
+    editor = window(address, program)
     page, picture = editor.page, editor.webview()
     editor.status.filter(has_text="yasnac-lx3").wait_for()
     editor.go_to(21, 24)
@@ -358,15 +372,14 @@ def test_the_picture_follows_the_cursor_and_both_show_a_word(browser, address, p
     picture.locator("[data-word='K']").first.wait_for(state="detached")
     editor.press("Control+Z")
     picture.locator("text[data-word='K'].marked").first.wait_for()
-    editor.check()
 
 
-def test_commands_make_new_documents_and_leave_the_program(browser, address, tmp_path, artefacts):
+def test_commands_make_new_documents_and_leave_the_program(window, address, tmp_path, artefacts):
     program = tmp_path / "work" / "shaft.nc"
     program.parent.mkdir()
     shutil.copy(PROGRAMS / "shaft.nc", program)
     before = program.read_bytes()
-    editor = Editor(browser, address, program)
+    editor = window(address, program)
     page = editor.page
     editor.status.filter(has_text="yasnac-lx3: 7 of 7 solved").wait_for()
 
@@ -402,18 +415,17 @@ def test_commands_make_new_documents_and_leave_the_program(browser, address, tmp
     editor.status.wait_for(state="detached")
     editor.status.filter(has_text="nct-99m: no contours").wait_for()
     assert program.read_bytes() == before
-    editor.check()
 
 
 def assert_same_lines(found, expected):
     assert found.splitlines() == expected.splitlines()
 
 
-def test_a_python_without_the_package_is_told_what_to_type(browser, code_server, package, program, tmp_path, artefacts):
+def test_a_python_without_the_package_is_told_what_to_type(window, code_server, package, program, tmp_path, artefacts):
     run(sys.executable, "-m", "venv", "--without-pip", "bare", folder=tmp_path)
     python = next(path for path in (tmp_path / "bare").glob("*/python*") if path.stem == "python")
     with serving(code_server, package, tmp_path / "editor", **{"contoursolve.python": str(python)}) as address:
-        editor = Editor(browser, address, program)
+        editor = window(address, program)
         message = editor.page.locator(".notification-toast")
         command = f'{python} -m pip install "contoursolve[lsp]"'
         message.filter(has_text="This Python lacks contoursolve. Type this in a terminal").wait_for()
@@ -423,7 +435,20 @@ def test_a_python_without_the_package_is_told_what_to_type(browser, code_server,
         message.get_by_role("button", name="Copy").click()
         message.wait_for(state="detached")
         editor.page.wait_for_function(COPIED, arg=command)
-        editor.check()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the interpreter is a script for a shell")
+def test_the_environment_of_the_folder_is_found(window, code_server, package, program, tmp_path):
+    python = program.parent / ".venv" / "bin" / "python"
+    python.parent.mkdir(parents=True)
+    python.write_text(f'#!/bin/sh\necho "$@" >> "{tmp_path}/asked"\nexec "{sys.executable}" "$@"\n')
+    python.chmod(0o755)
+    with serving(code_server, package, tmp_path / "editor", **{"contoursolve.python": ""}) as address:
+        editor = window(address, program)
+        editor.status.filter(has_text="yasnac-lx3: 1 of 6 solved").wait_for()
+    asked = (tmp_path / "asked").read_text().splitlines()
+    assert asked[0].endswith("import contoursolve, pygls")
+    assert asked[1:] == ["-P -m contoursolve lsp"]
 
 
 COPIED = "async command => await navigator.clipboard.readText() === command"
