@@ -101,8 +101,9 @@ def code_server(request, tmp_path_factory):
 def serving(entry, package, folder, **settings):
     """The address of a program in an editor that has the extension, and a home of its own."""
     data = folder / "data"
-    (data / "User").mkdir(parents=True)
-    (data / "User" / "settings.json").write_text(json.dumps(SETTINGS | settings))
+    for kind in ("User", "Machine"):  # where Python is, the settings of the machine say
+        (data / kind).mkdir(parents=True)
+        (data / kind / "settings.json").write_text(json.dumps(SETTINGS | settings))
     (folder / "config.yaml").write_text("auth: none\ncert: false\n")
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
