@@ -1,0 +1,154 @@
+"""What editors are given: their tables are whole, and say what the package says. No node is needed."""
+
+import json
+import re
+from itertools import chain
+from pathlib import Path
+
+import pytest
+
+import contoursolve
+from contoursolve.controls import DIALECTS
+from contoursolve.pictures.theme import DARK_COLORS, LIGHT_COLORS, Role
+
+HOUSE = Path(contoursolve.__file__).parent.parent
+EXTENSION = HOUSE / "editors" / "vscode"
+pytestmark = pytest.mark.skipif(not EXTENSION.exists(), reason="installed without the sources of the editors")
+
+
+def load(path):
+    return json.loads((EXTENSION / path).read_text(encoding="utf-8"))
+
+
+def contributed(kind):
+    return load("package.json")["contributes"][kind]
+
+
+def grammar(language):
+    return load(f"syntaxes/{language}.tmLanguage.json")
+
+
+def rules(patterns):
+    """All patterns of a grammar, with those inside others."""
+    for pattern in patterns:
+        yield pattern
+        yield from rules(pattern.get("patterns", ()))
+
+
+def scopes(line, patterns):
+    """What a line is made of: texts with their scopes, as TextMate finds them."""
+    found, at = [], 0
+    while at < len(line):
+        matches = [
+            (match, pattern)
+            for pattern in patterns
+            if (match := re.compile(pattern.get("match", pattern.get("begin"))).search(line, at))
+        ]
+        if not matches:
+            break
+        match, pattern = min(matches, key=lambda pair: pair[0].start())
+        assert match.end() > match.start(), pattern
+        captures = pattern.get("captures", pattern.get("beginCaptures", {}))
+        found += [(match[int(group)], scope["name"]) for group, scope in captures.items() if match[int(group)]]
+        at = match.end()
+        if "end" in pattern:
+            end = re.compile(pattern["end"]).search(line, at)
+            found += scopes(line[at : end.start()], pattern["patterns"])
+            at = end.end()
+        elif not captures:
+            found.append((match[0], pattern["name"]))
+    return found
+
+
+def test_every_language_has_a_grammar_and_a_configuration_and_no_two_share_an_extension():
+    languages = contributed("languages")
+    grammars = {row["language"]: row for row in contributed("grammars")}
+    assert grammars.keys() == {language["id"] for language in languages}
+    for language in languages:
+        row = grammars[language["id"]]
+        assert load(row["path"])["scopeName"] == row["scopeName"]
+        configuration = load(language["configuration"])
+        assert configuration["comments"]
+        re.compile(configuration["wordPattern"])
+        assert language.get("extensions") or re.compile(language["firstLine"])
+    extensions = list(chain.from_iterable(language.get("extensions", ()) for language in languages))
+    assert len(extensions) == len(set(extensions))
+    assert ".h" not in extensions  # It belongs to C.
+
+
+@pytest.mark.parametrize("language", ["gcode", "sinumerik", "klartext"])
+def test_every_expression_compiles_and_every_scope_ends_with_its_language(language):
+    for rule in rules(grammar(language)["patterns"]):
+        for name in ("match", "begin", "end"):
+            groups = re.compile(rule[name]).groups if name in rule else 0
+            if name in rule and name != "end":
+                captures = rule.get("captures", rule.get("beginCaptures", {}))
+                assert all(int(group) <= groups for group in captures)
+        named = chain([rule], *(rule.get(kind, {}).values() for kind in ("captures", "beginCaptures", "endCaptures")))
+        assert all(each["name"].endswith(f".{language}") for each in named if "name" in each)
+
+
+@pytest.mark.parametrize(
+    ("language", "line", "expected"),
+    [
+        ("gcode", "/N10 G01X20.,R2.(ROUND)", "skip label g-code axis numeric corner numeric comment"),
+        ("gcode", "N20 G111 A180. K-30. P? M08", "label g-code axis numeric parameter numeric parameter numeric m-code"),
+        ("gcode", "(contoursolve: line 2 tangent)", "punctuation fact entity support"),
+        ("gcode", "(contoursolve control: nct-99m)", "punctuation fact control"),
+        ("gcode", "X30. #ANG=120 #RND 5", "axis numeric corner operator numeric corner numeric"),
+        ("gcode", "#100=SIN[30.] X#100", "macro operator macro numeric axis macro"),
+        ("gcode", "IF[#1GT5]GOTO20", "flow macro word numeric flow numeric"),
+        ("gcode", "O0112", "program"),
+        ("sinumerik", "N10 G1 X=IC(5) ANG=120 RND=5 ; END", "label g-code axis operator function numeric corner"),
+        ("sinumerik", "N20 G1X10 Z-5", "label g-code axis numeric axis numeric"),
+        ("sinumerik", "R1=5 IF R1 > 3 GOTOF ENDE", "parameter operator numeric flow parameter operator numeric flow"),
+        ("sinumerik", 'T="A" S200 S2=30', "storage operator string storage numeric storage operator numeric"),
+        ("sinumerik", "N30 DIAMON CT X20", "label command command axis numeric"),
+        ("klartext", "0 BEGIN PGM WELLE MM", "label program function unit"),
+        ("klartext", "5 L X+20 Y-30,5 R0 FMAX M3", "label path axis numeric axis numeric modifier modifier m-code"),
+        ("klartext", "6 FC DR- R15 CLSD+ CCX+20", "label free modifier parameter numeric corner numeric"),
+        ("klartext", "7 RND R5 F200", "label corner parameter numeric storage numeric"),
+    ],
+)
+def test_a_grammar_tells_words_apart(language, line, expected):
+    found = [scope for _, scope in scopes(line, grammar(language)["patterns"])]
+    kinds = expected.split()
+    assert len(found) >= len(kinds), found
+    assert [kind for kind, scope in zip(kinds, found, strict=False) if kind not in scope] == [], found
+
+
+@pytest.mark.parametrize("program", sorted((HOUSE / "notebooks" / "programs").glob("*.nc")), ids=lambda path: path.stem)
+def test_every_character_of_a_program_is_coloured(program):
+    patterns = grammar("gcode")["patterns"]
+    for line in program.read_text(encoding="utf-8").splitlines():
+        if "contoursolve:" not in line:
+            coloured = "".join(text for text, _ in scopes(line, patterns))
+            assert re.sub(r"\s", "", coloured) == re.sub(r"\s", "", line)
+
+
+def test_the_setting_offers_every_control():
+    control = contributed("configuration")["properties"]["contoursolve.control"]
+    assert control["enum"] == ["", *sorted(DIALECTS)]
+
+
+def test_the_picture_has_the_colours_of_the_package():
+    style = (EXTENSION / "media" / "picture.css").read_text(encoding="utf-8")
+    light, dark = re.findall(r"\{\n((?:  --cs-.*\n)+)\}", style)
+    for block, colors in ((light, LIGHT_COLORS), (dark, DARK_COLORS)):
+        found = dict(re.findall(r"--cs-([\w-]+): (#\w+);", block))
+        assert found.pop("marked") == colors[Role.GIVEN]
+        assert found == {role.value: colors[role] for role in Role if role not in (Role.PAPER, Role.INK)}
+
+
+def test_every_setting_and_command_is_there():
+    page = (EXTENSION / "README.md").read_text(encoding="utf-8")
+    assert [name for name in contributed("configuration")["properties"] if f"`{name}`" not in page] == []
+    code = (EXTENSION / "src" / "extension.ts").read_text(encoding="utf-8")
+    registered = {f"contoursolve.{name}" for name in re.findall(r'register\("(\w+)"', code)}
+    assert registered == {command["command"] for command in contributed("commands")}
+
+
+def test_nothing_names_a_registry():
+    locked = load("package-lock.json")
+    assert [name for name, package in locked["packages"].items() if "resolved" in package] == []
+    assert locked["version"] == locked["packages"][""]["version"] == load("package.json")["version"]
