@@ -133,7 +133,7 @@ class OpenProgram:
 
     They are those that `solve` finds in the text as it is, once `check` has returned True.
 
-    >>> program = OpenProgram("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. P50.")
+    >>> program = OpenProgram("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. P60.")
     >>> program.check(), [each.code for each in program.diagnostics]
     (True, ['g111-corner-too-large'])
     >>> program.edit((2, 30), (2, 34), "P5.")

@@ -375,8 +375,7 @@ def test_the_control_comes_from_a_comment_the_project_the_editor_or_the_program(
         editor.open(uris[0], AMBIGUOUS)
         editor.open(uris[1], AMBIGUOUS)
         editor.open(uris[2], f"(contoursolve control: nct-99m)\n{AMBIGUOUS}")
-        for uri in uris:
-            await editor.findings(uri)
+        await editor.until(lambda: all(uri in editor.statuses for uri in uris))
         told = [(editor.statuses[uri].control, editor.statuses[uri].source) for uri in uris]
         assert told == [("fanuc-lathe", "editor setting"), ("haas-lathe", "project file"), ("nct-99m", "comment")]
         editor.section = {}

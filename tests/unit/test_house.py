@@ -75,6 +75,12 @@ def test_a_room_imports_only_from_lower_floors(module):
     assert [room for room in rooms(module) if room != own and FLOOR_OF[room] >= FLOOR_OF[own]] == []
 
 
+def test_the_language_server_knows_what_the_package_exports():
+    own = [module for module in MODULES if room_of(module) == "lsp"]
+    # contoursolve.controls is the name of a command there.
+    assert {room for module in own for room in rooms(module)} - {"controls"} == {"__init__", "lsp", "pictures"}
+
+
 def test_only_numeric_imports_sympy_casadi_and_flint():
     outside = [
         str(module)

@@ -155,7 +155,7 @@ COMMANDS = {
     "sensitivity": ("sensitivity", *LINE),
     "explain": ("explain", "3017"),
 }
-OF_THEIR_OWN = {"report", "verify", "rules", "facts"}
+OF_THEIR_OWN = {"report", "verify", "rules", "facts", "lsp"}
 """Tested below, or without a control."""
 
 
