@@ -363,7 +363,7 @@ def convert(
         raise ValueError(f"a program is converted for the same kind of machine: {kinds}{advice}")
     post = post_of(target)
     found = expand(text, post=post, comments=comments, control=dialect, units=units, rules=rules, name=name)
-    found = replace(found, text=found.text and restate_control(found.text, target.name))
+    found = replace(found, text=found.text and restate_control(found.text, target.name, target.modes.settings))
     if found.text is None or dialect is None:
         return Conversion(found.text, found.control, target.name, found.summary, None)
     unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")

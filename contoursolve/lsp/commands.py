@@ -7,10 +7,13 @@ from typing import Any
 from lsprotocol import types
 
 import contoursolve
-from contoursolve import Conversion, Expansion, OpenContour, start_text, stated_words
+from contoursolve import Answer, Conversion, Dialect, Expansion, OpenContour, end_text, start_text, stated_words
 from contoursolve.lsp.opened import Opened
+from contoursolve.lsp.reading import stretch
 from contoursolve.pictures import Theme, draw_answer
 
+MOST_TOLD = 3
+_ABSOLUTE = 90
 NOT_OPEN = "the program is not open in this editor"
 Reply = Mapping[str, str | None]
 
@@ -36,15 +39,7 @@ def picture_of(opened: Opened, position: types.Position) -> Any:
         return None
     picture = draw_answer(answer, theme=Theme.PAGE)
     words = [
-        {
-            "key": each.key,
-            "text": each.word.text.strip(),
-            "range": opened.places.range(
-                each.word.span.line,
-                each.word.span.column + len(each.word.text) - len(each.word.text.lstrip()),
-                each.word.span.end_column,
-            ),
-        }
+        {"key": each.key, "text": each.word.text.strip(), "range": opened.places.range(*stretch(each.word))}
         for each in stated_words(answer)
     ]
     return {
@@ -64,11 +59,13 @@ def expand_program(opened: Opened | None) -> Reply:
     if opened is None:
         return {"text": None, "message": NOT_OPEN}
     program = opened.program
+    if program.dialect is None and opened.troubles:
+        return {"text": None, "message": "; ".join(opened.troubles)}
     try:
         found = contoursolve.expand(program.text, control=program.dialect, name=program.name)
     except ValueError as error:
         return {"text": None, "message": str(error)}
-    return {"text": found.text, "message": _what_was_left(found)}
+    return {"text": found.text, "message": _what_was_left(found, program.dialect.title if program.dialect else "")}
 
 
 def convert_program(opened: Opened | None, control: str) -> Reply:
@@ -83,17 +80,18 @@ def convert_program(opened: Opened | None, control: str) -> Reply:
         )
     except ValueError as error:
         return {"text": None, "message": str(error)}
-    message = _what_was_left(found)
+    message = _what_was_left(found, contoursolve.DIALECTS[control].title)
     difference = found.comparison.difference if found.comparison else None
     if difference is not None:
         message = f"the new program is another path: {difference.reason}"
     return {"text": found.text, "message": message}
 
 
-def _what_was_left(found: Expansion | Conversion) -> str:
-    """Why contours were left as they are; empty if none was."""
+def _what_was_left(found: Expansion | Conversion, target: str) -> str:
+    """Why contours were left as they are, and what the target reads in another way; empty if there is nothing."""
     left = [f"line {each.lines[0]}: {each.reason}" for each in found.summary.left]
-    return "; ".join(left[:3]) + (f"; and {len(left) - 3} more" if len(left) > 3 else "")  # noqa: PLR2004 - a message
+    left += [f"line {each.line}: {each.sentence(target)}" for each in found.summary.unfamiliar]
+    return "; ".join(left[:MOST_TOLD]) + (f"; and {len(left) - MOST_TOLD} more" if len(left) > MOST_TOLD else "")
 
 
 def report_on(opened: Opened | None) -> Reply:
@@ -101,6 +99,8 @@ def report_on(opened: Opened | None) -> Reply:
     if opened is None:
         return {"html": None, "message": NOT_OPEN}
     program = opened.program
+    if program.dialect is None and opened.troubles:
+        return {"html": None, "message": "; ".join(opened.troubles)}
     try:
         result = contoursolve.solve(program.text, control=program.dialect, name=program.name)
         if not result.answers:
@@ -118,10 +118,13 @@ def notebook_of(opened: Opened | None, line: int) -> Reply:
         return {"notebook": None, "message": "there is no contour under the cursor"}
     if not answer.start.is_known:
         return {"notebook": None, "message": "the start point of this contour is not known"}
-    dialect, texts = opened.program.dialect, [block.text.strip() for block in answer.claim.blocks]
-    options = {"start": start_text(answer), "control": dialect.name, "settings": dict(dialect.modes.settings)}
+    dialect = opened.program.dialect
+    options = {"control": dialect.name, "units": answer.unit.value, "settings": dict(dialect.modes.settings)}
+    text = _alone(answer, dialect, options)
+    if not text:
+        return {"notebook": None, "message": "this contour rests on lines before it, and cannot stand alone"}
     told = "".join(f", {name}={value!r}" for name, value in options.items() if value)
-    code = f"import contoursolve\n\ncontoursolve.explore({chr(10).join(texts)!r}{told})"
+    code = f"import contoursolve\n\ncontoursolve.explore({text!r}{told})"
     cell: dict[str, object] = {
         "cell_type": "code",
         "id": "contour",
@@ -133,6 +136,22 @@ def notebook_of(opened: Opened | None, line: int) -> Reply:
     kernel = {"kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"}}
     notebook = {"cells": [cell], "metadata": kernel, "nbformat": 4, "nbformat_minor": 5}
     return {"notebook": json.dumps(notebook, indent=1, ensure_ascii=False), "message": ""}
+
+
+def _alone(answer: Answer, dialect: Dialect, options: Mapping[str, Any]) -> str:
+    """The blocks of a contour behind what leads to its start point and puts its modal codes in force; empty if that is
+    another contour."""
+    state, codes = answer.claim.before, dialect.modes.codes
+    selected = [code.text for code in codes.values() if code.plane is not None and code.plane.code == state.plane.code]
+    is_switched = _ABSOLUTE in codes and codes[_ABSOLUTE].effect.value == "absolute"
+    modes = [*selected[:1], *(["G90"] if is_switched else [])]
+    motion = f"G{state.motion:02}" if state.motion is not None else ""
+    begin = " ".join((*modes, "G00", start_text(answer)))
+    forced = " ".join(filter(None, ("G91" if is_switched and state.is_incremental else "", motion)))
+    text = "\n".join((begin, *([forced] if forced else []), *(block.text.strip() for block in answer.claim.blocks)))
+    found = contoursolve.solve(text, **options).answers
+    is_same = len(found) == 1 and (found[0].status, end_text(found[0])) == (answer.status, end_text(answer))
+    return text if is_same else ""
 
 
 def file_of(opened: Opened | None, what: str, line: int) -> tuple[str, str | None]:

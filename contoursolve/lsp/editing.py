@@ -11,6 +11,9 @@ _REFUSED = -32803
 """RequestFailed of the protocol: the client shows the message, and nothing is changed."""
 
 
+_TOO_LONG = 9
+
+
 class RefusedError(JsonRpcException):
     """What cannot be done, with the reason for the user."""
 
@@ -43,7 +46,7 @@ def renamed(opened: Opened, position: types.Position, name: str) -> types.Worksp
     found, digits = _number(opened, position), name.strip().lstrip("Nn")
     if found is None or found.line is None:
         return None
-    if not (digits.isascii() and digits.isdigit()):
+    if not (digits.isascii() and digits.isdigit() and len(digits) < _TOO_LONG):
         raise RefusedError(f"a block number is a whole number, not {name!r}")
     try:
         changes = rename_block(opened.program.text, found.line, int(digits), control=opened.program.dialect)

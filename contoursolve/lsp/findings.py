@@ -15,8 +15,11 @@ _SEVERITY = {
 }
 
 SOURCE = "contoursolve"
-CONTROL_UNKNOWN = "control-unknown"
-SAFE, PLACEHOLDER = "safe", "placeholder"
+UNUSED = "control-unknown"
+SAFE = "safe"
+
+_SEVERAL = "the program looks like"
+_ADVICE = "; choose one in the editor's settings, or name it in a comment: (contoursolve control: NAME)"
 MORE = "more-findings"
 LONGEST_TITLE = 160
 
@@ -26,18 +29,21 @@ MOST_FINDINGS = 500
 
 def diagnostics_of(opened: Opened) -> list[types.Diagnostic]:
     """All findings about an open program."""
+    place, warns = opened.places.whole(1, 1), types.DiagnosticSeverity.Warning
+    troubles = [
+        types.Diagnostic(place, f"{each}{_ADVICE if each.startswith(_SEVERAL) else ''}", warns, UNUSED, source=SOURCE)
+        for each in opened.troubles
+    ]
     if opened.program.trouble:
-        place = opened.places.whole(1, 1)
-        message = f"{opened.program.trouble}; choose one in the editor's settings, or state it in a comment"
-        severity = types.DiagnosticSeverity.Warning
-        return [types.Diagnostic(place, message, severity, CONTROL_UNKNOWN, source=SOURCE)]
+        return troubles
     findings = opened.program.diagnostics
     told = [_diagnostic(opened, finding) for finding in findings[:MOST_FINDINGS]]
     if len(findings) > MOST_FINDINGS:
-        message = f"{len(findings) - MOST_FINDINGS:,} more findings from here on: mend the first ones, or run 'check'"
+        more = f"{len(findings) - MOST_FINDINGS:,} more findings from here on"
+        message = f"{more}: fix the first ones, or run `contoursolve check` for all"
         place = _range(opened, findings[MOST_FINDINGS].span)
         told.append(types.Diagnostic(place, message, types.DiagnosticSeverity.Warning, MORE, source=SOURCE))
-    return told
+    return [*troubles, *told]
 
 
 def _diagnostic(opened: Opened, finding: Diagnostic) -> types.Diagnostic:

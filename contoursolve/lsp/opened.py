@@ -7,7 +7,7 @@ from typing import Any
 from lsprotocol import types
 from msgspec import Struct, field
 
-from contoursolve import OpenProgram, SettingError, find_settings
+from contoursolve import OpenProgram, find_settings
 from contoursolve.lsp.pages import Pages
 from contoursolve.lsp.places import Places
 
@@ -25,8 +25,11 @@ class Options(Struct, frozen=True):
     block_numbers: int = 0
 
 
-def read_options(section: Any) -> Options:
-    """The options of a client's section; what is of another kind counts as not set."""
+def read_options(section: Any, *, has_pictures: bool = False) -> Options:
+    """The options of a client's section; what is of another kind counts as not set.
+
+    `has_pictures` tells whether pictures are shown where it does not say that: a terminal would show their data.
+    """
     table = section if isinstance(section, dict) else {}
 
     def switch(name: str) -> bool:
@@ -39,7 +42,7 @@ def read_options(section: Any) -> Options:
         {str(name): str(value) for name, value in given.items()} if isinstance(given, dict) else {},
         switch("inlayHints"),
         switch("codeLenses"),
-        switch("pictures"),
+        table["pictures"] if isinstance(table.get("pictures"), bool) else has_pictures,
         step if isinstance(step, int) and not isinstance(step, bool) and step > 0 else 0,
     )
 
@@ -64,6 +67,8 @@ class Opened:
         text, workspace = client.text_document, client.workspace
         shown = text.publish_diagnostics if text else None
         self.tells_related = bool(shown and shown.related_information)
+        formats = text.hover.content_format if text and text.hover else None
+        self.reads_markdown = formats is None or types.MarkupKind.Markdown in formats
         self._has_versions = bool(workspace and workspace.workspace_edit and workspace.workspace_edit.document_changes)
 
     def configure(self, options: Options) -> None:
@@ -82,14 +87,15 @@ class Opened:
                 self.program.replace(change.text)
 
     @property
-    def trouble(self) -> str:
-        """What is wrong with the project file, or why the control is not known."""
-        return self._project if isinstance(self._project, str) else self.program.trouble
+    def troubles(self) -> list[str]:
+        """What is wrong with the project file, and why the control is not known."""
+        project = self._project if isinstance(self._project, str) else ""
+        return [*filter(None, (project, self.program.trouble))]
 
     @property
     def line_end(self) -> str:
         """How its lines end."""
-        return next((end for end in ("\r\n", "\n", "\r") if end in self.program.text), "\n")
+        return self.program.line_end
 
     @property
     def source(self) -> str:
@@ -126,5 +132,5 @@ def _project_of(path: Path | None) -> dict[str, str] | str:
     """The settings of the project file of a program, or what is wrong with it."""
     try:
         return find_settings(path.parent) if path is not None else {}
-    except SettingError as error:
+    except (OSError, ValueError) as error:  # a name that no file may have, or a SettingError
         return str(error)

@@ -28,7 +28,7 @@ class Pages:
     def write(self, name: str, pieces: Iterable[str]) -> str:
         """Write a file, and say where it is. Raises OSError."""
         path = Path(self._folder.name) / name
-        path.write_text("".join(pieces), encoding="utf-8", errors="replace")
+        path.write_text("".join(pieces), encoding="utf-8", errors="replace", newline="")
         return path.as_uri()
 
     def close(self) -> None:

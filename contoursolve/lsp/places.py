@@ -19,8 +19,7 @@ class Places:
 
     def text(self, line: int) -> str:
         """A line, without its end."""
-        blocks = self.program.blocks
-        return blocks[line - 1].text if 0 < line <= len(blocks) else ""
+        return self.program.line(line)
 
     def position(self, line: int, column: int) -> types.Position:
         """A place as the client counts it; behind the end of a line is its end."""

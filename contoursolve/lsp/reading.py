@@ -3,7 +3,6 @@
 import re
 from base64 import b64encode
 from collections.abc import Iterator, Sequence
-from functools import cached_property
 
 from lsprotocol import types
 
@@ -30,8 +29,12 @@ from contoursolve.pictures import draw_answer
 WIDE = 420
 """Pixels of a picture in a hover."""
 
-_LEGAL: dict[str, tuple[LegalBlock, ...]] = {}
-"""The legal blocks of the controls that were asked for."""
+_LEGAL: dict[object, tuple[LegalBlock, ...]] = {}
+"""The legal blocks of the controls that were asked for, by their names and settings."""
+
+_LONGEST_WORD = 40
+_BLOCK_BEGUN = re.compile(r"\s*+/?+\s*+(?>(?:[Nn]\d++)?)\s*+(?P<code>(?>(?:[Gg]\d*+)?))\Z", re.ASCII)
+"""A line that has no more than its number, and the beginning of a G code."""
 
 
 def hover_of(opened: Opened, position: types.Position) -> types.Hover | None:
@@ -43,18 +46,25 @@ def hover_of(opened: Opened, position: types.Position) -> types.Hover | None:
         stated = next((each for each in stated_words(answer) if word and each.word.span == word.span), None)
         if stated is not None and word is not None:
             return _hover(opened, _about_word(stated, answer), word)
-        text = _about_contour(answer, is_drawn=opened.options.has_pictures)
-        return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), _lines_of(opened, line))
+        is_drawn = opened.options.has_pictures and opened.reads_markdown
+        return _shown(opened, _about_contour(answer, is_drawn=is_drawn), _lines_of(opened, line))
     text = _about_plain_word(opened, word) if word is not None else ""
     return _hover(opened, text, word) if text and word is not None else None
 
 
 def _hover(opened: Opened, text: str, word: Word) -> types.Hover:
-    where = opened.places.range(*_stretch(word))
-    return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), where)
+    return _shown(opened, text, opened.places.range(*stretch(word)))
 
 
-def _stretch(word: Word) -> tuple[int, int, int]:
+def _shown(opened: Opened, text: str, where: types.Range) -> types.Hover:
+    """A text of Markdown, or the same plainly for a client that reads none."""
+    if opened.reads_markdown:
+        return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), where)
+    plain = re.sub(r"\\([\\`*_{}\[\]<>#|!])|\*\*", r"\1", text)
+    return types.Hover(types.MarkupContent(types.MarkupKind.PlainText, plain), where)
+
+
+def stretch(word: Word) -> tuple[int, int, int]:
     """The place of a word without the blanks around it."""
     begin = word.span.column + len(word.text) - len(word.text.lstrip())
     return word.span.line, begin, begin + len(word.text.strip())
@@ -155,23 +165,26 @@ class Completer:
         self.opened, self.has_snippets = opened, has_snippets
         self.line, self.column = opened.places.place(position)
         self.before = opened.places.text(self.line)[: self.column - 1]
-        typed = re.search(r"[#,]?[ ]*[A-Za-z]*\Z", self.before)
-        self.begin = self.column - len(typed[0].lstrip()) if typed else self.column
+        self.begin = self.column
+        """Where what is completed begins."""
 
     def items(self) -> Iterator[types.CompletionItem]:
         """Words of the contour there, or examples of blocks."""
         dialect, answer = self.opened.program.dialect, self.opened.program.contour_at(self.line)
-        if self._is_comment:
+        near, begun = self.before[-_LONGEST_WORD:], _BLOCK_BEGUN.match(self.before)
+        letters = re.search(r"[#,]?[A-Za-z]*\Z", near)
+        typed = letters[0] if letters else ""
+        if is_in_comment(self.opened, self.line, self.column):
             return
         if dialect is not None and answer is not None:
-            yield from self._words(answer, dialect)
-        elif not re.sub(r"^\s*/?\s*(N\d+)?\s*", "", self.before[: self.begin - 1]):
+            # Behind a digit begins no word, unless its letter is there.
+            if typed or not near or near[-1].isspace():
+                self.begin = self.column - len(typed)
+                yield from self._words(answer, dialect)
+        elif begun is not None:
+            self.begin = begun.start("code") + 1
             for each in DIALECTS.values() if dialect is None else (dialect,):
                 yield from self._blocks(each)
-
-    @cached_property
-    def _is_comment(self) -> bool:
-        return bool(re.search(r";|\([^)]*\Z", self.before))
 
     def _words(self, answer: Answer, dialect: Dialect) -> Iterator[types.CompletionItem]:
         found = [each for each in words_to_add(answer, dialect) if each.line == self.line]
@@ -180,9 +193,10 @@ class Completer:
             yield self._item(each.text, each.text.replace("?", "${1}"), each.meaning, detail, each.address, number)
 
     def _blocks(self, dialect: Dialect) -> Iterator[types.CompletionItem]:
-        if dialect.name not in _LEGAL:
-            _LEGAL[dialect.name] = legal_blocks(dialect)
-        for number, each in enumerate(_LEGAL[dialect.name]):
+        key = dialect.name, *sorted(dialect.modes.settings.items())
+        if key not in _LEGAL:
+            _LEGAL[key] = legal_blocks(dialect)
+        for number, each in enumerate(_LEGAL[key]):
             title = f"{dialect.name}: {each.title}" if self.opened.program.dialect is None else each.title
             yield self._item(each.text.replace("\n", " / "), _snippet(each.text), title, "", each.text, number)
 
@@ -241,7 +255,7 @@ def signatures_of(opened: Opened, position: types.Position) -> types.SignatureHe
         found.append(
             types.SignatureInformation(
                 label,
-                "may stand besides" if answer.status is Status.SOLVED else "completes the block",
+                "may also stand here" if answer.status is Status.SOLVED else "completes the block",
                 [
                     types.ParameterInformation(place, additions.get(address, ""))
                     for place, address in zip(begins, way, strict=True)
@@ -267,7 +281,22 @@ def symbols_of(opened: Opened) -> Iterator[types.DocumentSymbol]:
         )
 
 
-_COMMENT = re.compile(r"\s*(?:\([^)]*\)\s*|;.*)+\Z")
+def is_in_comment(opened: Opened, line: int, column: int) -> bool:
+    """Whether a place is within a comment, as the control has them."""
+    text, at = opened.places.text(line), column - 1
+    found = (match for match in _comment(opened).finditer(text) if match.start() < at <= match.end())
+    return any(at < match.end() or not match[0].endswith(")") for match in found)
+
+
+def _is_comment(opened: Opened, line: int) -> bool:
+    """Whether a line is nothing but comments."""
+    text = opened.places.text(line)
+    return ("(" in text or ";" in text) and not _comment(opened).sub("", text).strip()
+
+
+def _comment(opened: Opened) -> re.Pattern[str]:
+    dialect = opened.program.dialect or DIALECTS["fanuc-mill"]
+    return dialect.modes.syntax.comment
 
 
 def folds_of(opened: Opened) -> Iterator[types.FoldingRange]:
@@ -277,7 +306,7 @@ def folds_of(opened: Opened) -> Iterator[types.FoldingRange]:
             yield types.FoldingRange(contour.first - 1, contour.last - 1, kind=types.FoldingRangeKind.Region)
     first, lines = 0, len(opened.program.blocks)
     for line in range(1, lines + 2):
-        is_comment = line <= lines and _COMMENT.match(opened.places.text(line)) is not None
+        is_comment = line <= lines and _is_comment(opened, line)
         if is_comment and not first:
             first = line
         elif not is_comment and first:

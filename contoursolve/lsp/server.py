@@ -121,7 +121,7 @@ class Server(LanguageServer):
             "solved": statuses.count(Status.SOLVED),
             "errors": severities.count(Severity.ERROR),
             "warnings": severities.count(Severity.WARNING),
-            "message": opened.trouble,
+            "message": "; ".join(opened.troubles),
         }
         self.protocol.notify(STATUS, status)
         workspace = self.client_capabilities.workspace
@@ -146,7 +146,7 @@ class Server(LanguageServer):
 
     def configure(self, section: Any) -> None:
         """Follow the client's options."""
-        self.options = read_options(section)
+        self.options = read_options(section, has_pictures=self.has_client_commands)
         self.follow_projects()
 
     def follow_projects(self) -> None:
@@ -161,7 +161,8 @@ class Server(LanguageServer):
         if workspace and workspace.configuration:
             wanted = types.ConfigurationParams([types.ConfigurationItem(section=SECTION)])
             sections = await self.workspace_configuration_async(wanted)
-            self.configure(sections[0] if sections else None)
+            if sections and sections[0] is not None:
+                self.configure(sections[0])
         self.is_configured.set()
 
     async def show(self, uri: str, what: str) -> None:
@@ -196,7 +197,7 @@ def initialize(params: types.InitializeParams) -> None:
     table = given if isinstance(given, dict) else _table(given)
     server.has_client_commands = table.get("clientCommands") is True
     # Some clients send their whole configuration, with the name of its section.
-    server.options = read_options(table.get(SECTION, table))
+    server.options = read_options(table.get(SECTION, table), has_pictures=server.has_client_commands)
 
 
 def _table(record: Any) -> Mapping[str, Any]:
@@ -210,6 +211,7 @@ def _table(record: Any) -> Mapping[str, Any]:
 @server.feature(types.INITIALIZED)
 async def initialized(_: types.InitializedParams) -> None:
     """Ask for the options, and to be told of project files that change."""
+    await server.ask_options()
     workspace = server.client_capabilities.workspace
     watching = workspace.did_change_watched_files if workspace else None
     if watching and watching.dynamic_registration:
@@ -217,7 +219,6 @@ async def initialized(_: types.InitializedParams) -> None:
         watched = types.DidChangeWatchedFilesRegistrationOptions([types.FileSystemWatcher(name) for name in names])
         wanted = types.Registration("project-files", types.WORKSPACE_DID_CHANGE_WATCHED_FILES, watched)
         await server.client_register_capability_async(types.RegistrationParams([wanted]))
-    await server.ask_options()
 
 
 @server.feature(types.WORKSPACE_DID_CHANGE_CONFIGURATION)

@@ -27,7 +27,7 @@ from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import ISO, Block, Program, Syntax, parse, parse_block, split_lines
 from contoursolve.gcode.lexer import Blocks
 from contoursolve.geometry import Length, Plane
-from contoursolve.program.pipeline import Checkpoint, Examiner, run
+from contoursolve.program.pipeline import Checkpoint, Examiner, Result, run
 from contoursolve.program.project import CONTROL, FIRST_LINES, SettingError, stated_settings
 from contoursolve.program.recognise import PLANE, Recogniser, UnknownControlError, choose, shown_by
 from contoursolve.program.solve_queue import Step
@@ -169,6 +169,8 @@ class OpenProgram:
         self._walk: Iterator[None] | None = None
         self._diagnostics: tuple[Diagnostic, ...] | None = None
         self._examiner: Examiner | None = None
+        self._unread: Result | None = None
+        """What is found where no control is known."""
         self._choose()
         self._begin()
 
@@ -181,6 +183,17 @@ class OpenProgram:
     def blocks(self) -> Sequence[Block]:
         """Its blocks, each read when it is looked at; behind the end of the last line is one more."""
         return self._lines
+
+    def line(self, number: int) -> str:
+        """The text of a line, without its end; empty where there is none."""
+        texts = self._lines.texts
+        return texts[number - 1].rstrip("\r\n") if 0 < number <= len(texts) else ""
+
+    @property
+    def line_end(self) -> str:
+        """How its first line ends; a line feed if that has no end."""
+        first = self._lines.texts[0]
+        return first[len(first.rstrip("\r\n")) :] or "\n"
 
     def configure(self, control: str | Dialect | None, settings: Mapping[str, str]) -> None:
         """Read the program as one for this control (None: as it shows), with these settings."""
@@ -227,10 +240,11 @@ class OpenProgram:
         if list(new) == gone:
             return
         self._lines.change(first, last, new)
-        self._diagnostics = self._walk = None
+        self._diagnostics = self._walk = self._unread = None
         old = self.dialect
-        # Where no control is known, each line may be the one that shows it, or the reason why it cannot be told.
-        if first < FIRST_LINES or self._examiner is None or self._shows_something_else(gone, new):
+        # Where blocks show several controls, the reason names their lines.
+        is_shown = self._shows_something_else(gone, new)
+        if first < FIRST_LINES or self.trouble or is_shown:
             self._choose()
         if old is None or self.dialect is None or not _alike(old, self.dialect):
             self._begin()
@@ -302,10 +316,10 @@ class OpenProgram:
 
     def check(self, most: int | None = None) -> bool:
         """Go on examining what is stale, so many blocks and contours of it or all; whether everything is up to date."""
-        self._walk = self._walk or self._examine()
-        if sum(1 for _ in islice(self._walk, most)) == most:
+        walk, self._walk = self._walk or self._examine(), None
+        if sum(1 for _ in islice(walk, most)) == most:
+            self._walk = walk
             return False
-        self._walk = None
         return True
 
     def _examine(self) -> Iterator[None]:
@@ -379,8 +393,9 @@ class OpenProgram:
     def found(self) -> Iterator[tuple[Diagnostic, tuple[int, ...]]]:
         """Each finding, with the lines that its fixes replace."""
         if self._examiner is None:
-            result = run(parse(self.text, self.name), None, self._unit, self._policy)
-            yield from ((finding, result.lines_of(finding)) for finding in result.diagnostics)
+            if self._unread is None:
+                self._unread = run(parse(self.text, self.name), None, self._unit, self._policy)
+            yield from ((finding, self._unread.lines_of(finding)) for finding in self._unread.diagnostics)
             return
         is_told, start = any(part.answer is not None for part in self._parts), 0
         for part in self._parts:

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from contoursolve.controls import DIALECTS
+from contoursolve.gcode import split_lines
 from contoursolve.reading.dialect import Dialect
 
 OWN, SHARED = "contoursolve.toml", "pyproject.toml"
@@ -75,14 +76,15 @@ def stated_settings(lines: Iterable[str]) -> dict[str, str]:
     return {}
 
 
-def restate_control(text: str, control: str) -> str:
-    """A program's text with another control in the comment that states its own, if it has one."""
-    lines = text.splitlines(keepends=True)
+def restate_control(text: str, control: str, settings: Mapping[str, str]) -> str:
+    """A program's text with another control and its settings in the comment that states its own, if it has one."""
+    lines = split_lines(text)
     for number, line in enumerate(lines[:FIRST_LINES]):
         comment = _STATED.search(line)
         if comment is not None:
             begin, end = comment.span("stated")
-            lines[number] = f"{line[:begin]} {control}{line[end:]}"
+            stated = ", ".join((control, *(f"{name}: {value}" for name, value in settings.items())))
+            lines[number] = f"{line[:begin]} {stated}{line[end:]}"
             break
     return "".join(lines)
 

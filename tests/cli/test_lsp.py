@@ -253,7 +253,7 @@ def test_hints_lenses_and_pictures_can_be_switched_off():
         hover = await editor.ask(client.text_document_hover_async(types.HoverParams(**about(editor, SHAFT, at(5, 2)))))
         assert "data:image" not in hover.contents.value
 
-    in_editor(use, {"inlayHints": False, "codeLenses": False, "pictures": False})
+    in_editor(use, {"inlayHints": False, "codeLenses": False})
 
 
 async def completed(editor: Editor, line: int, character: int) -> dict[str, types.CompletionItem]:

@@ -152,7 +152,9 @@ export async function chooseControl(client: LanguageClient): Promise<void> {
   // A folder has programs for one machine; without a folder the setting is the user's.
   await workspace.getConfiguration("contoursolve").update("control", control, !inFolder);
   const whose = inFolder ? "The programs of this folder are" : "Your programs are";
-  void window.showInformationMessage(control ? `${whose} for ${control} now.` : "Each program tells its control now.");
+  const others = "A project file, or a comment in a program, still counts more.";
+  const news = control ? `${whose} for ${control} now.` : "Each program tells its control now.";
+  void window.showInformationMessage(`${news} ${others}`);
 }
 
 async function pickControl(client: LanguageClient, title: string, none?: string): Promise<string | undefined> {

@@ -27,7 +27,7 @@ export async function activate(context: ExtensionContext): Promise<void> {
   const status = new StatusBar();
   const folder = context.extensionUri.fsPath;
   const picture = new PictureView(folder, () => client);
-  const restart = () => (turn = turn.then(stop).then(() => start(folder, output, status, picture)));
+  const restart = () => (turn = turn.catch(() => undefined).then(stop).then(() => start(folder, output, status, picture)));
   const register = (name: string, run: (...args: never[]) => unknown) =>
     context.subscriptions.push(commands.registerCommand(`contoursolve.${name}`, run));
 
@@ -128,7 +128,7 @@ function showPage(address: string): Promise<{ success: boolean }> | undefined {
 }
 
 async function withServer(run: (client: LanguageClient) => Promise<void>): Promise<void> {
-  await turn;
+  await turn.catch(() => undefined);
   if (!client?.isRunning()) {
     const restart = "Restart the Server";
     const answer = await window.showErrorMessage("The server of contoursolve does not run.", restart);

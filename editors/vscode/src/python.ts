@@ -74,10 +74,14 @@ function probe(python: Python, folder: string): Promise<"ready" | "lacks package
   return new Promise((resolve) => {
     // In a folder of ours: `-c` imports from the folder in which it runs.
     const options = { cwd: folder, timeout: PATIENCE, windowsHide: true };
-    execFile(python.command, [...python.args, "-c", PROBE], options, (error, stdout) => {
-      if (!error) return resolve("ready");
-      resolve(stdout.startsWith("True") ? "lacks packages" : "unusable");
-    });
+    try {
+      execFile(python.command, [...python.args, "-c", PROBE], options, (error, stdout) => {
+        if (!error) return resolve("ready");
+        resolve(stdout.startsWith("True") ? "lacks packages" : "unusable");
+      });
+    } catch {
+      resolve("unusable"); // no name of a program, such as an empty one
+    }
   });
 }
 
