@@ -145,7 +145,7 @@ def _alone(answer: Answer, dialect: Dialect, options: Mapping[str, Any]) -> str:
     selected = [code.text for code in codes.values() if code.plane is not None and code.plane.code == state.plane.code]
     is_switched = _ABSOLUTE in codes and codes[_ABSOLUTE].effect.value == "absolute"
     modes = [*selected[:1], *(["G90"] if is_switched else [])]
-    motion = f"G{state.motion:02}" if state.motion is not None else ""
+    motion = f"G{state.motion:02}" if state.motion else ""
     begin = " ".join((*modes, "G00", start_text(answer)))
     forced = " ".join(filter(None, ("G91" if is_switched and state.is_incremental else "", motion)))
     text = "\n".join((begin, *([forced] if forced else []), *(block.text.strip() for block in answer.claim.blocks)))

@@ -21,8 +21,8 @@ SHAFT = "file:///programs/shaft.nc"
 
 @pytest.fixture(scope="module")
 def served():
-    """One server for all tests that need no options."""
-    kept = Served()
+    """One server for all tests that need no other options."""
+    kept = Served({"pictures": True})
     yield kept
     kept.stop()
 
@@ -235,8 +235,45 @@ def test_hovers_hints_symbols_folds(served):
         draw, explore, expand = (Path(re.sub("^file://", "", uri)).read_text() for uri in editor.shown)
         assert draw.startswith("<svg")
         source = json.loads(explore)["cells"][0]["source"]
-        assert "start='Z0 X40.', control='yasnac-lx3'" in source
+        assert "'G00 Z0 X40.\\nG111 X100. A180. K-30. B120. P5. Q5.', control='yasnac-lx3'" in source
         assert "G03 X100. Z-50.207 I-5. K" in expand or "G03" in expand
+
+    served(use)
+
+
+INCREMENTAL = "G20 G17 G90 G0 X1. Y1.\nG91\nG01 X4. ,R.5\nG01 Y5.\n"
+
+
+def test_a_notebook_explores_the_contour_with_the_modal_codes_before_it(served):
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, f"(contoursolve control: fanuc-mill)\n{INCREMENTAL}")
+        found = await run(editor, "explore", SHAFT, 3)
+        code = json.loads(found["notebook"])["cells"][0]["source"]
+        text, told = re.search(r"explore\(('.*?'), (.*)\)", code, re.DOTALL).groups()
+        options = eval(f"dict({told})")
+        (answer,) = solve(eval(text), **options).answers
+        (wanted,) = solve(INCREMENTAL, control="fanuc-mill").answers
+        assert end_text(answer) == end_text(wanted) == "X5.00000 Y6.00000"
+
+    served(use)
+
+
+def test_no_word_is_offered_within_a_number(served):
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, "G00 X40. Z0.\nG111 A135. K-10. B120. X100\n")
+        assert not await completed(editor, 2, 28)
+
+    served(use)
+
+
+def test_a_broken_project_file_is_a_finding(served, tmp_path):
+    (tmp_path / "contoursolve.toml").write_text('control = "fanuc-mil"\n')
+    uri = (tmp_path / "a.nc").as_uri()
+
+    async def use(editor: Editor) -> None:
+        editor.open(uri, TURNED)
+        (found,) = await editor.findings(uri)
+        assert "there is no control 'fanuc-mil'" in found.message
 
     served(use)
 
@@ -253,7 +290,7 @@ def test_hints_lenses_and_pictures_can_be_switched_off():
         hover = await editor.ask(client.text_document_hover_async(types.HoverParams(**about(editor, SHAFT, at(5, 2)))))
         assert "data:image" not in hover.contents.value
 
-    in_editor(use, {"inlayHints": False, "codeLenses": False})
+    in_editor(use, {"inlayHints": False, "codeLenses": False, "pictures": False})
 
 
 async def completed(editor: Editor, line: int, character: int) -> dict[str, types.CompletionItem]:
