@@ -7,7 +7,7 @@ from typing import Any
 from lsprotocol import types
 
 import contoursolve
-from contoursolve import Answer, Conversion, Dialect, Expansion, OpenContour, end_text, start_text, stated_words
+from contoursolve import Answer, Conversion, Dialect, Expansion, end_text, start_text, stated_words
 from contoursolve.lsp.opened import Opened
 from contoursolve.lsp.reading import stretch
 from contoursolve.pictures import Theme, draw_answer
@@ -21,14 +21,17 @@ _LENSES = (("draw", "drawBeside"), ("explore", "exploreContour"), ("expand", "ex
 """What stands above a contour, and the client's own command for it."""
 
 
-def lenses(uri: str, contour: OpenContour, *, of_client: bool) -> Iterator[tuple[str, str, list[Any]]]:
-    """The titles of commands about a contour, their names and arguments."""
-    for title, own in _LENSES:
-        if of_client:
-            arguments = [uri] if title == "expand" else [uri, contour.first - 1]
-            yield title, f"contoursolve.{own}", arguments
-        else:
-            yield title, "contoursolve.show", [title, uri, contour.first - 1]
+def lenses_of(opened: Opened, *, of_client: bool) -> Iterator[types.CodeLens]:
+    """Above each contour, what can be done with it: by the client's own commands, or by the server's."""
+    for contour in opened.program.contours:
+        place, line = opened.places.whole(contour.first, contour.first), contour.first - 1
+        for title, own in _LENSES:
+            if of_client:
+                arguments = [opened.uri] if title == "expand" else [opened.uri, line]
+                command = types.Command(title, f"contoursolve.{own}", arguments=arguments)
+            else:
+                command = types.Command(title, "contoursolve.show", arguments=[title, opened.uri, line])
+            yield types.CodeLens(place, command)
 
 
 def picture_of(opened: Opened, position: types.Position) -> Any:
@@ -112,8 +115,8 @@ def report_on(opened: Opened | None) -> Reply:
 
 
 def notebook_of(opened: Opened | None, line: int) -> Reply:
-    """A notebook that explores the contour on a line, or why there is none."""
-    answer = opened.program.contour_at(line) if opened is not None else None
+    """A notebook that explores the contour on a line, which counts from 0, or why there is none."""
+    answer = opened.program.contour_at(line + 1) if opened is not None else None
     if opened is None or answer is None or opened.program.dialect is None:
         return {"notebook": None, "message": "there is no contour under the cursor"}
     if not answer.start.is_known:
@@ -161,13 +164,13 @@ def file_of(opened: Opened | None, what: str, line: int) -> tuple[str, str | Non
         return NOT_OPEN, None
     stem = (opened.path.stem if opened.path else "program").replace("/", "-")
     if what == "draw":
-        answer = opened.program.contour_at(line)
+        answer = opened.program.contour_at(line + 1)
         if answer is None:
             return "there is no contour under the cursor", None
-        return f"{stem}-{line}.svg", draw_answer(answer).svg
+        return f"{stem}-{line + 1}.svg", draw_answer(answer).svg
     if what == "explore":
         found = notebook_of(opened, line)
-        return (f"{stem}-{line}.ipynb", found["notebook"]) if found["notebook"] else (found["message"] or "", None)
+        return (f"{stem}-{line + 1}.ipynb", found["notebook"]) if found["notebook"] else (found["message"] or "", None)
     found = expand_program(opened)
     suffix = opened.path.suffix if opened.path else ".nc"
     return (f"{stem}-expanded{suffix}", found["text"]) if found["text"] else (found["message"] or "", None)

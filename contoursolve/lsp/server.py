@@ -4,7 +4,6 @@ import asyncio
 import logging
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from functools import wraps
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -181,12 +180,10 @@ server = Server()
 def _of_program(read: Callable[[Opened, Any], Any]) -> Callable[[Any], Any]:
     """A handler of requests about a program, answered when all of it is examined; null if it is not open."""
 
-    @wraps(read)
     async def handle(params: Any) -> Any:
         opened = await server.checked(params.text_document.uri)
         return None if opened is None else read(opened, params)
 
-    handle.__annotations__ = {}
     return handle
 
 
@@ -265,105 +262,58 @@ def shutdown(_: Any = None) -> None:
     server.pages.close()
 
 
-_QUICK_FIX = types.CodeActionOptions([types.CodeActionKind.QuickFix])
-
-
-@server.feature(types.TEXT_DOCUMENT_CODE_ACTION, _QUICK_FIX)
-@_of_program
-def code_actions(opened: Opened, params: types.CodeActionParams) -> list[types.CodeAction]:
-    """The fixes at a place."""
+def _actions(opened: Opened, params: types.CodeActionParams) -> list[types.CodeAction]:
     only = params.context.only
     if only is not None and not any(types.CodeActionKind.QuickFix.value.startswith(kind) for kind in only):
         return []
     return [*actions_of(opened, params.range)]
 
 
-@server.feature(types.TEXT_DOCUMENT_HOVER)
-@_of_program
-def hover(opened: Opened, params: types.HoverParams) -> types.Hover | None:
-    """What a word means, or a contour."""
-    return hover_of(opened, params.position)
-
-
-@server.feature(types.TEXT_DOCUMENT_INLAY_HINT)
-@_of_program
-def inlay_hints(opened: Opened, params: types.InlayHintParams) -> list[types.InlayHint]:
-    """Where contours end."""
-    return [*hints_of(opened, params.range)] if opened.options.is_hinting else []
-
-
-@server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=[" ", ",", "#"]))
-@_of_program
-def completion(opened: Opened, params: types.CompletionParams) -> types.CompletionList:
-    """What may be written here."""
+def _completions(opened: Opened, params: types.CompletionParams) -> types.CompletionList:
     text = server.client_capabilities.text_document
     item = text.completion.completion_item if text and text.completion else None
     found = Completer(opened, params.position, has_snippets=bool(item and item.snippet_support)).items()
     return types.CompletionList(is_incomplete=True, items=[*found])
 
 
-@server.feature(types.TEXT_DOCUMENT_SIGNATURE_HELP, types.SignatureHelpOptions([" "]))
-@_of_program
-def signature_help(opened: Opened, params: types.SignatureHelpParams) -> types.SignatureHelp | None:
-    """Which words complete the block."""
-    return signatures_of(opened, params.position)
+def _lenses(opened: Opened, _: types.CodeLensParams) -> list[types.CodeLens]:
+    return [*commands.lenses_of(opened, of_client=server.has_client_commands)] if opened.options.has_lenses else []
 
 
-@server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
-@_of_program
-def document_symbols(opened: Opened, _: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
-    """The contours."""
-    return [*symbols_of(opened)]
+_REQUESTS: tuple[tuple[str, Any, Callable[[Opened, Any], Any]], ...] = (
+    (types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions([types.CodeActionKind.QuickFix]), _actions),
+    (types.TEXT_DOCUMENT_HOVER, None, lambda opened, params: hover_of(opened, params.position)),
+    (
+        types.TEXT_DOCUMENT_INLAY_HINT,
+        None,
+        lambda opened, params: [*hints_of(opened, params.range)] if opened.options.is_hinting else [],
+    ),
+    (types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=[" ", ",", "#"]), _completions),
+    (
+        types.TEXT_DOCUMENT_SIGNATURE_HELP,
+        types.SignatureHelpOptions([" "]),
+        lambda opened, params: signatures_of(opened, params.position),
+    ),
+    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, lambda opened, _: [*symbols_of(opened)]),
+    (types.TEXT_DOCUMENT_FOLDING_RANGE, None, lambda opened, _: [*folds_of(opened)]),
+    (types.TEXT_DOCUMENT_CODE_LENS, None, _lenses),
+    (types.TEXT_DOCUMENT_FORMATTING, None, lambda opened, _: formatted(opened)),
+    (
+        types.TEXT_DOCUMENT_PREPARE_RENAME,
+        None,
+        lambda opened, params: block_number_under(opened, params.position),
+    ),
+    (
+        types.TEXT_DOCUMENT_RENAME,
+        types.RenameOptions(prepare_provider=True),
+        lambda opened, params: renamed(opened, params.position, params.new_name),
+    ),
+    (types.TEXT_DOCUMENT_DEFINITION, None, lambda opened, params: target_of(opened, params.position)),
+)
+"""What a client asks about a program, with the options that it is told, and what answers."""
 
-
-@server.feature(types.TEXT_DOCUMENT_FOLDING_RANGE)
-@_of_program
-def folding_ranges(opened: Opened, _: types.FoldingRangeParams) -> list[types.FoldingRange]:
-    """Contours and comments."""
-    return [*folds_of(opened)]
-
-
-@server.feature(types.TEXT_DOCUMENT_CODE_LENS)
-@_of_program
-def code_lenses(opened: Opened, _: types.CodeLensParams) -> list[types.CodeLens]:
-    """Above each contour, what can be done with it."""
-    if not opened.options.has_lenses:
-        return []
-    return [
-        types.CodeLens(
-            opened.places.whole(contour.first, contour.first), types.Command(title, name, arguments=arguments)
-        )
-        for contour in opened.program.contours
-        for title, name, arguments in commands.lenses(opened.uri, contour, of_client=server.has_client_commands)
-    ]
-
-
-@server.feature(types.TEXT_DOCUMENT_FORMATTING)
-@_of_program
-def formatting(opened: Opened, _: types.DocumentFormattingParams) -> list[types.TextEdit]:
-    """Blanks and block numbers put right; no word is changed."""
-    return formatted(opened)
-
-
-@server.feature(types.TEXT_DOCUMENT_PREPARE_RENAME)
-@_of_program
-def prepare_rename(opened: Opened, params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
-    """The block number under the cursor."""
-    return block_number_under(opened, params.position)
-
-
-@server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
-@_of_program
-def rename(opened: Opened, params: types.RenameParams) -> types.WorkspaceEdit | None:
-    """Another block number, with all jumps to it."""
-    return renamed(opened, params.position, params.new_name)
-
-
-@server.feature(types.TEXT_DOCUMENT_DEFINITION)
-@_of_program
-def definition(opened: Opened, params: types.DefinitionParams) -> types.Location | None:
-    """The block to which a jump goes."""
-    return target_of(opened, params.position)
+for _name, _options, _read in _REQUESTS:
+    server.feature(_name, _options)(_of_program(_read))
 
 
 @server.feature(PICTURE)
@@ -375,32 +325,24 @@ async def picture(params: Any) -> Any:
     return commands.picture_of(opened, types.Position(params.position.line, params.position.character))
 
 
-@server.command("contoursolve.expand")
-async def expand(uri: str) -> Any:
-    """The program in plain G-code."""
-    opened = await server.checked(uri)
-    return commands.expand_program(opened)
+_COMMANDS: Mapping[str, Callable[..., Any]] = {
+    "expand": commands.expand_program,
+    "convert": commands.convert_program,
+    "report": commands.report_on,
+    "explore": commands.notebook_of,
+}
+"""What a client has made of a program, by the name of the command."""
 
 
-@server.command("contoursolve.convert")
-async def convert(uri: str, control: str) -> Any:
-    """The program in the words of another control."""
-    opened = await server.checked(uri)
-    return commands.convert_program(opened, control)
+def _command(make: Callable[..., Any]) -> Callable[..., Any]:
+    async def handle(uri: str, *arguments: Any) -> Any:
+        return make(await server.checked(uri), *arguments)
+
+    return handle
 
 
-@server.command("contoursolve.report")
-async def report(uri: str) -> Any:
-    """A page about the program."""
-    opened = await server.checked(uri)
-    return commands.report_on(opened)
-
-
-@server.command("contoursolve.explore")
-async def explore(uri: str, line: int) -> Any:
-    """A notebook in which a contour can be moved."""
-    opened = await server.checked(uri)
-    return commands.notebook_of(opened, line + 1)
+for _name, _make in _COMMANDS.items():
+    server.command(f"contoursolve.{_name}")(_command(_make))
 
 
 @server.command("contoursolve.controls")
@@ -422,7 +364,7 @@ async def show(what: str, uri: str, line: int) -> None:
     """Write a picture, a notebook or the plain program into a file, and show it: for clients without commands of their
     own."""
     opened = await server.checked(uri)
-    name, text = commands.file_of(opened, what, line + 1)
+    name, text = commands.file_of(opened, what, line)
     if text is None:
         server.window_show_message(types.ShowMessageParams(types.MessageType.Warning, name))
         return
