@@ -15,12 +15,11 @@ _SEVERITY = {
 }
 
 SOURCE = "contoursolve"
-UNUSED = "control-unknown"
+CONTROL_UNKNOWN, MORE = "control-unknown", "more-findings"
 SAFE = "safe"
 
 _SEVERAL = "the program looks like"
 _ADVICE = "; choose one in the editor's settings, or name it in a comment: (contoursolve control: NAME)"
-MORE = "more-findings"
 LONGEST_TITLE = 160
 
 MOST_FINDINGS = 500
@@ -30,20 +29,18 @@ MOST_FINDINGS = 500
 def diagnostics_of(opened: Opened) -> list[types.Diagnostic]:
     """All findings about an open program."""
     place, warns = opened.places.whole(1, 1), types.DiagnosticSeverity.Warning
-    troubles = [
-        types.Diagnostic(place, f"{each}{_ADVICE if each.startswith(_SEVERAL) else ''}", warns, UNUSED, source=SOURCE)
-        for each in opened.troubles
-    ]
+    told = (f"{each}{_ADVICE if each.startswith(_SEVERAL) else ''}" for each in opened.troubles)
+    troubles = [types.Diagnostic(place, each, warns, CONTROL_UNKNOWN, source=SOURCE) for each in told]
     if opened.program.trouble:
         return troubles
     findings = opened.program.diagnostics
-    told = [_diagnostic(opened, finding) for finding in findings[:MOST_FINDINGS]]
+    shown = [_diagnostic(opened, finding) for finding in findings[:MOST_FINDINGS]]
     if len(findings) > MOST_FINDINGS:
         more = f"{len(findings) - MOST_FINDINGS:,} more findings from here on"
         message = f"{more}: fix the first ones, or run `contoursolve check` for all"
         place = _range(opened, findings[MOST_FINDINGS].span)
-        told.append(types.Diagnostic(place, message, types.DiagnosticSeverity.Warning, MORE, source=SOURCE))
-    return [*troubles, *told]
+        shown.append(types.Diagnostic(place, message, warns, MORE, source=SOURCE))
+    return [*troubles, *shown]
 
 
 def _diagnostic(opened: Opened, finding: Diagnostic) -> types.Diagnostic:

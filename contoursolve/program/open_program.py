@@ -256,15 +256,15 @@ class OpenProgram:
         """Whether another control may be shown, now that some lines are gone and others have come."""
         if self._shown is None:
             return False
-        before, (old, new) = {each for each in self._shown if self._shown[each]}, (map(_shown, gone), map(_shown, come))
-        taken, given = [*old], [*new]
+        before = {each for each, count in self._shown.items() if count}
+        taken, given = [*map(_shown, gone)], [*map(_shown, come)]
         for shown in taken:
             self._shown.subtract(shown)
         for shown in given:
             self._shown.update(shown)
         # Where a plane is selected, their order counts, too.
         is_ordered = PLANE in before and taken != given
-        return is_ordered or before != {each for each in self._shown if self._shown[each]}
+        return is_ordered or before != {each for each, count in self._shown.items() if count}
 
     def _choose(self) -> None:
         """Find the control."""
@@ -341,7 +341,7 @@ class OpenProgram:
                     continue
                 if not here.is_stale:
                     self._bring_up(here)
-                    if _knows_the_same(here.known, known):
+                    if here.known == known:
                         break
                 here.is_stale, here.known, here.age = True, known, len(self._moves)
                 yield
@@ -461,10 +461,6 @@ def _alike(one: Dialect, other: Dialect) -> bool:
 def _is_plain(part: _Part) -> bool:
     """Whether a part may take in another plain block."""
     return part.answer is None and not part.beside and not part.is_stale and 0 < part.count < _LONGEST
-
-
-def _knows_the_same(one: Checkpoint, other: Checkpoint) -> bool:
-    return one == other
 
 
 _LINES = re.compile(r"(?<=program )lines? \d+(?:, \d+)*(?: and \d+)?")
