@@ -7,14 +7,12 @@ import shutil
 import socket
 import subprocess
 import sys
-import time
-import urllib.error
-import urllib.request
 from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from serving import SECONDS, wait_for
 
 import contoursolve
 
@@ -34,7 +32,6 @@ FLAGS = [
 ]
 BLOCK = "G111 X100. A180. K-30. B120. P5. Q5."
 NOTEBOOK = HOUSE / "notebooks" / "01_first_contour.ipynb"
-SECONDS = 40
 
 
 @pytest.fixture(scope="module")
@@ -122,17 +119,6 @@ def jupyterlab(folder):
     finally:
         server.terminate()
         server.wait(SECONDS)
-
-
-def wait_for(address, server, log):
-    for _ in range(SECONDS * 5):
-        assert server.poll() is None, log.read_text()
-        try:
-            with urllib.request.urlopen(address, timeout=SECONDS):
-                return
-        except urllib.error.URLError:
-            time.sleep(0.2)
-    raise AssertionError(log.read_text())
 
 
 def write_notebook(path):

@@ -7,15 +7,13 @@ import shutil
 import socket
 import subprocess
 import sys
-import time
-import urllib.error
-import urllib.request
 from collections import Counter
 from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import quote, urlsplit
 
 import pytest
+from serving import SECONDS, wait_for
 
 import contoursolve
 
@@ -38,7 +36,6 @@ FLAGS = [
     "--disable-sync",
 ]
 CLIPBOARD = ["clipboard-read", "clipboard-write"]
-SECONDS = 40
 SETTINGS = {
     "contoursolve.python": sys.executable,
     "editor.minimap.enabled": False,
@@ -131,17 +128,6 @@ def serving(entry, package, folder, **settings):
     finally:
         server.terminate()
         server.wait(SECONDS)
-
-
-def wait_for(address, server, log):
-    for _ in range(SECONDS * 5):
-        assert server.poll() is None, log.read_text()
-        try:
-            with urllib.request.urlopen(address, timeout=SECONDS):
-                return
-        except urllib.error.URLError:
-            time.sleep(0.2)
-    raise AssertionError(log.read_text())
 
 
 @pytest.fixture(scope="module")
