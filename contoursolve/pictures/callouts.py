@@ -42,9 +42,10 @@ def draw_callouts(canvas: Canvas, scene: Scene) -> None:
     for slide in scene.each(Slide):
         _draw_slide(canvas, slide)
     for mark in scene.each(Mark):
-        _draw_point(canvas, mark)
+        with canvas.about(mark.about):
+            _draw_point(canvas, mark)
     for dimension in scene.dimensions:
-        with canvas.about(dimension.word):
+        with canvas.about(dimension.about):
             if isinstance(dimension, Angle):
                 at = canvas.view.place(dimension.at)
                 number = counts.get(at, 0)
@@ -58,17 +59,18 @@ def draw_callouts(canvas: Canvas, scene: Scene) -> None:
                 continue
         wanted.append((spot, dimension, away))
     for spot, dimension, away in wanted:
-        with canvas.about(dimension.word):
+        with canvas.about(dimension.about):
             canvas.label(spot, [(TextRun(dimension.text, dimension.role),)], away, dimension.role)
     for leader in scene.each(Leader):
-        with canvas.about(leader.word):
+        with canvas.about(leader.about):
             _draw_leader(canvas, leader)
     ways = _ways(canvas, scene)
     for mark in scene.each(Mark):
         if mark.label:
             at = canvas.view.place(mark.at)
             away = _away_from(ways.get((round(at[0]), round(at[1])), []))
-            canvas.label(at, [mark.label, mark.short], away, Role.MUTED)
+            with canvas.about(mark.about):
+                canvas.label(at, [mark.label, mark.short], away, Role.MUTED)
 
 
 def _draw_angle(canvas: Canvas, angle: Angle, at: Spot, number: int) -> tuple[Spot, Spot]:
@@ -146,11 +148,11 @@ def _draw_point(canvas: Canvas, mark: Mark) -> None:
     at = canvas.view.place(mark.at)
     if mark.kind in _DOTS:
         radius, is_filled = _DOTS[mark.kind]
-        canvas.thick.append(Dot(at, radius, mark.role, is_filled=is_filled))
+        canvas.thick.append(Dot(at, radius, mark.role, is_filled, mark.about))
         return
     (x, y), size = at, 5.0
-    canvas.thick.append(Stroke((x - size, y), ((x + size, y),), Role.MUTED, THIN))
-    canvas.thick.append(Stroke((x, y - size), ((x, y + size),), Role.MUTED, THIN))
+    canvas.thick.append(Stroke((x - size, y), ((x + size, y),), Role.MUTED, THIN, about=mark.about))
+    canvas.thick.append(Stroke((x, y - size), ((x, y + size),), Role.MUTED, THIN, about=mark.about))
 
 
 def _draw_slide(canvas: Canvas, slide: Slide) -> None:

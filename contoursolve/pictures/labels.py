@@ -8,9 +8,11 @@ from math import ceil, cos, hypot, inf, pi, sin
 from msgspec.structs import replace
 
 from contoursolve.pictures.page import (
+    ANYTHING,
     ASCENT,
     DESCENT,
     SIZE,
+    About,
     Anchor,
     Box,
     Item,
@@ -145,19 +147,19 @@ class Canvas:
         self.texts: list[Text] = []
         self.homeless: list[str] = []
         """Labels for which there was no room."""
-        self.word = ""
-        """The key of the word that is being drawn."""
+        self.named = ANYTHING
+        """What is being drawn."""
 
     @contextmanager
-    def about(self, word: str) -> Iterator[None]:
-        """What is drawn within shows the word of a key."""
-        self.word = word
+    def about(self, named: About) -> Iterator[None]:
+        """What is drawn within shows this."""
+        self.named = named
         yield
-        self.word = ""
+        self.named = ANYTHING
 
     def draw(self, item: Stroke, weight: float = THIN_WEIGHT) -> None:
         """A stroke, with what it weighs against labels; what weighs most is painted over the paper of labels."""
-        item = replace(item, word=self.word) if self.word else item
+        item = replace(item, about=self.named)
         (self.thick if weight >= PATH_WEIGHT else self.thin).append(item)
         here = item.start
         for step in item.steps:
@@ -168,7 +170,7 @@ class Canvas:
 
     def fill(self, shape: Shape) -> None:
         """An arrowhead."""
-        self.thick.append(replace(shape, word=self.word) if self.word else shape)
+        self.thick.append(replace(shape, about=self.named))
         first = shape.corners[0]
         for corner in shape.corners[1:]:
             self._mark(first, corner, THIN_WEIGHT)
@@ -183,7 +185,12 @@ class Canvas:
 
     def _add(self, text: Text, box: Box) -> None:
         """A text on paper, so that thin lines stop at it."""
-        self.texts.append(replace(text, word=self.word) if self.word else text)
+        is_named = self.named != ANYTHING
+        runs = tuple(
+            replace(run, is_underlined=run.role is Role.CONFLICTING and (is_named or run.about != ANYTHING))
+            for run in text.runs
+        )
+        self.texts.append(replace(text, runs=runs, about=self.named))
         self.papers.append(box.filled(Role.PAPER))
         self.taken.append(box)
 

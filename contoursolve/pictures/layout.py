@@ -11,11 +11,13 @@ from contoursolve.pictures.callouts import draw_callouts
 from contoursolve.pictures.labels import FAINT_WEIGHT, PATH_WEIGHT, THIN_WEIGHT, Canvas, clip
 from contoursolve.pictures.margins import arrange, draw_margins
 from contoursolve.pictures.page import (
+    ANYTHING,
     MONO,
     PAD,
     SIZE,
     THICK,
     WIDTH,
+    About,
     Box,
     Item,
     Sheet,
@@ -98,13 +100,18 @@ def _draw_path(canvas: Canvas, scene: Scene) -> None:
         if ends is not None:
             canvas.draw(line(*ends, thin.role, 1.0 if thin.role is Role.MUTED else 1.4))
     for trail in sorted(trails, key=lambda each: each.weight is Weight.MAIN):
-        for stroke in _strokes(view, trail):
-            canvas.draw(stroke, PATH_WEIGHT if trail.weight is Weight.MAIN else THIN_WEIGHT)
+        weight = PATH_WEIGHT if trail.weight is Weight.MAIN else THIN_WEIGHT
+        is_named = scene.is_one_contour and trail.weight is Weight.MAIN
+        for part in [replace(trail, segments=(each,)) for each in trail.segments] if is_named else [trail]:
+            with canvas.about(About(element=part.segments[0].name) if is_named else ANYTHING):
+                for stroke in _strokes(view, part):
+                    canvas.draw(stroke, weight)
     for trail in (trail for trail in trails if trail.weight is Weight.MAIN):
         for segment in _pointed(trail.segments, view):
             at, way = middle(segment)
             step = way[0], -way[1]
-            canvas.fill(head(along(view.place(at), step, 5.0), step, trail.role, 11.0, 4.6))
+            with canvas.about(About(element=segment.name) if scene.is_one_contour else ANYTHING):
+                canvas.fill(head(along(view.place(at), step, 5.0), step, trail.role, 11.0, 4.6))
 
 
 def _pointed(segments: tuple[Segment, ...], view: Viewport) -> list[Segment]:
@@ -193,7 +200,7 @@ def _merged(row: list[TextRun]) -> tuple[TextRun, ...]:
     """Neighbours in one role as one run."""
     found: list[TextRun] = []
     for run in row:
-        if found and (found[-1].role, found[-1].word) == (run.role, run.word):
+        if found and found[-1] == replace(run, text=found[-1].text):
             found[-1] = replace(run, text=found[-1].text + run.text)
         else:
             found.append(run)
@@ -227,11 +234,11 @@ def _foot_of(scene: Scene, homeless: Sequence[str], top: float) -> Iterator[Item
         remarks.append((TextRun("no room for: " + ", ".join(homeless), Role.MUTED),))
     for runs in remarks:
         for text in wrap("".join(run.text for run in runs), WIDTH - 2 * PAD, SIZE, 2):
-            yield Text((PAD, y), (TextRun(text, runs[0].role),), SIZE)
+            yield Text((PAD, y), (replace(runs[0], text=text),), SIZE)
             y += 16.0
 
 
-_STATES = (Role.GIVEN, Role.DERIVED, Role.IGNORED, Role.CONFLICTING, Role.FREE, Role.GHOST)
+_STATES = (Role.GIVEN, Role.DERIVED, Role.IGNORED, Role.CONFLICTING, Role.CANDIDATE, Role.FREE, Role.GHOST)
 
 
 def _legend(scene: Scene) -> list[Role]:

@@ -181,7 +181,7 @@ def _draw_distances(canvas: Canvas, rows: Sequence[Row], side: Border, edge: flo
         a, b = canvas.view.place(dimension.start), canvas.view.place(dimension.end)
         level = edge + side.outward * (_FIRST_ROW + row * _PITCH)
         c, d = side.spot(level, a[side.axis]), side.spot(level, b[side.axis])
-        with canvas.about(dimension.word):
+        with canvas.about(dimension.about):
             for at, end in ((a, c), (b, d)):
                 if distance(at, end) > _GAP:
                     way = direction(at, end)
@@ -190,7 +190,7 @@ def _draw_distances(canvas: Canvas, rows: Sequence[Row], side: Border, edge: flo
             _measure(canvas, c, d, dimension.role)
         texts.append((dimension, c, d))
     for dimension, c, d in texts:
-        with canvas.about(dimension.word):
+        with canvas.about(dimension.about):
             _write(canvas, dimension, ((c[0] + d[0]) / 2, (c[1] + d[1]) / 2))
 
 
@@ -229,7 +229,7 @@ def _draw_coordinates(canvas: Canvas, ordinates: Sequence[Ordinate], side: Borde
     sizes = [width_of(each.text, SIZE) + 10.0 if side.axis == FIRST else SIZE + 5.0 for each in entries]
     places = _apart(wanted, sizes)
     for ordinate, at, place in zip(entries, wanted, places, strict=True):
-        with canvas.about(ordinate.word):
+        with canvas.about(ordinate.about):
             _coordinate(canvas, ordinate, side, edge, at, place)
 
 

@@ -45,6 +45,20 @@ class Sweep(Struct, frozen=True):
         yield self.end
 
 
+class About(Struct, frozen=True):
+    """What an item shows: a word by its key, an element of the path by its name, points by their names, and findings by
+    their numbers in the contour (from 1); several have blanks between. A page finds items by it."""
+
+    word: str = ""
+    point: str = ""
+    element: str = ""
+    finding: str = ""
+
+
+ANYTHING = About()
+"""What an item is about that shows nothing that has a name."""
+
+
 class Stroke(Struct, frozen=True):
     """A line that is drawn: from `start` through places and arcs."""
 
@@ -53,8 +67,7 @@ class Stroke(Struct, frozen=True):
     role: Role
     width: float
     dash: tuple[float, ...] = ()
-    word: str = ""
-    """The key of the word that it shows, if it shows one."""
+    about: About = ANYTHING
 
 
 class Shape(Struct, frozen=True):
@@ -62,8 +75,7 @@ class Shape(Struct, frozen=True):
 
     corners: tuple[Spot, ...]
     role: Role
-    word: str = ""
-    """The key of the word that it shows, if it shows one."""
+    about: About = ANYTHING
 
 
 class Dot(Struct, frozen=True):
@@ -73,6 +85,7 @@ class Dot(Struct, frozen=True):
     radius: float
     role: Role
     is_filled: bool = True
+    about: About = ANYTHING
 
 
 class Anchor(Enum):
@@ -88,8 +101,9 @@ class TextRun(Struct, frozen=True):
 
     text: str
     role: Role
-    word: str = ""
-    """The key of the word that it shows, if it shows one."""
+    about: About = ANYTHING
+    is_underlined: bool = False
+    """As words at fault are, so that they are known without colour."""
 
 
 class Box(NamedTuple):
@@ -135,8 +149,7 @@ class Text(Struct, frozen=True):
     is_bold: bool = False
     is_mono: bool = False
     is_turned: bool = False
-    word: str = ""
-    """The key of the word that it shows, if it shows one."""
+    about: About = ANYTHING
 
     @property
     def words(self) -> str:
