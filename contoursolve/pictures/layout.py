@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from contoursolve.geometry import FIRST, SECOND
 from contoursolve.pictures.callouts import draw_callouts
 from contoursolve.pictures.labels import FAINT_WEIGHT, PATH_WEIGHT, THIN_WEIGHT, Canvas, clip
-from contoursolve.pictures.margins import arrange, draw_margins
+from contoursolve.pictures.margins import Placement, arrange, draw_margins, placement_of
 from contoursolve.pictures.page import (
     ANYTHING,
     MONO,
@@ -53,20 +53,23 @@ _CORNER = 130.0
 """Pixels that the axes take of the width."""
 
 
-def lay_out(scene: Scene) -> Sheet:
-    """The page of one scene."""
+def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
+    """The page of one scene; one that is held has scale and origin, sides of labels and height of the page before."""
     scene = _thinned(scene)
     top = list(_head_of(scene))
-    margins = arrange(scene, max(item.box.bottom for item in top) + 6.0)
-    frame, canvas = margins.frame, Canvas(margins.view, margins.frame)
+    margins = arrange(scene, max(item.box.bottom for item in top) + 6.0, held)
+    frame, canvas = margins.frame, Canvas(margins.view, margins.frame, held.labels if held else None)
     _draw_path(canvas, scene)
     draw_margins(canvas, margins)
     draw_callouts(canvas, scene)
     # The axes stand beside the drawing's lower end where nothing else is.
     is_free = canvas.cost(Box(frame.left, frame.bottom - 34.0, _CORNER, frame.bottom)) == 0.0
-    foot = list(_foot_of(scene, canvas.homeless, frame.bottom - (26.0 if is_free else -4.0)))
-    height = max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0
-    return Sheet(scene.title, round(height, 1), frame, canvas.items, (*top, *foot))
+    below = held.foot if held else frame.bottom - (26.0 if is_free else -4.0)
+    foot = list(_foot_of(scene, canvas.homeless, below))
+    height = round(max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0, 1)
+    height = max(height, held.height if held else 0.0)
+    placement = placement_of(margins, canvas.labels, below, height)
+    return Sheet(scene.title, height, frame, canvas.items, (*top, *foot), placement)
 
 
 def _thinned(scene: Scene) -> Scene:

@@ -4,13 +4,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 from math import cos, sin
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.pictures.theme import DASHES, Role
 from contoursolve.pictures.vectors import along
+
+if TYPE_CHECKING:
+    from contoursolve.pictures.margins import Placement
 
 Spot = tuple[float, float]
 """A place on the page, pixels from its top left corner."""
@@ -180,6 +183,8 @@ class Sheet:
     frame: Box
     drawing: tuple[Item, ...] = field(repr=False)
     around: tuple[Item, ...] = field(default=(), repr=False)
+    placement: "Placement | None" = field(default=None, repr=False, compare=False)
+    """How the drawing stands, where there is one."""
 
     @property
     def texts(self) -> tuple[Text, ...]:
