@@ -144,6 +144,14 @@ class LabelSpot(Struct, frozen=True):
         return Box(x - width / 2, y - height / 2, x + width / 2, y + height / 2)
 
 
+class Grip(Struct, frozen=True):
+    """Where a word can be taken hold of on a page: the tip of its arrow, and the centre about which that turns."""
+
+    word: str
+    at: Spot
+    center: Spot | None = None
+
+
 def spot_of(at: Spot, box: Box) -> LabelSpot:
     """Where a label stands beside a place."""
     middles, sizes = (
@@ -171,6 +179,7 @@ class Canvas:
         """How much is drawn in each cell of the frame."""
         self.taken: list[Box] = []
         """Where texts stand."""
+        self.grips: list[Grip] = []
         self.thin: list[Item] = []
         self.papers: list[Item] = []
         self.thick: list[Item] = []

@@ -1,7 +1,7 @@
 """Lays a scene out on a page: how large it is drawn, what stands in its margins, head and foot."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from math import tau
 
 from msgspec.structs import replace
@@ -35,6 +35,7 @@ from contoursolve.pictures.page import (
     wrap,
 )
 from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thin, Trail, Viewport, Weight
+from contoursolve.pictures.svg import steps_text
 from contoursolve.pictures.theme import DASHES, MEANINGS, Role
 from contoursolve.pictures.vectors import along, direction, distance, middle, sweep_of
 from contoursolve.solving.contour import ArcSegment, Segment
@@ -68,7 +69,7 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
     foot = list(_foot_of(scene, canvas.homeless, below))
     height = round(max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0, 1)
     height = max(height, held.height if held else 0.0)
-    placement = placement_of(margins, canvas.labels, below, height)
+    placement = placement_of(margins, canvas, below, height)
     return Sheet(scene.title, height, frame, canvas.items, (*top, *foot), placement)
 
 
@@ -151,6 +152,11 @@ def _strokes(view: Viewport, trail: Trail) -> Iterator[Stroke]:
             steps.append(_step(view, segment, end))
     if steps:
         yield Stroke(begin, tuple(steps), trail.role, width, dash)
+
+
+def path_data(trails: Iterable[Trail], view: Viewport) -> list[str]:
+    """Paths as the data of SVG's paths, where a part of the plane is shown."""
+    return [steps_text(stroke) for trail in trails for stroke in _strokes(view, trail)]
 
 
 def _step(view: Viewport, segment: Segment, end: Spot) -> Spot | Sweep:

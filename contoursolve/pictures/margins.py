@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from msgspec import Struct
 
 from contoursolve.geometry import FIRST, SECOND
-from contoursolve.pictures.labels import Canvas, LabelSpot
+from contoursolve.pictures.labels import Canvas, Grip, LabelSpot
 from contoursolve.pictures.page import SIZE, WIDTH, About, Anchor, Box, Spot, Text, TextRun, head, line, width_of
 from contoursolve.pictures.scene import LinearDimension, Ordinate, Rectangle, Scene, Trail, Viewport, bounds_of
 from contoursolve.pictures.theme import Role
@@ -71,6 +71,7 @@ class Placement(Struct, frozen=True):
     """At which edge the coordinates on an axis are written."""
     labels: Mapping[tuple[About, int], LabelSpot]
     """By what they show, and the number of the label of those that show the same."""
+    grips: tuple[Grip, ...]
     foot: float
     height: float
 
@@ -127,13 +128,12 @@ def _arranged_as(scene: Scene, held: Placement) -> Arrangement:
     return Arrangement(held.view, held.frame, rows, coordinates, held.outer)
 
 
-def placement_of(
-    margins: Arrangement, labels: Mapping[tuple[About, int], LabelSpot], foot: float, height: float
-) -> Placement:
+def placement_of(margins: Arrangement, canvas: Canvas, foot: float, height: float) -> Placement:
     """How a drawing stands, for the next one."""
     rows = {each.about: (side, row) for side, several in margins.rows.items() for each, row in several}
     edges = {side.axis: side for side, several in margins.coordinates.items() if several}
-    return Placement(margins.view, margins.frame, margins.outer, rows, edges, labels, foot, height)
+    grips = tuple(each for each in canvas.grips if each.word)
+    return Placement(margins.view, margins.frame, margins.outer, rows, edges, canvas.labels, grips, foot, height)
 
 
 def _with_turning_axis(scene: Scene, span: Rectangle) -> Rectangle:

@@ -155,11 +155,11 @@ def subject_of(answer: Answer) -> Subject:
         tuple(list_trails(answer, known)),
         _roles(answer, blamed),
         blamed,
-        _named(answer),
+        named_words(answer),
     )
 
 
-def _named(answer: Answer) -> dict[Span, About]:
+def named_words(answer: Answer) -> dict[Span, About]:
     """What shows a word or a fact is about: its key, and the errors and warnings that point at it."""
     keys = word_keys(answer.claim.words.values())
     numbers: dict[Span, list[str]] = {}
