@@ -232,10 +232,7 @@ MOVED = {
     "pair": (f"{PAIR} Q-1", {}),
     "chain": (CHAIN, {**START, "control": "fanuc-lathe"}),
     "asked": ("G111 X100. A180. K-30. B? P5. Z-50.", START),
-    "fact": (
-        "G111 X100. A180. K-30. B? (contoursolve: line 2 tangent to circle [Z-40. X120. R10.], on its left)",
-        START,
-    ),
+    "fact": ("G111 X100. A180. K-30. B120. P? (contoursolve: straight part of line 2 = 20)", START),
 }
 
 
