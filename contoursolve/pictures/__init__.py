@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
+from msgspec.structs import replace
+
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.pictures.compose import compose, describe
 from contoursolve.pictures.layout import lay_out
@@ -53,15 +55,27 @@ def draw(record: Drawable, *, theme: Theme = Theme.LIGHT) -> Picture:
     return draw_region(record, theme=theme) if isinstance(record, Region) else draw_answer(record, theme=theme)
 
 
-def draw_answer(answer: Answer, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+def draw_answer(
+    answer: Answer,
+    *,
+    theme: Theme = Theme.LIGHT,
+    title: str | None = None,
+    like: Picture | None = None,
+    has_remarks: bool = True,
+) -> Picture:
     """The picture of one contour: its path where there is one, and what is missing or wrong where there is none.
+
+    `like` is a picture of the contour before a word was moved: scale, origin and height stay, labels keep their sides.
+    Without remarks, the findings are not written below.
 
     >>> import contoursolve
     >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
     >>> draw_answer(answer).title
     'G111 (taper multiple cornering), line 1: solved'
     """
-    return finish(lay_out(compose(answer, title)), theme, describe(answer))
+    scene = compose(answer, title)
+    scene = scene if has_remarks else replace(scene, remarks=())
+    return finish(lay_out(scene, like.sheet.placement if like else None), theme, describe(answer))
 
 
 def draw_result(result: Result, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:

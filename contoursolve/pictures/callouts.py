@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from math import cos, fmod, hypot, pi, radians, sin
 
-from contoursolve.pictures.labels import FAINT_WEIGHT, Canvas
+from contoursolve.pictures.labels import FAINT_WEIGHT, Canvas, Grip
 from contoursolve.pictures.page import THIN, Box, Dot, Spot, Stroke, TextRun, arc, head, line
 from contoursolve.pictures.scene import (
     Aligned,
@@ -42,9 +42,10 @@ def draw_callouts(canvas: Canvas, scene: Scene) -> None:
     for slide in scene.each(Slide):
         _draw_slide(canvas, slide)
     for mark in scene.each(Mark):
-        _draw_point(canvas, mark)
+        with canvas.about(mark.about):
+            _draw_point(canvas, mark)
     for dimension in scene.dimensions:
-        with canvas.about(dimension.word):
+        with canvas.about(dimension.about):
             if isinstance(dimension, Angle):
                 at = canvas.view.place(dimension.at)
                 number = counts.get(at, 0)
@@ -58,17 +59,18 @@ def draw_callouts(canvas: Canvas, scene: Scene) -> None:
                 continue
         wanted.append((spot, dimension, away))
     for spot, dimension, away in wanted:
-        with canvas.about(dimension.word):
+        with canvas.about(dimension.about):
             canvas.label(spot, [(TextRun(dimension.text, dimension.role),)], away, dimension.role)
     for leader in scene.each(Leader):
-        with canvas.about(leader.word):
+        with canvas.about(leader.about):
             _draw_leader(canvas, leader)
     ways = _ways(canvas, scene)
     for mark in scene.each(Mark):
         if mark.label:
             at = canvas.view.place(mark.at)
             away = _away_from(ways.get((round(at[0]), round(at[1])), []))
-            canvas.label(at, [mark.label, mark.short], away, Role.MUTED)
+            with canvas.about(mark.about):
+                canvas.label(at, [mark.label, mark.short], away, Role.MUTED)
 
 
 def _draw_angle(canvas: Canvas, angle: Angle, at: Spot, number: int) -> tuple[Spot, Spot]:
@@ -77,9 +79,10 @@ def _draw_angle(canvas: Canvas, angle: Angle, at: Spot, number: int) -> tuple[Sp
     turn = fmod(angle.degrees, 360.0)
     reference = at[0] + radius + 14.0, at[1]
     canvas.draw(line((at[0] + 5.0, at[1]), reference, Role.MUTED, 0.8), FAINT_WEIGHT)
+    sweep = -radians(turn)
+    canvas.grips.append(Grip(angle.about.word, along(at, (cos(sweep), sin(sweep)), radius), at))
     if abs(turn) < _SMALL:
         return (at[0] + radius, at[1]), (0.4, -0.9)
-    sweep = -radians(turn)
     canvas.draw(arc(at, radius, sweep, angle.role))
     sign = 1.0 if sweep > 0 else -1.0
     # The head is a chord of the arc, so that it does not stand off it.
@@ -125,6 +128,7 @@ def _emptier(canvas: Canvas, a: Spot, b: Spot, side: Spot) -> Spot:
 def _draw_leader(canvas: Canvas, leader: Leader) -> None:
     """A word that points at a place, with an arrowhead there."""
     at = canvas.view.place(leader.at)
+    canvas.grips.append(Grip(leader.about.word, at))
     away = leader.away[0], -leader.away[1]
     box = canvas.label(at, [(TextRun(leader.text, leader.role),)], away, leader.role, leads=True)
     if box is not None:
@@ -146,11 +150,11 @@ def _draw_point(canvas: Canvas, mark: Mark) -> None:
     at = canvas.view.place(mark.at)
     if mark.kind in _DOTS:
         radius, is_filled = _DOTS[mark.kind]
-        canvas.thick.append(Dot(at, radius, mark.role, is_filled=is_filled))
+        canvas.thick.append(Dot(at, radius, mark.role, is_filled, mark.about))
         return
     (x, y), size = at, 5.0
-    canvas.thick.append(Stroke((x - size, y), ((x + size, y),), Role.MUTED, THIN))
-    canvas.thick.append(Stroke((x, y - size), ((x, y + size),), Role.MUTED, THIN))
+    canvas.thick.append(Stroke((x - size, y), ((x + size, y),), Role.MUTED, THIN, about=mark.about))
+    canvas.thick.append(Stroke((x, y - size), ((x, y + size),), Role.MUTED, THIN, about=mark.about))
 
 
 def _draw_slide(canvas: Canvas, slide: Slide) -> None:

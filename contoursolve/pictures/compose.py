@@ -9,7 +9,7 @@ from contoursolve.gcode import FACT
 from contoursolve.geometry import SECOND, Turn
 from contoursolve.pictures.auxiliary import list_auxiliary
 from contoursolve.pictures.dimensions import Others, list_dimensions, list_marks, noted_points
-from contoursolve.pictures.page import TextRun, visible
+from contoursolve.pictures.page import About, TextRun, visible
 from contoursolve.pictures.scene import Scene, Trail, Weight, axis_names, coordinates, number
 from contoursolve.pictures.subject import Subject, subject_of, trace_known
 from contoursolve.pictures.theme import Role
@@ -47,6 +47,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
         remarks=tuple(remarks_of(answer.diagnostics)),
         meanings={Role.GHOST: "other values"} if subject.known.others else {},
         has_turning_axis=answer.plane.diameters[SECOND],
+        is_one_contour=True,
     )
 
 
@@ -73,7 +74,8 @@ def _ghosts(subject: Subject) -> tuple[list[Trail], Others]:
         own = [name for name, at in points.items() if name in first and distance(at, first[name]) > SAME]
         is_drawn = answer.contour is None and not own and points.keys() <= first.keys()
         if not is_drawn and contour.elements:
-            trails.append(Trail(contour.elements, Role.GHOST, Weight.GHOST))
+            is_candidate = subject.other is Role.CANDIDATE
+            trails.append(Trail(contour.elements, subject.other, Weight.MAIN if is_candidate else Weight.GHOST))
         for name in own or [name for name in points if name.startswith("P")]:
             places.setdefault(name, []).append((points[name], " ".join(each.selects)))
     return trails, places
@@ -97,8 +99,8 @@ def _lines(subject: Subject) -> Iterator[tuple[TextRun, ...]]:
             if span.column - 1 < place:
                 continue
             runs.append(TextRun(text[place : span.column - 1], Role.MUTED))
-            shown = text[span.column - 1 : span.end_column - 1]
-            runs.append(TextRun(shown, by_span[span], subject.keys.get(span, "")))
+            shown, role = text[span.column - 1 : span.end_column - 1], by_span[span]
+            runs.append(TextRun(shown, role, subject.about(span), role is Role.CONFLICTING))
             place = span.end_column - 1
         runs.append(TextRun(text[place:], Role.MUTED))
         yield tuple(run for run in runs if run.text)
@@ -106,15 +108,18 @@ def _lines(subject: Subject) -> Iterator[tuple[TextRun, ...]]:
         yield (TextRun(f"... and {len(blocks) - MOST_LINES} more blocks", Role.MUTED),)
     for directive in answer.claim.directives:
         if directive.span.line < 0:
-            yield (TextRun(visible(f'--fact "{directive.text}"'), by_span.get(directive.span, Role.GIVEN)),)
+            role = by_span.get(directive.span, Role.GIVEN)
+            told = visible(f'--fact "{directive.text}"')
+            yield (TextRun(told, role, subject.about(directive.span), role is Role.CONFLICTING),)
 
 
 def remarks_of(diagnostics: Sequence[Diagnostic]) -> Iterator[tuple[TextRun, ...]]:
     """The first findings."""
-    findings = [finding for finding in diagnostics if finding.severity is not Severity.INFO]
-    for finding in findings[:MOST_REMARKS]:
+    numbered = enumerate(diagnostics, 1)
+    findings = [(place, finding) for place, finding in numbered if finding.severity is not Severity.INFO]
+    for place, finding in findings[:MOST_REMARKS]:
         role = Role.CONFLICTING if finding.severity is Severity.ERROR else Role.IGNORED
-        yield (TextRun(visible(f"{finding.severity.value}: {finding.message}"), role),)
+        yield (TextRun(visible(f"{finding.severity.value}: {finding.message}"), role, About(finding=str(place))),)
     if len(findings) > MOST_REMARKS:
         yield (TextRun(f"... and {len(findings) - MOST_REMARKS} more findings", Role.MUTED),)
 

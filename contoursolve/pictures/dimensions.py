@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.wording import length_limit
 from contoursolve.diagnostics.source import Span
 from contoursolve.geometry import Arc, Coordinate, CornerShape, Directed, Extent, Fact, Heading, Offset, Radius, Unit
-from contoursolve.pictures.page import TextRun
+from contoursolve.pictures.page import About, TextRun
 from contoursolve.pictures.scene import (
     Aligned,
     Angle,
@@ -51,7 +51,7 @@ def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
         if drawn is not None:
             done.add((fact.given, type(fact)))
             measured.add(given.word.span)
-            yield replace(drawn, word=subject.keys.get(given.word.span, ""))
+            yield replace(drawn, about=subject.about(given.word.span))
     yield from _corners(subject, elements, measured)
     for asked in subject.answer.answers:
         question = asked.question
@@ -63,7 +63,7 @@ def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
         text = f"{word_text(question.word.text).rstrip(' =?')} = {shown}"
         drawn = _dimension(subject, elements, question.fact, text, Role.DERIVED, asked.value)
         if drawn is not None:
-            yield replace(drawn, word=subject.keys.get(question.word.span, ""))
+            yield replace(drawn, about=subject.about(question.word.span))
 
 
 def _dimension(
@@ -134,7 +134,7 @@ def _corners(subject: Subject, elements: Mapping[str, Segment], measured: set[Sp
             continue
         text = word_text(given.word.text)
         text += " x 45°" if corner.shape is CornerShape.CHAMFER_AXIS_45 else ""
-        role, key = subject.role(corner.size), subject.keys.get(given.word.span, "")
+        role, about = subject.role(corner.size), subject.about(given.word.span)
         limits = [
             refusal.values.get("limit", 0) for refusal in subject.known.refusals if refusal.subject == corner.name
         ]
@@ -147,9 +147,9 @@ def _corners(subject: Subject, elements: Mapping[str, Segment], measured: set[Sp
             if at is not None and not isinstance(drawn, ArcSegment):
                 # From the side of the virtual intersection.
                 pointed = Leader(pointed.at, direction(pointed.at, at), text, role)
-            yield replace(pointed, word=key)
+            yield replace(pointed, about=about)
         elif at is not None:
-            yield Leader(at, (1.0, 1.0), text, role, key)
+            yield Leader(at, (1.0, 1.0), text, role, about)
 
 
 # Points ------------------------------------------------------------------------------------------------------
@@ -193,8 +193,9 @@ def list_marks(subject: Subject, noted: Noted, others: Others) -> Iterator[Mark]
     for name, places in others.items():
         for at, selects in places:
             if all(distance(at, there) > SAME for there, _ in spots):
-                runs = [TextRun(name, Role.GHOST), *([TextRun(selects, Role.GHOST)] if selects else [])]
-                yield Mark(at, MarkKind.PLACE, _joined([*runs, _computed(subject, at)]), _joined(runs), Role.GHOST)
+                runs = [TextRun(each, subject.other) for each in (name, selects) if each]
+                label = _joined([*runs, _computed(subject, at)])
+                yield Mark(at, MarkKind.PLACE, label, _joined(runs), subject.other, About(point=name))
 
 
 def _end(subject: Subject) -> Point | None:
@@ -230,10 +231,10 @@ def _mark(subject: Subject, noted: Noted, others: Others, at: Point, spot: Seque
     centers = {element.center for element in profile.figure.path if isinstance(element, Arc)}
     is_center = not centers.isdisjoint(spot) and not shown
     givens = [given for name in spot for given in noted.get(name, ())]
-    words = [TextRun(subject.word(given) or "", subject.role(given), subject.key(given)) for given in givens]
+    words = [TextRun(subject.word(given) or "", subject.role(given), subject.about_given(given)) for given in givens]
     if not (rank or shown or words):
         if is_center:
-            yield Mark(at, MarkKind.CENTER)
+            yield Mark(at, MarkKind.CENTER, about=About(point=" ".join(spot)))
         return
     is_end_free = rank == "end" and subject.trails[-1].role is Role.FREE
     is_free = not known.placed.isdisjoint(spot) or is_end_free
@@ -241,7 +242,9 @@ def _mark(subject: Subject, noted: Noted, others: Others, at: Point, spot: Seque
     names = [*([rank] if rank else []), *(name for name in shown if not rank or not name.startswith("V"))]
     if is_free and rank == "end":
         names[0] = "end (free)"
-    short = [TextRun(name, Role.FREE if is_free else Role.INK) for name in names]
+    is_candidate = subject.other is Role.CANDIDATE and any(name in others for name in spot)
+    role = Role.FREE if is_free else Role.CANDIDATE if is_candidate else Role.INK
+    short = [TextRun(name, role) for name in names]
     short += _choosing(subject, others, at, spot)
     about = words
     if rank == "start" and not words:
@@ -250,7 +253,8 @@ def _mark(subject: Subject, noted: Noted, others: Others, at: Point, spot: Seque
         about = [_computed(subject, at)]
     is_cut = not {corner.at for corner in profile.figure.corners}.isdisjoint(spot)
     kind = MarkKind(rank) if rank else MarkKind.CENTER if is_center else MarkKind.VIRTUAL if is_cut else MarkKind.PLACE
-    yield Mark(at, kind, _joined([*short, *about]), _joined(short), Role.FREE if is_free else Role.INK)
+    named = About(point=" ".join(dict.fromkeys([*([rank] if rank else []), *spot])))
+    yield Mark(at, kind, _joined([*short, *about]), _joined(short), role, named)
 
 
 def _choosing(subject: Subject, others: Others, at: Point, spot: Sequence[str]) -> Iterator[TextRun]:
@@ -259,10 +263,10 @@ def _choosing(subject: Subject, others: Others, at: Point, spot: Sequence[str]) 
         word = subject.word(choice.given)
         # The sign of a radius chooses a centre, and is shown with the radius.
         if choice.point in spot and choice.point in subject.profile.intersections and word is not None:
-            yield TextRun(word, subject.role(choice.given), subject.key(choice.given))
+            yield TextRun(word, subject.role(choice.given), subject.about_given(choice.given))
     for name in spot:
         texts = (text for there, text in others.get(name, ()) if distance(there, at) <= SAME)
-        yield from [TextRun(text, Role.GIVEN) for text in texts if text][:1]
+        yield from [TextRun(text, subject.other) for text in texts if text][:1]
 
 
 def _computed(subject: Subject, at: Point) -> TextRun:

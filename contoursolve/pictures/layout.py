@@ -1,7 +1,7 @@
 """Lays a scene out on a page: how large it is drawn, what stands in its margins, head and foot."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from math import tau
 
 from msgspec.structs import replace
@@ -9,13 +9,15 @@ from msgspec.structs import replace
 from contoursolve.geometry import FIRST, SECOND
 from contoursolve.pictures.callouts import draw_callouts
 from contoursolve.pictures.labels import FAINT_WEIGHT, PATH_WEIGHT, THIN_WEIGHT, Canvas, clip
-from contoursolve.pictures.margins import arrange, draw_margins
+from contoursolve.pictures.margins import Placement, arrange, draw_margins, placement_of
 from contoursolve.pictures.page import (
+    ANYTHING,
     MONO,
     PAD,
     SIZE,
     THICK,
     WIDTH,
+    About,
     Box,
     Item,
     Sheet,
@@ -33,6 +35,7 @@ from contoursolve.pictures.page import (
     wrap,
 )
 from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thin, Trail, Viewport, Weight
+from contoursolve.pictures.svg import steps_text
 from contoursolve.pictures.theme import DASHES, MEANINGS, Role
 from contoursolve.pictures.vectors import along, direction, distance, middle, sweep_of
 from contoursolve.solving.contour import ArcSegment, Segment
@@ -51,20 +54,23 @@ _CORNER = 130.0
 """Pixels that the axes take of the width."""
 
 
-def lay_out(scene: Scene) -> Sheet:
-    """The page of one scene."""
+def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
+    """The page of one scene; one that is held has scale and origin, sides of labels and height of the page before."""
     scene = _thinned(scene)
     top = list(_head_of(scene))
-    margins = arrange(scene, max(item.box.bottom for item in top) + 6.0)
-    frame, canvas = margins.frame, Canvas(margins.view, margins.frame)
+    margins = arrange(scene, max(item.box.bottom for item in top) + 6.0, held)
+    frame, canvas = margins.frame, Canvas(margins.view, margins.frame, held.labels if held else None)
     _draw_path(canvas, scene)
     draw_margins(canvas, margins)
     draw_callouts(canvas, scene)
     # The axes stand beside the drawing's lower end where nothing else is.
     is_free = canvas.cost(Box(frame.left, frame.bottom - 34.0, _CORNER, frame.bottom)) == 0.0
-    foot = list(_foot_of(scene, canvas.homeless, frame.bottom - (26.0 if is_free else -4.0)))
-    height = max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0
-    return Sheet(scene.title, round(height, 1), frame, canvas.items, (*top, *foot))
+    below = held.foot if held else frame.bottom - (26.0 if is_free else -4.0)
+    foot = list(_foot_of(scene, canvas.homeless, below))
+    height = round(max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0, 1)
+    height = max(height, held.height if held else 0.0)
+    placement = placement_of(margins, canvas, below, height)
+    return Sheet(scene.title, height, frame, canvas.items, (*top, *foot), placement)
 
 
 def _thinned(scene: Scene) -> Scene:
@@ -98,13 +104,18 @@ def _draw_path(canvas: Canvas, scene: Scene) -> None:
         if ends is not None:
             canvas.draw(line(*ends, thin.role, 1.0 if thin.role is Role.MUTED else 1.4))
     for trail in sorted(trails, key=lambda each: each.weight is Weight.MAIN):
-        for stroke in _strokes(view, trail):
-            canvas.draw(stroke, PATH_WEIGHT if trail.weight is Weight.MAIN else THIN_WEIGHT)
+        weight = PATH_WEIGHT if trail.weight is Weight.MAIN else THIN_WEIGHT
+        is_named = scene.is_one_contour and trail.weight is Weight.MAIN
+        for part in [replace(trail, segments=(each,)) for each in trail.segments] if is_named else [trail]:
+            with canvas.about(About(element=part.segments[0].name) if is_named else ANYTHING):
+                for stroke in _strokes(view, part):
+                    canvas.draw(stroke, weight)
     for trail in (trail for trail in trails if trail.weight is Weight.MAIN):
         for segment in _pointed(trail.segments, view):
             at, way = middle(segment)
             step = way[0], -way[1]
-            canvas.fill(head(along(view.place(at), step, 5.0), step, trail.role, 11.0, 4.6))
+            with canvas.about(About(element=segment.name) if scene.is_one_contour else ANYTHING):
+                canvas.fill(head(along(view.place(at), step, 5.0), step, trail.role, 11.0, 4.6))
 
 
 def _pointed(segments: tuple[Segment, ...], view: Viewport) -> list[Segment]:
@@ -141,6 +152,11 @@ def _strokes(view: Viewport, trail: Trail) -> Iterator[Stroke]:
             steps.append(_step(view, segment, end))
     if steps:
         yield Stroke(begin, tuple(steps), trail.role, width, dash)
+
+
+def path_data(trails: Iterable[Trail], view: Viewport) -> list[str]:
+    """Paths as the data of SVG's paths, where a part of the plane is shown."""
+    return [steps_text(stroke) for trail in trails for stroke in _strokes(view, trail)]
 
 
 def _step(view: Viewport, segment: Segment, end: Spot) -> Spot | Sweep:
@@ -193,7 +209,7 @@ def _merged(row: list[TextRun]) -> tuple[TextRun, ...]:
     """Neighbours in one role as one run."""
     found: list[TextRun] = []
     for run in row:
-        if found and (found[-1].role, found[-1].word) == (run.role, run.word):
+        if found and found[-1] == replace(run, text=found[-1].text):
             found[-1] = replace(run, text=found[-1].text + run.text)
         else:
             found.append(run)
@@ -227,11 +243,11 @@ def _foot_of(scene: Scene, homeless: Sequence[str], top: float) -> Iterator[Item
         remarks.append((TextRun("no room for: " + ", ".join(homeless), Role.MUTED),))
     for runs in remarks:
         for text in wrap("".join(run.text for run in runs), WIDTH - 2 * PAD, SIZE, 2):
-            yield Text((PAD, y), (TextRun(text, runs[0].role),), SIZE)
+            yield Text((PAD, y), (replace(runs[0], text=text),), SIZE)
             y += 16.0
 
 
-_STATES = (Role.GIVEN, Role.DERIVED, Role.IGNORED, Role.CONFLICTING, Role.FREE, Role.GHOST)
+_STATES = (Role.GIVEN, Role.DERIVED, Role.IGNORED, Role.CONFLICTING, Role.CANDIDATE, Role.FREE, Role.GHOST)
 
 
 def _legend(scene: Scene) -> list[Role]:

@@ -4,13 +4,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 from math import cos, sin
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.pictures.theme import DASHES, Role
 from contoursolve.pictures.vectors import along
+
+if TYPE_CHECKING:
+    from contoursolve.pictures.margins import Placement
 
 Spot = tuple[float, float]
 """A place on the page, pixels from its top left corner."""
@@ -45,6 +48,20 @@ class Sweep(Struct, frozen=True):
         yield self.end
 
 
+class About(Struct, frozen=True):
+    """What an item shows: a word by its key, an element of the path by its name, points by their names, and findings by
+    their numbers in the contour (from 1); several have blanks between. A page finds items by it."""
+
+    word: str = ""
+    point: str = ""
+    element: str = ""
+    finding: str = ""
+
+
+ANYTHING = About()
+"""What an item is about that shows nothing that has a name."""
+
+
 class Stroke(Struct, frozen=True):
     """A line that is drawn: from `start` through places and arcs."""
 
@@ -53,8 +70,7 @@ class Stroke(Struct, frozen=True):
     role: Role
     width: float
     dash: tuple[float, ...] = ()
-    word: str = ""
-    """The key of the word that it shows, if it shows one."""
+    about: About = ANYTHING
 
 
 class Shape(Struct, frozen=True):
@@ -62,8 +78,7 @@ class Shape(Struct, frozen=True):
 
     corners: tuple[Spot, ...]
     role: Role
-    word: str = ""
-    """The key of the word that it shows, if it shows one."""
+    about: About = ANYTHING
 
 
 class Dot(Struct, frozen=True):
@@ -73,6 +88,7 @@ class Dot(Struct, frozen=True):
     radius: float
     role: Role
     is_filled: bool = True
+    about: About = ANYTHING
 
 
 class Anchor(Enum):
@@ -88,8 +104,9 @@ class TextRun(Struct, frozen=True):
 
     text: str
     role: Role
-    word: str = ""
-    """The key of the word that it shows, if it shows one."""
+    about: About = ANYTHING
+    is_underlined: bool = False
+    """As words at fault are, so that they are known without colour."""
 
 
 class Box(NamedTuple):
@@ -135,8 +152,7 @@ class Text(Struct, frozen=True):
     is_bold: bool = False
     is_mono: bool = False
     is_turned: bool = False
-    word: str = ""
-    """The key of the word that it shows, if it shows one."""
+    about: About = ANYTHING
 
     @property
     def words(self) -> str:
@@ -167,6 +183,8 @@ class Sheet:
     frame: Box
     drawing: tuple[Item, ...] = field(repr=False)
     around: tuple[Item, ...] = field(default=(), repr=False)
+    placement: "Placement | None" = field(default=None, repr=False, compare=False)
+    """How the drawing stands, where there is one."""
 
     @property
     def texts(self) -> tuple[Text, ...]:

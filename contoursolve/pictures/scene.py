@@ -11,7 +11,7 @@ from typing import TypeVar
 from msgspec import Struct, field
 
 from contoursolve.geometry import FIRST, SECOND, Length, Plane
-from contoursolve.pictures.page import Spot, TextRun, visible
+from contoursolve.pictures.page import ANYTHING, About, Spot, TextRun, visible
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import ALONG_AXIS, along, extent
 from contoursolve.solving import Point
@@ -75,6 +75,7 @@ class Mark(Struct, frozen=True):
     short: tuple[TextRun, ...] = ()
     """What may stand there where the label finds no room."""
     role: Role = Role.INK
+    about: About = ANYTHING
 
 
 class LinearDimension(Struct, frozen=True):
@@ -85,7 +86,7 @@ class LinearDimension(Struct, frozen=True):
     axis: int
     text: str
     role: Role
-    word: str = ""
+    about: About = ANYTHING
 
     @property
     def length(self) -> float:
@@ -101,7 +102,7 @@ class Aligned(Struct, frozen=True):
     text: str
     role: Role
     is_beside: bool = False
-    word: str = ""
+    about: About = ANYTHING
 
 
 class Ordinate(Struct, frozen=True):
@@ -111,7 +112,7 @@ class Ordinate(Struct, frozen=True):
     axis: int
     text: str
     role: Role
-    word: str = ""
+    about: About = ANYTHING
 
 
 class Angle(Struct, frozen=True):
@@ -121,7 +122,7 @@ class Angle(Struct, frozen=True):
     degrees: float
     text: str
     role: Role
-    word: str = ""
+    about: About = ANYTHING
 
 
 class Leader(Struct, frozen=True):
@@ -131,7 +132,7 @@ class Leader(Struct, frozen=True):
     away: Point
     text: str
     role: Role
-    word: str = ""
+    about: About = ANYTHING
 
 
 class Slide(Struct, frozen=True):
@@ -162,6 +163,8 @@ class Scene(Struct, frozen=True):
     """What the legend says of a role, where that is not what it says of a contour's words."""
     has_turning_axis: bool = False
     """Whether the second axis begins at the axis about which the work turns."""
+    is_one_contour: bool = False
+    """Whether names of elements mean one thing only."""
 
     def each(self, kind: type[_Kind]) -> list[_Kind]:
         """The parts of one kind."""

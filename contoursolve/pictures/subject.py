@@ -41,11 +41,21 @@ from contoursolve.pictures.known import (
     start_of,
     with_facts,
 )
+from contoursolve.pictures.page import ANYTHING, About
 from contoursolve.pictures.scene import Trail, word_text
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance
 from contoursolve.reading import ReadIssue
-from contoursolve.solving import NoteKind, Point, Refusal, RefusalKind, is_closed, points_with_two_solutions, solve
+from contoursolve.solving import (
+    NoteKind,
+    Point,
+    Refusal,
+    RefusalKind,
+    Status,
+    is_closed,
+    points_with_two_solutions,
+    solve,
+)
 from contoursolve.solving.ambiguity import said_twice
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.contour import ArcSegment, LineSegment, Segment
@@ -74,8 +84,8 @@ class Subject(Struct, frozen=True):
     roles: Mapping[str, Role]
     blamed: frozenset[Span]
     """The words and facts that errors are about."""
-    keys: Mapping[Span, str] = {}
-    """The keys of the words, by their places."""
+    named: Mapping[Span, About] = {}
+    """What shows a word or a fact is about, by its place."""
 
     @property
     def profile(self) -> Profile:
@@ -99,10 +109,19 @@ class Subject(Struct, frozen=True):
         """What became of a word."""
         return self.roles.get(given, Role.GIVEN)
 
-    def key(self, given: str) -> str:
-        """The key of the word of a given; empty without a word."""
+    @property
+    def other(self) -> Role:
+        """What other solutions are drawn as: as good as the one that is drawn, where nothing chooses."""
+        return Role.CANDIDATE if self.answer.status is Status.AMBIGUOUS else Role.GHOST
+
+    def about(self, span: Span) -> About:
+        """What shows the word or the fact at a place is about."""
+        return self.named.get(span, ANYTHING)
+
+    def about_given(self, given: str) -> About:
+        """The same by what the word states."""
         found = self.profile.givens.get(given)
-        return self.keys.get(found.word.span, "") if found is not None and found.word is not None else ""
+        return self.about(found.word.span) if found is not None and found.word is not None else ANYTHING
 
     def word(self, given: str) -> str | None:
         """The text of the word of a given; None without a word."""
@@ -136,8 +155,19 @@ def subject_of(answer: Answer) -> Subject:
         tuple(list_trails(answer, known)),
         _roles(answer, blamed),
         blamed,
-        word_keys(answer.claim.words.values()),
+        named_words(answer),
     )
+
+
+def named_words(answer: Answer) -> dict[Span, About]:
+    """What shows a word or a fact is about: its key, and the errors and warnings that point at it."""
+    keys = word_keys(answer.claim.words.values())
+    numbers: dict[Span, list[str]] = {}
+    for number, finding in enumerate(answer.diagnostics, 1):
+        for label in finding.labels if finding.severity is not Severity.INFO else ():
+            numbers.setdefault(label.span, []).append(str(number))
+    spans = dict.fromkeys([*keys, *numbers])
+    return {span: About(keys.get(span, ""), finding=" ".join(dict.fromkeys(numbers.get(span, ())))) for span in spans}
 
 
 # Words -------------------------------------------------------------------------------------------------------
@@ -264,7 +294,9 @@ def list_trails(answer: Answer, known: Known) -> Iterator[Trail]:
         yield from [Trail(answer.contour.elements, Role.INK)] if answer.contour.elements else []
         return
     trail: Trail | None = None
-    for segment, role in trace_known(answer.profile, known):
+    stated = Role.CANDIDATE if answer.status is Status.AMBIGUOUS else Role.INK
+    for segment, state in trace_known(answer.profile, known):
+        role = stated if state is Role.INK else state
         if trail is not None and trail.role is role and trail.segments[-1].end == segment.start:
             trail = replace(trail, segments=(*trail.segments, segment))
             continue

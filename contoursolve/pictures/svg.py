@@ -15,7 +15,20 @@ from xml.sax.saxutils import escape, quoteattr
 from zlib import crc32
 
 from contoursolve.diagnostics.extras import MissingExtraError, importing
-from contoursolve.pictures.page import WIDTH, Dot, Item, Shape, Sheet, Spot, Stroke, Sweep, Text
+from contoursolve.pictures.page import (
+    ANYTHING,
+    WIDTH,
+    About,
+    Dot,
+    Item,
+    Shape,
+    Sheet,
+    Spot,
+    Stroke,
+    Sweep,
+    Text,
+    TextRun,
+)
 from contoursolve.pictures.theme import DARK_COLORS, LIGHT_COLORS, Role, Theme
 
 SANS = "'DejaVu Sans', Verdana, 'Liberation Sans', Arial, sans-serif"
@@ -137,16 +150,19 @@ def _paint(what: str, role: Role, theme: Theme) -> str:
     return f'{attribute} class="{what[0]}-{role.value}"' if theme is Theme.PAGE else attribute
 
 
-def _word(key: str, theme: Theme) -> str:
-    """The attribute that names the word which an element shows, for whoever styles a page."""
-    return f" data-word={quoteattr(_known(key))}" if key and theme is Theme.PAGE else ""
+def _names(about: About, theme: Theme) -> str:
+    """The attributes that name what an element shows, for whoever styles a page."""
+    if theme is not Theme.PAGE or about == ANYTHING:
+        return ""
+    named = ((kind, getattr(about, kind)) for kind in About.__struct_fields__)
+    return "".join(f" data-{kind}={quoteattr(_known(name))}" for kind, name in named if name)
 
 
 def _element(item: Item, theme: Theme) -> str:
-    told = _word(item.word, theme) if not isinstance(item, Dot) else ""
+    told = _names(item.about, theme)
     if isinstance(item, Stroke):
         dash = f' stroke-dasharray="{" ".join(map(_number, item.dash))}"' if item.dash else ""
-        shape = "".join(_steps(item))
+        shape = steps_text(item)
         join = ' stroke-linejoin="round" stroke-linecap="round"' if not item.dash else ""
         paint = f'{_paint("stroke", item.role, theme)} stroke-width="{_number(item.width)}"'
         return f'<path d="{shape}" {paint}{join}{dash}{told}/>'
@@ -157,10 +173,10 @@ def _element(item: Item, theme: Theme) -> str:
         fill = _paint("fill", item.role, theme) if item.is_filled else ""
         circle = f'<circle cx="{_number(item.at[0])}" cy="{_number(item.at[1])}" r="{_number(item.radius)}" '
         if item.is_filled:
-            return f"{circle}{fill}/>"
+            return f"{circle}{fill}{told}/>"
         ring = f'{_paint("stroke", item.role, theme)} stroke-width="1.4"'
         disc = f"{circle}{_paint('fill', Role.PAPER, theme)}/>"
-        return f"{disc}{circle}{ring}/>"
+        return f"{disc}{circle}{ring}{told}/>"
     return _text(item, theme)
 
 
@@ -173,20 +189,30 @@ def _text(text: Text, theme: Theme) -> str:
     if text.is_turned:
         kind += f' transform="rotate(-90 {_place(text.at, " ")})"'
     place = f'x="{_number(text.at[0])}" y="{_number(text.at[1])}" font-size="{_number(text.size)}"{kind}'
-    roles, words = {run.role for run in text.runs}, {run.word for run in text.runs} - {""}
-    is_one = len(text.runs) == 1 or theme is not Theme.PAGE or not words
-    told = _word(text.word or (text.runs[0].word if is_one and words else ""), theme)
-    if len(roles) == 1 and is_one:
-        inside, fill = _clean(text.words), " " + _paint("fill", next(iter(roles)), theme)
+    looks = {(run.role, run.is_underlined, *([run.about] if theme is Theme.PAGE else ())) for run in text.runs}
+    told, fill = _names(text.about, theme), ""
+    if len(looks) == 1:
+        run = text.runs[0]
+        inside, fill = _clean(text.words), f" {_paint('fill', run.role, theme)}{_underline(run)}"
+        told = told or _names(run.about, theme)
     else:
-        inside = "".join(
-            f"<tspan {_paint('fill', run.role, theme)}{_word(run.word, theme)}>{_clean(run.text)}</tspan>"
-            for run in text.runs
-            if run.text
-        )
-        fill = ""
+        inside = "".join(_span(run, theme) for run in text.runs if run.text)
     blanks = ' xml:space="preserve"' if "  " in text.words or text.words != text.words.strip() else ""
     return f"<text {place}{blanks}{fill}{told}>{inside}</text>"
+
+
+def _span(run: TextRun, theme: Theme) -> str:
+    look = f"{_paint('fill', run.role, theme)}{_underline(run)}{_names(run.about, theme)}"
+    return f"<tspan {look}>{_clean(run.text)}</tspan>"
+
+
+def _underline(run: TextRun) -> str:
+    return ' text-decoration="underline"' if run.is_underlined else ""
+
+
+def steps_text(stroke: Stroke) -> str:
+    """A stroke as the data of a path."""
+    return "".join(_steps(stroke))
 
 
 def _steps(stroke: Stroke) -> Iterator[str]:

@@ -14,6 +14,8 @@ class Role(Enum):
     """Construction lines, axes and remarks."""
     GHOST = "ghost"
     """Other contours that the block would allow."""
+    CANDIDATE = "candidate"
+    """One of several contours, where nothing chooses between them."""
     GIVEN = "given"
     DERIVED = "derived"
     IGNORED = "ignored"
@@ -31,6 +33,7 @@ MEANINGS: Mapping[Role, str] = {
     Role.IGNORED: "ignored",
     Role.CONFLICTING: "conflicting or refused",
     Role.FREE: "still free",
+    Role.CANDIDATE: "one of several solutions",
     Role.GHOST: "another solution",
     Role.MUTED: "construction",
 }
@@ -39,6 +42,7 @@ MEANINGS: Mapping[Role, str] = {
 DASHES: Mapping[Role, tuple[float, ...]] = {
     Role.MUTED: (9.0, 2.5, 2.0, 2.5),
     Role.GHOST: (7.0, 4.0),
+    Role.CANDIDATE: (12.0, 3.0),
     Role.DERIVED: (8.0, 2.0),
     Role.IGNORED: (1.5, 3.0),
     Role.CONFLICTING: (10.0, 3.0, 2.0, 3.0, 2.0, 3.0),
@@ -51,6 +55,7 @@ _COLORS: Mapping[Role, tuple[str, str]] = {
     Role.INK: ("#111827", "#f3f4f6"),
     Role.MUTED: ("#5b6472", "#9aa5b5"),
     Role.GHOST: ("#6b7280", "#8e99a9"),
+    Role.CANDIDATE: ("#0e6d84", "#67e8f9"),
     Role.GIVEN: ("#1d4ed8", "#93c5fd"),
     Role.DERIVED: ("#15693a", "#86efac"),
     Role.IGNORED: ("#8a4b00", "#fcd34d"),
