@@ -167,6 +167,17 @@ def test_a_target_that_makes_no_sense_is_named(tmp_path, output, said):
     assert program.read_text() == INCH
 
 
+def test_a_turned_part_is_drawn_whole_or_by_its_half(tmp_path):
+    shaft = PROGRAMS / "shaft.nc"
+    for option in ("--whole", "--half"):
+        assert plot(shaft, option, "-o", tmp_path / f"{option}.svg")[0] == 0
+    whole, half = (tmp_path.joinpath(f"{option}.svg").read_text(encoding="utf-8") for option in ("--whole", "--half"))
+    assert whole != half
+    for other in (["--each"], ["--line", "53"], ["-o", tmp_path / "a.dxf"]):
+        status, output = plot(shaft, "--half", *other)
+        assert (status, "--whole and --half are for a picture of all contours" in output) == (2, True)
+
+
 def test_without_ezdxf_the_message_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "ezdxf", None)
     monkeypatch.delitem(sys.modules, "contoursolve.output.dxf")
