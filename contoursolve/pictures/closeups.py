@@ -162,7 +162,8 @@ def _drawn(scene: Scene, view: Viewport, detail: Detail, frame: Box) -> tuple[It
                     dash = () if is_ink else DASHES.get(trail.role, ())
                     canvas.draw(Stroke(start, (step,), trail.role, THICK if is_main else 1.4, dash), PATH_WEIGHT)
     named = [replace(each, label=each.short or each.label) for each in scene.each(Mark)]
-    inside = [each for each in (*named, *scene.each(Leader)) if _holds(frame.grow(-6.0), large.place(each.at))]
+    pointing: list[Mark | Leader] = [*named, *scene.each(Leader)]
+    inside = [each for each in pointing if _holds(frame.grow(-6.0), large.place(each.at))]
     draw_callouts(canvas, replace(scene, parts=(*trails, *inside)))
     return canvas.items
 
