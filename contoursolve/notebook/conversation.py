@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 
 from contoursolve.notebook import exploration as explorations
 from contoursolve.notebook.exploration import Exploration
-from contoursolve.notebook.front_end import Data, frames_of, ghost_of, picture_of, range_of, view_of
+from contoursolve.notebook.front_end import Data, asked_now, frames_of, ghost_of, picture_of, range_of, view_of
 
 _CHANGES: Mapping[str, Callable[[Exploration, Data], Exploration]] = {
     "move": lambda now, action: explorations.set_words(now, action["values"]),
@@ -37,6 +37,8 @@ class Conversation:
         self._future: list[Exploration] = []
         self._pinned: set[str] = set()
         self._is_held = False
+        self._solved = exploration
+        """The contour as it was last solved."""
         self._drawn = picture_of(exploration.answer) if exploration.answer else None
         self.state: Data = {"view": self._viewed(is_new=True), "ranges": {}, "ghost": {}, "number": 0}
 
@@ -66,8 +68,10 @@ class Conversation:
             self._past, self._future = [*self._past[-MOST_PAST:], before], []
         self._is_held = is_held
         answer = self.exploration.answer
+        self._solved = self.exploration if answer is not None and answer.contour is not None else self._solved
         self._drawn = picture_of(answer, self._drawn if is_held else None) if answer else None
-        return self._viewed(trouble, is_new=kind in _FITTED)
+        asked = asked_now(self.exploration, before, self._solved) if kind == "fix" else []
+        return {**self._viewed(trouble, is_new=kind in _FITTED), "asks": asked}
 
     def _done(self, action: Data) -> Exploration:
         """What the contour is after an action."""

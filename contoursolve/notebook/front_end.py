@@ -2,18 +2,18 @@
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from decimal import Decimal
-from math import floor, log10
+from math import atan2, degrees, floor, log10
 from typing import Any
 
 from msgspec import to_builtins
 
-from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.examine import Answer, AskedValue
 from contoursolve.diagnosis.solutions import list_solutions
 from contoursolve.diagnosis.wording import inward, join, written
 from contoursolve.diagnostics.finding import Applicability
 from contoursolve.families import End, FamilyError, Feasible, Interval, Way, feasible
 from contoursolve.gcode import Word
-from contoursolve.geometry import Unit
+from contoursolve.geometry import Coordinate, Heading, Offset, Question, Unit
 from contoursolve.notebook.exploration import Exploration, free, words_of
 from contoursolve.notebook.handles import Handle, HandleKind, handles_of, motion_of, moving_of
 from contoursolve.output.contours import count_text, path_table, solution_rows
@@ -24,7 +24,9 @@ from contoursolve.output.words import form_text, found_value, meaning_of, stated
 from contoursolve.pictures import Picture, Theme, draw_answer
 from contoursolve.pictures.layout import path_data
 from contoursolve.pictures.subject import find_known, list_trails, named_words
+from contoursolve.pictures.vectors import minus
 from contoursolve.reading import ReadIssue
+from contoursolve.solving import Point
 
 MOST_FINDINGS, MOST_FIXES, MOST_SOLUTIONS = 12, 8, 24
 
@@ -214,6 +216,35 @@ def ghost_of(instead: Exploration, drawn: Picture) -> list[str]:
     return path_data(list_trails(answer, find_known(answer)), placement.view)
 
 
+def asked_now(now: Exploration, before: Exploration, solved: Exploration) -> list[Data]:
+    """The words that a fix asks for, with the value that each had when the contour was last solved, if it is known."""
+    answer, last = now.answer, solved.answer
+    if answer is None or last is None:
+        return []
+    old = {key for key, word in words_of(before.answer).items() if word.is_asked} if before.answer else set()
+    questions = {each.question.word.span: each.question for each in answer.answers}
+    points = find_known(last).points if last.contour is not None else {}
+    return [
+        {"key": key, "value": _last_value(answer, questions[word.span], points)}
+        for key, word in words_of(answer).items()
+        if word.is_asked and key not in old and word.span in questions
+    ]
+
+
+def _last_value(answer: Answer, question: Question, points: Mapping[str, Point]) -> float | None:
+    """The value of a word in another contour of the same form, as it is written."""
+    fact, value = question.fact, None
+    if isinstance(fact, Coordinate) and fact.point in points:
+        value = points[fact.point][fact.axis]
+    elif isinstance(fact, Offset) and {fact.point, fact.origin} <= points.keys():
+        value = points[fact.point][fact.axis] - points[fact.origin][fact.axis]
+    elif isinstance(fact, Heading) and {fact.tail, fact.head} <= points.keys():
+        step = minus(points[fact.head], points[fact.tail])
+        value = degrees(atan2(step[1], step[0]))
+    shown = found_value(AskedValue(question, value), answer)[0]
+    return None if shown is None else round(shown, DECIMALS - 1)
+
+
 def snaps_of(exploration: Exploration, key: str) -> list[Data]:
     """Values of a word at which another word says no more than the rest: the one that the others give it, and for an
     angle those in line with another angle."""
@@ -316,8 +347,7 @@ def _end_text(end: End, unit: str) -> str:
     """What stops a word there; empty where only the search ended."""
     if end.way is Way.RANGE:
         return ""
-    reason = f": {end.reason.text}" if end.reason is not None else ""
-    return f"{written(end.value, unit)}{reason}"
+    return end.reason.text if end.reason is not None else written(end.value, unit)
 
 
 def _end(end: End, rounded: Decimal, way: int) -> str:

@@ -17,12 +17,15 @@ from contoursolve.geometry import Arc
 from contoursolve.output.words import StatedWord, stated_words
 from contoursolve.pictures import Picture
 from contoursolve.pictures.scene import Viewport
-from contoursolve.pictures.vectors import SAME, distance, middle
+from contoursolve.pictures.vectors import SAME, along, direction, distance, middle
 from contoursolve.solving import Point
 from contoursolve.solving.contour import ArcSegment, LineSegment, Segment
 
 LEAST = 1e-6
 """mm for each unit of a word. What a word moves by less it does not move."""
+
+FINGER = 22.0
+"""Pixels between two handles."""
 
 APART = 0.2
 """Sine of the angle between the ways in which two words move a point, from which they move it anywhere."""
@@ -119,7 +122,8 @@ def handles_of(answer: Answer, picture: Picture, motion: Motion | None, pinned: 
             slope = _size_slope(answer, word, motion)
             if slope is None:
                 continue
-            found.append(Handle(grip.word, HandleKind.SIZE, grip.at, {grip.word: _on_page(slope, placement.view)}))
+            at = _clear_of(grip.at, [each.at for each in found])
+            found.append(Handle(grip.word, HandleKind.SIZE, at, {grip.word: _on_page(slope, placement.view)}))
         done.add(grip.word)
     return found
 
@@ -140,6 +144,14 @@ def moving_of(motion: Motion, picture: Picture, keys: Iterable[str]) -> list[Mov
         turn = -each.turn.sign if isinstance(each, ArcSegment) else 0
         found.append(Moving(each.name, tuple(map(view.place, places)), slopes, turn))
     return found
+
+
+def _clear_of(at: Point, others: Sequence[Point]) -> Point:
+    """A place on the page that a finger tells from the nearest of others."""
+    near = min(others, key=lambda other: distance(at, other), default=None)
+    if near is None or distance(at, near) >= FINGER:
+        return at
+    return along(near, direction(near, at), FINGER)
 
 
 def _is_angle(word: StatedWord) -> bool:
