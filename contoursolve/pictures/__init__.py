@@ -39,15 +39,16 @@ __all__ = [
 ]
 
 
-def draw(record: Drawable, *, theme: Theme = Theme.LIGHT) -> Picture:
+def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None = None) -> Picture:
     """The picture of a contour, of all contours of a program, or of where a block has one by one or two of its words.
+    `is_whole` is for a program: see `draw_result`.
 
     Raises ValueError for a family that is no grid of two words.
     """
     from contoursolve.families import Family, Feasible, Region  # noqa: PLC0415 - not needed for one contour
 
     if isinstance(record, Result):
-        return draw_result(record, theme=theme)
+        return draw_result(record, theme=theme, is_whole=is_whole)
     if isinstance(record, Family):
         return draw_family_map(record, theme=theme)
     if isinstance(record, Feasible):
@@ -78,13 +79,23 @@ def draw_answer(
     return finish(lay_out(scene, like.sheet.placement if like else None), theme, describe(answer))
 
 
-def draw_result(result: Result, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
-    """The picture of a whole program: its only contour, or all of them in one drawing for each plane."""
+def draw_result(
+    result: Result, *, theme: Theme = Theme.LIGHT, title: str | None = None, is_whole: bool | None = None
+) -> Picture:
+    """The picture of a whole program: its only contour, or all of them in one drawing for each plane.
+
+    `is_whole` draws turned parts with both halves, or only with the programmed one; without it, with both where the
+    contours stay at least half as large.
+    """
     from contoursolve.pictures.overview import compose_overview, describe_overview  # noqa: PLC0415 - not needed for one contour
 
     if len(result.answers) == 1:
         return draw_answer(result.answers[0], theme=theme, title=title)
-    return finish(stack_sheets([*map(lay_out, compose_overview(result, title))]), theme, describe_overview(result))
+    return finish(
+        stack_sheets([*map(lay_out, compose_overview(result, title, is_whole=is_whole))]),
+        theme,
+        describe_overview(result),
+    )
 
 
 def draw_family_fan(
