@@ -18,11 +18,12 @@ class _Desk:
 
     def __init__(self) -> None:
         self.things: dict[int, Any] = {}
-        self.number = 0
+        self.number = self.asked = 0
         self.lock = Lock()
 
     def answer(self, request: bytes) -> bytes:
         """What comes of one request."""
+        self.asked += 1
         with self.lock, numpy.errstate(all="ignore"):
             gone, kind, *rest = _Unpickler(self, BytesIO(request)).load()
             for number in gone:
@@ -81,6 +82,7 @@ class _Pickler(pickle.Pickler):
 
 class _Handler(SimpleHTTPRequestHandler):
     protocol_version = "HTTP/1.1"
+    disable_nagle_algorithm, wbufsize = True, -1  # an answer is sent at once, and whole
 
     def __init__(self, *args: Any, desk: _Desk, folders: dict[str, Path], **options: Any) -> None:
         self.desk, self.folders = desk, folders
@@ -96,6 +98,7 @@ class _Handler(SimpleHTTPRequestHandler):
         self.send_header("Content-Length", str(len(found)))
         self.end_headers()
         self.wfile.write(found)
+        self.wfile.flush()
 
     def log_message(self, *_: Any) -> None:
         pass
@@ -103,8 +106,10 @@ class _Handler(SimpleHTTPRequestHandler):
 
 def serve(site: Path, **folders: Path) -> ThreadingHTTPServer:
     """A server of a site on this machine, with other folders below names of their own. `shutdown` ends it."""
-    handler = partial(_Handler, desk=_Desk(), folders=folders, directory=str(site))
+    desk = _Desk()
+    handler = partial(_Handler, desk=desk, folders=folders, directory=str(site))
     server = ThreadingHTTPServer(("127.0.0.1", 0), handler)
     server.daemon_threads = True
+    server.desk = desk
     Thread(target=server.serve_forever, daemon=True).start()
     return server
