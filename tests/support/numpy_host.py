@@ -79,6 +79,10 @@ class _Pickler(pickle.Pickler):
         self.desk.things[self.desk.number] = each
         return "array" if isinstance(each, (numpy.ndarray, numpy.generic)) else "other", self.desk.number
 
+    def reducer_override(self, each: Any) -> Any:
+        # Named tuples are known only here.
+        return (tuple, (list(each),)) if isinstance(each, tuple) else NotImplemented
+
 
 class _Handler(SimpleHTTPRequestHandler):
     protocol_version = "HTTP/1.1"

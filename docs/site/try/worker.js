@@ -8,12 +8,12 @@ from contoursolve.notebook.exploration import begin
 
 talk = None
 
-def opened(text, start, control):
+def opened(text, start, control, is_whole):
     global talk
     try:
         talk = Conversation(begin(text, start=start or None, control=control or None))
-    except ModuleNotFoundError:
-        raise
+    except ModuleNotFoundError if not is_whole else ():
+        return dumps(["lacking", None])
     except ValueError as error:
         return dumps(["refused", str(error)])
     except Exception as error:
@@ -63,19 +63,18 @@ function later() {
 async function answer(request) {
   python ??= load();
   const { loaded } = await python;
-  const ask = (name, ...values) => tell(...JSON.parse(loaded.globals.get(name)(...values)));
+  const ask = (name, ...values) => JSON.parse(loaded.globals.get(name)(...values));
   if (request.do === "act") {
     await later().catch(() => (rest = null)); // few actions need it; those say so
-    ask("changed", JSON.stringify(request.action));
+    tell(...ask("changed", JSON.stringify(request.action)));
     return;
   }
-  try {
-    ask("opened", request.text, request.start, request.control);
-  } catch (error) {
-    if (error.type !== "ModuleNotFoundError") throw error;
+  let found = ask("opened", request.text, request.start, request.control, false);
+  if (found[0] === "lacking") {
     await later();
-    ask("opened", request.text, request.start, request.control);
+    found = ask("opened", request.text, request.start, request.control, true);
   }
+  tell(...found);
   later().catch(() => (rest = null)); // asked for again with the next action
 }
 
