@@ -261,6 +261,15 @@ def test_what_is_drawn_moves_as_its_derivatives_say(text, options):
                 assert grips[handle["name"]] == pytest.approx(wanted, abs=2e-4), (key, handle["name"])
 
 
+def test_a_value_at_which_the_other_words_agree_is_one_to_catch():
+    now = explore.begin("G18 G1 X40. Z0.\nG1 X50. ,A170. ,R3.\n,A120. Z-60. X80.\nX80. Z-90.", control="fanuc-lathe")
+    assert now.answer.contour is None
+    snaps = {each["text"]: each["value"] for each in range_of(now, field(now, "3:,A"))["snaps"]}
+    assert snaps["as the other words say"] == pytest.approx(154.638, abs=1e-3)
+    assert explore.set_word(now, "3:,A", snaps["as the other words say"]).answer.contour is not None
+    assert "in line with ,A170." in snaps
+
+
 @pytest.mark.slow
 def test_an_update_takes_less_than_50_ms_of_python():
     now = explore.begin(WHOLE, **START)
