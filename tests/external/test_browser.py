@@ -151,7 +151,7 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         page.screenshot(path=artefacts / "jupyterlab-dark.png")
 
         page.evaluate("window.jupyterapp.shell.currentWidget.sessionContext.shutdown()")
-        explorer.locator(".trouble", has_text="The kernel is gone").wait_for(timeout=2000)
+        explorer.locator(".trouble", has_text="The kernel is gone").wait_for()
         watched.check()
         page.close()
 
