@@ -575,7 +575,9 @@ function render({ model, el }) {
         const lines = told.split(": ").map((line, place, all) => (place < all.length - 1 ? `${line}:` : line));
         const half = Math.max(...lines.map((line) => line.length)) * LETTER;
         const left = Math.min(Math.max(x, half), frame.width - half);
-        const top = Math.min(Math.max(y - 9 - LINE * (lines.length - 1), LINE), frame.height - LINE * lines.length);
+        const isBelow = number && size(minus(place(low), place(high))) < 4 * LINE; // beside the other end
+        const wanted = isBelow ? y + 20 : y - 9 - LINE * (lines.length - 1);
+        const top = Math.min(Math.max(wanted, LINE), frame.height - LINE * lines.length);
         const label = draw("text", { "text-anchor": "middle" });
         lines.forEach((line, place) => label.append(draw("tspan", { x: left, y: top + LINE * place }, line)));
         tracks.append(label);
