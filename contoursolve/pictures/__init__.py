@@ -41,9 +41,9 @@ __all__ = [
 ]
 
 
-def draw(record: Drawable, *, theme: Theme = Theme.LIGHT) -> Picture:
+def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None = None) -> Picture:
     """The picture of a contour, of all contours of a program, of where a block has one by one or two of its words, or
-    of every way to draw a sketch.
+    of every way to draw a sketch. `is_whole` is for a program: see `draw_result`.
 
     Raises ValueError for a family that is no grid of two words, and for a sketch whose facts make no sense.
     """
@@ -51,7 +51,7 @@ def draw(record: Drawable, *, theme: Theme = Theme.LIGHT) -> Picture:
     from contoursolve.sketch import Drawings, Drawn, Sketch  # noqa: PLC0415 - as above
 
     if isinstance(record, Result):
-        return draw_result(record, theme=theme)
+        return draw_result(record, theme=theme, is_whole=is_whole)
     if isinstance(record, Family):
         return draw_family_map(record, theme=theme)
     if isinstance(record, Feasible):
@@ -84,13 +84,23 @@ def draw_answer(
     return finish(lay_out(scene, like.sheet.placement if like else None), theme, describe(answer))
 
 
-def draw_result(result: Result, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
-    """The picture of a whole program: its only contour, or all of them in one drawing for each plane."""
+def draw_result(
+    result: Result, *, theme: Theme = Theme.LIGHT, title: str | None = None, is_whole: bool | None = None
+) -> Picture:
+    """The picture of a whole program: its only contour, or all of them in one drawing for each plane.
+
+    `is_whole` draws turned parts with both halves, or only with the programmed one; without it, with both where the
+    contours stay at least half as large.
+    """
     from contoursolve.pictures.overview import compose_overview, describe_overview  # noqa: PLC0415 - not needed for one contour
 
     if len(result.answers) == 1:
         return draw_answer(result.answers[0], theme=theme, title=title)
-    return finish(stack_sheets([*map(lay_out, compose_overview(result, title))]), theme, describe_overview(result))
+    return finish(
+        stack_sheets([*map(lay_out, compose_overview(result, title, is_whole=is_whole))]),
+        theme,
+        describe_overview(result),
+    )
 
 
 def draw_family_fan(

@@ -900,5 +900,9 @@ def test_a_crowded_drawing_says_what_it_leaves_out():
 def test_moves_that_lead_to_a_contour_are_in_the_picture_of_its_program():
     text = "G00 X60. Z5.\nG01 X40. F0.2\nZ0.\n" + BLOCK + "\nG01 Z-90.\nG00 X80.\n" + BLOCK.replace("X100.", "X150.")
     result = contoursolve.solve(text, control="yasnac-lx3")
-    strokes = [item for item in draw_result(result).sheet.drawing if isinstance(item, Stroke) and item.role is Role.INK]
-    assert len(strokes) == 2 + 3  # two contours; X40., Z0. and Z-90., not the rapids
+    strokes = [item for item in draw_result(result).sheet.drawing if isinstance(item, Stroke) and item.width > 1]
+    assert [stroke.role for stroke in strokes].count(Role.INK) == 2 + 3  # two contours; X40., Z0. and Z-90.
+    rapid = [stroke for stroke in strokes if stroke.role is Role.RAPID]
+    assert len(rapid) == 1  # to X80.; nobody knows where that to X60. begins
+    assert all(stroke.dash for stroke in rapid)
+    assert {"feed move", "rapid move"} <= set(labels(draw_result(result)))
