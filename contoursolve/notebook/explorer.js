@@ -117,6 +117,7 @@ function render({ model, el }) {
   let frame = {}; // how the picture that is shown shows the plane
   let wasHeld = false;
   let haunted = null; // the button whose contour is drawn over the picture
+  let isGone = false; // the kernel
   let shownView = null;
   let shownGhost = null;
 
@@ -759,13 +760,14 @@ function render({ model, el }) {
   }
 
   function followKernel(_, state) {
-    if (GONE.has(state)) tell("The kernel is gone, so nothing here moves any more. Run the cell again.");
+    isGone ||= state === undefined || GONE.has(state); // no new kernel knows what the old one did
+    if (isGone) tell("The kernel is gone, so nothing here moves any more. Run the cell again.");
     else if (state === "disconnected") tell("The connection to the kernel is lost. What is shown is what it was.");
     else if (state === "connected" && asked === answered) tell("");
   }
 
   const kernel = model.widget_manager?.kernel;
-  const signals = [kernel?.statusChanged, kernel?.connectionStatusChanged].filter(Boolean);
+  const signals = [kernel?.statusChanged, kernel?.connectionStatusChanged, kernel?.disposed].filter(Boolean);
   for (const signal of signals) signal.connect(followKernel);
   const observer = new MutationObserver(followTheme);
   for (const element of [document.documentElement, document.body]) {

@@ -13,10 +13,11 @@ from msgspec import Struct
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.families import FamilyError
 from contoursolve.families.sensitivities import slopes_of
-from contoursolve.geometry import Arc
+from contoursolve.geometry import Arc, Corner, Line
 from contoursolve.output.words import StatedWord, stated_words
 from contoursolve.pictures import Picture
 from contoursolve.pictures.scene import Viewport
+from contoursolve.pictures.subject import corner_segment, find_known
 from contoursolve.pictures.vectors import SAME, along, direction, distance, middle
 from contoursolve.solving import Point
 from contoursolve.solving.contour import ArcSegment, LineSegment, Segment
@@ -217,11 +218,11 @@ def _chosen(name: str, slopes: Slopes, words: Mapping[str, StatedWord]) -> Seque
 def _size_slope(answer: Answer, word: StatedWord, motion: Motion | None) -> Point | None:
     """How one unit of a word moves the middle of the element whose size it states, where its arrow points."""
     figure = answer.profile.figure
-    if motion is None or answer.contour is None:
-        return None
-    segments = {each.name: each for each in answer.contour.elements}
-    names = [corner.name for corner in figure.corners if corner.name in word.fixes]
-    names += [each.name for each in figure.path if isinstance(each, Arc) and each.radius in word.fixes]
+    corners = [corner for corner in figure.corners if corner.name in word.fixes]
+    names = [each.name for each in (*corners, *figure.path) if each in corners or _is_arc_of(each, word)]
+    if motion is None:
+        return _refused_slope(answer, corners[0], word) if corners else None
+    segments = {each.name: each for each in answer.contour.elements} if answer.contour is not None else {}
     segment = next((segments[name] for name in names if name in segments), None)
     if segment is None:
         return None
@@ -236,4 +237,20 @@ def _size_slope(answer: Answer, word: StatedWord, motion: Motion | None) -> Poin
         there = LineSegment(segment.name, moved[0], moved[1])
     (here, _), (after, _) = middle(segment), middle(there)
     slope = (after[0] - here[0]) / step, (after[1] - here[1]) / step
+    return slope if hypot(*slope) > LEAST else None
+
+
+def _is_arc_of(element: Corner | Line | Arc, word: StatedWord) -> bool:
+    """Whether a word states the radius of an arc of the path."""
+    return isinstance(element, Arc) and element.radius in word.fixes
+
+
+def _refused_slope(answer: Answer, corner: Corner, word: StatedWord) -> Point | None:
+    """The same for a corner that does not fit: it grows in proportion to its size, from its virtual intersection."""
+    known = find_known(answer)
+    built, at = known.corners.get(corner.name), known.points.get(corner.at)
+    if built is None or at is None or not word.value:
+        return None
+    here, _ = middle(corner_segment(corner, built))
+    slope = (here[0] - at[0]) / word.value, (here[1] - at[1]) / word.value
     return slope if hypot(*slope) > LEAST else None

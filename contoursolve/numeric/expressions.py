@@ -1,6 +1,7 @@
 """CasADi: builds expressions of named inputs and evaluates them through raw buffers."""
 
 import threading
+from array import array
 from collections.abc import Iterable, Mapping, Sequence
 from functools import reduce
 from math import inf
@@ -322,7 +323,7 @@ class Compiled:
     def __call__(self, values: Mapping[str, float]) -> dict[str, float]:
         """All outputs by name at the inputs by name."""
         local = self._ready()
-        local.arguments[:] = [values[name] for name in self.inputs]
+        local.arguments[:] = array("d", [values[name] for name in self.inputs])
         local.trigger()
         return dict(zip(self.outputs, local.results.tolist(), strict=True))
 
@@ -331,7 +332,7 @@ class Compiled:
         local = self._ready()
         found = numpy.empty((len(inputs), len(self.outputs)))
         for row, result in zip(inputs, found, strict=True):
-            local.arguments[:] = row
+            local.arguments[:] = array("d", row)
             local.trigger()
             result[:] = local.results
         return found
@@ -340,8 +341,8 @@ class Compiled:
         """The buffer of this thread."""
         local = self._local
         if not hasattr(local, "trigger"):
-            local.arguments = numpy.zeros(len(self.inputs))
-            local.results = numpy.zeros(len(self.outputs))
+            local.arguments = array("d", [0.0]) * len(self.inputs)
+            local.results = array("d", [0.0]) * len(self.outputs)
             local.buffer, local.trigger = self.function.buffer()
             local.buffer.set_arg(0, memoryview(local.arguments))
             local.buffer.set_res(0, memoryview(local.results))

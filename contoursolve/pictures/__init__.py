@@ -138,8 +138,8 @@ def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None
 
 def draw_region(region: Region, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of the values of two words with which a block has a contour: the lines that bound them, each with
-    what fails beyond it."""
-    from contoursolve.pictures.curves import lay_out_region  # noqa: PLC0415 - as above
+    what fails beyond it, and a field for each status, from a solve in each of many cells (a tenth of a second)."""
+    from contoursolve.pictures.maps import lay_out_region  # noqa: PLC0415 - as above
 
     return finish(lay_out_region(region, title), theme)
 
@@ -147,11 +147,14 @@ def draw_region(region: Region, *, theme: Theme = Theme.LIGHT, title: str | None
 def draw_sweep(ready: CompiledSweep, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of a sweep: the fan of contours where one word varies, the map of outcomes where two do.
 
-    Solves what it shows, and no more. Raises FamilyError for paired words, and where none or more than two vary.
+    Of too many values, some are drawn. The title counts all contours, and solves them for that; with a title of your
+    own, only those that are drawn. Raises FamilyError for paired words, and where none or more than two vary.
     """
-    from contoursolve.pictures.maps import solve_shown  # noqa: PLC0415 - as above
+    from contoursolve.pictures.maps import lay_out_map  # noqa: PLC0415 - as above
+    from contoursolve.pictures.sweeps import count_statuses, solve_shown, sweep_title  # noqa: PLC0415 - as above
 
     shown = solve_shown(ready)
+    told = title if title is not None else sweep_title(ready.ranges, count_statuses(ready))
     if isinstance(shown, tuple):
-        return draw_family_fan(*shown, theme=theme, title=title)
-    return draw_family_map(shown, theme=theme, title=title)
+        return draw_family_fan(*shown, theme=theme, title=told)
+    return finish(lay_out_map(shown, None, told, ready.ranges), theme)

@@ -290,11 +290,11 @@ def shorten(text: str, width: float, size: float, *, is_bold: bool = False, is_m
     return kept.rstrip() + "…"
 
 
-def wrap(text: str, width: float, size: float, lines: int) -> list[str]:
-    """The text in at most so many lines of this width; the last one is shortened."""
+def wrap(text: str, width: float, size: float, most: int | None = None) -> list[str]:
+    """The text in lines of this width; of at most so many, the last one is shortened."""
     found: list[str] = []
     rest = text.split()
-    while rest and len(found) < lines - 1:
+    while rest and (most is None or len(found) < most - 1):
         count = 1
         while count < len(rest) and width_of(" ".join(rest[: count + 1]), size) <= width:
             count += 1

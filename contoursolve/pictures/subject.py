@@ -324,7 +324,7 @@ def trace_known(profile: Profile, known: Known) -> Iterator[tuple[Segment, Role]
             yield segment, Role.CONFLICTING if element.name in refused else Role.FREE if is_free else Role.INK
         here = head
         if corner is not None and built is not None:
-            cut = _corner(corner, built)
+            cut = corner_segment(corner, built)
             if is_cut:
                 yield cut, Role.FREE if element.head in known.placed else Role.INK
                 here = built.end
@@ -343,7 +343,7 @@ def _segment(element: Line | Arc, tail: Point, head: Point, known: Known) -> Seg
     return ArcSegment(element.name, tail, head, center, radius, element.turn)
 
 
-def _corner(corner: Corner, built: CornerSolution) -> Segment:
+def corner_segment(corner: Corner, built: CornerSolution) -> Segment:
     """A corner as an element of a path."""
     if built.center is None:
         return LineSegment(corner.name, built.begin, built.end)

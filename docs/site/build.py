@@ -1,11 +1,15 @@
 """Build the documentation site: `python docs/site/build.py` writes it to build/site/html, or to html in a named folder.
 
 Its pages are README.md and the pages of docs/, a page for each control with all its rules, the reference of the public
-names, and the notebooks. All but the first are made here from the tables, docstrings and notebooks. Needs the extra
-`docs`.
+names, the notebooks, and one that solves in the browser. All but the first are made here from the tables, docstrings
+and notebooks. Needs the extra `docs`, and pip.
+
+Set PYODIDE to the address of a folder with another copy of Pyodide's distribution, of the same version, to load Python
+from there: for a site without other hosts.
 """
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -14,10 +18,13 @@ from collections.abc import Iterator
 from html import escape
 from os.path import relpath
 from pathlib import Path
+from urllib.parse import urlsplit
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import contoursolve
 from contoursolve import pictures
 from contoursolve.controls import DIALECTS
+from contoursolve.output.html import notebook_style
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import Rule
 
@@ -36,6 +43,19 @@ STAGED = {
 }
 """Where on the site each file of the repository stands."""
 
+PYODIDE_VERSION = "314.0.7"
+PYODIDE = os.environ.get("PYODIDE", f"https://cdn.jsdelivr.net/pyodide/v{PYODIDE_VERSION}/full/")
+"""From where a reader's browser loads Python, when asked to."""
+
+DISTRIBUTED, DISTRIBUTED_FOR_FEW = ("numpy", "casadi", "markupsafe"), ("sympy",)
+"""Packages of Pyodide's distribution: what the first picture needs, and what few blocks need."""
+
+WHEELS = ("python-flint==0.9.0", "msgspec==0.22.0", "htpy==26.5.1")
+"""Packages that it has not, or not as new: the site has their wheels."""
+
+WHEELS_FOR = ("--platform=pyemscripten_2026_0_wasm32", "--platform=any", "--python-version=3.14")
+"""For which Python, that of this version of Pyodide."""
+
 
 def main() -> None:
     """Write the pages, and have zensical make the site of them; a warning of it is an error."""
@@ -52,6 +72,7 @@ def main() -> None:
     for dialect in DIALECTS.values():
         write(f"rules/{dialect.name}.md", "\n".join(rules_page(dialect)))
     write("reference.md", "\n".join(reference_page()))
+    write("try.md", try_page())
 
     settings = OUTPUT / "zensical.toml"
     for path in (settings, settings.with_name("doctests.py")):
@@ -65,6 +86,7 @@ def main() -> None:
     for page in SITE.rglob("*.html"):
         page.write_bytes(with_own_worker(page.read_bytes(), "../" * (len(page.relative_to(SITE).parts) - 1)))
     shutil.copy(Path(__file__).with_name("worker.js"), SITE / "assets")
+    write_try(SITE / "try")
 
 
 def with_own_worker(page: bytes, up: str) -> bytes:
@@ -205,6 +227,54 @@ def reference_page() -> Iterator[str]:
     for kind, names in groups.items():
         yield f"\n## {kind}\n"
         yield from (f"::: {name}\n" for name in names)
+
+
+# The page that solves in the browser -------------------------------------------------------------------------
+
+
+def try_page() -> str:
+    """The page with a block to type, and what it says about where Python comes from."""
+    text = Path(__file__).with_name("try").joinpath("page.md").read_text(encoding="utf-8")
+    options = (f'<option value="{name}">{escape(dialect.title)}</option>' for name, dialect in DIALECTS.items())
+    host, packages = urlsplit(PYODIDE).netloc or "This site", [each.partition("==")[0] for each in WHEELS]
+    for name, said in {
+        "CONTROLS": "".join(options),
+        "HOST": f"`{host}`" if "." in host else host,
+        "PYODIDE": f"Pyodide {PYODIDE_VERSION}",
+        "WHEELS": f"{', '.join(packages[:-1])} and {packages[-1]}",
+    }.items():
+        text = re.sub(rf"\b{name}\b", said, text)
+    return text
+
+
+def write_try(folder: Path) -> None:
+    """What the page loads from this site: its scripts, the explorer's, this package, and wheels."""
+    folder.mkdir()
+    own, house = Path(__file__).with_name("try"), Path(contoursolve.__file__).parent
+    for path in (own / "page.js", own / "worker.js", house / "notebook" / "explorer.js"):
+        shutil.copy(path, folder)
+    styles = [own / "page.css", house / "notebook" / "explorer.css"]
+    style = "".join(path.read_text(encoding="utf-8") for path in styles)
+    (folder / "page.css").write_text(notebook_style() + style, encoding="utf-8")
+    with ZipFile(folder / "contoursolve.zip", "w", ZIP_DEFLATED) as archive:
+        for path in sorted(house.rglob("*")):
+            if path.is_file() and path.suffix != ".pyc":
+                entry = ZipInfo(path.relative_to(house.parent).as_posix())  # of no date: the same files, the same archive
+                entry.compress_type = ZIP_DEFLATED
+                archive.writestr(entry, path.read_bytes())
+    wheels = OUTPUT / "wheels"
+    command = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--only-binary=:all:", *WHEELS_FOR]
+    subprocess.run([*command, f"--dest={wheels}", *WHEELS], check=True)
+    names = [next(wheels.glob(f"{each.replace('-', '_').replace('==', '-')}-*.whl")).name for each in WHEELS]
+    for name in names:
+        shutil.copy(wheels / name, folder)
+    sources = {
+        "pyodide": PYODIDE,
+        "packages": DISTRIBUTED,
+        "archives": ["contoursolve.zip", *names],
+        "later": DISTRIBUTED_FOR_FEW,
+    }
+    (folder / "sources.json").write_text(json.dumps(sources, indent=1), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -101,10 +101,10 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         page.wait_for_function(IDLE)
         page.evaluate("window.jupyterapp.commands.execute('notebook:run-all-cells')")
         explorer = page.locator(".contoursolve.explorer").first
-        explorer.locator("figure svg").wait_for()
+        explorer.locator(".paper svg").wait_for()
         page.locator(".jp-OutputArea-output .contoursolve .finding.error").first.wait_for()
         explorer.scroll_into_view_if_needed()
-        before = explorer.locator("figure").inner_html()
+        before = explorer.locator(".paper").inner_html()
         page.screenshot(path=artefacts / "jupyterlab-solved.png")
 
         # Its range comes when nothing else is to do, and the slider then reaches beyond it.
@@ -114,7 +114,7 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         slider = row.locator("input[type=range]")
         slider.focus()
         slider.press("PageUp")
-        page.wait_for_function(DIFFERS, arg=[f"{EXPLORER} figure", before])
+        page.wait_for_function(DIFFERS, arg=[f"{EXPLORER} .paper", before])
         assert explorer.locator(".finding").count() == 0
         slider.press("End")
         finding = explorer.locator(".finding.error").first
@@ -149,6 +149,9 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         page.wait_for_selector("body[data-jp-theme-light='false']", state="attached")
         page.wait_for_selector("[data-theme='dark'] > .contoursolve.explorer")
         page.screenshot(path=artefacts / "jupyterlab-dark.png")
+
+        page.evaluate("window.jupyterapp.shell.currentWidget.sessionContext.shutdown()")
+        explorer.locator(".trouble", has_text="The kernel is gone").wait_for()
         watched.check()
         page.close()
 
