@@ -40,6 +40,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("contoursolve")
     group.addoption("--insist", action="store_true", help="fail where a program or a package is missing, not skip")
     group.addoption("--sarif-schema", metavar="FILE", help="the SARIF 2.1.0 schema, which our output is held against")
+    group.addoption("--axe", metavar="FILE", help="axe.min.js of axe-core, by which pages are held to be accessible")
     group.addoption("--code-server", metavar="FOLDER", help="where code-server is, or is to stay for the next time")
     group.addoption("--pyodide", metavar="FOLDER", help="npm's package pyodide, unpacked, which the page loads")
     group.addoption("--screenshots", metavar="FOLDER", help="where tests with a browser leave what they saw")

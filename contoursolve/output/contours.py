@@ -6,11 +6,19 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer, AskedValue, list_alternatives
 from contoursolve.diagnosis.solutions import Listed, Listing, list_solutions, printed_certificate
-from contoursolve.diagnosis.wording import axis_labels, coordinate_texts, coordinates, count, length_of, short_name
+from contoursolve.diagnosis.wording import (
+    axis_labels,
+    coordinate_texts,
+    coordinates,
+    count,
+    length_of,
+    short_name,
+    word_keys,
+)
 from contoursolve.diagnostics.finding import Diagnosis, Verdict
 from contoursolve.gcode import FACT
 from contoursolve.geometry import Length, Turn
-from contoursolve.output.plain_text import Table, columns, printable
+from contoursolve.output.plain_text import NAMELESS, Name, Table, columns, printable
 from contoursolve.output.words import form_text, found_value, meaning_of, stated_words
 from contoursolve.program.pipeline import Result
 from contoursolve.reading import Convention
@@ -130,11 +138,14 @@ def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[
 def given_table(answer: Answer) -> Table:
     """Word, value, unit and meaning of everything that was given."""
     plane, unit, rows = answer.plane, short_name(answer.unit.value), []
+    keys, names = word_keys(answer.claim.words.values()), list[Name]()
     starts = coordinate_texts([float(value or 0) for value in answer.start.values], plane, answer.unit)
     for axis, value, text, is_diameter in zip(plane.axes, answer.start.values, starts, plane.diameters, strict=True):
         shown = ("unknown", "") if value is None else (text, unit)
         rows.append((f"start {axis}", *shown, "where the contour begins" + (" (diameter)" if is_diameter else "")))
+        names.append(("point", "start"))
     for each in stated_words(answer):
+        names.append(NAMELESS if each.word.address == FACT else ("word", each.key))
         meaning = each.meaning + (" - ignored" if each.is_ignored else "")
         if each.word.address == FACT:
             rows.append((printable(each.word.text), "", "", "further fact"))
@@ -145,11 +156,13 @@ def given_table(answer: Answer) -> Table:
         meaning = f"asked: {meaning_of(question.name, question.word, answer)}".strip(": ")
         number = ("?", "") if asked.value is None else _cells(*found_value(asked, answer))
         rows.append((printable(question.word.text), *number, meaning))
+        names.append(("word", keys[question.word.span]) if question.word.span in keys else NAMELESS)
     words = {given.name: given.word for given in answer.profile.givens.values() if given.word}
     by_point = {choice.point: words[choice.given].text for choice in answer.profile.choices if choice.given in words}
     for point, side in answer.sides.items():
         rows.append((f"choice {point}", side.value, "", f"of two intersections, by {by_point[point]}"))
-    return Table("What was given", ("word", "value", "unit", "meaning"), rows, left=(0, 2, 3))
+        names.append(("point", point))
+    return Table("What was given", ("word", "value", "unit", "meaning"), rows, (0, 2, 3), names)
 
 
 _FORMATS = {"mm": "z.4f", "in": "z.5f", "deg": ".4f", "": "+g"}
@@ -172,8 +185,8 @@ def _asked_text(asked: AskedValue, answer: Answer) -> str:
 def path_table(contour: Contour, unit: Length = Length.MM) -> Table:
     """The named points, and the elements with their end points, in a unit and as the control writes the axes."""
     has_arc, written = any(isinstance(each, ArcSegment) for each in contour.elements), short_name(unit.value)
-    names = [f"{label} [{written}]" for label in axis_labels(contour.plane)]
-    heads = [*names, *([*(f"center {name}" for name in names), f"radius [{written}]"] if has_arc else [])]
+    labels = [f"{label} [{written}]" for label in axis_labels(contour.plane)]
+    heads = [*labels, *([*(f"center {label}" for label in labels), f"radius [{written}]"] if has_arc else [])]
     blank = [""] * (len(heads) - 2)
 
     def point(at: tuple[float, float]) -> list[str]:
@@ -181,6 +194,7 @@ def path_table(contour: Contour, unit: Length = Length.MM) -> Table:
 
     rows: list[tuple[str, ...]] = [(name, "point", *point(at), *blank) for name, at in contour.points.items()]
     rows.append(("start", "", *point(contour.start), *blank))
+    names: list[Name] = [("point", row[0]) for row in rows]
     for element in contour.elements:
         if isinstance(element, ArcSegment):
             code = "G02" if element.turn is Turn.CW else "G03"
@@ -188,4 +202,5 @@ def path_table(contour: Contour, unit: Length = Length.MM) -> Table:
             rows.append((element.name, code, *point(element.end), *arc))
         else:
             rows.append((element.name, "G01", *point(element.end), *blank))
-    return Table("The path", ("element", "move", *heads), rows, left=(0, 1))
+        names.append(("element", element.name))
+    return Table("The path", ("element", "move", *heads), rows, (0, 1), names)

@@ -1,5 +1,6 @@
 """HTML of contours, findings and tables, escaped by htpy, with its style sheet: for notebooks and the report alike."""
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from importlib.resources import files
@@ -20,7 +21,7 @@ from contoursolve.output.contours import (
     solution_rows,
 )
 from contoursolve.output.findings import Piece, finding_pieces
-from contoursolve.output.plain_text import Table, printable
+from contoursolve.output.plain_text import NAMELESS, Name, Table, printable
 from contoursolve.pictures import Drawable, Theme, draw
 from contoursolve.pictures.theme import DARK_COLORS, LIGHT_COLORS, Role
 
@@ -33,31 +34,53 @@ MOST_ROWS = 200
 # Tables ------------------------------------------------------------------------------------------------------
 
 
-def table_of(rows: Table) -> h.Element:
-    """A table as every format shows it, with as many rows as a page holds."""
-    return table(rows.caption, rows.header, _cut(rows.rows), numbers=rows.numbers)
+def table_of(rows: Table, *, identity: str = "") -> h.Element:
+    """A table as every format shows it, with as many rows as a page holds; one with an identity says what its rows show
+    of a picture."""
+    names = rows.names if identity else ()
+    return table(rows.caption, rows.header, _cut(rows.rows), numbers=rows.numbers, names=names, identity=identity)
 
 
 def table(
-    caption: str, header: Sequence[str], rows: Sequence[Sequence[h.Node]], *, numbers: Sequence[int] = ()
+    caption: str,
+    header: Sequence[str],
+    rows: Sequence[Sequence[h.Node]],
+    *,
+    numbers: Sequence[int] = (),
+    names: Sequence[Name] = (),
+    identity: str = "",
 ) -> h.Element:
-    """A table whose first column heads its rows; the columns named in `numbers` are aligned right."""
+    """A table whose first column heads its rows; the columns named in `numbers` are aligned right. A row with a name is
+    a place on the page, to which its first cell leads."""
+    own = [*names, *[NAMELESS] * (len(rows) - len(names))]
+    places = [f"{identity}-{number}" if name != NAMELESS else None for number, name in enumerate(own, 1)]
     kinds = ["number" if place in numbers else None for place in range(len(header))]
-    return h.div(".scroll", tabindex="0", role="region", aria_label=caption)[
+    return h.div(".scroll", tabindex="0", role="group", aria_label=caption)[
         h.table[
             h.caption[caption],
             h.thead[h.tr[(h.th(scope="col", class_=kind)[text] for kind, text in zip(kinds, header, strict=True))]],
             h.tbody[
                 (
-                    h.tr[
-                        h.th(scope="row", class_=kinds[0])[_cell(row[0])],
+                    h.tr(named_as([name]), id=place)[
+                        h.th(scope="row", class_=kinds[0])[
+                            h.a(href=f"#{place}")[_cell(row[0])] if place else _cell(row[0])
+                        ],
                         (h.td(class_=kind)[_cell(text)] for kind, text in zip(kinds[1:], row[1:], strict=True)),
                     ]
-                    for row in rows
+                    for row, name, place in zip(rows, own, places, strict=False)
                 )
             ],
         ]
     ]
+
+
+def named_as(names: Iterable[Name]) -> dict[str, str]:
+    """The attributes of an element that shows what pictures name so."""
+    by_kind: dict[str, dict[str, None]] = {}
+    for kind, name in names:
+        if kind:
+            by_kind.setdefault(f"data-{kind}", {})[name] = None
+    return {kind: " ".join(own) for kind, own in by_kind.items()}
 
 
 def _cell(content: h.Node) -> h.Node:
@@ -83,7 +106,9 @@ def figure(record: Drawable, *, is_inline: bool = False) -> h.Element:
     the same."""
     try:
         drawn = draw(record, theme=Theme.PAGE)
-        return h.figure[Markup(drawn.svg if is_inline else drawn._repr_html_())]  # our own painter escapes
+        if is_inline:  # so that arrow keys scroll it
+            return h.figure(tabindex="0", aria_label="Picture")[Markup(drawn.svg)]  # our own painter escapes
+        return h.figure[Markup(drawn._repr_html_())]
     except Exception as error:  # numbers that nobody draws must not keep the rest from the reader
         return h.p[f"This cannot be drawn ({type(error).__name__})."]
 
@@ -91,15 +116,18 @@ def figure(record: Drawable, *, is_inline: bool = False) -> h.Element:
 # Contours ----------------------------------------------------------------------------------------------------
 
 
-def words_table(answer: Answer) -> h.Element:
+def words_table(answer: Answer, *, identity: str = "") -> h.Element:
     """What was given, as many words as there are."""
     given = given_table(answer)
-    return table(given.caption, given.header, given.rows, numbers=given.numbers)
+    names = given.names if identity else ()
+    return table(given.caption, given.header, given.rows, numbers=given.numbers, names=names, identity=identity)
 
 
-def path_element(answer: Answer) -> h.Element | None:
+def path_element(answer: Answer, *, identity: str = "") -> h.Element | None:
     """Every named point and every element of the path, in the unit and the axes of the program."""
-    return table_of(path_table(answer.contour, answer.unit)) if answer.contour is not None else None
+    if answer.contour is None:
+        return None
+    return table_of(path_table(answer.contour, answer.unit), identity=identity)
 
 
 def solutions_table(answer: Answer) -> Iterator[h.Node]:
@@ -147,11 +175,13 @@ def finding_element(
     anchor: Anchor | None = None,
     identity: str = "",
     heading: h.Element = h.h4,
+    names: Sequence[Name] = (),
 ) -> h.Element:
-    """One finding in the layout of the terminal: its title, and below it everything else, its place as a link."""
+    """One finding in the layout of the terminal: its title, and below it everything else, its place as a link. `names`
+    is what it shows of a picture."""
     title, *rest = finding_pieces(finding, name, sources)
     target = anchor(finding.span.line) if anchor else None
-    return h.section(class_=f"finding {finding.severity.value}", id=identity or None)[
+    return h.section(named_as(names), class_=f"finding {finding.severity.value}", id=identity or None)[
         heading[(_piece(piece, None) for piece in bounded(title))],
         h.pre(tabindex="0")[([*(_piece(piece, target) for piece in bounded(line)), "\n"] for line in rest if line)],
     ]
@@ -180,6 +210,42 @@ def worst_of(findings: Iterable[Diagnostic]) -> str:
     """The worst severity of findings; `fine` without any."""
     found = {each.severity for each in findings}
     return next((each.value for each in Severity if each in found), "fine")
+
+
+# One identity ------------------------------------------------------------------------------------------------
+
+MOST_NAMES = 2_000
+"""Names that a page lights; each has a rule of its own."""
+
+_LIT = {"element": "stroke-width:4px", "word": "stroke-width:2.2px"}
+
+
+def lighting_rules(names: Iterable[Name], scope: str) -> str:
+    """Rules that light everything in an element that has one of these names, where anything with this name is pointed
+    at, has the focus or is the target of a link; `scope` selects such elements. No script is needed. Raises ValueError
+    for more names than a page lights.
+
+    >>> lighting_rules([("word", "P")], "article")
+    'article:has([data-word~="P"]:is(:hover,:focus-within,:target)) [data-word~="P"]{stroke-width:2.2px;...}\\n'
+    """
+    distinct = [each for each in dict.fromkeys(names) if each != NAMELESS]
+    if len(distinct) > MOST_NAMES:
+        raise ValueError(f"a page lights at most {MOST_NAMES} names; there are {len(distinct)}")
+    rules = []
+    for kind, name in distinct:
+        # Names of elements have blanks, and stand alone.
+        own = f'[data-{kind}{"" if kind == "element" else "~"}="{_NOT_PLAIN.sub(_escaped, name)}"]'
+        look = ";".join(filter(None, (_LIT.get(kind), "font-weight:700", "background:var(--cs-shade)")))
+        rules.append(f"{scope}:has({own}:is(:hover,:focus-within,:target)) {own}{{{look}}}\n")
+    return "".join(rules)
+
+
+_NOT_PLAIN = re.compile(r"[^\w-]", re.ASCII)
+
+
+def _escaped(found: re.Match[str]) -> str:
+    """A character as style sheets write any."""
+    return f"\\{ord(found[0]):x} "
 
 
 # The style sheet ---------------------------------------------------------------------------------------------

@@ -42,6 +42,12 @@ def harmless(text: str) -> str:
 _COMMAND = re.compile(r"^(?P<blank>[^\S\n]*+)::", re.MULTILINE)
 
 
+Name = tuple[str, str]
+"""A kind (`word`, `point`, `element`, `finding`) and a name of that kind, as pictures write it; `("", "")` for none."""
+
+NAMELESS: Name = ("", "")
+
+
 class Table(Struct, frozen=True):
     """Rows under a caption, as every format shows them; the columns named in `left` are texts, the others numbers."""
 
@@ -49,6 +55,8 @@ class Table(Struct, frozen=True):
     header: Sequence[str]
     rows: Sequence[Sequence[str]]
     left: Sequence[int] = (0,)
+    names: Sequence[Name] = ()
+    """What each row shows of a picture; without any, rows show nothing of one."""
 
     def lines(self, indent: str = "  ", *, is_headed: bool = True) -> list[str]:
         """The rows as lines, below the header unless they explain themselves; nothing for no row."""

@@ -13,12 +13,14 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Answer, Policy
 from contoursolve.diagnosis.wording import coordinates, count
 from contoursolve.diagnostics.finding import Diagnostic, Label, Severity
-from contoursolve.diagnostics.source import Evidence
+from contoursolve.diagnostics.source import Evidence, Span
 from contoursolve.gcode import Block
+from contoursolve.output.contours import given_table, path_table
 from contoursolve.output.html import (
     checks_table,
     figure,
     finding_element,
+    lighting_rules,
     page_style,
     path_element,
     remarks,
@@ -30,8 +32,10 @@ from contoursolve.output.html import (
     worst_of,
 )
 from contoursolve.output.listing import sources_of, summary_line
-from contoursolve.output.plain_text import printable
+from contoursolve.output.plain_text import Name, printable
 from contoursolve.output.words import form_text
+from contoursolve.pictures.page import About
+from contoursolve.pictures.subject import named_words
 from contoursolve.program.pipeline import Result
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
@@ -42,6 +46,11 @@ _GRADES = {
     Evidence.DERIVED: "follows from printed facts by geometry or symmetry",
     Evidence.ASSUMED: "our choice where the pages that we have are silent",
 }
+
+_HINT = "Point at a word, a row or a finding, or go to its row with the Tab key: all that belongs to it is marked."
+
+LONG = 40
+"""Contours of a page on which those that are far away are not laid out before they come near."""
 
 Progress = Callable[[], object]
 
@@ -91,6 +100,7 @@ def report_page(result: Result, version: str, progress: Progress = lambda: None)
 
 def _page(result: Result, version: str, progress: Progress) -> h.Element:
     places = _find_places(result)
+    lighting = _lighting(result)
     name = short(PurePath(result.program.name).name)
     return h.html(lang="en")[
         h.head[
@@ -100,7 +110,7 @@ def _page(result: Result, version: str, progress: Progress) -> h.Element:
             h.meta(name="color-scheme", content="light dark"),
             h.meta(name="generator", content=f"contoursolve {version}"),
             h.title[f"{name}: contours"],
-            h.style[Markup(page_style() + style_rules("report.css"))],  # our own files
+            h.style[Markup(page_style() + style_rules("report.css") + lighting)],  # our own files and names
         ],
         h.body(".contoursolve")[
             h.header[h.h1[name], h.p(".lead")[summary_line(result, is_explained=True)], _conditions(result)],
@@ -110,13 +120,30 @@ def _page(result: Result, version: str, progress: Progress) -> h.Element:
                 h.a(href="#sources")["Sources"],
             ],
             h.main[
-                _contours(result, places, progress), _others(result, places), _program(result, places), _sources(result)
+                _contours(result, places, progress, is_lit=bool(lighting)),
+                _others(result, places),
+                _program(result, places),
+                _sources(result),
             ],
             h.footer[
                 h.p[f"contoursolve {version}. Lengths in the unit of each contour; X is a diameter where it says so."]
             ],
         ],
     ]
+
+
+def _lighting(result: Result) -> str:
+    """The rules that light what belongs together; none for a program of more names than a page lights."""
+    names: dict[Name, None] = {}
+    for answer in result.answers:
+        names |= dict.fromkeys(given_table(answer).names)
+        if answer.contour is not None:
+            names |= dict.fromkeys(path_table(answer.contour, answer.unit).names)
+        names |= dict.fromkeys(("finding", str(number)) for number, _ in enumerate(answer.diagnostics, 1))
+    try:
+        return lighting_rules(names, ".contoursolve article")
+    except ValueError:
+        return ""
 
 
 def _conditions(result: Result) -> h.Element:
@@ -133,7 +160,7 @@ def _conditions(result: Result) -> h.Element:
     return h.dl[([h.dt[name], h.dd[short(value)]] for name, value in rows)]
 
 
-def _contours(result: Result, places: Places, progress: Progress) -> h.Element | None:
+def _contours(result: Result, places: Places, progress: Progress, *, is_lit: bool) -> h.Element | None:
     if not result.answers:
         return h.section(id="contours")[h.h2["Contours"], h.p["The program has no contour."]]
     header = ("contour", "line", "form", "status", "ends at", "findings")
@@ -148,17 +175,24 @@ def _contours(result: Result, places: Places, progress: Progress) -> h.Element |
         )
         for number, answer in enumerate(result.answers, 1)
     ]
-    return h.section(id="contours")[
+    is_long = len(result.answers) >= LONG
+    return h.section(".long" if is_long else "", id="contours")[
         h.h2["Contours"],
         table("Every contour, with what became of it", header, rows),
         figure(result, is_inline=True) if len(result.answers) > 1 else None,
+        h.p(".hint")[_HINT] if is_lit else None,
         (_contour(answer, number, result, places, progress) for number, answer in enumerate(result.answers, 1)),
     ]
 
 
 def _contour(answer: Answer, number: int, result: Result, places: Places, progress: Progress) -> h.Element:
-    found = [_finding(each, result, places) for each in answer.diagnostics]
-    path, words = path_element(answer), words_table(answer)
+    keys = named_words(answer)
+    found = [
+        _finding(each, result, places, names=[("finding", str(place)), *_words_of(each, keys)])
+        for place, each in enumerate(answer.diagnostics, 1)
+    ]
+    path = path_element(answer, identity=f"path-{number}")
+    words = words_table(answer, identity=f"words-{number}")
     element = h.article(id=f"contour-{number}")[
         h.h3[short(f"Contour {number}, line {answer.lines[0]}: {form_text(answer)}"), ": ", _status(answer)],
         h.div(".blocks")[
@@ -177,9 +211,18 @@ def _contour(answer: Answer, number: int, result: Result, places: Places, progre
     return element
 
 
-def _finding(finding: Diagnostic, result: Result, places: Places, heading: h.Element = h.h4) -> h.Element:
+def _words_of(finding: Diagnostic, named: Mapping[Span, About]) -> Iterator[Name]:
+    """The words of a contour that a finding points at."""
+    yield from (
+        ("word", named[label.span].word) for label in finding.labels if label.span in named and named[label.span].word
+    )
+
+
+def _finding(
+    finding: Diagnostic, result: Result, places: Places, heading: h.Element = h.h4, names: Sequence[Name] = ()
+) -> h.Element:
     name, sources, identity = result.program.name, sources_of(result, finding), places.finding(finding)
-    return finding_element(finding, name, sources, anchor=places.line, identity=identity, heading=heading)
+    return finding_element(finding, name, sources, anchor=places.line, identity=identity, heading=heading, names=names)
 
 
 def _status(answer: Answer) -> h.Element:

@@ -43,7 +43,8 @@ def turn_part(
     both halves, also where nobody asked if the contours stay half as large."""
     if not segments:
         return scene
-    span = _span_of(segments)
+    shown = [each for trail in scene.each(Trail) if trail.weight is not Weight.PASSING for each in trail.segments]
+    span = _span_of(shown)
     shows_both = is_whole if is_whole is not None else _is_worth(span)
     parts: list[Part] = []
     if shows_both:

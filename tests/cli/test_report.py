@@ -117,6 +117,39 @@ def test_the_page_is_made_of_headings_in_order():
     assert page.elements[0] == ("html", {"lang": "en"})
 
 
+def test_rows_and_findings_have_the_names_of_the_picture():
+    result = contoursolve.solve_file(BROKEN)
+    page = page_of(result)
+    drawn = {name for _, each in page.elements for name in (each.get("data-word") or "").split()}
+    rows = [each for each in page.all("tr") if each.get("data-word")]
+    assert {each["data-word"] for each in rows} == drawn == {word for a in result.answers for word in a.claim.words}
+    assert {f"#{each['id']}" for each in rows} <= {each["href"] for each in page.all("a")}
+    found = [each for each in page.all("section") if each.get("data-finding")]
+    assert len(found) == sum(len(answer.diagnostics) for answer in result.answers)
+    (corner,) = (each for each in found if "P" in each.get("data-word", "").split())
+    assert corner["data-finding"] == "1"
+    for name in ('data-word~="P"', 'data-element="line\\20 1"', 'data-finding~="1"'):
+        assert f".contoursolve article:has([{name}]:is(:hover,:focus-within,:target)) [{name}]" in page.text
+
+
+def test_a_page_of_more_names_than_it_lights_has_no_rules_and_does_not_speak_of_them(monkeypatch):
+    assert "all that belongs to it is marked" in page_of(contoursolve.solve_file(BROKEN)).shown
+    monkeypatch.setattr("contoursolve.output.html.MOST_NAMES", 3)
+    page = page_of(contoursolve.solve_file(BROKEN))
+    assert ":has(" not in page.text
+    assert "is marked" not in page.shown
+
+
+@pytest.mark.parametrize(("number", "kind"), [(39, None), (40, "long")])
+def test_only_the_contours_of_a_long_program_are_laid_out_late(number, kind):
+    text = "G00 X40. Z0.\n" + "G111 A180. K-1. B120. U1.\n" * number
+    page = page_of(contoursolve.solve(text, control="yasnac-lx3"))
+    (section,) = (each for each in page.all("section") if each.get("id") == "contours")
+    assert section.get("class") == kind
+    assert page.text.count("content-visibility") == 1
+    assert ".long article { content-visibility" in page.text
+
+
 def test_whatever_stands_in_the_program_is_text_on_the_page():
     inside = HOSTILE.replace("(", "[").replace(")", "]")
     text = f"G00 X40. Z0. ({inside})\nG111 X100. A180. K-30. B120. (contoursolve: {inside})\nQ1{HOSTILE}"

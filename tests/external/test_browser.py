@@ -188,25 +188,30 @@ def test_in_jupyterlab_a_notebook_that_nobody_trusts_or_runs_shows_its_pictures(
         page.close()
 
 
+def write_report(name, target):
+    """The report of a program of the notebooks, as the command writes it."""
+    done = subprocess.run(
+        [sys.executable, "-m", "contoursolve", "report", str(PROGRAMS / f"{name}.nc"), "-o", str(target)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == (name == "shaft_broken"), done.stderr
+    return target.as_uri()
+
+
 OVERFLOW = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
 PAPER = "getComputedStyle(document.body).backgroundColor"
 
 
 @pytest.mark.parametrize("name", ["shaft_broken", pytest.param("plate", marks=pytest.mark.slow)])
 def test_the_report_opens_in_light_and_dark_and_prints(browser, tmp_path, artefacts, name):
-    written = tmp_path / f"{name}.html"
-    done = subprocess.run(
-        [sys.executable, "-m", "contoursolve", "report", str(PROGRAMS / f"{name}.nc"), "-o", str(written)],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == (name == "shaft_broken"), done.stderr
+    written = write_report(name, tmp_path / f"{name}.html")
     papers = []
     for scheme in ("light", "dark"):
         watched = Watched(browser, viewport={"width": 1280, "height": 1600}, color_scheme=scheme)
         page = watched.page
-        page.goto(written.as_uri())
+        page.goto(written)
         assert page.locator("article figure svg").count() == page.locator("article").count() >= 6
         assert page.locator("#contours > figure svg").count() == 1
         papers.append(page.evaluate(PAPER))
@@ -223,3 +228,66 @@ def test_the_report_opens_in_light_and_dark_and_prints(browser, tmp_path, artefa
         watched.check()
         page.close()
     assert papers == ["rgb(255, 255, 255)", "rgb(16, 21, 31)", "rgb(255, 255, 255)"]
+
+
+VIOLATIONS = "async () => (await axe.run()).violations.map(each => [each.id, each.nodes.map(node => node.html)])"
+
+
+@pytest.mark.parametrize("name", ["shaft_broken", pytest.param("plate", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_report_is_accessible(request, browser, tmp_path, name, scheme):
+    axe = request.config.getoption("--axe")
+    if not axe:
+        pytest.skip("--axe names axe.min.js of axe-core, to hold the page against its rules")
+    written = write_report(name, tmp_path / "page.html")
+    for width in (1280, 390):
+        watched = Watched(browser, viewport={"width": width, "height": 900}, color_scheme=scheme)
+        watched.page.goto(written)
+        watched.page.evaluate(Path(axe).read_text(encoding="utf-8"))
+        assert watched.page.evaluate(VIOLATIONS) == []
+        watched.check()
+        watched.page.close()
+
+
+SMALLEST = """() => Math.min(...[...document.querySelectorAll("figure > svg")].flatMap(svg => {
+  const scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
+  return [...svg.querySelectorAll("text")].map(text => scale * Number(text.getAttribute("font-size")));
+}))"""
+LIT = """article => [...article.querySelectorAll("[data-word], [data-element], [data-point], [data-finding]")]
+  .filter(each => getComputedStyle(each).backgroundColor !== "rgba(0, 0, 0, 0)")
+  .map(each => [each.localName, ...Object.entries(each.dataset).map(pair => pair.join("="))].join(" "))"""
+
+
+def test_the_report_lights_what_belongs_together_without_a_script(browser, tmp_path, artefacts):
+    watched = Watched(browser, viewport={"width": 390, "height": 900}, has_touch=True)
+    page = watched.page
+    page.goto(write_report("shaft_broken", tmp_path / "page.html"))
+    assert page.evaluate(SMALLEST) >= 9
+    assert page.evaluate(OVERFLOW) == 0
+    third = page.locator("#contour-3")
+    assert third.evaluate(LIT) == []
+    row = third.locator("tr[data-word='P']")
+    row.locator("a").focus()
+    by_row = third.evaluate(LIT)
+    assert {each.split()[0] for each in by_row} >= {"tr", "text", "tspan", "path", "section"}
+    assert all("word=P" in each or "P " in each or " P" in each for each in by_row)
+    third.screenshot(path=artefacts / "report-lit.png")
+    page.locator("body").click(position={"x": 2, "y": 2})
+    assert third.evaluate(LIT) == []
+    row.locator("td").first.hover()
+    assert third.evaluate(LIT) == by_row
+    third.locator("svg text[data-word~='P']").first.hover()
+    assert set(by_row) <= set(third.evaluate(LIT))
+    page.mouse.move(0, 0)
+    page.goto(page.url + "#finding-3")  # as a marked word of the program leads to it
+    name = third.locator(".finding").first.get_attribute("id")
+    page.evaluate("name => { location.hash = name }", name)
+    lit = third.evaluate(LIT)
+    assert set(by_row) <= set(lit)
+    assert any(each.startswith("tspan") for each in lit)
+    assert page.locator("#contour-4").evaluate(LIT) == []
+    second = page.locator("#contour-2")
+    second.locator("tr[data-element='line 1'] a").focus()
+    assert "path element=line 1" in second.evaluate(LIT)
+    watched.check()
+    page.close()

@@ -1,0 +1,45 @@
+"""Contact sheets: the pictures of all examples of all rules, a few dozen on a page, for somebody to look at."""
+
+from html import escape
+
+import pytest
+from browsing import Watched
+
+import contoursolve
+from contoursolve.controls import DIALECTS
+from contoursolve.pictures import draw_result
+
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+ON_A_SHEET = 24
+STYLE = """body { margin: 8px; display: grid; grid-template-columns: repeat(4, 1fr); gap: 8px; font: 12px sans-serif }
+figure { margin: 0; border: 1px solid #ccc } img { width: 100%; height: auto; display: block }"""
+WIDTHS = "images => Promise.all(images.map(image => image.decode().then(() => image.naturalWidth)))"
+
+
+def examples(name):
+    """The examples of the rules of a control that no control before it has: what each shows, and its program."""
+    before = list(DIALECTS)[: list(DIALECTS).index(name)]
+    known = {id(rule) for other in before for rule in DIALECTS[other].rules}
+    for rule in DIALECTS[name].rules:
+        for kind, programs in (("wrong", rule.rejected), ("right", rule.accepted)) if id(rule) not in known else ():
+            for number, program in enumerate(programs, 1):
+                yield f"{rule.code}, {kind} {number}", program
+
+
+@pytest.mark.parametrize("name", DIALECTS)
+def test_every_example_of_every_rule_has_a_picture_on_a_sheet(browser, artefacts, name):
+    shown = list(examples(name))
+    for number, begin in enumerate(range(0, len(shown), ON_A_SHEET), 1):
+        figures = [
+            f"<figure><figcaption>{escape(told)}</figcaption>"
+            f"{draw_result(contoursolve.solve(program, control=name, name='a.nc'))._repr_html_()}</figure>"
+            for told, program in shown[begin : begin + ON_A_SHEET]
+        ]
+        watched = Watched(browser, viewport={"width": 1600, "height": 1200})
+        page = watched.page
+        page.set_content(f"<!doctype html><title>{name}</title><style>{STYLE}</style>{''.join(figures)}")
+        assert page.locator("img").evaluate_all(WIDTHS) == [760] * len(figures)
+        page.screenshot(path=artefacts / f"sheet-{name}-{number}.png", full_page=True)
+        assert watched.complaints == []
+        page.close()
