@@ -1,4 +1,4 @@
-"""Stands in for CasADi where it cannot be installed: as much of its interface as `contoursolve.numeric` uses, in Python.
+"""Stands in for CasADi where it cannot be installed: what `contoursolve.numeric` uses of its interface, in Python.
 
 Expressions are shared: equal ones are one object. A function is the list of its operations, run on floats or, for a
 function of columns, on arrays.
@@ -389,7 +389,13 @@ def if_else(condition: Any, then: Any, otherwise: Any) -> SX:
     """One of two scalars."""
     opposite = _one(OP_NOT, _node(condition))
     return _column(
-        [_two(OP_ADD, _two(OP_IF_ELSE_ZERO, _node(condition), _node(then)), _two(OP_IF_ELSE_ZERO, opposite, _node(otherwise)))]
+        [
+            _two(
+                OP_ADD,
+                _two(OP_IF_ELSE_ZERO, _node(condition), _node(then)),
+                _two(OP_IF_ELSE_ZERO, opposite, _node(otherwise)),
+            )
+        ]
     )
 
 
@@ -560,7 +566,12 @@ class Function:
         ]
         read = {place: (argument, number) for argument, number, place in self._reads}
         self._instructions: list[tuple[int, list[int], list[int], float]] = [
-            (node.operation, list(read[place]) if place in read else [self._place[id(each)] for each in node.operands], [place], node.value)
+            (
+                node.operation,
+                list(read[place]) if place in read else [self._place[id(each)] for each in node.operands],
+                [place],
+                node.value,
+            )
             for place, node in enumerate(order)
         ]
         self._instructions += [
