@@ -82,6 +82,13 @@ Written = tuple[Path, bytes, str]
 )
 @click.option("--line", type=click.IntRange(1), help="Draw the contour that this line of PROGRAM belongs to, alone.")
 @click.option("--each", "is_each", is_flag=True, help="Draw every contour in a file of its own: OUT-LINE.svg.")
+@click.option(
+    "--whole/--half",
+    "is_whole",
+    default=None,
+    help="Draw turned parts with both halves, or the programmed half alone; without either, with both where the "
+    "contours stay at least half as large.",
+)
 @theme_option
 @click.option(
     "--force", "is_forced", is_flag=True, help="Replace drawings that exist; without -o, its own are replaced anyway."
@@ -95,6 +102,7 @@ def plot(
     output: Path | None,
     line: int | None,
     is_each: bool,
+    is_whole: bool | None,
     theme: str,
     is_forced: bool,
     blocks: tuple[str, ...],
@@ -127,6 +135,8 @@ def plot(
         raise click.UsageError("a DXF drawing has every contour on layers of its own: leave out --line and --each")
     if line is not None and is_each:
         raise click.UsageError("give either --line or --each, not both")
+    if is_whole is not None and (kind == _DXF or line is not None or is_each):
+        raise click.UsageError("--whole and --half are for a picture of all contours: leave out --line, --each and DXF")
     source = Path(program) if program else None
     try:
         if not is_each:
@@ -136,7 +146,7 @@ def plot(
         if kind == _DXF:
             files = _drawings_for_cad(result, target)
         else:
-            files = list(_pictures(result, target, line, Theme(theme), is_each=is_each))
+            files = list(_pictures(result, target, line, Theme(theme), is_each=is_each, is_whole=is_whole))
         for path, _, _ in files if is_each else ():
             check_target(path, source, is_forced=_may_replace(path, output, is_forced=is_forced))
         for path, data, _ in files:
@@ -151,7 +161,9 @@ def plot(
     context.exit(FOUND_ERRORS if result.has_errors or not files else 0)
 
 
-def _pictures(result: Result, target: Path, line: int | None, theme: Theme, *, is_each: bool) -> Iterator[Written]:
+def _pictures(
+    result: Result, target: Path, line: int | None, theme: Theme, *, is_each: bool, is_whole: bool | None
+) -> Iterator[Written]:
     """The pictures that are asked for."""
     if not result.answers:
         return
@@ -164,7 +176,7 @@ def _pictures(result: Result, target: Path, line: int | None, theme: Theme, *, i
         answer = _at(result.answers, line)
         yield target, bytes_of(draw_answer(answer, theme=theme), target), _about(answer)
         return
-    picture = draw_result(result, theme=theme)
+    picture = draw_result(result, theme=theme, is_whole=is_whole)
     yield target, bytes_of(picture, target), count(len(result.answers), "contour")
 
 

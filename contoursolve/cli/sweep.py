@@ -46,7 +46,7 @@ from contoursolve.families import (
 from contoursolve.gcode.files import CannotWriteError, check_target, open_whole, write_whole
 from contoursolve.output.plain_text import columns
 from contoursolve.pictures import Theme, draw_sweep
-from contoursolve.pictures.maps import sweep_title
+from contoursolve.pictures.sweeps import sweep_title
 from contoursolve.solving.row_outcome import REASONS, Code
 
 PATIENCE = 1.0
@@ -242,7 +242,7 @@ def sweep_(
             check_extent(ready, parts, target, is_forced=is_forced)
             if picture is not None:
                 # What cannot be drawn is told before anything else is done.
-                bytes_of(draw_sweep(ready, theme=Theme(theme)), picture)
+                bytes_of(draw_sweep(ready, theme=Theme(theme), title="not solved yet"), picture)
             with open_cluster(dask) as executor, progress(ready.ranges.count, is_quiet=is_quiet) as advance:
                 _run(_tables(ready, parts, (workers, executor), tally, advance), parts, target, is_forced=is_forced)
             if picture is not None:

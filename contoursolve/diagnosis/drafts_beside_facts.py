@@ -52,7 +52,15 @@ def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator
     yield [tuple(dict.fromkeys(sum(choice, ()))) for choice in product(*drops, missing) if any(choice)]
     yield _corrected(answer, dialect, twice, before)
     yield _slips(answer, findings)
+    yield from _without_corners(answer, [each for each in findings if each.about is ReadIssue.CORNER_NOWHERE])
     yield _exchanged(answer, [each for each in findings if each.about in _NOT_TOGETHER])
+
+
+def _without_corners(answer: Answer, findings: list[Diagnostic]) -> Iterator[list[tuple[Edit, ...]]]:
+    """Corners after which nothing says where the path leads, taken out."""
+    spans = {label.span for each in findings for label in each.labels}
+    if spans:
+        yield [tuple(drop(word) for word in answer.claim.words.values() if word.span in spans)]
 
 
 def next_place_of(profile: Profile) -> tuple[Decimal, Decimal] | None:

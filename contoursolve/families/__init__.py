@@ -7,7 +7,7 @@ A block with free words comes in; rows, ranges, regions and sensitivities go out
 from contoursolve.families.checkpoints import MOST_ROWS, Parts, others, parts_of, room_of, seconds_of
 from contoursolve.families.compiled_sweep import CompiledSweep
 from contoursolve.families.evaluate import THREADS, FailureSummary, Tally, failure_summary, family, pieces, sweep
-from contoursolve.families.export import Family, Measure, csv_lines, summary_of, units_of, write_parquet
+from contoursolve.families.export import Family, Measure, csv_lines, summary_of, write_parquet
 from contoursolve.families.feasible_ranges import End, Feasible, Interval, Reason, Way, feasible
 from contoursolve.families.inverse import Found, Hit, find_word
 from contoursolve.families.point_tolerances import Effect, Limits, Missing, Tolerances, tolerances
@@ -67,6 +67,5 @@ __all__ = [
     "summary_of",
     "sweep",
     "tolerances",
-    "units_of",
     "write_parquet",
 ]

@@ -312,7 +312,8 @@ class FreeWords:
         self._limits = limits_of(template, dict(zip(self.names, self.values, strict=True)))
         self.scales = [abs(each.scale) for each in self._limits]
         """mm or degrees for each unit of the words."""
-        self.kinds = [kind_of(word, self.answer)[0] for word in words]
+        stated = [kind_of(word, self.answer) for word in words]
+        self.kinds, self.diameters = [kind for kind, _ in stated], [is_diameter for _, is_diameter in stated]
         self.units = ["deg" if kind is Unit.DEGREE else self.answer.unit.value for kind in self.kinds]
         self._answers = {self.values: self.answer}
         self.doubts: list[str] = []

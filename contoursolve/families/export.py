@@ -2,7 +2,7 @@
 of others; the packages for these are needed only here.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -143,14 +143,6 @@ class Family(Shown):
         attribute, `status` and `reason` the meanings of their numbers. Raises MissingExtraError without xarray."""
         arrays = {name: self[name] for name in self.columns}
         return to_xarray(dict(self.ranges.values), arrays, self.measures(), is_paired=self.ranges.is_paired)
-
-
-def units_of(family: Family, words: Sequence[str]) -> tuple[str, ...]:
-    """What words of a family are written in (mm, inch or deg); empty for one that only chooses between two places, and
-    where nothing tells."""
-    template = family.spec.template()
-    answer = template.solve({})
-    return tuple(measure_of_word(template.words[word], answer).unit for word in words)
 
 
 def summary_of(counts: NDArray[Any]) -> dict[Status, int]:

@@ -109,6 +109,8 @@ class Feasible(Shown, Struct, frozen=True):
     doubts: tuple[str, ...]
     refusal: str
     """Why the block as it stands has no contour; empty if it has."""
+    is_diameter: bool = False
+    """Whether the values are diameters."""
 
     @property
     def is_complete(self) -> bool:
@@ -159,7 +161,7 @@ def feasible(
             intervals.append(Interval(_end(search, pieces, first, last, -1), _end(search, pieces, last, first, +1)))
     refusal = first_error(search.answer)
     about = (search.word, search.unit, search.stated, (low, high))
-    return Feasible(*about, tuple(intervals), tuple(search.doubts), refusal)
+    return Feasible(*about, tuple(intervals), tuple(search.doubts), refusal, search.diameters[0])
 
 
 def _end(search: RangeSearch, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:

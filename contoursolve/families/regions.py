@@ -14,10 +14,9 @@ from contoursolve.diagnostics.display import Shown
 from contoursolve.families.boundary_tracing import BISECTIONS, NODES, BoundaryTrace, Field, WordBox, edge_of, gaps_of
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords
-from contoursolve.families.export import Family
 from contoursolve.families.feasible_ranges import ASIDE, NO_FAILURE, Reason, Way, failure_of, phrase, refused, same
 from contoursolve.families.free_words import check_block
-from contoursolve.families.spec import BlockOptions, FamilyError, Template, called, spec_of
+from contoursolve.families.spec import BlockOptions, FamilyError, Ranges, SweepSpec, Template, called, spec_of
 from contoursolve.families.subdivision import bisect
 from contoursolve.geometry import Unit
 from contoursolve.numeric.intervals import Array
@@ -51,7 +50,8 @@ class Region(Shown, Struct, frozen=True):
     """Where a block has a contour, by two of its words within a box: the lines that bound these values.
 
     `units` are what the words are written in. Without `doubts`, no line is missing, with proof, and no part wider than
-    a cell of `cell` (by word); else they say why.
+    a cell of `cell` (by word); else they say why. `spec` is the block, to be solved anywhere in the box, and `fixed`
+    has the values of its other free words.
     """
 
     words: tuple[str, str]
@@ -63,6 +63,8 @@ class Region(Shown, Struct, frozen=True):
     doubts: tuple[str, ...]
     exists: bool
     """Whether the contour exists anywhere in the box, as far as was looked."""
+    spec: SweepSpec
+    fixed: Mapping[str, float]
 
     @property
     def is_complete(self) -> bool:
@@ -94,25 +96,26 @@ def region(
     """
     if isinstance(words, str) or len(words) != 2 or len(within) != 2:  # noqa: PLR2004 - axes of a map
         raise FamilyError("name two words, and a range for each of them")
-    template = spec_of(block, words, **options).template()
+    spec = spec_of(block, words, **options)
+    template = spec.template()
     check_block(template)
-    return _RegionSearch(template, within).run()
+    return _RegionSearch(template, within).run(spec, {})
 
 
-def region_of(family: Family, words: tuple[str, str]) -> Region:
-    """The region of two words of a family, between the least and the largest of the values that they have in it.
+def region_of(spec: SweepSpec, ranges: Ranges, words: tuple[str, str]) -> Region:
+    """The region of two words of a sweep, between the least and the largest of the values that they have in it.
 
     Raises FamilyError as `region`, and where one of the other words has several values.
     """
-    values = family.ranges.values
+    values = ranges.values
     others = {name: column for name, column in values.items() if name not in words}
     several = next((name for name, column in others.items() if column.size > 1), None)
     if several is not None or any(word not in values for word in words):
         raise FamilyError(f"{' and '.join(words)} are not the only words that vary")
-    filled = family.spec.template().filled({name: float(column[0]) for name, column in others.items()})
-    template = filled.with_words(words)
+    fixed = {name: float(column[0]) for name, column in others.items()}
+    template = spec.template().filled(fixed).with_words(words)
     first, second = ((float(values[word].min()), float(values[word].max())) for word in words)
-    return _RegionSearch(template, (first, second)).run()
+    return _RegionSearch(template, (first, second)).run(spec, fixed)
 
 
 class _RegionSearch(FreeWords):
@@ -129,8 +132,8 @@ class _RegionSearch(FreeWords):
         self.ticks = [self.marks(axis, *each) for axis, each in enumerate(self.within)]
         self.cases: dict[tuple[int, int], CaseClass] = {}
 
-    def run(self) -> Region:
-        """The region."""
+    def run(self, spec: SweepSpec, fixed: Mapping[str, float]) -> Region:
+        """The region, of a block that is read by these."""
         for place in product(*(range(len(marks) - 1) for marks in self.ticks)):
             middle = [(self.ticks[axis][place[axis]] + self.ticks[axis][place[axis] + 1]) / 2 for axis in (0, 1)]
             self.cases[place[0], place[1]] = self.case_at(*middle)
@@ -166,6 +169,8 @@ class _RegionSearch(FreeWords):
             cell=(first, second),
             doubts=tuple(dict.fromkeys(self.doubts)),
             exists=any(field.is_inside.any() for field in fields.values()),
+            spec=spec,
+            fixed=fixed,
         )
 
     def _merge(self, axis: int) -> None:

@@ -4,49 +4,90 @@ from collections.abc import Callable, Mapping
 
 from contoursolve.notebook import exploration as explorations
 from contoursolve.notebook.exploration import Exploration
-from contoursolve.notebook.front_end import Data, frames_of, range_of, view_of
+from contoursolve.notebook.front_end import Data, asked_now, frames_of, ghost_of, picture_of, range_of, view_of
 
-_ACTIONS: Mapping[str, Callable[[Exploration, Data], Exploration]] = {
-    "move": lambda now, action: explorations.set_word(now, str(action["key"]), action["value"]),
+_CHANGES: Mapping[str, Callable[[Exploration, Data], Exploration]] = {
+    "move": lambda now, action: explorations.set_words(now, action["values"]),
     "free": lambda now, action: explorations.free(now, str(action["key"])),
     "fix": lambda now, action: explorations.apply_fix(now, int(action["finding"]), int(action["fix"])),
     "select": lambda now, action: explorations.select(now, int(action["solution"])),
     "write": lambda now, action: explorations.write(now, str(action["text"])),
     "reset": lambda now, _: explorations.reset(now),
 }
-"""What the front end may ask for."""
+"""What the front end may do to the block. Each can be undone."""
+
+_FITTED = ("write", "reset", "undo", "redo")
+"""After these the sliders are scaled anew."""
+
+MOST_PAST = 500
+"""Changes that can be undone."""
 
 
 class Conversation:
     """A contour whose words are moved: what it comes to (`exploration`), and all that a front end shows (`state`).
 
-    The state is plain data. `view` is what `view_of` tells, `ranges` where each word has a contour, by its key, and
-    `ranges_number` the number of the last action that asked for such a range.
+    The state is plain data. `view` is what `view_of` tells, `ranges` where each word has a contour, by its key, `ghost`
+    what a fix or another solution would draw, and `number` that of the last action. While a front end holds something
+    (`is_held`), the picture stands as it did, and all that is held becomes one change.
     """
 
     def __init__(self, exploration: Exploration) -> None:
         self.exploration = exploration
-        self.state: Data = {"view": self._viewed(0, is_new=True), "ranges": {}, "ranges_number": 0}
+        self._past: list[Exploration] = []
+        self._future: list[Exploration] = []
+        self._pinned: set[str] = set()
+        self._is_held = False
+        self._solved = exploration
+        """The contour as it was last solved."""
+        self._drawn = picture_of(exploration.answer) if exploration.answer else None
+        self.state: Data = {"view": self._viewed(is_new=True), "ranges": {}, "ghost": {}, "number": 0}
 
     def answer(self, action: Data) -> Data:
         """Do what a front end asks for; what changes of the state. Raises nothing: what goes wrong is said in it."""
-        number = int(action.get("number", 0))
-        if action.get("do") == "range":
-            changed = {**self._ranged(str(action.get("key"))), "ranges_number": number}
-        else:
-            changed = {"view": self._acted(action, number)}
-        self.state |= changed
-        return changed
-
-    def _acted(self, action: Data, number: int) -> Data:
-        trouble = ""
+        kind = action.get("do")
         try:
-            self.exploration = _ACTIONS[action["do"]](self.exploration, action)
+            changed = self._ranged(str(action["key"])) if kind == "range" else self._ghosted(action)
+        except (ValueError, KeyError, TypeError):  # there is no such word, fix or solution any more
+            changed = {}
+        if kind not in ("range", "ghost"):
+            changed = {"view": self._acted(action), "ghost": {}}
+        self.state |= {**changed, "number": int(action.get("number", 0))}
+        return {**changed, "number": self.state["number"]}
+
+    def _acted(self, action: Data) -> Data:
+        trouble, kind = "", action.get("do")
+        is_held = bool(action.get("is_held"))
+        before = self.exploration
+        try:
+            self.exploration = self._done(action)
         except ValueError as error:  # what the reader typed makes no sense: nothing changes
             trouble = str(error)
         except Exception as error:  # the front end waits for an answer, whatever happens
             trouble = f"{type(error).__name__}: {error}"
-        return self._viewed(number, trouble, is_new=action.get("do") in ("write", "reset"))
+        if self.exploration is not before and kind in _CHANGES and not self._is_held:
+            self._past, self._future = [*self._past[-MOST_PAST:], before], []
+        self._is_held = is_held
+        answer = self.exploration.answer
+        self._solved = self.exploration if answer is not None and answer.contour is not None else self._solved
+        self._drawn = picture_of(answer, self._drawn if is_held else None) if answer else None
+        asked = asked_now(self.exploration, before, self._solved) if kind == "fix" else []
+        return {**self._viewed(trouble, is_new=kind in _FITTED), "asks": asked}
+
+    def _done(self, action: Data) -> Exploration:
+        """What the contour is after an action."""
+        kind, now = action["do"], self.exploration
+        if kind in _CHANGES:
+            return _CHANGES[kind](now, action)
+        if kind == "pin":
+            self._pinned ^= {str(action["key"])}
+        elif kind in ("undo", "redo"):
+            back, forth = (self._past, self._future) if kind == "undo" else (self._future, self._past)
+            if back:
+                forth.append(now)
+                return back.pop()
+        elif kind != "release":
+            raise ValueError(f"nothing is called {kind!r} here")
+        return now
 
     def _ranged(self, key: str) -> Data:
         """Where one word has a contour. It is worked out when nothing else is to do, and kept while it holds."""
@@ -55,12 +96,24 @@ class Conversation:
         frame = view["frames"].get(key)
         if frame is None or key not in fields or ranges.get(key, {}).get("frame") == frame:
             return {}
-        try:
-            return {"ranges": {**ranges, key: {"frame": frame, **range_of(self.exploration, fields[key])}}}
-        except Exception:  # without a range the slider moves as well
-            return {"ranges": {**ranges, key: {"frame": frame}}}
+        return {"ranges": {**ranges, key: {"frame": frame, **range_of(self.exploration, fields[key])}}}
 
-    def _viewed(self, number: int, trouble: str = "", *, is_new: bool = False) -> Data:
-        view = view_of(self.exploration)
-        frames = frames_of(self.exploration)
-        return {**view, "number": number, "trouble": trouble, "is_new": is_new, "frames": frames}
+    def _ghosted(self, action: Data) -> Data:
+        """The contour of a fix or of another solution, over the present picture."""
+        if action.get("do") != "ghost" or self._drawn is None:
+            return {}
+        of: Data = {name: action[name] for name in ("finding", "fix", "solution") if name in action}
+        instead = _CHANGES["select" if "solution" in of else "fix"](self.exploration, of)
+        return {"ghost": {**of, "text": instead.text, "paths": ghost_of(instead, self._drawn)}}
+
+    def _viewed(self, trouble: str = "", *, is_new: bool = False) -> Data:
+        view = view_of(self.exploration, self._drawn, self._pinned)
+        return {
+            **view,
+            "trouble": trouble,
+            "is_new": is_new,
+            "is_held": self._is_held,
+            "can_undo": bool(self._past),
+            "can_redo": bool(self._future),
+            "frames": frames_of(self.exploration),
+        }

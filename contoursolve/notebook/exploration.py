@@ -93,8 +93,16 @@ def words_of(answer: Answer) -> dict[str, Word]:
 def set_word(exploration: Exploration, key: str, value: float | str) -> Exploration:
     """The contour with a word at another value, in the unit in which the word is written, rounded to the least
     increment of the control. Raises ValueError if there is no such word, or this is no number."""
-    answer, word = _find(exploration, key)
-    return _change(exploration, word, _written(answer, word, value))
+    return set_words(exploration, {key: value})
+
+
+def set_words(exploration: Exploration, values: Mapping[str, float | str]) -> Exploration:
+    """The contour with several words at other values at once; as `set_word`."""
+    edits = []
+    for key, value in values.items():
+        answer, word = _find(exploration, key)
+        edits.append(Edit(EditKind.CHANGE, word.address, word.span, word.text, _written(answer, word, value)))
+    return write(exploration, _text(exploration, edits))
 
 
 def free(exploration: Exploration, key: str) -> Exploration:

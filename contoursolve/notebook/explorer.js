@@ -1,7 +1,18 @@
-// The explorer's front end. It shows what Python says and sends what the reader does; it works nothing out.
+// The explorer's front end. It shows what Python says and sends what the reader does; between two answers it moves what
+// is drawn along the derivatives that came with the last one, and works nothing else out.
 // Texts are set as text, never as HTML; the picture is parsed as XML and comes from contoursolve's own painter.
 
 const QUIET = 250; // ms without an action after which ranges are asked for
+const SILENT = 2000; // ms without an answer after which the reader is told
+const SETTLED = 700; // ms without a key after which the picture is fitted
+const GLIDE = 200; // ms in which a picture is fitted
+const COARSE = 2; // pixels between round numbers
+const CATCH = 6; // pixels from which a value of interest catches
+const FAST = 10; // steps of a page key
+const SVG = "http://www.w3.org/2000/svg";
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1], PageUp: [0, -FAST], PageDown: [0, FAST] };
+const GONE = new Set(["dead", "terminating", "restarting", "autorestarting"]);
+const NAMES = ["word", "point", "element", "finding"];
 
 function make(kind, properties = {}, ...children) {
   const element = document.createElement(kind);
@@ -12,6 +23,13 @@ function make(kind, properties = {}, ...children) {
     else element.setAttribute(name, value);
   }
   element.append(...children.filter((child) => child));
+  return element;
+}
+
+function draw(kind, properties, text) {
+  const element = document.createElementNS(SVG, kind);
+  for (const [name, value] of Object.entries(properties)) element.setAttribute(name, value);
+  if (text !== undefined) element.textContent = text;
   return element;
 }
 
@@ -33,20 +51,92 @@ function isDark(element) {
   return 0.299 * red + 0.587 * green + 0.114 * blue > 140;
 }
 
+// Numbers ----------------------------------------------------------------------------------------------------
+
+const minus = (a, b) => [a[0] - b[0], a[1] - b[1]];
+const size = (a) => Math.hypot(a[0], a[1]);
+const tidy = (value) => Number(value.toFixed(6)) + 0;
+
+function roundStep(least) {
+  const power = 10 ** Math.floor(Math.log10(least));
+  return [1, 2, 5, 10].map((each) => each * power).find((each) => each >= least * 0.999999);
+}
+
+function shift(place, slopes, steps) {
+  // Where a place is when words have changed by so many units.
+  let [x, y] = place;
+  for (const [key, by] of Object.entries(steps)) {
+    const slope = slopes[key];
+    if (slope) [x, y] = [x + slope[0] * by, y + slope[1] * by];
+  }
+  return [x, y];
+}
+
+function pathOf(element, steps) {
+  const [start, end, center] = element.places.map((place, number) => shift(place, element.slopes[number], steps));
+  const from = `M${start[0]},${start[1]}`;
+  if (!element.turn) return `${from}L${end[0]},${end[1]}`;
+  const radius = size(minus(start, center));
+  const angle = (at) => Math.atan2(at[1] - center[1], at[0] - center[0]);
+  const swept = ((angle(end) - angle(start)) * element.turn + 4 * Math.PI) % (2 * Math.PI);
+  return `${from}A${radius},${radius} 0 ${swept > Math.PI ? 1 : 0} ${element.turn > 0 ? 1 : 0} ${end[0]},${end[1]}`;
+}
+
+function stepsTo(handle, at, target) {
+  // By how much the words of a handle change so that it comes as near to a place as they bring it.
+  const keys = Object.keys(handle.moves);
+  const way = minus(target, at);
+  const [a, b] = keys.map((key) => handle.moves[key]);
+  if (keys.length === 1) return { [keys[0]]: (way[0] * a[0] + way[1] * a[1]) / (a[0] ** 2 + a[1] ** 2) };
+  const determinant = a[0] * b[1] - a[1] * b[0];
+  return {
+    [keys[0]]: (way[0] * b[1] - way[1] * b[0]) / determinant,
+    [keys[1]]: (a[0] * way[1] - a[1] * way[0]) / determinant,
+  };
+}
+
+function turned(center, from, to) {
+  // Degrees counter-clockwise from one place to another, seen from a centre on a page where Y leads down.
+  const angle = (at) => (Math.atan2(center[1] - at[1], at[0] - center[0]) * 180) / Math.PI;
+  return ((angle(to) - angle(from) + 540) % 360) - 180;
+}
+
+// The widget -------------------------------------------------------------------------------------------------
+
 function render({ model, el }) {
   const rows = new Map(); // of words, by key
+  const grips = new Map(); // buttons on the drawing, by the name of the handle
   let asked = 0; // number of the last action
   let answered = 0;
-  let waiting = null; // the newest action while one is under way
+  let queue = []; // actions while one is under way
   let quiet = null;
+  let silence = null;
   let known = new Set(); // words whose range is that of the present text
+  let held = null; // what the reader holds
+  let settling = null;
+  let frame = {}; // how the picture that is shown shows the plane
+  let wasHeld = false;
+  let haunted = null; // the button whose contour is drawn over the picture
+  let isGone = false; // the kernel
+  let shownView = null;
+  let shownGhost = null;
 
-  const drawing = make("figure", { "aria-live": "off" });
+  const paper = make("div", { class: "paper" });
+  const over = draw("svg", { class: "over", "aria-hidden": "true" });
+  const tracks = over.appendChild(draw("g", { class: "tracks" }));
+  const ghosts = over.appendChild(draw("g", { class: "ghosts" }));
+  const handles = make("div", { class: "handles", tabindex: -1, role: "group", "aria-label": "Handles on the drawing: drag them, or press arrow keys" });
+  const stage = make("div", { class: "stage" }, paper, over, handles);
+  const hint = make("p", { class: "hint", role: "status" });
+  const drawing = make("figure", { "aria-live": "off" }, stage, hint);
   const words = make("div", { class: "words", role: "group", "aria-label": "Words of the block" });
   const status = make("p", { class: "state", role: "status" });
+  const trouble = make("p", { class: "trouble", role: "alert" });
   const text = make("textarea", { rows: 1, spellcheck: "false", autocomplete: "off", "aria-label": "Block" });
   const copied = make("span", { class: "copied", role: "status" });
   const copy = button("Copy", copyText, { class: "copy" });
+  const undo = button("Undo", () => act({ do: "undo" }), { class: "undo", title: "Take the last change back (Ctrl+Z)" });
+  const redo = button("Redo", () => act({ do: "redo" }), { class: "redo", title: "Make it again (Ctrl+Y)" });
   const again = button("Reset", () => act({ do: "reset" }), { class: "reset", title: "The block as it was first" });
   const findings = make("div", { class: "findings" });
   const solutions = make("div", { class: "solutions", role: "group", "aria-label": "All solutions" });
@@ -54,12 +144,14 @@ function render({ model, el }) {
   const view = make(
     "div",
     // JupyterLab keeps Enter and the arrow keys to itself elsewhere.
-    { class: "contoursolve explorer", "data-lm-suppress-shortcuts": "true", onkeydown: (event) => event.stopPropagation() },
-    make("div", { class: "desk" }, drawing, make("div", { class: "panel" }, status, words)),
-    make("div", { class: "block" }, text, copy, again, copied),
-    solutions,
-    findings,
-    path,
+    { class: "contoursolve explorer", "data-lm-suppress-shortcuts": "true", onkeydown: pressed },
+    trouble,
+    make(
+      "div",
+      { class: "desk" },
+      make("div", { class: "sheet" }, drawing, make("div", { class: "block" }, text, copy, undo, redo, again, copied), path),
+      make("div", { class: "panel" }, status, words, solutions, findings),
+    ),
   );
   const theme = make("div", {}, view);
   el.replaceChildren(theme);
@@ -78,18 +170,38 @@ function render({ model, el }) {
     }
   });
 
+  function pressed(event) {
+    event.stopPropagation();
+    if (!(event.ctrlKey || event.metaKey) || event.target === text || event.target.type === "number") return;
+    const key = event.key.toLowerCase();
+    if (key !== "z" && key !== "y") return;
+    event.preventDefault();
+    act({ do: key === "y" || event.shiftKey ? "redo" : "undo" });
+  }
+
+  // Actions --------------------------------------------------------------------------------------------------
+
   function act(action) {
     clearTimeout(quiet);
-    waiting = action;
+    const last = queue.at(-1);
+    // Of what is held, only the last place counts; ghosts and ranges that nobody waits for any more do not.
+    if (last && (last.do === "ghost" || last.do === "range" || (last.is_held && action.is_held))) queue.pop();
+    queue.push(action);
     send();
   }
 
   function send() {
-    if (!waiting || asked > answered) return;
+    if (!queue.length || asked > answered) return;
     asked += 1;
-    model.set("action", { ...waiting, number: asked });
-    waiting = null;
+    model.set("action", { ...queue.shift(), number: asked });
     model.save_changes();
+    clearTimeout(silence);
+    silence = setTimeout(() => tell("Python has not answered for two seconds: it is busy, or its kernel is gone. If it stays so, run the cell again."), SILENT);
+  }
+
+  function tell(what) {
+    trouble.textContent = what;
+    view.classList.toggle("silent", Boolean(what));
   }
 
   async function copyText() {
@@ -106,6 +218,14 @@ function render({ model, el }) {
     setTimeout(() => (copied.textContent = ""), 2000);
   }
 
+  function release(after = 0) {
+    clearTimeout(settling);
+    if (after) settling = setTimeout(release, after);
+    else if (!held) act({ do: "release" });
+  }
+
+  // Words ----------------------------------------------------------------------------------------------------
+
   function wordRow(field) {
     const name = `${field.key}: ${field.meaning}`;
     const slider = make("input", { type: "range", "aria-label": `${name}, slider` });
@@ -115,32 +235,45 @@ function render({ model, el }) {
       title: "Free this word: let the others give its value",
       "aria-label": `free ${field.key}`,
     });
+    const pin = button("pin", () => act({ do: "pin", key: field.key }), {
+      class: "pin",
+      title: "Pin this word: no handle on the drawing changes it",
+      "aria-label": `pin ${field.key}`,
+    });
     const band = make("div", { class: "band", "aria-hidden": "true" });
     const range = make("span", { class: "range" });
     const label = make("code", { class: "word" });
     const meaning = make("span", { class: "meaning", text: field.meaning, title: field.meaning });
     const row = make(
       "div",
-      { class: "row" },
+      { class: "row", "data-word": field.key },
       label,
       make("div", { class: "track" }, band, slider),
       number,
       make("span", { class: "unit", text: field.unit }),
       free,
+      pin,
       make("div", { class: "note" }, meaning, range),
     );
+    let isPointed = false;
+    slider.addEventListener("pointerdown", () => (isPointed = true));
     slider.addEventListener("input", () => {
+      clearTimeout(settling);
       number.value = slider.value;
-      act({ do: "move", key: field.key, value: slider.valueAsNumber });
+      act({ do: "move", values: { [field.key]: slider.valueAsNumber }, is_held: true });
+    });
+    slider.addEventListener("change", () => {
+      release(isPointed ? 0 : SETTLED);
+      isPointed = false;
     });
     number.addEventListener("input", () => (shown.isTyping = true));
     number.addEventListener("blur", () => (shown.isTyping = false));
     number.addEventListener("change", () => {
       shown.isTyping = false;
-      if (number.value !== "") act({ do: "move", key: field.key, value: number.value });
+      if (number.value !== "") act({ do: "move", values: { [field.key]: number.value } });
       else showWords(model.get("view").fields, false); // what is no number changes nothing
     });
-    const shown = { row, slider, number, free, band, range, label, scale: null, text: "", isTyping: false };
+    const shown = { row, slider, number, free, pin, band, range, label, scale: null, text: "", isTyping: false };
     return shown;
   }
 
@@ -161,11 +294,12 @@ function render({ model, el }) {
       const isFree = field.state === "free";
       row.slider.disabled = isFree;
       row.free.setAttribute("aria-pressed", String(isFree));
+      row.pin.setAttribute("aria-pressed", String(field.is_pinned));
       row.label.textContent = field.word;
       row.row.dataset.state = field.state;
       row.range.dataset.state = field.state;
       // What the reader is about to enter stays.
-      const isMoving = waiting && active === row.slider;
+      const isMoving = queue.length && (active === row.slider || held);
       if (!isMoving && !row.isTyping) row.number.value = field.value ?? "";
       if (!isMoving && field.value !== null) row.slider.value = field.value;
       if (field.state === "free" && field.value !== null) row.text = "free; the others give its value";
@@ -180,19 +314,22 @@ function render({ model, el }) {
     }
   }
 
+  function freshRange(key) {
+    const found = model.get("ranges")[key];
+    return found && found.frame === model.get("view").frames[key] ? found : null;
+  }
+
   function showRanges() {
-    const ranges = model.get("ranges");
     known = new Set();
     for (const [key, row] of rows) {
-      const found = ranges[key];
-      const isFresh = found && found.frame === model.get("view").frames[key];
-      if (isFresh) known.add(key);
+      const found = freshRange(key);
+      if (found) known.add(key);
       row.band.replaceChildren();
-      row.range.textContent = row.text || (isFresh && found.note) || "";
-      row.range.title = (isFresh && found.reason) || "";
-      row.range.classList.toggle("nowhere", !row.text && Boolean(isFresh && found.intervals?.length === 0));
+      row.range.textContent = row.text || (found && found.note) || "";
+      row.range.title = (found && found.reason) || "";
+      row.range.classList.toggle("nowhere", !row.text && Boolean(found && found.intervals?.length === 0));
       row.slider.setAttribute("aria-description", [row.range.textContent, row.range.title].filter(Boolean).join("; "));
-      if (!isFresh || !row.scale || !found.intervals) continue;
+      if (!found || !row.scale || !found.intervals) continue;
       row.scale.low = Math.min(row.scale.low, found.low);
       row.scale.high = Math.max(row.scale.high, found.high);
       row.slider.min = row.scale.low;
@@ -208,12 +345,261 @@ function render({ model, el }) {
         row.band.append(part);
       }
     }
+    showTracks();
   }
 
   function askForRange() {
-    if (waiting || asked > answered) return;
+    if (queue.length || asked > answered || held) return;
     const next = [...rows.keys()].find((key) => !known.has(key) && model.get("view").frames[key] !== undefined);
     if (next !== undefined) act({ do: "range", key: next });
+  }
+
+  // Handles --------------------------------------------------------------------------------------------------
+
+  function showHandles(list) {
+    const gone = new Set(grips.keys());
+    for (const handle of list) {
+      gone.delete(handle.name);
+      let grip = grips.get(handle.name);
+      if (!grip) {
+        grip = { node: make("button", { type: "button" }), handle };
+        grip.node.addEventListener("pointerdown", (event) => take(event, grip));
+        grip.node.addEventListener("pointermove", (event) => pull(event, grip));
+        grip.node.addEventListener("pointerup", () => drop(grip));
+        grip.node.addEventListener("pointercancel", () => drop(grip));
+        grip.node.addEventListener("keydown", (event) => step(event, grip));
+        for (const name of ["focus", "pointerenter", "blur", "pointerleave"]) grip.node.addEventListener(name, showTracks);
+        grips.set(handle.name, grip);
+        handles.append(grip.node);
+      }
+      grip.handle = handle;
+      grip.node.className = `handle ${handle.kind}`;
+      grip.node.title = `${handle.text}. Drag it, or press arrow keys; Shift for fine steps.`;
+      grip.node.setAttribute("aria-label", handle.text);
+      for (const name of NAMES) delete grip.node.dataset[name];
+      grip.node.dataset[handle.kind === "point" ? "point" : "word"] = handle.name;
+      const values = valuesOf(handle);
+      if (held?.grip === grip) held.base = { handle, values };
+      else grip.node.disabled = handle.keys.some((key) => values[key] === null);
+      put(grip, handle.at);
+    }
+    for (const name of gone) {
+      if (held?.grip === grips.get(name)) continue; // there is no contour now; the next place may have one again
+      // The keys that follow belong to the drawing still.
+      if (grips.get(name).node.matches(":focus")) handles.focus();
+      grips.get(name).node.remove();
+      grips.delete(name);
+    }
+  }
+
+  function put(grip, at) {
+    grip.node.style.left = `${(100 * at[0]) / frame.width}%`;
+    grip.node.style.top = `${(100 * at[1]) / frame.height}%`;
+  }
+
+  function valuesOf(handle) {
+    const fields = new Map(model.get("view").fields.map((field) => [field.key, field]));
+    return Object.fromEntries(handle.keys.map((key) => [key, fields.get(key)?.value ?? null]));
+  }
+
+  function placeOf(event) {
+    const box = stage.getBoundingClientRect();
+    return [((event.clientX - box.left) / box.width) * frame.width, ((event.clientY - box.top) / box.height) * frame.height];
+  }
+
+  function take(event, grip) {
+    if (event.button !== 0 || grip.node.disabled) return;
+    event.preventDefault();
+    grip.node.focus({ preventScroll: true });
+    grip.node.setPointerCapture(event.pointerId);
+    clearTimeout(settling);
+    const base = { handle: grip.handle, values: valuesOf(grip.handle) };
+    held = { grip, base, off: minus(grip.handle.at, placeOf(event)), sent: base.values, target: null, due: 0 };
+    view.classList.add("held");
+    showTracks();
+  }
+
+  function pull(event, grip) {
+    if (held?.grip !== grip) return;
+    const at = placeOf(event);
+    held.target = [at[0] + held.off[0], at[1] + held.off[1]];
+    held.isFine = event.shiftKey;
+    held.isBeyond = event.altKey;
+    held.due ||= requestAnimationFrame(follow);
+  }
+
+  function drop(grip) {
+    if (held?.grip !== grip) return;
+    if (held.due) {
+      cancelAnimationFrame(held.due);
+      follow();
+    }
+    const { isMoved } = held;
+    held = null;
+    view.classList.remove("held");
+    hint.textContent = "";
+    if (isMoved) act({ do: "release" });
+    showTracks();
+  }
+
+  function cancel() {
+    const { isMoved } = held;
+    held = null;
+    view.classList.remove("held");
+    act({ do: "release" });
+    if (isMoved) act({ do: "undo" });
+  }
+
+  function follow() {
+    // One frame of a drag: the words that bring the handle to the pointer, and at once what they move.
+    held.due = 0;
+    if (!held.target) return;
+    const { handle, values } = held.base;
+    const steps = handle.center
+      ? { [handle.name]: turned(handle.center, handle.at, held.target) }
+      : stepsTo(handle, handle.at, held.target);
+    const told = [];
+    const wanted = {};
+    for (const [key, by] of Object.entries(steps)) {
+      const pixels = handle.center ? (size(minus(held.target, handle.center)) * Math.PI) / 180 : size(handle.moves[key]);
+      const found = allowed(handle, key, values[key], values[key] + by, pixels, held);
+      wanted[key] = found.value;
+      if (found.text) told.push(`${key}: ${found.text}`);
+    }
+    hint.textContent = told.join("; ") || Object.entries(wanted).map(([key, value]) => `${key} ${value}`).join(", ");
+    move(held.grip, wanted);
+  }
+
+  function allowed(handle, key, from, value, pixels, { isFine, isBeyond }) {
+    // A value near the one that is meant: one of interest, or a round one, where the word has a contour.
+    const field = model.get("view").fields.find((each) => each.key === key);
+    const range = handle.keys.length === 1 ? freshRange(key) : null;
+    const least = field.increment;
+    const interval = range?.intervals?.find(([low, high]) => from >= low && from <= high);
+    if (interval && !isBeyond) {
+      const [first, last] = [Math.ceil(interval[0] / least - 1e-6) * least, Math.floor(interval[1] / least + 1e-6) * least];
+      const [low, high] = range.ends[range.intervals.indexOf(interval)];
+      if (value <= first && low) return { value: tidy(first), text: `stops: ${low}` };
+      if (value >= last && high) return { value: tidy(last), text: `stops: ${high}` };
+    }
+    const caught = range?.snaps?.find((snap) => Math.abs(snap.value - value) * pixels < CATCH);
+    if (caught && !isFine) return { value: tidy(caught.value), text: `${tidy(caught.value)} ${caught.text}` };
+    const step = isFine ? least : Math.max(least, roundStep(COARSE / pixels));
+    return { value: tidy(Math.round(value / step) * step), text: "" };
+  }
+
+  function move(grip, wanted) {
+    const { handle, values } = held ? held.base : { handle: grip.handle, values: valuesOf(grip.handle) };
+    const changes = Object.fromEntries(Object.entries(wanted).map(([key, value]) => [key, value - values[key]]));
+    put(grip, handle.center ? turnAbout(handle, changes) : shift(handle.at, handle.moves, changes));
+    predict(changes);
+    for (const [key, value] of Object.entries(wanted)) {
+      const row = rows.get(key);
+      if (row) row.number.value = row.slider.value = value;
+    }
+    const sent = held?.sent ?? values;
+    if (Object.keys(wanted).every((key) => wanted[key] === sent[key])) return;
+    if (held) [held.sent, held.isMoved] = [wanted, true];
+    act({ do: "move", values: wanted, is_held: true });
+  }
+
+  function turnAbout(handle, changes) {
+    const way = minus(handle.at, handle.center);
+    const angle = (-changes[handle.name] * Math.PI) / 180;
+    const [cosine, sine] = [Math.cos(angle), Math.sin(angle)];
+    return [handle.center[0] + way[0] * cosine - way[1] * sine, handle.center[1] + way[0] * sine + way[1] * cosine];
+  }
+
+  function predict(changes) {
+    for (const element of model.get("view").elements) {
+      for (const item of paper.querySelectorAll(`[data-element="${CSS.escape(element.name)}"]`)) {
+        if (item.localName === "path") item.setAttribute("d", pathOf(element, changes));
+        else {
+          const ends = [0, 1].map((number) => minus(shift(element.places[number], element.slopes[number], changes), element.places[number]));
+          item.setAttribute("transform", `translate(${(ends[0][0] + ends[1][0]) / 2},${(ends[0][1] + ends[1][1]) / 2})`);
+        }
+      }
+    }
+  }
+
+  function step(event, grip) {
+    if (event.key === "Escape" && held?.grip === grip) cancel();
+    const way = ARROWS[event.key];
+    if (!way || grip.node.disabled || held) return;
+    event.preventDefault();
+    const { handle } = grip;
+    const values = valuesOf(handle);
+    const wanted = {};
+    const told = [];
+    const many = Math.max(...way.map(Math.abs));
+    for (const key of handle.keys) {
+      const slope = handle.moves[key];
+      const pixels = handle.center ? (size(minus(handle.at, handle.center)) * Math.PI) / 180 : size(slope);
+      const along = handle.center ? way[0] - way[1] : (way[0] * slope[0] + way[1] * slope[1]) / pixels;
+      const field = model.get("view").fields.find((each) => each.key === key);
+      const by = event.shiftKey ? field.increment : Math.max(field.increment, roundStep(COARSE / pixels));
+      // A word that moves the handle across the arrow stays.
+      if (Math.abs(along) < 0.2 * many) continue;
+      const found = allowed(handle, key, values[key], values[key] + Math.sign(along) * by * many, Infinity, { isFine: true });
+      wanted[key] = found.value;
+      if (found.text) told.push(`${key}: ${found.text}`);
+    }
+    if (!Object.keys(wanted).length) return;
+    hint.textContent = told.join("; ");
+    move(grip, { ...values, ...wanted });
+    release(SETTLED);
+  }
+
+  function showTracks() {
+    tracks.replaceChildren();
+    const grip = held?.grip ?? [...grips.values()].find(({ node }) => node.matches(":hover, :focus-visible"));
+    if (!grip || grip.node.disabled) return;
+    const { handle } = grip;
+    const values = valuesOf(handle);
+    for (const key of handle.keys) {
+      const range = freshRange(key);
+      const at = range?.intervals?.findIndex(([low, high]) => values[key] >= low && values[key] <= high) ?? -1;
+      if (at < 0) continue;
+      const place = (value) => (handle.center ? turnAbout(handle, { [key]: value - values[key] }) : shift(handle.at, handle.moves, { [key]: value - values[key] }));
+      const [low, high] = range.intervals[at];
+      const count = handle.center ? 48 : 1;
+      const points = Array.from({ length: count + 1 }, (_, number) => place(low + ((high - low) * number) / count));
+      tracks.append(draw("polyline", { points: points.map((each) => each.join(",")).join(" ") }));
+      range.ends[at].forEach((told, number) => {
+        if (!told) return;
+        const [x, y] = place([low, high][number]);
+        tracks.append(draw("circle", { cx: x, cy: y, r: 3.5 }));
+        const room = { x: Math.min(Math.max(x, 8), frame.width - 8), y: Math.min(Math.max(y - 9, 14), frame.height - 6) };
+        const anchor = room.x > frame.width / 2 ? "end" : "start";
+        tracks.append(draw("text", { ...room, "text-anchor": anchor }, told));
+      });
+    }
+  }
+
+  // What might be instead --------------------------------------------------------------------------------------
+
+  function haunt(node, of) {
+    const begin = () => {
+      haunted = of;
+      act({ do: "ghost", ...of });
+    };
+    const end = () => {
+      haunted = null;
+      ghosts.replaceChildren();
+      hint.textContent = "";
+    };
+    node.addEventListener("pointerenter", begin);
+    node.addEventListener("focus", begin);
+    node.addEventListener("pointerleave", end);
+    node.addEventListener("blur", end);
+    return node;
+  }
+
+  function showGhost() {
+    const ghost = model.get("ghost");
+    const isWanted = haunted && ghost.paths && Object.entries(haunted).every(([name, value]) => ghost[name] === value);
+    ghosts.replaceChildren(...(isWanted ? ghost.paths.map((d) => draw("path", { d })) : []));
+    if (isWanted) hint.textContent = ghost.text;
   }
 
   function showFindings(all) {
@@ -224,12 +610,16 @@ function render({ model, el }) {
         lines.append("\n");
       }
       const fixes = finding.fixes.map((fix) =>
-        button(`${fix.text} [${fix.effect}]`, () => act({ do: "fix", finding: fix.finding, fix: fix.number }), {
-          class: fix.is_safe ? "fix safe" : "fix",
-        }),
+        haunt(
+          button(`${fix.text} [${fix.effect}]`, () => act({ do: "fix", finding: fix.finding, fix: fix.number }), {
+            class: fix.is_safe ? "fix safe" : "fix",
+          }),
+          { finding: fix.finding, fix: fix.number },
+        ),
       );
       const bar = fixes.length ? make("div", { class: "fixes", role: "group", "aria-label": "Fixes" }, ...fixes) : null;
-      return make("section", { class: `finding ${finding.kind}` }, lines, bar);
+      const about = { "data-finding": finding.name || null, "data-word": finding.words.join(" ") || null };
+      return make("section", { class: `finding ${finding.kind}`, ...about }, lines, bar);
     });
     findings.replaceChildren(...items);
   }
@@ -239,10 +629,13 @@ function render({ model, el }) {
       make(
         "li",
         {},
-        button(item.name, () => act({ do: "select", solution: item.number }), {
-          "aria-pressed": String(item.is_chosen),
-          disabled: item.selects || item.is_chosen ? undefined : "",
-        }),
+        haunt(
+          button(item.name, () => act({ do: "select", solution: item.number }), {
+            "aria-pressed": String(item.is_chosen),
+            disabled: item.selects || item.is_chosen ? undefined : "",
+          }),
+          { solution: item.number },
+        ),
         make("span", { text: [item.where, item.selects && `by ${item.selects}`].filter(Boolean).join("; ") }),
       ),
     );
@@ -255,6 +648,7 @@ function render({ model, el }) {
     if (!table.length) return;
     const [header, ...body] = table;
     const kind = (place) => (place > 1 ? "number" : undefined);
+    const about = (row) => ({ [row[1] === "point" || row[0] === "start" ? "data-point" : "data-element"]: row[0] });
     path.append(
       make(
         "table",
@@ -264,64 +658,131 @@ function render({ model, el }) {
           "tbody",
           {},
           ...body.map((row) =>
-            make("tr", {}, ...row.map((cell, place) => make(place ? "td" : "th", { text: cell, class: kind(place), scope: place ? undefined : "row" }))),
+            make("tr", about(row), ...row.map((cell, place) => make(place ? "td" : "th", { text: cell, class: kind(place), scope: place ? undefined : "row" }))),
           ),
         ),
       ),
     );
   }
 
-  function show() {
-    const now = model.get("view");
-    answered = Math.max(answered, now.number);
-    asked = Math.max(asked, answered);
-    drawing.replaceChildren(...[picture(now.picture)].filter(Boolean));
+  // One identity: what is pointed at is lit wherever it stands ---------------------------------------------------
+
+  function namesOf(node, name) {
+    const names = node.dataset[name];
+    if (!names) return [];
+    return name === "element" ? [names] : names.split(" ");
+  }
+
+  function light(event) {
+    const node = event.target.closest?.(NAMES.map((name) => `[data-${name}]`).join(", "));
+    for (const each of view.querySelectorAll(".lit")) each.classList.remove("lit");
+    if (!node || held) return;
+    for (const name of NAMES) {
+      const wanted = new Set(namesOf(node, name));
+      if (!wanted.size) continue;
+      for (const each of view.querySelectorAll(`[data-${name}]`)) {
+        if (namesOf(each, name).some((own) => wanted.has(own))) each.classList.add("lit");
+      }
+    }
+  }
+  for (const name of ["pointerover", "focusin"]) view.addEventListener(name, light);
+  view.addEventListener("pointerleave", light);
+
+  // All of it --------------------------------------------------------------------------------------------------
+
+  function showPicture(now) {
+    const drawn = picture(now.picture);
+    const before = frame;
+    frame = now.frame;
+    paper.replaceChildren(...[drawn].filter(Boolean));
+    stage.hidden = !drawn;
+    if (!drawn) return;
+    over.setAttribute("viewBox", `0 0 ${frame.width} ${frame.height}`);
+    const group = drawn.querySelector(":scope > g");
+    const isFitted = wasHeld && !now.is_held && before.scale && (before.scale !== frame.scale || String(before.origin) !== String(frame.origin));
+    if (isFitted && group && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
+      const zoom = before.scale / frame.scale;
+      const [x, y] = minus(before.origin, [frame.origin[0] * zoom, frame.origin[1] * zoom]);
+      group.animate([{ transform: `translate(${x}px, ${y}px) scale(${zoom})` }, { transform: "none" }], { duration: GLIDE, easing: "ease-out" });
+    }
+    wasHeld = now.is_held;
+  }
+
+  function showView(now) {
+    showPicture(now);
     showWords(now.fields, now.is_new);
+    showHandles(now.handles);
     if (!isTyping) text.value = now.text;
     text.rows = Math.min(12, now.text.split("\n").length);
-    again.disabled = !now.is_changed;
+    // A button that is disabled loses the keys that follow to the page.
+    const ways = [[again, now.is_changed], [undo, now.can_undo], [redo, now.can_redo]];
+    for (const [each, can] of ways) each.setAttribute("aria-disabled", String(!can));
     const line = [make("strong", { class: now.status.kind, text: now.status.text }), now.status.form ? ` ${now.status.form}` : ""];
     status.replaceChildren(...line.filter(Boolean));
     if (now.trouble) status.append(make("span", { class: "error", text: ` ${now.trouble}` }));
     showFindings(now.findings);
     showSolutions(now.solutions);
     showPath(now.path);
-    showRanges();
-    finish();
+    if (held && held.target) held.due ||= requestAnimationFrame(follow);
+    const ask = now.asks?.[0];
+    const row = ask && rows.get(ask.key);
+    if (row) {
+      row.number.value = ask.value ?? "";
+      row.number.focus();
+      row.number.select();
+    }
   }
 
-  function finish() {
-    clearTimeout(quiet);
-    if (waiting) send();
-    else quiet = setTimeout(askForRange, QUIET);
-  }
-
-  function showRange() {
-    answered = Math.max(answered, model.get("ranges_number"));
+  function show() {
+    answered = Math.max(answered, model.get("number"));
     asked = Math.max(asked, answered);
+    if (asked === answered) {
+      clearTimeout(silence);
+      if (view.classList.contains("silent")) tell("");
+    }
+    const now = model.get("view");
+    if (now !== shownView) {
+      shownView = now;
+      showView(now);
+    }
+    if (model.get("ghost") !== shownGhost) {
+      shownGhost = model.get("ghost");
+      showGhost();
+    }
     showRanges();
-    finish();
+    clearTimeout(quiet);
+    if (queue.length) send();
+    else quiet = setTimeout(askForRange, QUIET);
   }
 
   function followTheme() {
     theme.dataset.theme = isDark(el) ? "dark" : "light";
   }
 
+  function followKernel(_, state) {
+    isGone ||= state === undefined || GONE.has(state); // no new kernel knows what the old one did
+    if (isGone) tell("The kernel is gone, so nothing here moves any more. Run the cell again.");
+    else if (state === "disconnected") tell("The connection to the kernel is lost. What is shown is what it was.");
+    else if (state === "connected" && asked === answered) tell("");
+  }
+
+  const kernel = model.widget_manager?.kernel;
+  const signals = [kernel?.statusChanged, kernel?.connectionStatusChanged, kernel?.disposed].filter(Boolean);
+  for (const signal of signals) signal.connect(followKernel);
   const observer = new MutationObserver(followTheme);
   for (const element of [document.documentElement, document.body]) {
     observer.observe(element, { attributes: true, attributeFilter: ["class", "style", "data-theme", "data-jp-theme-light", "data-jp-theme-name", "data-vscode-theme-kind"] });
   }
-  model.on("change:view", show);
-  model.on("change:ranges_number", showRange);
+  model.on("change:number", show);
   followTheme();
   requestAnimationFrame(followTheme);
   show();
 
   return () => {
-    clearTimeout(quiet);
+    for (const timer of [quiet, silence, settling]) clearTimeout(timer);
+    for (const signal of signals) signal.disconnect(followKernel);
     observer.disconnect();
-    model.off("change:view", show);
-    model.off("change:ranges_number", showRange);
+    model.off("change:number", show);
   };
 }
 

@@ -24,7 +24,8 @@ class Explorer(anywidget.AnyWidget):
 
     view = traitlets.Dict().tag(sync=True)
     ranges = traitlets.Dict().tag(sync=True)
-    ranges_number = traitlets.Int(0).tag(sync=True)
+    ghost = traitlets.Dict().tag(sync=True)
+    number = traitlets.Int(0).tag(sync=True)
     action = traitlets.Dict().tag(sync=True)
     """What the reader did last; the other traits are the state of `Conversation`."""
 
@@ -44,8 +45,9 @@ class Explorer(anywidget.AnyWidget):
 
     @traitlets.observe("action")
     def _act(self, change: Mapping[str, Any]) -> None:
-        for name, value in self._conversation.answer(change["new"]).items():
-            self.set_trait(name, value)
+        with self.hold_sync():  # all that changes goes in one message
+            for name, value in self._conversation.answer(change["new"]).items():
+                self.set_trait(name, value)
 
     def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]]:
         """The widget, and beside it for whoever has no kernel the picture of the contour and its text."""

@@ -1,25 +1,32 @@
 """An exploration as plain data: what a front end shows, and where on its slider each word has a contour."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from decimal import Decimal
-from math import floor, log10
+from math import atan2, degrees, floor, log10
 from typing import Any
 
-from contoursolve.diagnosis.examine import Answer
+from msgspec import to_builtins
+
+from contoursolve.diagnosis.examine import Answer, AskedValue
 from contoursolve.diagnosis.solutions import list_solutions
-from contoursolve.diagnosis.wording import inward
+from contoursolve.diagnosis.wording import inward, join, written
 from contoursolve.diagnostics.finding import Applicability
 from contoursolve.families import End, FamilyError, Feasible, Interval, Way, feasible
 from contoursolve.gcode import Word
-from contoursolve.geometry import Unit
-from contoursolve.notebook.exploration import Exploration, words_of
+from contoursolve.geometry import Coordinate, Heading, Offset, Question, Unit
+from contoursolve.notebook.exploration import Exploration, free, words_of
+from contoursolve.notebook.handles import Handle, HandleKind, handles_of, motion_of, moving_of
 from contoursolve.output.contours import count_text, path_table, solution_rows
 from contoursolve.output.findings import effect_of, finding_pieces
 from contoursolve.output.html import bounded, short, worst_of
 from contoursolve.output.listing import sources_of
 from contoursolve.output.words import form_text, found_value, meaning_of, stated_value
-from contoursolve.pictures import Theme, draw_answer
+from contoursolve.pictures import Picture, Theme, draw_answer
+from contoursolve.pictures.layout import path_data
+from contoursolve.pictures.subject import find_known, list_trails, named_words
+from contoursolve.pictures.vectors import minus
 from contoursolve.reading import ReadIssue
+from contoursolve.solving import Point
 
 MOST_FINDINGS, MOST_FIXES, MOST_SOLUTIONS = 12, 8, 24
 
@@ -35,15 +42,23 @@ DECIMALS = 4
 Data = dict[str, Any]
 
 
-def view_of(exploration: Exploration) -> Data:
-    """Everything that is shown but the ranges in which words have a contour."""
+def view_of(exploration: Exploration, drawn: Picture | None = None, pinned: Collection[str] = ()) -> Data:
+    """Everything that is shown but the ranges in which words have a contour; with a picture that is drawn already, and
+    the words that no handle changes."""
     answer = exploration.answer
+    drawn = drawn if drawn is not None or answer is None else picture_of(answer)
+    motion = motion_of(answer) if answer is not None and drawn is not None else None
+    handles = handles_of(answer, drawn, motion, pinned) if answer is not None and drawn is not None else []
+    moved = {key for handle in handles for key in handle.keys}
     return {
         "text": exploration.text,
         "is_changed": exploration.text != exploration.origin,
         "status": _status(exploration),
-        "picture": _picture(answer) if answer else "",
-        "fields": list(_fields(answer)) if answer else [],
+        "picture": drawn.svg if drawn is not None else "",
+        "frame": _frame_of(drawn),
+        "handles": [_handle(handle) for handle in handles],
+        "elements": to_builtins(moving_of(motion, drawn, moved)) if motion is not None and drawn is not None else [],
+        "fields": list(_fields(answer, pinned)) if answer else [],
         "findings": list(_findings(exploration)),
         "solutions": _solutions(answer) if answer else {"text": "", "items": []},
         "path": _path(answer) if answer else [],
@@ -57,14 +72,30 @@ def _status(exploration: Exploration) -> Data:
     return {"kind": worst, "text": answer.status.value, "form": short(form_text(answer))}
 
 
-def _picture(answer: Answer) -> str:
+def picture_of(answer: Answer, like: Picture | None = None) -> Picture | None:
+    """The picture of a contour, which may stand like the one before; without findings, which are told beside it. None
+    if it cannot be drawn."""
     try:
-        return draw_answer(answer, theme=Theme.PAGE).svg
+        return draw_answer(answer, theme=Theme.PAGE, like=like, has_remarks=False)
     except Exception:  # the tables say the same, and the next value may be drawn again
-        return ""
+        return None
 
 
-def _fields(answer: Answer) -> Iterator[Data]:
+def _frame_of(drawn: Picture | None) -> Data:
+    """How a picture shows the plane: where its origin is, pixels for each mm, and the size of the page."""
+    if drawn is None or drawn.sheet.placement is None:
+        return {}
+    view = drawn.sheet.placement.view
+    return {"origin": view.place((0.0, 0.0)), "scale": view.scale, "width": drawn.width, "height": drawn.height}
+
+
+def _handle(handle: Handle) -> Data:
+    """A handle with what is said of it: to those who see it, and to those who do not."""
+    texts = {HandleKind.POINT: f"{handle.name}: changes {join(handle.keys)}", HandleKind.ANGLE: f"{handle.name}: angle"}
+    return {**to_builtins(handle), "keys": handle.keys, "text": texts.get(handle.kind, f"{handle.name}: size")}
+
+
+def _fields(answer: Answer, pinned: Collection[str]) -> Iterator[Data]:
     """A field for each word."""
     claim, size = answer.claim, _size(answer)
     names = {word.span: name for name, word in claim.words.items()}
@@ -85,6 +116,8 @@ def _fields(answer: Answer) -> Iterator[Data]:
             "unit": unit,
             "value": None if value is None else round(value, 6) + 0.0,
             "state": "free" if word.is_asked else "ignored" if word in ignored else "given",
+            "is_pinned": key in pinned,
+            "increment": float(claim.lexicon.numbers.step(row.unit, answer.unit)),
             "low": low,
             "high": high,
             "step": step,
@@ -124,11 +157,16 @@ def _round_up(size: float) -> float:
 
 def _findings(exploration: Exploration) -> Iterator[Data]:
     """Findings as the terminal prints them, each with its fixes."""
-    result = exploration.result
+    result, answer = exploration.result, exploration.answer
+    names = named_words(answer) if answer is not None else {}
+    numbers = {id(each): str(number) for number, each in enumerate(answer.diagnostics, 1)} if answer is not None else {}
     for number, finding in enumerate(result.diagnostics[:MOST_FINDINGS]):
         lines = finding_pieces(finding, "block", sources_of(result, finding))
+        named = [about for label in finding.labels if (about := names.get(label.span)) is not None]
         yield {
             "kind": finding.severity.value,
+            "name": numbers.get(id(finding), ""),
+            "words": list(dict.fromkeys(about.word for about in named if about.word)),
             "lines": [[list(piece) for piece in bounded(line)] for line in lines if line],
             "fixes": [
                 {
@@ -164,6 +202,67 @@ def _path(answer: Answer) -> list[Sequence[str]]:
     """The table of the path, its header first."""
     path = path_table(answer.contour, answer.unit) if answer.contour is not None else None
     return [path.header, *path.rows] if path else []
+
+
+# What might be instead -----------------------------------------------------------------------------------------
+
+
+def ghost_of(instead: Exploration, drawn: Picture) -> list[str]:
+    """Another contour as it would stand in a picture: the elements of its path, as SVG writes them. Nothing where
+    nothing of it can be drawn."""
+    answer, placement = instead.answer, drawn.sheet.placement
+    if answer is None or placement is None:
+        return []
+    return path_data(list_trails(answer, find_known(answer)), placement.view)
+
+
+def asked_now(now: Exploration, before: Exploration, solved: Exploration) -> list[Data]:
+    """The words that a fix asks for, with the value that each had when the contour was last solved, if it is known."""
+    answer, last = now.answer, solved.answer
+    if answer is None or last is None:
+        return []
+    old = {key for key, word in words_of(before.answer).items() if word.is_asked} if before.answer else set()
+    questions = {each.question.word.span: each.question for each in answer.answers}
+    points = find_known(last).points if last.contour is not None else {}
+    return [
+        {"key": key, "value": _last_value(answer, questions[word.span], points)}
+        for key, word in words_of(answer).items()
+        if word.is_asked and key not in old and word.span in questions
+    ]
+
+
+def _last_value(answer: Answer, question: Question, points: Mapping[str, Point]) -> float | None:
+    """The value of a word in another contour of the same form, as it is written."""
+    fact, value = question.fact, None
+    if isinstance(fact, Coordinate) and fact.point in points:
+        value = points[fact.point][fact.axis]
+    elif isinstance(fact, Offset) and {fact.point, fact.origin} <= points.keys():
+        value = points[fact.point][fact.axis] - points[fact.origin][fact.axis]
+    elif isinstance(fact, Heading) and {fact.tail, fact.head} <= points.keys():
+        step = minus(points[fact.head], points[fact.tail])
+        value = degrees(atan2(step[1], step[0]))
+    shown = found_value(AskedValue(question, value), answer)[0]
+    return None if shown is None else round(shown, DECIMALS - 1)
+
+
+def snaps_of(exploration: Exploration, key: str) -> list[Data]:
+    """Values of a word at which another word says no more than the rest: the one that the others give it, and for an
+    angle those in line with another angle."""
+    answer = exploration.answer
+    words = words_of(answer) if answer is not None else {}
+    if answer is None or key not in words or words[key].is_asked:
+        return []
+    found = []
+    freed = free(exploration, key)
+    asked = next((each for each in freed.answer.answers if each.value is not None), None) if freed.answer else None
+    if freed.answer is not None and asked is not None:
+        value, _ = found_value(asked, freed.answer)
+        found.append({"value": round(value or 0.0, DECIMALS), "text": "as the other words say"})
+    for other, word in words.items():
+        value, unit = stated_value(word, answer)
+        if other != key and unit == "deg" and value is not None and stated_value(words[key], answer)[1] == "deg":
+            found += [{"value": value + turn, "text": f"in line with {short(word.text)}"} for turn in (-180, 0, 180)]
+    return found
 
 
 # Ranges ------------------------------------------------------------------------------------------------------
@@ -210,10 +309,12 @@ def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
             high = max(high, each.high.value + margin) if each.high.value < near[1] else high
     return {
         "intervals": [[each.low.value, each.high.value] for each in found.intervals],
+        "ends": [[_end_text(each.low, found.unit), _end_text(each.high, found.unit)] for each in found.intervals],
         "low": max(low, found.within[0]),
         "high": min(high, found.within[1]),
         "note": _note(found, field["key"].rpartition(":")[2]),
         "reason": "; ".join(_reasons(found)),
+        "snaps": snaps_of(exploration, field["key"]),
     }
 
 
@@ -240,6 +341,13 @@ def _interval(interval: Interval, name: str, unit: str) -> str:
         value, _, sign = low.rpartition(" ")
         return f"{name} {'>' if sign == '<' else '≥'} {value}"
     return f"{low} {name} {high}" if low and high else ""
+
+
+def _end_text(end: End, unit: str) -> str:
+    """What stops a word there; empty where only the search ended."""
+    if end.way is Way.RANGE:
+        return ""
+    return end.reason.text if end.reason is not None else written(end.value, unit)
 
 
 def _end(end: End, rounded: Decimal, way: int) -> str:

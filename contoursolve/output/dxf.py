@@ -1,7 +1,8 @@
 """Solved contours as a drawing for CAD: DXF R2010 with one layer an element, the same bytes for the same input.
 
 The plane's first axis is the drawing's X and its second axis the drawing's Y: on a lathe Z to the right and X up, as
-radius. Custom properties of the drawing say so. No text of the program enters it.
+radius. Custom properties of the drawing say so. Contours of several planes lie over each other, and the name of each
+layer begins with its plane. No text of the program enters it.
 """
 
 import io
@@ -44,14 +45,16 @@ def to_dxf(answers: Sequence[Answer]) -> bytes:
     if not drawn:
         raise ValueError("no contour is solved: the drawing would be empty")
     unit = Length.INCH if all(answer.unit is Length.INCH for _, answer in drawn) else Length.MM
+    is_split = has_several_planes(answers)
     with _same_bytes():
         document = new(_RELEASE)
         _set_header(document, unit, [answer.plane for _, answer in drawn])
-        document.layers.add(CONSTRUCTION, color=_GREY)
+        for name in dict.fromkeys(construction_name(answer, is_split=is_split) for _, answer in drawn):
+            document.layers.add(name, color=_GREY)
         page = document.modelspace()
         height = _MARK * _larger_side([answer.contour for _, answer in drawn if answer.contour], unit)
         for number, answer in drawn:
-            _draw(document, page, number, answer, unit, height)
+            _draw(document, page, number, answer, unit, height, is_split=is_split)
         for kind in sorted(document.entitydb.dxf_types_in_use()):
             document.classes.add_class(kind)  # ezdxf would list them in the order of a set
         stream = io.StringIO()
@@ -59,9 +62,24 @@ def to_dxf(answers: Sequence[Answer]) -> bytes:
     return document.encode(stream.getvalue())
 
 
-def layer_name(number: int, answer: Answer, element: Segment) -> str:
-    """The layer of one element: the contour's number and line, and the element's name."""
-    return f"contour {number} - program line {answer.lines[0]} - {element.name}"
+def has_several_planes(answers: Sequence[Answer]) -> bool:
+    """Whether the solved contours lie in more than one plane."""
+    return len({answer.plane for answer in answers if answer.contour}) > 1
+
+
+def layer_name(number: int, answer: Answer, element: Segment, *, is_split: bool = False) -> str:
+    """The layer of one element: the contour's number and line, and the element's name; `is_split` puts its plane
+    before them."""
+    return _in_plane(f"contour {number} - program line {answer.lines[0]} - {element.name}", answer, is_split)
+
+
+def construction_name(answer: Answer, *, is_split: bool = False) -> str:
+    """The layer of the intersections of one contour; `is_split` puts its plane before the name."""
+    return _in_plane(CONSTRUCTION, answer, is_split)
+
+
+def _in_plane(name: str, answer: Answer, is_split: bool) -> str:
+    return f"{answer.plane.code} - {name}" if is_split else name
 
 
 @contextmanager
@@ -95,7 +113,9 @@ def _larger_side(contours: Sequence[Contour], unit: Length) -> float:
     return max(sides) / float(unit.in_mm)
 
 
-def _draw(document: Drawing, page: Modelspace, number: int, answer: Answer, unit: Length, height: float) -> None:
+def _draw(
+    document: Drawing, page: Modelspace, number: int, answer: Answer, unit: Length, height: float, *, is_split: bool
+) -> None:
     contour, scale = answer.contour, float(unit.in_mm)
     if contour is None:
         return
@@ -104,7 +124,7 @@ def _draw(document: Drawing, page: Modelspace, number: int, answer: Answer, unit
         return at[0] / scale, at[1] / scale
 
     for element in contour.elements:
-        layer = layer_name(number, answer, element)
+        layer = layer_name(number, answer, element, is_split=is_split)
         if not document.layers.has_entry(layer):
             document.layers.add(layer, color=_RED if isinstance(element, ArcSegment) else _BLACK)
         style = {"layer": layer}
@@ -119,9 +139,10 @@ def _draw(document: Drawing, page: Modelspace, number: int, answer: Answer, unit
         # An arc of DXF runs counter-clockwise.
         first, last = (start, end) if element.turn is Turn.CCW else (end, start)
         page.add_arc(center, radius, _angle(center, first), _angle(center, last), dxfattribs=style)
+    beside = {"layer": construction_name(answer, is_split=is_split)}
     for name, at in contour.points.items():
-        page.add_point(place(at), dxfattribs={"layer": CONSTRUCTION})
-        text = page.add_text(f"{number}: {name}", height=height, dxfattribs={"layer": CONSTRUCTION})
+        page.add_point(place(at), dxfattribs=beside)
+        text = page.add_text(f"{number}: {name}", height=height, dxfattribs=beside)
         text.set_placement(place(at), align=TextEntityAlignment.BOTTOM_LEFT)
 
 

@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
+from msgspec.structs import replace
+
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.pictures.compose import compose, describe
 from contoursolve.pictures.layout import lay_out
@@ -37,15 +39,16 @@ __all__ = [
 ]
 
 
-def draw(record: Drawable, *, theme: Theme = Theme.LIGHT) -> Picture:
+def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None = None) -> Picture:
     """The picture of a contour, of all contours of a program, or of where a block has one by one or two of its words.
+    `is_whole` is for a program: see `draw_result`.
 
     Raises ValueError for a family that is no grid of two words.
     """
     from contoursolve.families import Family, Feasible, Region  # noqa: PLC0415 - not needed for one contour
 
     if isinstance(record, Result):
-        return draw_result(record, theme=theme)
+        return draw_result(record, theme=theme, is_whole=is_whole)
     if isinstance(record, Family):
         return draw_family_map(record, theme=theme)
     if isinstance(record, Feasible):
@@ -53,24 +56,46 @@ def draw(record: Drawable, *, theme: Theme = Theme.LIGHT) -> Picture:
     return draw_region(record, theme=theme) if isinstance(record, Region) else draw_answer(record, theme=theme)
 
 
-def draw_answer(answer: Answer, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+def draw_answer(
+    answer: Answer,
+    *,
+    theme: Theme = Theme.LIGHT,
+    title: str | None = None,
+    like: Picture | None = None,
+    has_remarks: bool = True,
+) -> Picture:
     """The picture of one contour: its path where there is one, and what is missing or wrong where there is none.
+
+    `like` is a picture of the contour before a word was moved: scale, origin and height stay, labels keep their sides.
+    Without remarks, the findings are not written below.
 
     >>> import contoursolve
     >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
     >>> draw_answer(answer).title
     'G111 (taper multiple cornering), line 1: solved'
     """
-    return finish(lay_out(compose(answer, title)), theme, describe(answer))
+    scene = compose(answer, title)
+    scene = scene if has_remarks else replace(scene, remarks=())
+    return finish(lay_out(scene, like.sheet.placement if like else None), theme, describe(answer))
 
 
-def draw_result(result: Result, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
-    """The picture of a whole program: its only contour, or all of them in one drawing for each plane."""
+def draw_result(
+    result: Result, *, theme: Theme = Theme.LIGHT, title: str | None = None, is_whole: bool | None = None
+) -> Picture:
+    """The picture of a whole program: its only contour, or all of them in one drawing for each plane.
+
+    `is_whole` draws turned parts with both halves, or only with the programmed one; without it, with both where the
+    contours stay at least half as large.
+    """
     from contoursolve.pictures.overview import compose_overview, describe_overview  # noqa: PLC0415 - not needed for one contour
 
     if len(result.answers) == 1:
         return draw_answer(result.answers[0], theme=theme, title=title)
-    return finish(stack_sheets([*map(lay_out, compose_overview(result, title))]), theme, describe_overview(result))
+    return finish(
+        stack_sheets([*map(lay_out, compose_overview(result, title, is_whole=is_whole))]),
+        theme,
+        describe_overview(result),
+    )
 
 
 def draw_family_fan(
@@ -113,8 +138,8 @@ def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None
 
 def draw_region(region: Region, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of the values of two words with which a block has a contour: the lines that bound them, each with
-    what fails beyond it."""
-    from contoursolve.pictures.curves import lay_out_region  # noqa: PLC0415 - as above
+    what fails beyond it, and a field for each status, from a solve in each of many cells (a tenth of a second)."""
+    from contoursolve.pictures.maps import lay_out_region  # noqa: PLC0415 - as above
 
     return finish(lay_out_region(region, title), theme)
 
@@ -122,11 +147,14 @@ def draw_region(region: Region, *, theme: Theme = Theme.LIGHT, title: str | None
 def draw_sweep(ready: CompiledSweep, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of a sweep: the fan of contours where one word varies, the map of outcomes where two do.
 
-    Solves what it shows, and no more. Raises FamilyError for paired words, and where none or more than two vary.
+    Of too many values, some are drawn. The title counts all contours, and solves them for that; with a title of your
+    own, only those that are drawn. Raises FamilyError for paired words, and where none or more than two vary.
     """
-    from contoursolve.pictures.maps import solve_shown  # noqa: PLC0415 - as above
+    from contoursolve.pictures.maps import lay_out_map  # noqa: PLC0415 - as above
+    from contoursolve.pictures.sweeps import count_statuses, solve_shown, sweep_title  # noqa: PLC0415 - as above
 
     shown = solve_shown(ready)
+    told = title if title is not None else sweep_title(ready.ranges, count_statuses(ready))
     if isinstance(shown, tuple):
-        return draw_family_fan(*shown, theme=theme, title=title)
-    return draw_family_map(shown, theme=theme, title=title)
+        return draw_family_fan(*shown, theme=theme, title=told)
+    return finish(lay_out_map(shown, None, told, ready.ranges), theme)

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from math import cos, fmod, hypot, pi, radians, sin
 
-from contoursolve.pictures.labels import FAINT_WEIGHT, Canvas
+from contoursolve.pictures.labels import FAINT_WEIGHT, Canvas, Grip
 from contoursolve.pictures.page import THIN, Box, Dot, Spot, Stroke, TextRun, arc, head, line
 from contoursolve.pictures.scene import (
     Aligned,
@@ -79,9 +79,10 @@ def _draw_angle(canvas: Canvas, angle: Angle, at: Spot, number: int) -> tuple[Sp
     turn = fmod(angle.degrees, 360.0)
     reference = at[0] + radius + 14.0, at[1]
     canvas.draw(line((at[0] + 5.0, at[1]), reference, Role.MUTED, 0.8), FAINT_WEIGHT)
+    sweep = -radians(turn)
+    canvas.grips.append(Grip(angle.about.word, along(at, (cos(sweep), sin(sweep)), radius), at))
     if abs(turn) < _SMALL:
         return (at[0] + radius, at[1]), (0.4, -0.9)
-    sweep = -radians(turn)
     canvas.draw(arc(at, radius, sweep, angle.role))
     sign = 1.0 if sweep > 0 else -1.0
     # The head is a chord of the arc, so that it does not stand off it.
@@ -127,6 +128,7 @@ def _emptier(canvas: Canvas, a: Spot, b: Spot, side: Spot) -> Spot:
 def _draw_leader(canvas: Canvas, leader: Leader) -> None:
     """A word that points at a place, with an arrowhead there."""
     at = canvas.view.place(leader.at)
+    canvas.grips.append(Grip(leader.about.word, at))
     away = leader.away[0], -leader.away[1]
     box = canvas.label(at, [(TextRun(leader.text, leader.role),)], away, leader.role, leads=True)
     if box is not None:

@@ -10,7 +10,7 @@ from contoursolve.geometry import SECOND, Turn
 from contoursolve.pictures.auxiliary import list_auxiliary
 from contoursolve.pictures.dimensions import Others, list_dimensions, list_marks, noted_points
 from contoursolve.pictures.page import About, TextRun, visible
-from contoursolve.pictures.scene import Scene, Trail, Weight, axis_names, coordinates, number
+from contoursolve.pictures.scene import Closeup, Scene, Trail, Weight, axis_names, coordinates, number
 from contoursolve.pictures.subject import Subject, subject_of, trace_known
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance
@@ -48,7 +48,18 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
         meanings={Role.GHOST: "other values"} if subject.known.others else {},
         has_turning_axis=answer.plane.diameters[SECOND],
         is_one_contour=True,
+        closeups=tuple(_corners(subject.trails)),
     )
+
+
+_READABLE = 11.0
+"""Pixels of the larger side of a corner that can be read."""
+
+
+def _corners(trails: Sequence[Trail]) -> Iterator[Closeup]:
+    """The corners of a path, in its order."""
+    segments = [segment for trail in trails if trail.weight is Weight.MAIN for segment in trail.segments]
+    yield from (Closeup(each.name, (each,), _READABLE) for each in segments if each.name.startswith("corner"))
 
 
 def title_of(answer: Answer) -> str:

@@ -1,10 +1,11 @@
 """A page while it is filled: what is on it, and where labels find room: off the path, off other labels, near what
 they belong to."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from math import ceil, cos, hypot, inf, pi, sin
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.pictures.page import (
@@ -130,17 +131,55 @@ def _needs_leader(box: Box, at: Spot) -> bool:
     return distance(_nearest(box, at), at) > _TOUCHING
 
 
+class LabelSpot(Struct, frozen=True):
+    """Where a label stands beside its place, in pixels: the way to its nearer edge across and down, and on which side
+    that edge is (-1, 1; 0 for a label that lies over the place, by its middle)."""
+
+    way: Spot
+    sides: tuple[int, int]
+
+    def box(self, at: Spot, width: float, height: float) -> Box:
+        """Where a label of another size stands beside another place."""
+        x, y = (at[axis] + self.way[axis] + self.sides[axis] * size / 2 for axis, size in enumerate((width, height)))
+        return Box(x - width / 2, y - height / 2, x + width / 2, y + height / 2)
+
+
+class Grip(Struct, frozen=True):
+    """Where a word can be taken hold of on a page: the tip of its arrow, and the centre about which that turns."""
+
+    word: str
+    at: Spot
+    center: Spot | None = None
+
+
+def spot_of(at: Spot, box: Box) -> LabelSpot:
+    """Where a label stands beside a place."""
+    middles, sizes = (
+        ((box.left + box.right) / 2, (box.top + box.bottom) / 2),
+        (box.right - box.left, box.bottom - box.top),
+    )
+    off = minus(middles, at)
+    first, second = (0 if abs(way) < size / 2 else 1 if way > 0 else -1 for way, size in zip(off, sizes, strict=True))
+    way = off[0] - first * sizes[0] / 2, off[1] - second * sizes[1] / 2
+    return LabelSpot(way, (first, second))
+
+
 class Canvas:
     """Items in the order in which they are painted: thin lines, paper behind labels, the path, labels."""
 
-    def __init__(self, view: Viewport, frame: Box) -> None:
+    def __init__(self, view: Viewport, frame: Box, held: Mapping[tuple[About, int], LabelSpot] | None = None) -> None:
         self.view, self.frame = view, frame
+        self.held = held or {}
+        """Where labels stood in the picture before."""
+        self.labels: dict[tuple[About, int], LabelSpot] = {}
+        """Where they stand now, by what they show and their number of those that show the same."""
         self.columns = ceil((frame.right - frame.left) / CELL) + 1
         rows = ceil((frame.bottom - frame.top) / CELL) + 1
         self.cells = [0.0] * (self.columns * rows)
         """How much is drawn in each cell of the frame."""
         self.taken: list[Box] = []
         """Where texts stand."""
+        self.grips: list[Grip] = []
         self.thin: list[Item] = []
         self.papers: list[Item] = []
         self.thick: list[Item] = []
@@ -205,20 +244,31 @@ class Canvas:
         """A label near a place, in the first of these wordings that finds room; with a leader where it is far, or
         always if it `leads`. The box where it stands; None if there is no room."""
         wordings = [runs for runs in choices if runs]
-        if not wordings:
-            return None
+        if not wordings or (self.held and not self.frame.holds(Box(*at, *at))):
+            return None  # what moved out of a picture that is held is named again when the picture is fitted
         high = SIZE * (ASCENT + DESCENT) + 2.0
         sizes = [(width_of("".join(run.text for run in runs), SIZE) + 4.0, high) for runs in wordings]
-        found = _place_label(self, at, sizes, away, leads)
+        name = self.named, sum(about == self.named for about, _ in self.labels)
+        found = self._place_as_before(at, sizes, name) or _place_label(self, at, sizes, away, leads)
         if found is None:
             self.homeless.append("".join(run.text for run in wordings[0]))
             return None
         index, box = found
+        self.labels[name] = spot_of(at, box)
         if leads or _needs_leader(box, at):
             self.draw(line(_nearest(box, at), at, role, 0.9, is_dashed=leads))
         at = (box.left + box.right) / 2, box.bottom - 1.0 - DESCENT * SIZE
         self._add(Text(at, wordings[index], SIZE, Anchor.MIDDLE), box)
         return box
+
+    def _place_as_before(
+        self, at: Spot, sizes: Sequence[tuple[float, float]], name: tuple[About, int]
+    ) -> tuple[int, Box] | None:
+        """Where a label stands that stood on that side of its place before, if nothing else is there now."""
+        if name not in self.held:
+            return None
+        boxes = (self.held[name].box(at, *size) for size in sizes)
+        return next(((index, box) for index, box in enumerate(boxes) if self.cost(box.grow(1.5)) < inf), None)
 
     def _cell(self, at: Spot, step: Spot, share: float) -> int:
         """The number of the cell after a share of a step from a place."""

@@ -1,15 +1,16 @@
 """Lays a scene out on a page: how large it is drawn, what stands in its margins, head and foot."""
 
 import re
-from collections.abc import Iterator, Sequence
-from math import tau
+from collections.abc import Iterable, Iterator, Sequence
+from math import floor, log10, tau
 
 from msgspec.structs import replace
 
-from contoursolve.geometry import FIRST, SECOND
+from contoursolve.geometry import FIRST, SECOND, Length
 from contoursolve.pictures.callouts import draw_callouts
+from contoursolve.pictures.closeups import ROW, choose_details, draw_details, mark_details
 from contoursolve.pictures.labels import FAINT_WEIGHT, PATH_WEIGHT, THIN_WEIGHT, Canvas, clip
-from contoursolve.pictures.margins import arrange, draw_margins
+from contoursolve.pictures.margins import Placement, arrange, draw_margins, placement_of
 from contoursolve.pictures.page import (
     ANYTHING,
     MONO,
@@ -18,6 +19,7 @@ from contoursolve.pictures.page import (
     THICK,
     WIDTH,
     About,
+    Anchor,
     Box,
     Item,
     Sheet,
@@ -35,6 +37,7 @@ from contoursolve.pictures.page import (
     wrap,
 )
 from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thin, Trail, Viewport, Weight
+from contoursolve.pictures.svg import steps_text
 from contoursolve.pictures.theme import DASHES, MEANINGS, Role
 from contoursolve.pictures.vectors import along, direction, distance, middle, sweep_of
 from contoursolve.solving.contour import ArcSegment, Segment
@@ -52,21 +55,33 @@ _MOST_LABELS = 40
 _CORNER = 130.0
 """Pixels that the axes take of the width."""
 
+_GAP_ABOVE = 4.0
+_BAR = 140.0
+"""Pixels above what stands below a drawing, and of the longest bar that is its scale."""
 
-def lay_out(scene: Scene) -> Sheet:
-    """The page of one scene."""
-    scene = _thinned(scene)
+
+def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
+    """The page of one scene; one that is held has scale and origin, sides of labels and height of the page before."""
+    whole, scene = scene, _thinned(scene)
     top = list(_head_of(scene))
-    margins = arrange(scene, max(item.box.bottom for item in top) + 6.0)
-    frame, canvas = margins.frame, Canvas(margins.view, margins.frame)
+    margins = arrange(scene, max(item.box.bottom for item in top) + 6.0, held)
+    frame, canvas = margins.frame, Canvas(margins.view, margins.frame, held.labels if held else None)
     _draw_path(canvas, scene)
     draw_margins(canvas, margins)
+    details, small = choose_details(scene.closeups, margins.view)
+    has_row = bool(details) and (held is None or held.foot >= frame.bottom + ROW)
+    mark_details(canvas, details if has_row else ())
     draw_callouts(canvas, scene)
     # The axes stand beside the drawing's lower end where nothing else is.
     is_free = canvas.cost(Box(frame.left, frame.bottom - 34.0, _CORNER, frame.bottom)) == 0.0
-    foot = list(_foot_of(scene, canvas.homeless, frame.bottom - (26.0 if is_free else -4.0)))
-    height = max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0
-    return Sheet(scene.title, round(height, 1), frame, canvas.items, (*top, *foot))
+    under = ROW + _GAP_ABOVE if has_row else -26.0 if is_free else _GAP_ABOVE
+    below = held.foot if held else frame.bottom + under
+    enlarged = draw_details(whole, margins.view, details, frame.bottom + _GAP_ABOVE) if has_row else ()
+    foot = [*enlarged, *_foot_of(scene, canvas.homeless, small, below, margins.view.scale)]
+    height = round(max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0, 1)
+    height = max(height, held.height if held else 0.0)
+    placement = placement_of(margins, canvas, below, height)
+    return Sheet(scene.title, height, frame, canvas.items, (*top, *foot), placement)
 
 
 def _thinned(scene: Scene) -> Scene:
@@ -98,13 +113,14 @@ def _draw_path(canvas: Canvas, scene: Scene) -> None:
     for thin in scene.each(Thin):
         ends = _ends_of(canvas, thin)
         if ends is not None:
-            canvas.draw(line(*ends, thin.role, 1.0 if thin.role is Role.MUTED else 1.4))
+            width = 1.0 if thin.role is Role.MUTED else 1.4
+            canvas.draw(line(*ends, thin.role, width, is_dashed=thin.is_dashed))
     for trail in sorted(trails, key=lambda each: each.weight is Weight.MAIN):
         weight = PATH_WEIGHT if trail.weight is Weight.MAIN else THIN_WEIGHT
         is_named = scene.is_one_contour and trail.weight is Weight.MAIN
         for part in [replace(trail, segments=(each,)) for each in trail.segments] if is_named else [trail]:
             with canvas.about(About(element=part.segments[0].name) if is_named else ANYTHING):
-                for stroke in _strokes(view, part):
+                for stroke in _strokes(view, part) if part.weight is not Weight.PASSING else _passing(canvas, part):
                     canvas.draw(stroke, weight)
     for trail in (trail for trail in trails if trail.weight is Weight.MAIN):
         for segment in _pointed(trail.segments, view):
@@ -134,7 +150,7 @@ def _strokes(view: Viewport, trail: Trail) -> Iterator[Stroke]:
     """A path as strokes; one where it has no gap."""
     is_ink = trail.role is Role.INK
     width = (THICK if is_ink else THICK - 0.4) if trail.weight is Weight.MAIN else 1.4
-    dash = () if is_ink else DASHES.get(trail.role, ())
+    dash = () if is_ink or trail.weight is Weight.MIRRORED else DASHES.get(trail.role, ())
     steps: list[Spot | Sweep] = []
     begin = last = view.place(trail.segments[0].start)
     for segment in trail.segments:
@@ -148,6 +164,19 @@ def _strokes(view: Viewport, trail: Trail) -> Iterator[Stroke]:
             steps.append(_step(view, segment, end))
     if steps:
         yield Stroke(begin, tuple(steps), trail.role, width, dash)
+
+
+def _passing(canvas: Canvas, trail: Trail) -> Iterator[Stroke]:
+    """The lines of a path as far as the frame goes."""
+    for segment in trail.segments:
+        ends = clip(canvas.view.place(segment.start), canvas.view.place(segment.end), canvas.frame)
+        if ends is not None and distance(*ends) > _LEAST:
+            yield line(*ends, trail.role, 1.2)
+
+
+def path_data(trails: Iterable[Trail], view: Viewport) -> list[str]:
+    """Paths as the data of SVG's paths, where a part of the plane is shown."""
+    return [steps_text(stroke) for trail in trails for stroke in _strokes(view, trail)]
 
 
 def _step(view: Viewport, segment: Segment, end: Spot) -> Spot | Sweep:
@@ -207,8 +236,8 @@ def _merged(row: list[TextRun]) -> tuple[TextRun, ...]:
     return tuple(found)
 
 
-def _foot_of(scene: Scene, homeless: Sequence[str], top: float) -> Iterator[Item]:
-    """The axes, the legend, and remarks."""
+def _foot_of(scene: Scene, homeless: Sequence[str], small: Sequence[str], top: float, scale: float) -> Iterator[Item]:
+    """The axes, the legend, the scale, and remarks."""
     corner = PAD + 12.0, top + 34.0
     ways = (((1.0, 0.0), scene.axes[FIRST]), ((0.0, -1.0), scene.axes[SECOND])) if any(scene.axes) else ()
     for way, name in ways:
@@ -219,17 +248,23 @@ def _foot_of(scene: Scene, homeless: Sequence[str], top: float) -> Iterator[Item
         yield Text(at, (TextRun(name, Role.INK),), _SMALL)
     x = corner[0] + 30.0 + 5.0 + max(width_of(name, _SMALL) for name in scene.axes) + 26.0
     y = corner[1] + 4.0
-    begin = x
+    begin, right = x, WIDTH - PAD
+    if scene.scale_unit is not None and scene.each(Trail):
+        bar = list(_bar(scene.scale_unit, scale, y))
+        yield from bar
+        right = min(item.box.left for item in bar if isinstance(item, Text)) - 18.0
     for role in _legend(scene):
-        text = scene.meanings.get(role, MEANINGS[role])
+        text = scene.meanings.get(role) or MEANINGS[role]
         wide = 34.0 + width_of(text, _SMALL) + 18.0
-        if x + wide > WIDTH - PAD and x > begin:
+        if x + wide > right and x > begin:
             x, y = begin, y + 16.0
         yield line((x, y - 4.0), (x + 28.0, y - 4.0), role, 1.6)
         yield Text((x + 34.0, y), (TextRun(text, role),), _SMALL)
         x += wide
     y += 20.0
     remarks = list(scene.remarks)
+    if small:
+        remarks.append((TextRun("too small to be read here: " + ", ".join(small), Role.MUTED),))
     if homeless:
         remarks.append((TextRun("no room for: " + ", ".join(homeless), Role.MUTED),))
     for runs in remarks:
@@ -238,7 +273,28 @@ def _foot_of(scene: Scene, homeless: Sequence[str], top: float) -> Iterator[Item
             y += 16.0
 
 
-_STATES = (Role.GIVEN, Role.DERIVED, Role.IGNORED, Role.CONFLICTING, Role.CANDIDATE, Role.FREE, Role.GHOST)
+def _bar(unit: Length, scale: float, y: float) -> Iterator[Item]:
+    """A bar of a round length at the right edge, with its length before it."""
+    most = _BAR / (scale * float(unit.in_mm))
+    power = 10.0 ** floor(log10(most))
+    length = max(each for each in (power, 2 * power, 5 * power) if each <= most)
+    right, left = WIDTH - PAD, WIDTH - PAD - length * scale * float(unit.in_mm)
+    yield line((left, y - 4.0), (right, y - 4.0), Role.INK, 1.6)
+    yield from (line((x, y - 8.0), (x, y), Role.INK, 1.2) for x in (left, right))
+    yield Text((left - 8.0, y), (TextRun(f"{length:g} {unit.value}", Role.INK),), _SMALL, Anchor.END)
+
+
+_STATES = (
+    Role.INK,
+    Role.RAPID,
+    Role.GIVEN,
+    Role.DERIVED,
+    Role.IGNORED,
+    Role.CONFLICTING,
+    Role.CANDIDATE,
+    Role.FREE,
+    Role.GHOST,
+)
 
 
 def _legend(scene: Scene) -> list[Role]:
@@ -247,4 +303,4 @@ def _legend(scene: Scene) -> list[Role]:
     used |= {run.role for mark in scene.each(Mark) for run in mark.label}
     used |= {run.role for runs in scene.lines for run in runs}
     used |= {Role.FREE} if scene.each(Slide) else set()
-    return [role for role in _STATES if role in used]
+    return [role for role in _STATES if role in used and (role in MEANINGS or role in scene.meanings)]

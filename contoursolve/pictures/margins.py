@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 from msgspec import Struct
 
 from contoursolve.geometry import FIRST, SECOND
-from contoursolve.pictures.labels import Canvas
-from contoursolve.pictures.page import SIZE, WIDTH, Anchor, Box, Spot, Text, TextRun, head, line, width_of
+from contoursolve.pictures.labels import Canvas, Grip, LabelSpot
+from contoursolve.pictures.page import SIZE, WIDTH, About, Anchor, Box, Spot, Text, TextRun, head, line, width_of
 from contoursolve.pictures.scene import LinearDimension, Ordinate, Rectangle, Scene, Trail, Viewport, bounds_of
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import along, direction, distance
@@ -59,6 +59,23 @@ Row = tuple[LinearDimension, int]
 """A distance and the number of its row, from the drawing outwards."""
 
 
+class Placement(Struct, frozen=True):
+    """How a drawing stands on its page, so that the next one of a contour that is moved can stand alike: what part of
+    the plane it shows, its edges, the rows of distances, and the labels, by what they show."""
+
+    view: Viewport
+    frame: Box
+    outer: Mapping[Border, float]
+    rows: Mapping[About, tuple[Border, int]]
+    edges: Mapping[int, Border]
+    """At which edge the coordinates on an axis are written."""
+    labels: Mapping[tuple[About, int], LabelSpot]
+    """By what they show, and the number of the label of those that show the same."""
+    grips: tuple[Grip, ...]
+    foot: float
+    height: float
+
+
 class Arrangement(Struct, frozen=True):
     """Where the drawing is, its rows of distances, and its coordinates with the edges at which they are written.
 
@@ -72,8 +89,10 @@ class Arrangement(Struct, frozen=True):
     outer: Mapping[Border, float]
 
 
-def arrange(scene: Scene, top: float) -> Arrangement:
-    """The margins of a drawing that begins at `top` on its page."""
+def arrange(scene: Scene, top: float, held: Placement | None = None) -> Arrangement:
+    """The margins of a drawing that begins at `top` on its page, or that stands as another one did."""
+    if held is not None:
+        return _arranged_as(scene, held)
     own = bounds_of(scene)
     span = _with_turning_axis(scene, own)
     linear = [each for each in scene.each(LinearDimension) if each.length]
@@ -94,6 +113,27 @@ def arrange(scene: Scene, top: float) -> Arrangement:
     right, upper = view.place(span.high)
     frame = Box(4.0, top, WIDTH - 4.0, top + over + tall + (_UNDER_AXIS if is_above else under))
     return Arrangement(view, frame, rows, coordinates, dict(zip(_SIDES, (bottom, upper, left, right), strict=True)))
+
+
+def _arranged_as(scene: Scene, held: Placement) -> Arrangement:
+    """The margins of a drawing that stands as another one did; a distance that is new is in the next row."""
+    rows: dict[Border, list[Row]] = {side: [] for side in _SIDES}
+    own = bounds_of(scene)
+    for each in (each for each in scene.each(LinearDimension) if each.length):
+        side, row = held.rows.get(each.about, (_side_of(each, own), None))
+        rows[side].append((each, _count(rows[side]) if row is None else row))
+    coordinates: dict[Border, list[Ordinate]] = {side: [] for side in _SIDES}
+    for ordinate in scene.each(Ordinate):
+        coordinates[held.edges.get(ordinate.axis, Border(ordinate.axis, 1))].append(ordinate)
+    return Arrangement(held.view, held.frame, rows, coordinates, held.outer)
+
+
+def placement_of(margins: Arrangement, canvas: Canvas, foot: float, height: float) -> Placement:
+    """How a drawing stands, for the next one."""
+    rows = {each.about: (side, row) for side, several in margins.rows.items() for each, row in several}
+    edges = {side.axis: side for side, several in margins.coordinates.items() if several}
+    grips = tuple(each for each in canvas.grips if each.word)
+    return Placement(margins.view, margins.frame, margins.outer, rows, edges, canvas.labels, grips, foot, height)
 
 
 def _with_turning_axis(scene: Scene, span: Rectangle) -> Rectangle:

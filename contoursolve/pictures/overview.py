@@ -1,21 +1,24 @@
 """Several contours in one picture: those of a program with the moves between them, and one block for several values."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import PurePath
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.comparison import Motion, Travel, follow
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import statuses_text
-from contoursolve.geometry import SECOND, Turn
+from contoursolve.diagnostics.finding import Severity
+from contoursolve.geometry import SECOND, Length, Turn
 from contoursolve.pictures.compose import MOST_ELEMENTS, remarks_of
-from contoursolve.pictures.page import TextRun
-from contoursolve.pictures.scene import Mark, MarkKind, Part, Scene, Trail, Weight, axis_names
+from contoursolve.pictures.page import TextRun, visible
+from contoursolve.pictures.scene import Closeup, Mark, MarkKind, Part, Scene, Trail, Weight, axis_names
 from contoursolve.pictures.subject import find_known, list_trails
 from contoursolve.pictures.theme import Role
+from contoursolve.pictures.turned import crosses_axis, cylinders_of, turn_part
 from contoursolve.pictures.vectors import distance
 from contoursolve.program.pipeline import Result
 from contoursolve.solving import Point
@@ -30,21 +33,54 @@ MOST_LABELED = 60
 MOST_MOVES = 2_000
 """Moves that are drawn."""
 
+MOST_REFUSED = 12
+"""Contours without a path of which the picture says what is wrong."""
+
+_READABLE = 16.0
+"""Pixels of the larger side of a contour that can be read."""
+
 MOST_VALUES = 48
 """Contours of a fan."""
 
 _LABELED = 7
 """Contours of a fan that are labelled, besides those beside which the outcome changes."""
 
-Numbered = Sequence[tuple[int, Answer]]
-"""Contours with their numbers, from 1."""
 
-Move = tuple[Segment, tuple[str, str]]
-"""A move in a plane, and the names of its axes."""
+class Drawn(Struct, frozen=True):
+    """A contour as it is drawn: its number, from 1, and its path; no trails where nothing of it is known."""
+
+    number: int
+    answer: Answer
+    trails: tuple[Trail, ...]
+
+    @property
+    def start(self) -> Point:
+        """Where the path begins."""
+        return self.trails[0].segments[0].start
+
+    @property
+    def end(self) -> Point:
+        """Where it ends."""
+        return self.trails[-1].segments[-1].end
+
+    @property
+    def segments(self) -> tuple[Segment, ...]:
+        """Its elements."""
+        return tuple(segment for trail in self.trails for segment in trail.segments)
 
 
-def compose_overview(result: Result, title: str | None) -> list[Scene]:
-    """A scene for each plane in which the program has contours, in their order."""
+class Move(Struct, frozen=True):
+    """A move in a plane, whose axes it names, and whether it joins two solved contours at a feed."""
+
+    segment: Segment
+    axes: tuple[str, str]
+    is_rapid: bool
+    is_between: bool
+
+
+def compose_overview(result: Result, title: str | None, *, is_whole: bool | None = None) -> list[Scene]:
+    """A scene for each plane in which the program has contours, in their order. `is_whole` shows turned parts with both
+    halves; without it, where that leaves the contours at least half as large."""
     total = len(result.answers)
     told = statuses_text(Counter(answer.status for answer in result.answers))
     named = f"{PurePath(result.program.name).name}: {total} contour{'' if total == 1 else 's'}"
@@ -53,68 +89,105 @@ def compose_overview(result: Result, title: str | None) -> list[Scene]:
         none = (TextRun("The program has no contour.", Role.MUTED),)
         return [Scene(shown, ("", ""), remarks=(none, *remarks_of(result.diagnostics)))]
     moves = _moves(result)
+    unit = Length.INCH if all(answer.unit is Length.INCH for answer in result.answers) else Length.MM
     scenes: list[Scene] = []
     for plane in dict.fromkeys(answer.plane for answer in result.answers):
         own = [(number, answer) for number, answer in enumerate(result.answers, 1) if answer.plane == plane]
-        scenes.append(_scene(shown if not scenes else f"{plane.code}: {' and '.join(plane.axes)}", own, moves))
+        drawn = [Drawn(number, answer, tuple(_trails(answer))) for number, answer in own[:MOST_CONTOURS]]
+        told = shown if not scenes else f"{plane.code}: {' and '.join(plane.axes)}"
+        beside = [each for each in moves if each.axes == plane.axes]
+        scene = Scene(
+            told,
+            axis_names(plane),  # it has no numbers, so that contours in mm and in inches may stand together
+            (*_move_trails(beside), *_contour_parts(drawn)),
+            remarks=tuple(_remarks(drawn, len(own))),
+            meanings={Role.CONFLICTING: "no contour", Role.INK: "feed move"},
+            has_turning_axis=plane.diameters[SECOND],
+            closeups=tuple(_closeups(drawn)),
+            scale_unit=unit,
+        )
+        scenes.append(_turned(scene, drawn, beside, is_whole=is_whole) if plane.diameters[SECOND] else scene)
     return scenes
+
+
+def _turned(scene: Scene, drawn: Sequence[Drawn], moves: Sequence[Move], *, is_whole: bool | None) -> Scene:
+    """The scene of contours on a lathe: the part around its axis."""
+    solved = [each for each in drawn if each.answer.contour is not None]
+    cut = [segment for each in solved for segment in each.segments]
+    cut += [move.segment for move in moves if move.is_between]
+    cylinders = [each for one in solved for each in cylinders_of(one.segments, one.answer.unit)]
+    told = [
+        (TextRun(f"{each.number}, line {each.answer.lines[0]}: the path crosses the turning axis", Role.INK),)
+        for each in drawn
+        if crosses_axis(each.segments)
+    ]
+    scene = replace(scene, remarks=(*scene.remarks, *told))
+    return turn_part(scene, cut, cylinders, is_whole=is_whole)
 
 
 def describe_overview(result: Result) -> str:
     """What the picture of a program shows: its contours, and what became of each."""
     shown = result.answers[:MOST_ELEMENTS]
-    sentences = [
-        f"Contour {number}, line {answer.lines[0]}, {answer.claim.form.name}: {answer.status.value}."
-        for number, answer in enumerate(shown, 1)
-    ]
+    sentences = []
+    for number, answer in enumerate(shown, 1):
+        fault = "" if answer.contour is not None else _fault(answer)
+        sentences.append(
+            f"Contour {number}, line {answer.lines[0]}, {answer.claim.form.name}: {answer.status.value}{fault}."
+        )
     if len(result.answers) > len(shown):
         sentences.append(f"And {len(result.answers) - len(shown)} more contours.")
     return " ".join(sentences) or "There is no contour."
 
 
-def _scene(title: str, answers: Numbered, moves: Sequence[Move]) -> Scene:
-    plane = answers[0][1].plane
-    parts: list[Part] = [Trail((move,), Role.INK, Weight.BESIDE) for move, axes in moves if axes == plane.axes]
-    remarks = [(TextRun("thin: the moves that lead to contours and away from them", Role.MUTED),)] if parts else []
-    drawn = [(number, answer, _trails(answer)) for number, answer in answers[:MOST_CONTOURS]]
-    begun: dict[Point, list[tuple[int, Answer]]] = {}
-    for number, answer, own in drawn[:MOST_LABELED]:
-        if own:
-            begun.setdefault(own[0].segments[0].start, []).append((number, answer))
-    for place, (number, answer, own) in enumerate(drawn):
-        parts += [replace(trail, role=_role(answer)) for trail in own]
-        if answer.contour is None:
-            remarks.append((TextRun(f"{number}, line {answer.lines[0]}: {answer.status.value}", Role.CONFLICTING),))
-        if own and place < MOST_LABELED:
-            here = begun.pop(own[0].segments[0].start, None)
-            if here:
-                label = _label(here)
-                parts.append(Mark(own[0].segments[0].start, MarkKind.START, label, label[:-1]))
-            parts.append(Mark(own[-1].segments[-1].end, MarkKind.END))
-    if len(answers) > MOST_CONTOURS:
-        remarks.append(
-            (TextRun(f"... and {len(answers) - MOST_CONTOURS} more contours, which are not drawn", Role.MUTED),)
-        )
-    return Scene(
-        title,
-        axis_names(plane),  # it has no numbers, so that contours in mm and in inches may stand together
-        tuple(parts),
-        remarks=tuple(remarks),
-        meanings={Role.CONFLICTING: "no contour"},
-        has_turning_axis=plane.diameters[SECOND],
-    )
+def _contour_parts(drawn: Sequence[Drawn]) -> Iterator[Part]:
+    """The paths, with their numbers where they begin, and their ends."""
+    named = [each for each in drawn[:MOST_LABELED] if each.trails]
+    begun: dict[Point, list[Drawn]] = {}
+    for each in named:
+        begun.setdefault(each.start, []).append(each)
+    for each in drawn:
+        yield from (replace(trail, role=_role(each.answer)) for trail in each.trails)
+    for each in named:
+        here = begun.pop(each.start, None)
+        if here:
+            label = _label(here)
+            yield Mark(each.start, MarkKind.START, label, label[:-1])
+        yield Mark(each.end, MarkKind.END)
+
+
+def _remarks(drawn: Sequence[Drawn], total: int) -> Iterator[tuple[TextRun, ...]]:
+    """What is wrong with contours that have no path, and what cannot be seen in the picture."""
+    refused = [each for each in drawn if each.answer.contour is None]
+    for each in refused[:MOST_REFUSED]:
+        told = f"{each.number}, line {each.answer.lines[0]}, {each.answer.status.value}{_fault(each.answer)}"
+        yield (TextRun(visible(told), Role.CONFLICTING),)
+    if len(refused) > MOST_REFUSED:
+        yield (TextRun(f"... and {len(refused) - MOST_REFUSED} more without a contour", Role.CONFLICTING),)
+    if total > len(drawn):
+        yield (TextRun(f"... and {total - len(drawn)} more contours, which are not drawn", Role.MUTED),)
+
+
+def _fault(answer: Answer) -> str:
+    """The first thing that is wrong with a contour."""
+    found = next((each for each in answer.diagnostics if each.severity is Severity.ERROR), None)
+    return f": {found.message}" if found is not None else ""
+
+
+def _closeups(drawn: Sequence[Drawn]) -> Iterator[Closeup]:
+    """The contours, each of which may be too small."""
+    for each in drawn[:MOST_LABELED]:
+        if each.trails and each.answer.contour is not None:
+            yield Closeup(f"{each.number}  line {each.answer.lines[0]}", each.segments, _READABLE)
 
 
 def _trails(answer: Answer) -> list[Trail]:
     return [*list_trails(answer, find_known(answer))]
 
 
-def _label(here: Numbered) -> tuple[TextRun, ...]:
+def _label(here: Sequence[Drawn]) -> tuple[TextRun, ...]:
     """The numbers and the lines of the contours that begin at one place."""
-    numbers = [
-        TextRun(f"{', ' if place else ''}{number}", _role(answer)) for place, (number, answer) in enumerate(here)
-    ]
-    lines = ", ".join(str(answer.lines[0]) for _, answer in here)
+    numbers = [TextRun(f"{', ' if place else ''}{each.number}", _role(each.answer)) for place, each in enumerate(here)]
+    lines = ", ".join(str(each.answer.lines[0]) for each in here)
     return (*numbers, TextRun(f"  line{'s' if len(here) > 1 else ''} {lines}", Role.MUTED))
 
 
@@ -126,28 +199,43 @@ def _role(answer: Answer, solved: Role = Role.INK) -> Role:
 
 
 def _moves(result: Result) -> list[Move]:
-    """The moves at a feed that are joined to a contour, before it or after it, in the plane of that contour; nothing
-    for a control that nobody has described."""
+    """The moves at a feed that are joined to a contour, before it or after it, in the plane of that contour, and the
+    rapid moves that lead to these or away from them; nothing for a control that nobody has described."""
     dialect = DIALECTS.get(result.control or "")
     if dialect is None:
         return []
     axes = tuple(dict.fromkeys(axis for answer in result.answers for axis in answer.plane.axes))
     # Before any code that says it, the unit is that of the first contour.
     path = follow(result, dialect.configure(result.settings), result.answers[0].unit, axes)
-    planes = {line: answer.plane.axes for answer in result.answers for line in answer.lines}
+    owners = {line: answer for answer in result.answers for line in answer.lines}
     found: dict[int, Move] = {}
+    reached: Counter[int] = Counter()
     for steps in (list(enumerate(path.steps)), list(enumerate(path.steps))[::-1]):
-        plane: tuple[str, str] | None = None
+        owner: Answer | None = None
+        is_rapid = False
         for number, step in steps:
-            if step.line in planes:
-                plane = planes[step.line]
-            elif not isinstance(step, Travel) or step.motion is not Motion.FEED:
-                plane = None
-            elif plane is not None:
-                segment = _flat(step, axes, plane)
-                if segment is not None:
-                    found[number] = segment, plane
+            if step.line in owners:
+                owner, is_rapid = owners[step.line], False
+                continue
+            motion = step.motion if isinstance(step, Travel) else None
+            if motion not in (Motion.FEED, Motion.RAPID) or (is_rapid and motion is Motion.FEED):
+                owner = None
+            if owner is None or not isinstance(step, Travel):
+                continue
+            is_rapid = motion is Motion.RAPID
+            segment = _flat(step, axes, owner.plane.axes)
+            if segment is not None:
+                reached[number] += owner.contour is not None and not is_rapid
+                is_between = reached[number] > 1  # from both sides
+                found[number] = Move(segment, owner.plane.axes, is_rapid, is_between)
     return [found[number] for number in sorted(found)[:MOST_MOVES]]
+
+
+def _move_trails(moves: Sequence[Move]) -> Iterator[Trail]:
+    """Moves as they are drawn: rapid ones as far as the picture goes."""
+    for move in moves:
+        role, weight = (Role.RAPID, Weight.PASSING) if move.is_rapid else (Role.INK, Weight.BESIDE)
+        yield Trail((move.segment,), role, weight)
 
 
 def _flat(travel: Travel, axes: tuple[str, ...], plane: tuple[str, str]) -> Segment | None:

@@ -4,13 +4,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 from math import cos, sin
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.pictures.theme import DASHES, Role
 from contoursolve.pictures.vectors import along
+
+if TYPE_CHECKING:
+    from contoursolve.pictures.margins import Placement
 
 Spot = tuple[float, float]
 """A place on the page, pixels from its top left corner."""
@@ -180,6 +183,8 @@ class Sheet:
     frame: Box
     drawing: tuple[Item, ...] = field(repr=False)
     around: tuple[Item, ...] = field(default=(), repr=False)
+    placement: "Placement | None" = field(default=None, repr=False, compare=False)
+    """How the drawing stands, where there is one."""
 
     @property
     def texts(self) -> tuple[Text, ...]:
@@ -285,11 +290,11 @@ def shorten(text: str, width: float, size: float, *, is_bold: bool = False, is_m
     return kept.rstrip() + "…"
 
 
-def wrap(text: str, width: float, size: float, lines: int) -> list[str]:
-    """The text in at most so many lines of this width; the last one is shortened."""
+def wrap(text: str, width: float, size: float, most: int | None = None) -> list[str]:
+    """The text in lines of this width; of at most so many, the last one is shortened."""
     found: list[str] = []
     rest = text.split()
-    while rest and len(found) < lines - 1:
+    while rest and (most is None or len(found) < most - 1):
         count = 1
         while count < len(rest) and width_of(" ".join(rest[: count + 1]), size) <= width:
             count += 1

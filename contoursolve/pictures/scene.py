@@ -27,6 +27,10 @@ class Weight(Enum):
     """One of many."""
     GHOST = "ghost"
     """What might be instead; drawn where it does not make the others small."""
+    MIRRORED = "mirrored"
+    """The other half of a turned part."""
+    PASSING = "passing"
+    """Drawn as far as the picture goes; lines only."""
 
 
 class Trail(Struct, frozen=True):
@@ -44,6 +48,7 @@ class Thin(Struct, frozen=True):
     end: Point
     role: Role
     is_endless: bool = False
+    is_dashed: bool = True
 
 
 class Ring(Struct, frozen=True):
@@ -142,6 +147,14 @@ class Slide(Struct, frozen=True):
     direction: Point | None
 
 
+class Closeup(Struct, frozen=True):
+    """A part of the path that is shown enlarged, too, where it would be smaller than `least` pixels."""
+
+    name: str
+    segments: tuple[Segment, ...]
+    least: float
+
+
 Dimension = LinearDimension | Aligned | Ordinate | Angle | Leader
 Part = Trail | Thin | Ring | Mark | Slide | Dimension
 """What a drawing is made of."""
@@ -165,6 +178,9 @@ class Scene(Struct, frozen=True):
     """Whether the second axis begins at the axis about which the work turns."""
     is_one_contour: bool = False
     """Whether names of elements mean one thing only."""
+    closeups: tuple[Closeup, ...] = ()
+    scale_unit: Length | None = None
+    """The unit of the bar that shows how large the drawing is; no bar without one."""
 
     def each(self, kind: type[_Kind]) -> list[_Kind]:
         """The parts of one kind."""
@@ -225,6 +241,8 @@ def bounds_of(scene: Scene) -> Rectangle:
     more: list[Point] = []
     wrong: list[Point] = []
     for part in scene.parts:
+        if isinstance(part, Trail) and part.weight is Weight.PASSING:
+            continue
         if isinstance(part, Trail):
             points = [at for segment in part.segments for at in extent(segment)]
             (more if part.weight is Weight.GHOST else must).extend(points)

@@ -155,11 +155,11 @@ def subject_of(answer: Answer) -> Subject:
         tuple(list_trails(answer, known)),
         _roles(answer, blamed),
         blamed,
-        _named(answer),
+        named_words(answer),
     )
 
 
-def _named(answer: Answer) -> dict[Span, About]:
+def named_words(answer: Answer) -> dict[Span, About]:
     """What shows a word or a fact is about: its key, and the errors and warnings that point at it."""
     keys = word_keys(answer.claim.words.values())
     numbers: dict[Span, list[str]] = {}
@@ -324,7 +324,7 @@ def trace_known(profile: Profile, known: Known) -> Iterator[tuple[Segment, Role]
             yield segment, Role.CONFLICTING if element.name in refused else Role.FREE if is_free else Role.INK
         here = head
         if corner is not None and built is not None:
-            cut = _corner(corner, built)
+            cut = corner_segment(corner, built)
             if is_cut:
                 yield cut, Role.FREE if element.head in known.placed else Role.INK
                 here = built.end
@@ -343,7 +343,7 @@ def _segment(element: Line | Arc, tail: Point, head: Point, known: Known) -> Seg
     return ArcSegment(element.name, tail, head, center, radius, element.turn)
 
 
-def _corner(corner: Corner, built: CornerSolution) -> Segment:
+def corner_segment(corner: Corner, built: CornerSolution) -> Segment:
     """A corner as an element of a path."""
     if built.center is None:
         return LineSegment(corner.name, built.begin, built.end)

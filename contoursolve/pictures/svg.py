@@ -162,7 +162,7 @@ def _element(item: Item, theme: Theme) -> str:
     told = _names(item.about, theme)
     if isinstance(item, Stroke):
         dash = f' stroke-dasharray="{" ".join(map(_number, item.dash))}"' if item.dash else ""
-        shape = "".join(_steps(item))
+        shape = steps_text(item)
         join = ' stroke-linejoin="round" stroke-linecap="round"' if not item.dash else ""
         paint = f'{_paint("stroke", item.role, theme)} stroke-width="{_number(item.width)}"'
         return f'<path d="{shape}" {paint}{join}{dash}{told}/>'
@@ -208,6 +208,11 @@ def _span(run: TextRun, theme: Theme) -> str:
 
 def _underline(run: TextRun) -> str:
     return ' text-decoration="underline"' if run.is_underlined else ""
+
+
+def steps_text(stroke: Stroke) -> str:
+    """A stroke as the data of a path."""
+    return "".join(_steps(stroke))
 
 
 def _steps(stroke: Stroke) -> Iterator[str]:

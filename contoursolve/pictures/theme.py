@@ -16,6 +16,8 @@ class Role(Enum):
     """Other contours that the block would allow."""
     CANDIDATE = "candidate"
     """One of several contours, where nothing chooses between them."""
+    RAPID = "rapid"
+    """Moves in rapid traverse."""
     GIVEN = "given"
     DERIVED = "derived"
     IGNORED = "ignored"
@@ -34,6 +36,7 @@ MEANINGS: Mapping[Role, str] = {
     Role.CONFLICTING: "conflicting or refused",
     Role.FREE: "still free",
     Role.CANDIDATE: "one of several solutions",
+    Role.RAPID: "rapid move",
     Role.GHOST: "another solution",
     Role.MUTED: "construction",
 }
@@ -43,6 +46,7 @@ DASHES: Mapping[Role, tuple[float, ...]] = {
     Role.MUTED: (9.0, 2.5, 2.0, 2.5),
     Role.GHOST: (7.0, 4.0),
     Role.CANDIDATE: (12.0, 3.0),
+    Role.RAPID: (5.0, 4.0),
     Role.DERIVED: (8.0, 2.0),
     Role.IGNORED: (1.5, 3.0),
     Role.CONFLICTING: (10.0, 3.0, 2.0, 3.0, 2.0, 3.0),
@@ -56,6 +60,7 @@ _COLORS: Mapping[Role, tuple[str, str]] = {
     Role.MUTED: ("#5b6472", "#9aa5b5"),
     Role.GHOST: ("#6b7280", "#8e99a9"),
     Role.CANDIDATE: ("#0e6d84", "#67e8f9"),
+    Role.RAPID: ("#5b6472", "#9aa5b5"),
     Role.GIVEN: ("#1d4ed8", "#93c5fd"),
     Role.DERIVED: ("#15693a", "#86efac"),
     Role.IGNORED: ("#8a4b00", "#fcd34d"),

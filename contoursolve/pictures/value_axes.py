@@ -24,9 +24,9 @@ from contoursolve.pictures.page import (
     TextRun,
     heading,
     line,
-    shorten,
     visible,
     width_of,
+    wrap,
 )
 from contoursolve.pictures.theme import Role
 
@@ -115,18 +115,22 @@ class ValuePlane(Struct, frozen=True):
         return items
 
 
-def axis_text(word: str, unit: str) -> str:
-    """The name of an axis on which the values of a word stand, with the unit in which it is written, if it has one."""
-    return visible(f"{word} [{'in' if unit == 'inch' else unit}]" if unit else word)
+def axis_text(word: str, unit: str, *, is_diameter: bool) -> str:
+    """The name of an axis on which the values of a word stand: whether they are diameters, and the unit in which
+    they are written, if they have one."""
+    named = f"{word} diameter" if is_diameter else word
+    return visible(f"{named} [{'in' if unit == 'inch' else unit}]" if unit else named)
 
 
 def page_of(
     title: str, items: Sequence[Item], remarks: Sequence[tuple[str, Role]], height: float, lead: float = 0.0
 ) -> Sheet:
-    """The page whose drawing ends at a height, with lines of text below it, the first one farther down by `lead`."""
+    """The page whose drawing ends at a height, with remarks below it, each in as many lines as it takes, the first one
+    farther down by `lead`."""
+    lines = [(row, role) for told, role in remarks for row in wrap(told, WIDTH - 2 * PAD, SIZE)]
     texts = [
-        Text((PAD, height + lead + _HIGHER * number), (TextRun(told, role),), SIZE)
-        for number, (told, role) in enumerate(remarks)
+        Text((PAD, height + lead + _HIGHER * number), (TextRun(row, role),), SIZE)
+        for number, (row, role) in enumerate(lines)
     ]
     height += _HIGHER * len(texts)
     return Sheet(title, height, Box(0.0, 0.0, WIDTH, height), (heading(title), *items, *texts))
@@ -166,12 +170,11 @@ def lay_out_range(found: Feasible, title: str | None) -> Sheet:
         items.append(line((x, _BAR_TOP - 5.0), (x, bottom + 5.0), Role.INK, 1.6))
     items.append(line((LEFT, bottom), (LEFT + WIDE, bottom), Role.INK))
     items += _values_across(over_range(low, high), bottom)
-    name = (TextRun(axis_text(found.word, found.unit), Role.INK),)
+    name = (TextRun(axis_text(found.word, found.unit, is_diameter=found.is_diameter), Role.INK),)
     items.append(Text((LEFT + WIDE / 2, bottom + 38.0), name, TITLE, Anchor.MIDDLE, is_bold=True))
     items.append(Dot((x_of(found.stated), _BAR_TOP + _BAR_HIGH / 2), 4.0, Role.GIVEN))
-    remarks = [(shorten(told, WIDTH - 2 * PAD, SIZE), role) for told, role in _remarks(found)]
     told = title if title is not None else f"{found.word}: where the contour exists{proof}"
-    return page_of(told, items, remarks, bottom + 62.0)
+    return page_of(told, items, list(_remarks(found)), bottom + 62.0)
 
 
 def _ends(found: Feasible) -> Iterator[tuple[End, str]]:

@@ -58,9 +58,10 @@ def test_the_drawing_holds_every_element_on_its_layer_to_1e_9(text, mm):
     document = read(to_dxf(result.answers))
     assert document.header["$INSUNITS"] == (4 if mm == 1.0 else 1)
     page = document.modelspace()
-    drawn = [entity for entity in page if entity.dxf.layer != CONSTRUCTION]
+    is_split = len({answer.plane for answer in result.answers}) > 1
+    drawn = [entity for entity in page if not entity.dxf.layer.endswith(CONSTRUCTION)]
     elements = [
-        (layer_name(number, answer, element), element)
+        (layer_name(number, answer, element, is_split=is_split), element)
         for number, answer in enumerate(result.answers, 1)
         for element in answer.contour.elements
     ]
@@ -89,6 +90,15 @@ def test_the_header_says_which_axes_the_drawing_has():
     assert lathe.get("Axes in G18") == "X of the drawing is Z, Y is X as radius"
     mill = read(to_dxf(contoursolve.solve(CIRCLE).answers)).header.custom_vars
     assert mill.get("Axes in G17") == "X of the drawing is X, Y is Y"
+
+
+def test_contours_of_several_planes_have_layers_of_their_own():
+    document = read(to_dxf(contoursolve.solve_file(PROGRAMS / "plate.nc").answers))
+    layers = {entity.dxf.layer for entity in document.modelspace()}
+    assert {name[:6] for name in layers} == {"G17 - ", "G18 - ", "G19 - "}
+    assert {"G17 - construction", "G19 - contour 6 - program line 73 - arc"} <= layers
+    lathe = read(to_dxf(contoursolve.solve(INCH).answers))
+    assert {entity.dxf.layer[:3] for entity in lathe.modelspace()} == {"con"}  # of one plane nothing is said
 
 
 def test_nothing_of_the_programs_text_enters_the_drawing():
@@ -155,6 +165,17 @@ def test_a_target_that_makes_no_sense_is_named(tmp_path, output, said):
     assert status == 2
     assert said in printed
     assert program.read_text() == INCH
+
+
+def test_a_turned_part_is_drawn_whole_or_by_its_half(tmp_path):
+    shaft = PROGRAMS / "shaft.nc"
+    for option in ("--whole", "--half"):
+        assert plot(shaft, option, "-o", tmp_path / f"{option}.svg")[0] == 0
+    whole, half = (tmp_path.joinpath(f"{option}.svg").read_text(encoding="utf-8") for option in ("--whole", "--half"))
+    assert whole != half
+    for other in (["--each"], ["--line", "53"], ["-o", tmp_path / "a.dxf"]):
+        status, output = plot(shaft, "--half", *other)
+        assert (status, "--whole and --half are for a picture of all contours" in output) == (2, True)
 
 
 def test_without_ezdxf_the_message_says_what_to_install(tmp_path, monkeypatch):

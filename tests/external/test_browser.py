@@ -3,75 +3,24 @@
 import json
 import os
 import secrets
-import shutil
 import socket
 import subprocess
 import sys
 from contextlib import contextmanager
 from pathlib import Path
-from urllib.parse import urlsplit
 
 import pytest
+from browsing import Watched
 from serving import SECONDS, wait_for
 
 import contoursolve
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 pytestmark = pytest.mark.browser
 
 HOUSE = Path(contoursolve.__file__).parent.parent
 PROGRAMS = HOUSE / "notebooks" / "programs"
-FLAGS = [
-    "--no-sandbox",  # as root in a container
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
 BLOCK = "G111 X100. A180. K-30. B120. P5. Q5."
 NOTEBOOK = HOUSE / "notebooks" / "01_first_contour.ipynb"
-
-
-@pytest.fixture(scope="module")
-def browser():
-    from playwright.sync_api import sync_playwright  # noqa: PLC0415 - skipped without it
-
-    with sync_playwright() as play:
-        found = play.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
-        yield found
-        found.close()
-
-
-@pytest.fixture
-def artefacts(request, tmp_path):
-    folder = Path(request.config.getoption("--screenshots") or tmp_path)
-    folder.mkdir(parents=True, exist_ok=True)
-    return folder
-
-
-class Watched:
-    """A page of the browser; afterwards it has asked nobody but this machine, and complained about nothing."""
-
-    def __init__(self, browser, **options):
-        self.page = browser.new_page(**options)
-        self.page.set_default_timeout(SECONDS * 1000)
-        self.asked, self.complaints = [], []
-        self.page.on("request", lambda request: self.asked.append(request.url))
-        self.page.on("websocket", lambda channel: self.asked.append(channel.url))
-        self.page.on("console", lambda line: self.complaints.append(line.text) if line.type == "error" else None)
-        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
-
-    def check(self):
-        strangers = [
-            url
-            for url in self.asked
-            if urlsplit(url).scheme not in ("data", "blob", "file", "about") and urlsplit(url).hostname != "127.0.0.1"
-        ]
-        assert strangers == []
-        assert self.complaints == []
-        assert self.asked
 
 
 @contextmanager
@@ -152,10 +101,10 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         page.wait_for_function(IDLE)
         page.evaluate("window.jupyterapp.commands.execute('notebook:run-all-cells')")
         explorer = page.locator(".contoursolve.explorer").first
-        explorer.locator("figure svg").wait_for()
+        explorer.locator(".paper svg").wait_for()
         page.locator(".jp-OutputArea-output .contoursolve .finding.error").first.wait_for()
         explorer.scroll_into_view_if_needed()
-        before = explorer.locator("figure").inner_html()
+        before = explorer.locator(".paper").inner_html()
         page.screenshot(path=artefacts / "jupyterlab-solved.png")
 
         # Its range comes when nothing else is to do, and the slider then reaches beyond it.
@@ -165,7 +114,7 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         slider = row.locator("input[type=range]")
         slider.focus()
         slider.press("PageUp")
-        page.wait_for_function(DIFFERS, arg=[f"{EXPLORER} figure", before])
+        page.wait_for_function(DIFFERS, arg=[f"{EXPLORER} .paper", before])
         assert explorer.locator(".finding").count() == 0
         slider.press("End")
         finding = explorer.locator(".finding.error").first
@@ -200,6 +149,9 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         page.wait_for_selector("body[data-jp-theme-light='false']", state="attached")
         page.wait_for_selector("[data-theme='dark'] > .contoursolve.explorer")
         page.screenshot(path=artefacts / "jupyterlab-dark.png")
+
+        page.evaluate("window.jupyterapp.shell.currentWidget.sessionContext.shutdown()")
+        explorer.locator(".trouble", has_text="The kernel is gone").wait_for()
         watched.check()
         page.close()
 

@@ -19,6 +19,7 @@ from test_rules import examine, examples
 
 import contoursolve
 from contoursolve.cli import main
+from contoursolve.diagnosis.wording import statuses_text
 from contoursolve.families import Code
 from contoursolve.pictures import (
     Picture,
@@ -29,6 +30,7 @@ from contoursolve.pictures import (
     draw_range,
     draw_region,
     draw_result,
+    draw_sweep,
 )
 from contoursolve.pictures.page import WIDTH, Box, Shape, Stroke, Text
 from contoursolve.pictures.svg import PIXELS
@@ -567,37 +569,102 @@ def test_where_no_exact_line_can_be_told_the_cells_have_their_boundaries():
     assert lines_of(picture, width=1.4)
 
 
+def fields_of(picture):
+    """The fields of a map or a region, with what each is painted as."""
+    shapes = (item for item in picture.sheet.drawing if isinstance(item, Shape) and "field" in item.role.value)
+    return [(Box(*shape.corners[0], *shape.corners[2]), shape.role) for shape in shapes]
+
+
+def has_contour(block, within, spots, options):
+    """Which places of a page whose plane covers a box have a contour, solved for their values."""
+    values = {
+        word: low + share * (high - low)
+        for (word, (low, high)), share in zip(
+            within.items(), ((spots[:, 0] - 92) / 610, (456 - spots[:, 1]) / 400), strict=True
+        )
+    }
+    return contoursolve.family(block, vary=values, paired=True, **options).has_contour
+
+
 @pytest.mark.parametrize("name", TWO_REGIONS)
-def test_a_region_has_its_lines_with_names_and_teeth_where_there_is_no_contour(name):
+def test_the_fields_of_a_region_are_painted_as_single_solves_tell_and_none_has_the_name_of_another(name):
     block, within, options = REGIONS[name]
     found = contoursolve.families.region(block, tuple(within), tuple(within.values()), **options)
     for theme in (Theme.LIGHT, Theme.PAGE):
         picture = draw_region(found, theme=theme)
         check(picture)
-    assert len(lines_of(picture, width=2.0)) == len(found.boundaries)
+    assert len(lines_of(picture, width=3.0)) == len(found.boundaries)
     told = " ".join(labels(picture))
     assert all(word in told for each in found.boundaries for word in each.reason.text.split())
-    # A tooth ends where a single solve says that there is no contour, and begins where its line is.
-    teeth = [item for item in picture.sheet.drawing if isinstance(item, Stroke) and item.width == 1.0 and not item.dash]
-    teeth = [item for item in teeth if 92 < item.start[0] < 702 and 56 < item.start[1] < 456]
-    assert teeth
-    names = list(within)
-    for item in teeth[:: max(1, len(teeth) // 12)]:
-        (x, y), (to_x, to_y) = item.start, item.steps[0]
-        ends = []
-        for share in (-0.4, 0.4):
-            at = x + share * (to_x - x), y + share * (to_y - y)
-            ends.append(
-                (
-                    (at[0] - 92) / 610 * (within[names[0]][1] - within[names[0]][0]) + within[names[0]][0],
-                    (456 - at[1]) / 400 * (within[names[1]][1] - within[names[1]][0]) + within[names[1]][0],
-                )
-            )
-        family = contoursolve.family(
-            block, vary={word: [pair[n] for pair in ends] for n, word in enumerate(names)}, paired=True, **options
-        )
-        inside, outside = family.has_contour
-        assert (inside, outside) == (True, False), ends
+    fields, draw = fields_of(picture), random.Random(3)
+    lines = numpy.concatenate([dense(line) for line in lines_of(picture, width=3.0)])
+    spots = numpy.array([(draw.uniform(92, 702), draw.uniform(56, 456)) for _ in range(300)])
+    spots = numpy.array([spot for spot in spots if numpy.hypot(*(lines - spot).T).min() > 2.5])  # the lines cover it
+    for (x, y), is_solved in zip(spots, has_contour(block, within, spots, options), strict=True):
+        role = [role for box, role in fields if box.left <= x <= box.right and box.top <= y <= box.bottom][-1]
+        assert (role is Role.SOLVED_FIELD) == is_solved, (x, y)
+    assert_names_stand_in_their_fields(picture, block, within, options)
+
+
+def assert_names_stand_in_their_fields(picture, block, within, options):
+    """No text in the plane of a page covers a place with a contour but `solved`, and what the block has."""
+    names = [each for each in picture.sheet.texts if Box(92, 56, 702, 456).holds(each.box)]
+    assert names
+    for text in names:
+        left, top, right, bottom = text.box
+        grid = numpy.meshgrid(numpy.linspace(left, right, 12), numpy.linspace(top, bottom, 12))
+        solved = has_contour(block, within, numpy.stack([each.ravel() for each in grid], axis=1), options)
+        if text.runs[0].role is not Role.GIVEN:
+            assert solved.all() if text.words == "solved" else not solved.any(), text
+
+
+def test_names_of_maps_stand_in_their_fields_and_never_where_there_is_a_contour():
+    for block, within, options in REGIONS.values():
+        for across, up in ((61, 61), (140, 90)):
+            # Values in the middles of the cells, so that the whole plane is the box.
+            shares = [(numpy.arange(count) + 0.5) / count for count in (across, up)]
+            cells = [low + share * (high - low) for (low, high), share in zip(within.values(), shares, strict=True)]
+            family = contoursolve.family(block, vary=dict(zip(within, cells, strict=True)), **options)
+            assert_names_stand_in_their_fields(draw_family_map(family), block, within, options)
+
+
+def test_a_map_of_many_even_values_has_even_axes_and_counts_all_of_them():
+    values = {"A": numpy.linspace(150, 210, 401), "P": numpy.linspace(1, 60, 237)}
+    family = contoursolve.family(BLOCK, start=START, vary=values)
+    for words in (("A", "P"), ("P", "A")):
+        picture = draw_family_map(family, words)
+        check(picture)
+        ticks = [text for text in picture.sheet.texts if re.fullmatch(r"\d+", text.words) and text.at[1] > 470]
+        steps = numpy.diff([text.at[0] for text in ticks])
+        assert len(ticks) > 3
+        assert steps == pytest.approx(steps[0], abs=1e-6)
+    told = ", ".join(f"{number:,} {status.value}" for status, number in family.summary().items())
+    assert picture.title == f"P and A: {told}"
+    assert "drawn: 200 of 401 values of A; the title counts all contours" in labels(picture)
+    # A sweep draws the same from the values that it draws alone.
+    ready = contoursolve.families.sweep(BLOCK, start=START, vary=values)
+    assert draw_sweep(ready).sheet == draw_family_map(family).sheet
+    fan = draw_sweep(contoursolve.families.sweep(BLOCK, start=START, vary={"A": numpy.arange(120, 250.1, 2)}))
+    counts = contoursolve.family(BLOCK, start=START, vary={"A": numpy.arange(120, 250.1, 2)}).summary()
+    assert fan.title == f"A from 120 to 250, 66 contours (21 drawn): {statuses_text(counts)}"
+
+
+def test_an_axis_says_that_its_values_are_diameters():
+    vary = {"X": numpy.linspace(60, 120, 20), "K": numpy.linspace(-40, -20, 20)}
+    shown = set(labels(draw_family_map(contoursolve.family(BLOCK, start=START, vary=vary))))
+    shown |= set(labels(draw_range(contoursolve.feasible(BLOCK, "X", start=START))))
+    assert {"X diameter [mm]", "K [mm]"} <= shown
+    assert "X diameter [mm]" in labels(
+        draw_region(contoursolve.region(BLOCK, ("X", "K"), ((60, 120), (-40, -20)), start=START))
+    )
+
+
+def test_where_every_value_is_refused_a_region_says_so():
+    found = contoursolve.region(BLOCK, ("P", "Q"), ((-9.0, -5.0), (-9.0, -5.0)), start=START)
+    picture = draw_region(found)
+    check(picture)
+    assert picture.title == "P and Q: no contour everywhere"
+    assert {role for _, role in fields_of(picture)} <= {Role.REFUSED_FIELD, Role.OTHER_FIELD}
 
 
 def test_what_is_refused_is_painted_as_refused_though_words_agree():
@@ -618,6 +685,15 @@ def test_a_bar_shows_the_ranges_of_a_word_with_what_ends_them():
     told = " ".join(labels(picture))
     assert "P is too large for line 1: P at most 51.961 mm" in told
     assert "the block has 5.0000 mm" in told
+
+
+@pytest.mark.parametrize("word", [",A", "R"])
+def test_what_ends_a_range_is_told_in_full(word):
+    found = contoursolve.feasible(PAIR, word)
+    told = " ".join(labels(draw_range(found)))
+    reasons = [end.reason.text for each in found.intervals for end in (each.low, each.high) if end.reason is not None]
+    assert reasons
+    assert all(" ".join(reason.split()) in told for reason in reasons)
 
 
 def test_a_map_of_one_value_each_and_one_of_many_are_drawn():
@@ -759,5 +835,9 @@ def test_a_crowded_drawing_says_what_it_leaves_out():
 def test_moves_that_lead_to_a_contour_are_in_the_picture_of_its_program():
     text = "G00 X60. Z5.\nG01 X40. F0.2\nZ0.\n" + BLOCK + "\nG01 Z-90.\nG00 X80.\n" + BLOCK.replace("X100.", "X150.")
     result = contoursolve.solve(text, control="yasnac-lx3")
-    strokes = [item for item in draw_result(result).sheet.drawing if isinstance(item, Stroke) and item.role is Role.INK]
-    assert len(strokes) == 2 + 3  # two contours; X40., Z0. and Z-90., not the rapids
+    strokes = [item for item in draw_result(result).sheet.drawing if isinstance(item, Stroke) and item.width > 1]
+    assert [stroke.role for stroke in strokes].count(Role.INK) == 2 + 3  # two contours; X40., Z0. and Z-90.
+    rapid = [stroke for stroke in strokes if stroke.role is Role.RAPID]
+    assert len(rapid) == 1  # to X80.; nobody knows where that to X60. begins
+    assert all(stroke.dash for stroke in rapid)
+    assert {"feed move", "rapid move"} <= set(labels(draw_result(result)))

@@ -1,0 +1,70 @@
+"""What a picture of a sweep shows of all its values: the fan of contours of one word, or the map of two."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy
+
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.wording import statuses_text
+from contoursolve.families import CompiledSweep, Family, FamilyError, Tally, pieces, summary_of
+from contoursolve.families.evaluate import compile_sweep, solve_sweep
+from contoursolve.families.spec import Ranges
+from contoursolve.numeric.columns import Array
+from contoursolve.pictures.maps import COLUMNS, ROWS, map_title, picks
+from contoursolve.solving import Status
+
+MOST_VALUES = 21
+"""Values of one word whose contours are drawn."""
+
+Fan = tuple[str, Sequence[float], Sequence[Answer]]
+"""A word, some of its values, and the answer for each."""
+
+
+def solve_shown(ready: CompiledSweep) -> Fan | Family:
+    """What is drawn of a sweep, solved: no more values than there is room for, evenly chosen.
+
+    Raises FamilyError where not one word or two vary, or where they are paired.
+    """
+    ranges = ready.ranges
+    varying = [name for name, values in ranges.values.items() if values.size > 1]
+    if ranges.is_paired or not 1 <= len(varying) <= 2:  # noqa: PLR2004 - a line or a plane
+        told = "paired words" if ranges.is_paired else f"{len(varying)} words with several values"
+        raise FamilyError(f"a picture takes one word, or every combination of two; this sweep has {told}")
+    if len(varying) == 1:
+        (word,) = varying
+        values = [float(value) for value in _chosen(ranges.values[word], MOST_VALUES)]
+        fixed = {name: float(column[0]) for name, column in ranges.values.items()}
+        return word, values, [ready.template.solve({**fixed, word: value}) for value in values]
+    alone = {name: column for name, column in ranges.values.items() if name not in varying}
+    sizes = dict(zip(varying, (COLUMNS, ROWS), strict=True))
+    shown = {name: ranges.values[name][picks(ranges.values[name], most)] for name, most in sizes.items()}
+    return solve_sweep(compile_sweep(ready.spec, Ranges({**alone, **shown}, is_paired=False)))
+
+
+def count_statuses(ready: CompiledSweep) -> dict[Status, int]:
+    """How many of all rows of a sweep have each status: solves them all."""
+    tally = Tally(tuple(ready.ranges.values))
+    for part in pieces(ready):
+        tally.add(part)
+    return summary_of(tally.counts.sum(axis=1))
+
+
+def sweep_title(ranges: Ranges, statuses: Mapping[Status, int]) -> str:
+    """What the picture of a sweep shows, and what became of all its rows, drawn or not."""
+    varying = {name: numpy.unique(values) for name, values in ranges.values.items() if values.size > 1}
+    if len(varying) > 1:
+        return map_title(statuses, tuple(varying))
+    ((word, values),) = varying.items()
+    drawn = f" ({MOST_VALUES} drawn)" if values.size > MOST_VALUES else ""
+    span = f"{word} from {values[0]:g} to {values[-1]:g}, {ranges.count:,} contours{drawn}"
+    return f"{span}: {statuses_text(statuses)}"
+
+
+def _chosen(values: Array, most: int) -> Array:
+    """At most so many of the values in rising order, the first and the last among them."""
+    rising = numpy.unique(values)
+    if rising.size <= most:
+        return rising
+    places = numpy.linspace(0, rising.size - 1, most).round().astype(numpy.int64)
+    chosen: Array = rising[places]
+    return chosen

@@ -1,0 +1,126 @@
+"""A turned part around its axis: the programmed half, closed to the axis, the other half, and diameters."""
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from msgspec.structs import replace
+
+from contoursolve.geometry import SECOND, Length, Turn
+from contoursolve.pictures.scene import Leader, Part, Rectangle, Scene, Thin, Trail, Weight, number
+from contoursolve.pictures.theme import Role
+from contoursolve.pictures.vectors import extent
+from contoursolve.solving import Point
+from contoursolve.solving.contour import ArcSegment, Segment
+from contoursolve.tolerance import LENGTH
+
+MOST_DIAMETERS = 8
+"""Diameters that have labels: those of the longest cylinders."""
+
+_NEAR = 0.3
+"""1. The axis is near a half if it is no farther than this share of the half's larger side."""
+
+_PAGE = 592.0 / 350.0
+"""1. How much wider than tall a drawing can be."""
+
+_WORTH = 0.5
+"""1. How large contours must stay for the sake of the other half."""
+
+_LONG = 0.02
+"""1. The share of the larger side that a cylinder with a label has at least."""
+
+Cylinder = tuple[Segment, str]
+"""A line along the axis, and its diameter as it is written."""
+
+
+def turn_part(
+    scene: Scene,
+    segments: Sequence[Segment],
+    cylinders: Sequence[Cylinder],
+    *,
+    is_whole: bool | None = None,
+) -> Scene:
+    """The scene of turned contours with what their part looks like: `segments` is what is cut of it. `is_whole` draws
+    both halves, also where nobody asked if the contours stay half as large."""
+    if not segments:
+        return scene
+    span = _span_of(segments)
+    shows_both = is_whole if is_whole is not None else _is_worth(span)
+    parts: list[Part] = []
+    if shows_both:
+        parts += [Trail(tuple(map(_mirrored, segments)), Role.MUTED, Weight.MIRRORED)]
+    if shows_both or 0 <= span.low[SECOND] <= max(*span.size) * _NEAR:
+        parts += [
+            Thin(at, (at[0], -at[1] if shows_both else 0.0), Role.MUTED, is_dashed=False) for at in _ends(segments)
+        ]
+    long = [each for each in cylinders if each[0].length >= _LONG * max(*span.size)]
+    parts += _diameters(long, is_below=shows_both)
+    return replace(scene, parts=(*parts, *scene.parts))
+
+
+def cylinders_of(segments: Sequence[Segment], unit: Length) -> Iterator[Cylinder]:
+    """The lines along the axis, each with its diameter."""
+    for segment in segments:
+        is_along = abs(segment.end[SECOND] - segment.start[SECOND]) <= LENGTH
+        if not isinstance(segment, ArcSegment) and is_along and abs(segment.end[SECOND]) > LENGTH:
+            yield segment, f"Ø{number(abs(segment.end[SECOND]) * 2, unit)}"
+
+
+def crosses_axis(segments: Sequence[Segment]) -> bool:
+    """Whether a path runs on both sides of the turning axis."""
+    if not segments:
+        return False
+    span = _span_of(segments)
+    return span.low[SECOND] < -LENGTH and span.high[SECOND] > LENGTH
+
+
+def _span_of(segments: Sequence[Segment]) -> Rectangle:
+    across, up = zip(*(at for segment in segments for at in extent(segment)), strict=True)
+    return Rectangle((min(across), min(up)), (max(across), max(up)))
+
+
+def _is_worth(span: Rectangle) -> bool:
+    """Whether the contours stay large enough with both halves on a page."""
+    wide, tall = span.size
+    reach = max(abs(span.low[SECOND]), abs(span.high[SECOND]))
+    alone = max(wide, tall * _PAGE)
+    return alone >= _WORTH * max(wide, 2 * reach * _PAGE)
+
+
+def _mirrored(segment: Segment) -> Segment:
+    """An element on the other side of the axis."""
+
+    def across(at: Point) -> Point:
+        return at[0], -at[1]
+
+    turned = replace(segment, start=across(segment.start), end=across(segment.end))
+    if not isinstance(turned, ArcSegment):
+        return turned
+    return replace(turned, center=across(turned.center), turn=Turn.CW if turned.turn is Turn.CCW else Turn.CCW)
+
+
+def _ends(segments: Sequence[Segment]) -> list[Point]:
+    """Where what is cut begins and ends: the places at which an odd number of elements meet, off the axis."""
+    places: dict[tuple[int, int], Point] = {}
+    met: Counter[tuple[int, int]] = Counter()
+    for segment in segments:
+        for at in (segment.start, segment.end):
+            key = round(at[0] / _SAME), round(at[1] / _SAME)
+            places.setdefault(key, at)
+            met[key] += 1
+    return [places[key] for key, times in met.items() if times % 2 and abs(places[key][1]) > LENGTH]
+
+
+_SAME = 0.001
+"""mm. Ends that are nearer to each other are joined."""
+
+
+def _diameters(cylinders: Sequence[Cylinder], *, is_below: bool) -> Iterator[Leader]:
+    """The labels of the longest cylinders, one for each diameter, at the longest line that has it."""
+    longest: dict[str, Segment] = {}
+    for segment, told in cylinders:
+        if told not in longest or segment.length > longest[told].length + LENGTH:
+            longest[told] = segment
+    chosen = sorted(longest.items(), key=lambda each: (-round(each[1].length, 6), each[0]))[:MOST_DIAMETERS]
+    for told, segment in chosen:
+        at = (segment.start[0] + segment.end[0]) / 2, abs(segment.end[SECOND])
+        yield Leader((at[0], -at[1] if is_below else segment.end[SECOND]), (0.0, -1.0), told, Role.INK)

@@ -1,0 +1,272 @@
+"""The explorer in a browser, without a notebook: its front end on a page, and Python behind a function of that page."""
+
+import json
+import statistics
+import time
+from importlib.resources import files
+
+import pytest
+from browsing import Watched
+
+from contoursolve.notebook.conversation import Conversation
+from contoursolve.notebook.exploration import begin
+from contoursolve.output.html import notebook_style
+from contoursolve.pictures import Theme, draw_answer
+
+pytestmark = pytest.mark.browser
+
+HOUSE = files("contoursolve.notebook")
+BLOCK = "G111 X100. A180. K-30. B120. P5. Q5."
+PAGE = """<!doctype html><html lang="en"><head><meta charset="utf-8"><title>explorer</title>
+<style>{style}</style></head>
+<body><main><h1>Explorer</h1><div id="here"></div></main><script type="module">{script}
+const state = {state}, heard = {{}};
+window.model = {{
+  get: (name) => state[name],
+  set: (name, value) => (state[name] = value),
+  save_changes: async () => {{
+    if (window.isSilent) return;
+    window.pending = (window.pending ?? 0) + 1;
+    Object.assign(state, await window.answer(state.action));
+    for (const tell of heard["change:number"] ?? []) tell();
+    window.pending -= 1;
+  }},
+  on: (name, tell) => (heard[name] ??= []).push(tell),
+  off: () => {{}},
+}};
+explorer.render({{ model: window.model, el: document.getElementById("here") }});
+</script></body></html>"""
+
+
+FRAMES = """window.frames_ms = [];
+const next = window.requestAnimationFrame.bind(window);
+window.requestAnimationFrame = (call) => next((at) => {
+  const begin = performance.now();
+  call(at);
+  window.frames_ms.push(performance.now() - begin);
+});"""
+
+
+class Desk(Watched):
+    """An explorer on a page; `talk` is Python's side of it."""
+
+    def __init__(self, browser, folder, text, **options):
+        super().__init__(browser, viewport={"width": 1400, "height": 1000})
+        self.talk = Conversation(begin(text, **options))
+        self.seconds = []  # of the processor, for each answer
+        self.page.expose_function("answer", self.answer)
+        self.page.add_init_script(FRAMES)
+        style = notebook_style() + HOUSE.joinpath("explorer.css").read_text()
+        script = HOUSE.joinpath("explorer.js").read_text().replace("export default", "const explorer =")
+        state = json.dumps(self.talk.state).replace("</", "<\\/")
+        written = folder / "explorer.html"
+        written.write_text(PAGE.format(style=style, script=script, state=state), encoding="utf-8")
+        self.page.goto(written.as_uri())
+        self.page.locator(".paper svg").wait_for()
+
+    def answer(self, action):
+        begin = time.process_time()
+        told = json.loads(json.dumps(self.talk.answer(action)))
+        self.seconds.append(time.process_time() - begin)
+        return told
+
+    @property
+    def text(self):
+        return self.talk.exploration.text
+
+    def settle(self):
+        """Wait until Python has answered all that was asked."""
+        self.page.wait_for_timeout(50)
+        self.page.wait_for_function("!window.pending")
+
+    def place(self, selector):
+        """The middle of something, in pixels of the screen."""
+        box = self.page.locator(selector).first.bounding_box()
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    def drag(self, name, by, steps=10):
+        """Take hold of a handle, and pull it so many pixels, without letting go."""
+        x, y = self.place(f".handle[aria-label^='{name}:']")
+        mouse = self.page.mouse
+        mouse.move(x, y)
+        mouse.down()
+        mouse.move(x + by[0], y + by[1], steps=steps)
+        self.settle()
+
+
+START = "[data-point~='start']"
+
+
+@pytest.fixture
+def desk(browser, tmp_path):
+    found = Desk(browser, tmp_path, BLOCK, start="X40. Z0.")
+    yield found
+    found.page.close()
+
+
+def test_a_point_is_dragged_and_the_picture_stands_still_until_it_is_let_go(desk, artefacts):
+    desk.page.screenshot(path=artefacts / "touch-before.png")
+    start, height = desk.place(START), desk.page.locator(".paper svg").bounding_box()["height"]
+    pixels = desk.talk.state["view"]["handles"][1]["moves"]["K"][0]
+    desk.drag("V1", (-20 * pixels, 3))
+    assert "K-50." in desk.text
+    assert desk.talk.state["view"]["is_held"]
+    assert desk.place(START) == pytest.approx(start, abs=0.01)
+    assert desk.page.locator(".paper svg").bounding_box()["height"] == height
+    desk.page.screenshot(path=artefacts / "touch-held.png")
+    desk.page.mouse.up()
+    desk.page.wait_for_timeout(400)
+    assert not desk.talk.state["view"]["is_held"]
+    assert desk.place(START)[0] != pytest.approx(start[0], abs=5)  # fitted
+    desk.page.screenshot(path=artefacts / "touch-fitted.png")
+    desk.page.locator("button.undo").click()
+    desk.settle()
+    assert desk.text == BLOCK
+    desk.page.keyboard.press("Control+y")
+    desk.settle()
+    assert "K-50." in desk.text
+    desk.check()
+
+
+def test_a_drag_stops_where_the_contour_ends_and_says_why(desk, artefacts):
+    desk.page.locator(".row[data-word='P'] .range", has_text="0 ≤ P ≤ 51.961").wait_for()
+    desk.drag("P", (300, -520))
+    assert "P51.961 " in desk.text
+    assert desk.page.locator(".hint").inner_text().startswith("P: stops: P is too large for line 1")
+    assert desk.page.locator(".tracks text").all_inner_texts() != []
+    desk.page.screenshot(path=artefacts / "touch-stopped.png")
+    desk.page.keyboard.press("Escape")
+    desk.page.mouse.up()
+    desk.settle()
+    assert desk.text == BLOCK
+    desk.check()
+
+
+def test_all_handles_follow_the_arrow_keys(desk):
+    handles = desk.page.locator(".handle")
+    texts = [handles.nth(number).get_attribute("aria-label") for number in range(handles.count())]
+    assert texts == [
+        "end: changes K and X", "V1: changes K", "V2: changes X and K", "A: angle", "B: angle", "P: size", "Q: size",
+    ]  # fmt: skip
+    for number, text in enumerate(texts):
+        before = desk.text
+        desk.page.locator(f".handle[aria-label='{text}']").focus()
+        desk.page.keyboard.press("ArrowUp" if number else "ArrowLeft")
+        desk.page.keyboard.press("ArrowLeft")
+        desk.page.keyboard.press("Shift+ArrowLeft")
+        desk.page.wait_for_timeout(900)
+        assert desk.text != before, text
+        desk.page.keyboard.press("Control+z")
+        desk.settle()
+        assert desk.text == before
+    desk.check()
+
+
+def test_a_pinned_word_stays(desk):
+    desk.page.locator(".row[data-word='K'] button.pin").click()
+    desk.settle()
+    assert desk.page.locator(".handle[aria-label='V1: changes A']").count() == 1
+    desk.drag("V2", (30, 30))
+    desk.page.mouse.up()
+    desk.settle()
+    assert "K-30." in desk.text
+    assert "X100." not in desk.text
+    desk.check()
+
+
+def test_each_fix_and_each_solution_has_a_ghost_and_a_click_takes_it(browser, tmp_path, artefacts):
+    for text, options, count in (
+        ("G111 X100. A180. K-30. B120. P60. Q5.", {"start": "X40. Z0."}, 2),
+        ("G111 X100. A180. K-30. B? P5. Q5. Z-50.", {"start": "X40. Z0."}, 1),
+        ("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87", {"rules": "off"}, 4),
+    ):
+        desk = Desk(browser, tmp_path, text, **options)
+        buttons = desk.page.locator("button.fix, .solutions button")
+        assert buttons.count() >= count, text
+        for number in range(buttons.count()):
+            buttons.nth(number).hover()
+            desk.page.locator(".ghosts path").first.wait_for(state="attached")
+            assert desk.text == text
+            desk.page.mouse.move(5, 5)
+            assert desk.page.locator(".ghosts path").count() == 0
+        buttons.first.hover()
+        desk.page.locator(".ghosts path").first.wait_for(state="attached")
+        desk.page.screenshot(path=artefacts / f"touch-ghost-{count}.png")
+        promised = desk.page.locator(".hint").inner_text()
+        buttons.first.click()
+        desk.settle()
+        assert desk.text.split() == promised.split()
+        assert desk.talk.exploration.answer.contour is not None
+        desk.check()
+        desk.page.close()
+
+
+def test_a_fix_that_asks_for_a_word_leads_to_its_field(desk):
+    desk.page.locator("button[aria-label='free X']").click()
+    desk.page.locator("button.fix", has_text="add Z?").click()
+    desk.settle()
+    field = desk.page.locator(".row[data-word='Z'] input[type=number]")
+    assert field.evaluate("input => input === document.activeElement")
+    assert field.input_value() == "-47.321"
+    desk.page.keyboard.type("-60")
+    desk.page.keyboard.press("Enter")
+    desk.settle()
+    assert desk.talk.state["view"]["status"]["text"] == "solved"
+    assert "Z-60." in desk.text
+    desk.check()
+
+
+def test_what_is_pointed_at_is_lit_wherever_it_stands(browser, tmp_path):
+    desk = Desk(browser, tmp_path, "G111 X100. A180. K-30. B120. P60. Q5.", start="X40. Z0.")
+    page = desk.page
+    kind = "node.className.baseVal === undefined ? node.classList[0] : 'svg'"
+    lit = f"nodes => [...new Set(nodes.map(node => {kind}))].sort()"
+    for selector in (".paper text[data-word~='P']", ".row[data-word='P'] .word"):
+        page.locator(selector).first.hover()
+        assert page.locator(".lit[data-word~='P']").evaluate_all(lit) == ["finding", "row", "svg"]
+        assert page.locator(".row[data-word='A'].lit").count() == 0
+    page.locator(".finding pre").first.hover()
+    assert page.locator(".row.lit").evaluate_all("rows => rows.map(row => row.dataset.word)") == ["P"]
+    desk.check()
+    page.close()
+
+
+def test_a_kernel_that_is_gone_is_said_within_two_seconds(desk):
+    desk.page.evaluate("window.isSilent = true")
+    desk.page.locator("button.free[aria-label='free A']").click()
+    trouble = desk.page.locator(".trouble", has_text="Python has not answered")
+    trouble.wait_for(timeout=10_000)  # two seconds, and what a busy machine adds
+    assert float(desk.page.locator(".desk").evaluate("desk => getComputedStyle(desk).opacity")) < 0.6
+    desk.check()
+
+
+@pytest.mark.slow
+def test_a_drag_is_smooth(desk, artefacts):
+    desk.drag("V1", (-20, 0), steps=20)  # what is compiled once is compiled now
+    desk.page.evaluate("window.frames_ms.length = 0")
+    desk.seconds.clear()
+    x, y = desk.place(".handle[aria-label^='V1:']")
+    for number in range(60):
+        desk.page.mouse.move(x - 3 * number, y)
+    desk.settle()
+    desk.page.mouse.up()
+    frames = desk.page.evaluate("window.frames_ms")
+    begin = time.process_time()
+    for _ in range(10):
+        draw_answer(desk.talk.exploration.answer, theme=Theme.PAGE)
+    plain = (time.process_time() - begin) / 10
+    python, frame = statistics.median(desk.seconds), statistics.median(frames)
+    told = {"frame_ms": frame, "python_ms": 1000 * python, "ratio_to_a_plain_redraw": python / plain}
+    (artefacts / "touch-speed.json").write_text(json.dumps(told), encoding="utf-8")
+    assert frame <= 16
+    assert python < 0.05
+
+
+def test_a_corner_that_does_not_fit_is_pulled_back(browser, tmp_path):
+    desk = Desk(browser, tmp_path, BLOCK.replace("P5.", "P60."), start="X40. Z0.")
+    desk.page.locator(".row[data-word='P'] .range", has_text="0 ≤ P ≤ 51.961").wait_for()
+    desk.drag("P", (-40, 70))
+    assert desk.talk.state["view"]["status"]["text"] == "solved", desk.text
+    desk.page.mouse.up()
+    desk.check()
+    desk.page.close()
