@@ -9,9 +9,9 @@ from urllib.parse import parse_qs, urlsplit
 from xml.etree import ElementTree
 
 import pytest
+from browsing import Watched
 from distribution import make_distribution
 from numpy_host import serving
-from test_browser import FLAGS, Watched
 
 from contoursolve.notebook.conversation import Conversation
 from contoursolve.notebook.exploration import begin
@@ -21,17 +21,6 @@ LOADED = 100_000
 """ms. Python starts in 5 to 15 s; every operation of NumPy is a request here."""
 TEXT = "{http://www.w3.org/2000/svg}text"
 BLOCK, START = "G111 X100. A180. K-30. B120. P60. Q5.", "X40. Z0."
-
-
-@pytest.fixture(scope="module")
-def browser():
-    from playwright.sync_api import sync_playwright  # noqa: PLC0415 - skipped without it
-
-    with sync_playwright() as play:
-        program = shutil.which("chromium") or shutil.which("chromium-browser")
-        found = play.chromium.launch(executable_path=program, args=FLAGS)
-        yield found
-        found.close()
 
 
 @pytest.fixture(scope="module")
