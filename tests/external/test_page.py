@@ -44,14 +44,14 @@ def shown(page) -> dict[str, str | list[str]]:
     """What the explorer shows of a contour."""
     explorer = page.locator(".contoursolve.explorer")
     said = page.locator("#said", has_text=re.compile("could not|Error"))
-    explorer.locator("figure svg").or_(said).wait_for(timeout=LOADED)
+    explorer.locator("figure svg[role=img]").or_(said).wait_for(timeout=LOADED)
     assert not said.count(), said.inner_text()
     return {
         "text": explorer.locator("textarea").input_value(),
         "status": explorer.locator(".state strong").inner_text(),
         "findings": explorer.locator(".finding pre").all_text_contents(),
         "fixes": explorer.locator("button.fix").all_text_contents(),
-        "picture": explorer.locator("figure text").all_text_contents(),
+        "picture": explorer.locator("figure svg[role=img] text").all_text_contents(),
     }
 
 
@@ -69,10 +69,11 @@ def told(view) -> dict[str, str | list[str]]:
     }
 
 
-def test_a_block_is_solved_in_the_browser_and_its_address_shows_the_same(browser, address, request) -> None:
+def test_a_block_is_solved_in_the_browser_and_its_address_shows_the_same(axe, browser, address, artefacts) -> None:
     watched = Watched(browser, viewport={"width": 1300, "height": 1300})
     page = watched.page
     page.goto(address)
+    assert axe(page) == []
     # Before anybody asks for Python, none of it is loaded.
     assert not [each for each in watched.asked if "pyodide" in each or each.endswith((".zip", ".whl"))]
     assert "cdn.jsdelivr.net" in page.locator("article").inner_text()
@@ -87,9 +88,11 @@ def test_a_block_is_solved_in_the_browser_and_its_address_shows_the_same(browser
     assert found == told(conversation.state["view"])
     assert found["fixes"]
 
-    other = Watched(browser)
+    other = Watched(browser, color_scheme="dark")
     other.page.goto(page.url)
     assert shown(other.page) == found
+    assert axe(other.page) == []
+    other.page.screenshot(path=artefacts / "page-dark.png", full_page=True)
     other.check()
     other.page.close()
 
@@ -100,9 +103,8 @@ def test_a_block_is_solved_in_the_browser_and_its_address_shows_the_same(browser
     wanted = told(conversation.answer({"do": "fix", "finding": 0, "fix": 0})["view"])
     assert shown(page) == wanted
     fixed = wanted["text"]
-    assert parse_qs(urlsplit(page.url).fragment) == {"block": [fixed], "start": [START]}
-    if folder := request.config.getoption("--screenshots"):
-        page.screenshot(path=Path(folder) / "page.png", full_page=True)
+    page.wait_for_url(lambda url: parse_qs(urlsplit(url).fragment) == {"block": [fixed], "start": [START]})
+    page.screenshot(path=artefacts / "page.png", full_page=True)
     watched.check()
     page.close()
 
