@@ -20,7 +20,6 @@ let isReady = false; // whether Python has answered
 // What the explorer's front end takes for the widget of a notebook.
 class Model {
   constructor(state) {
-    this.remedy = "load this page again";
     this.state = state;
     this.listeners = new Map();
   }
