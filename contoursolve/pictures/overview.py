@@ -231,6 +231,19 @@ def _moves(result: Result) -> list[Move]:
     return [found[number] for number in sorted(found)[:MOST_MOVES]]
 
 
+def plain_trail(result: Result, like: Answer) -> list[Trail]:
+    """The feed moves of a program as it is where a contour stood, which needs none any more."""
+    dialect = DIALECTS.get(result.control or "")
+    if dialect is None:
+        return []
+    axes = like.plane.axes
+    steps = follow(result, dialect.configure(result.settings), like.unit, axes).steps
+    moves = [step for step in steps if isinstance(step, Travel) and step.motion is Motion.FEED]
+    segments = [_flat(step, axes, axes) for step in moves if like.lines[0] <= step.line <= like.lines[-1]]
+    found = tuple(segment for segment in segments if segment is not None)
+    return [Trail(found, Role.INK)] if found else []
+
+
 def _move_trails(moves: Sequence[Move]) -> Iterator[Trail]:
     """Moves as they are drawn: rapid ones as far as the picture goes."""
     for move in moves:
