@@ -7,7 +7,7 @@ from math import floor, log10, tau
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Length
-from contoursolve.pictures.callouts import draw_callouts
+from contoursolve.pictures.callouts import draw_callouts, keep_signs
 from contoursolve.pictures.closeups import ROW, choose_details, draw_details, mark_details
 from contoursolve.pictures.labels import FAINT_WEIGHT, PATH_WEIGHT, THIN_WEIGHT, Canvas, clip
 from contoursolve.pictures.margins import Placement, arrange, draw_margins, placement_of
@@ -67,6 +67,7 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
     margins = arrange(scene, max(item.box.bottom for item in top) + 6.0, held)
     frame, canvas = margins.frame, Canvas(margins.view, margins.frame, held.labels if held else None)
     _draw_path(canvas, scene)
+    keep_signs(canvas, scene)
     draw_margins(canvas, margins)
     details, small = choose_details(scene.closeups, margins.view)
     has_row = bool(details) and (held is None or held.foot >= frame.bottom + ROW)
