@@ -142,13 +142,15 @@ def _on_ray(box: Box, at: Spot, way: Spot) -> Spot | None:
 
 
 def _boxes_on_ray(at: Spot, width: float, height: float, way: Spot) -> Iterator[tuple[Box, float]]:
-    """Boxes of a size whose middle lies on a ray, with how little they are wanted: beyond the place, then before it."""
+    """Boxes of a size at which a ray ends, with how little they are wanted: beyond the place, then before it; with the
+    middle on the ray, or beside its end."""
     half = min(size / 2 / abs(step) for size, step in zip((width, height), way, strict=True) if step)
     for far in (far for far in _FAR if far > _TOUCHING):
         for sign in (1.0, -1.0):
-            x, y = along(at, way, sign * (far + half))
-            box = Box(x - width / 2, y - height / 2, x + width / 2, y + height / 2)
-            yield box, far * _PER_PIXEL + (_BACKWARDS if sign < 0 else 0.0)
+            own, end = far * _PER_PIXEL + (_BACKWARDS if sign < 0 else 0.0), along(at, way, sign * far)
+            beside = [(end[0] + side * width / 2, end[1]) for side in (1.0, -1.0)]
+            for number, (x, y) in enumerate((along(end, way, sign * half), *beside)):
+                yield Box(x - width / 2, y - height / 2, x + width / 2, y + height / 2), own + 2.0 * number
 
 
 class LabelSpot(Struct, frozen=True):

@@ -78,7 +78,9 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
     under = ROW + _GAP_ABOVE if has_row else -26.0 if is_free else _GAP_ABOVE
     below = held.foot if held else frame.bottom + under
     enlarged = draw_details(whole, margins.view, details, frame.bottom + _GAP_ABOVE) if has_row else ()
-    foot = [*enlarged, *_foot_of(scene, canvas.homeless, small, below, margins.view.scale)]
+    told = {item.words for item in enlarged if isinstance(item, Text)}
+    homeless = [each for each in canvas.homeless if each not in told]
+    foot = [*enlarged, *_foot_of(scene, homeless, small, below, margins.view.scale)]
     height = round(max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0, 1)
     height = max(height, held.height if held else 0.0)
     placement = placement_of(margins, canvas, below, height)
