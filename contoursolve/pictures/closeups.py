@@ -8,7 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND
-from contoursolve.pictures.callouts import draw_callouts
+from contoursolve.pictures.callouts import draw_callouts, keep_signs
 from contoursolve.pictures.labels import FAINT_WEIGHT, PATH_WEIGHT, Canvas, clip
 from contoursolve.pictures.page import (
     ANYTHING,
@@ -164,7 +164,9 @@ def _drawn(scene: Scene, view: Viewport, detail: Detail, frame: Box) -> tuple[It
     named = [replace(each, label=each.short or each.label) for each in scene.each(Mark)]
     pointing: list[Mark | Leader] = [*named, *scene.each(Leader)]
     inside = [each for each in pointing if _holds(frame.grow(-6.0), large.place(each.at))]
-    draw_callouts(canvas, replace(scene, parts=(*trails, *inside)))
+    within = replace(scene, parts=(*trails, *inside))
+    keep_signs(canvas, within)
+    draw_callouts(canvas, within)
     return canvas.items
 
 

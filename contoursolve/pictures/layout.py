@@ -7,7 +7,7 @@ from math import floor, log10, tau
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Length
-from contoursolve.pictures.callouts import draw_callouts
+from contoursolve.pictures.callouts import draw_callouts, keep_signs
 from contoursolve.pictures.closeups import ROW, choose_details, draw_details, mark_details
 from contoursolve.pictures.labels import FAINT_WEIGHT, PATH_WEIGHT, THIN_WEIGHT, Canvas, clip
 from contoursolve.pictures.margins import Placement, arrange, draw_margins, placement_of
@@ -67,6 +67,7 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
     margins = arrange(scene, max(item.box.bottom for item in top) + 6.0, held)
     frame, canvas = margins.frame, Canvas(margins.view, margins.frame, held.labels if held else None)
     _draw_path(canvas, scene)
+    keep_signs(canvas, scene)
     draw_margins(canvas, margins)
     details, small = choose_details(scene.closeups, margins.view)
     has_row = bool(details) and (held is None or held.foot >= frame.bottom + ROW)
@@ -77,7 +78,9 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
     under = ROW + _GAP_ABOVE if has_row else -26.0 if is_free else _GAP_ABOVE
     below = held.foot if held else frame.bottom + under
     enlarged = draw_details(whole, margins.view, details, frame.bottom + _GAP_ABOVE) if has_row else ()
-    foot = [*enlarged, *_foot_of(scene, canvas.homeless, small, below, margins.view.scale)]
+    told = {item.words for item in enlarged if isinstance(item, Text)}
+    homeless = [each for each in canvas.homeless if each not in told]
+    foot = [*enlarged, *_foot_of(scene, homeless, small, below, margins.view.scale)]
     height = round(max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0, 1)
     height = max(height, held.height if held else 0.0)
     placement = placement_of(margins, canvas, below, height)
