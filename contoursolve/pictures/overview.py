@@ -1,7 +1,7 @@
 """Several contours in one picture: those of a program with the moves between them, and one block for several values."""
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import PurePath
 
 from msgspec import Struct
@@ -101,7 +101,7 @@ def compose_overview(result: Result, title: str | None, *, is_whole: bool | None
             axis_names(plane),  # it has no numbers, so that contours in mm and in inches may stand together
             (*_move_trails(beside), *_contour_parts(drawn)),
             remarks=tuple(_remarks(drawn, len(own))),
-            meanings={Role.CONFLICTING: "no contour", Role.INK: "feed move"},
+            meanings={Role.CONFLICTING: "no contour", **_meaning_of(beside)},
             has_turning_axis=plane.diameters[SECOND],
             closeups=tuple(_closeups(drawn)),
             scale_unit=unit,
@@ -229,6 +229,11 @@ def _moves(result: Result) -> list[Move]:
                 is_between = reached[number] > 1  # from both sides
                 found[number] = Move(segment, owner.plane.axes, is_rapid, is_between)
     return [found[number] for number in sorted(found)[:MOST_MOVES]]
+
+
+def _meaning_of(moves: Sequence[Move]) -> Mapping[Role, str]:
+    """What thin lines are, where there are any."""
+    return {} if all(move.is_rapid for move in moves) else {Role.INK: "feed move"}
 
 
 def _move_trails(moves: Sequence[Move]) -> Iterator[Trail]:
