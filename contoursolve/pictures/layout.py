@@ -75,7 +75,7 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
     # The axes stand beside the drawing's lower end where nothing else is.
     is_free = canvas.cost(Box(frame.left, frame.bottom - 34.0, _CORNER, frame.bottom)) == 0.0
     under = ROW + _GAP_ABOVE if has_row else -26.0 if is_free else _GAP_ABOVE
-    below = held.foot if held else frame.bottom + under if scene.parts else frame.top - _ALONE
+    below = held.foot if held else frame.bottom + under if scene.parts or any(scene.axes) else frame.top - _ALONE
     enlarged = draw_details(whole, margins.view, details, frame.bottom + _GAP_ABOVE) if has_row else ()
     foot = [*enlarged, *_foot_of(scene, canvas.homeless, small, below, margins.view.scale)]
     height = round(max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0, 1)
