@@ -50,8 +50,8 @@ class Region(Shown, Struct, frozen=True):
     """Where a block has a contour, by two of its words within a box: the lines that bound these values.
 
     `units` are what the words are written in. Without `doubts`, no line is missing, with proof, and no part wider than
-    a cell of `cell` (by word); else they say why. `spec` is the block, to be solved anywhere in the box, and `fixed`
-    has the values of its other free words.
+    a cell of `cell` (by word); else they say why. `spec` is the block, and `fixed` has the values
+    of its other free words.
     """
 
     words: tuple[str, str]

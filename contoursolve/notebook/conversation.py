@@ -37,6 +37,8 @@ class Conversation:
         self._future: list[Exploration] = []
         self._pinned: set[str] = set()
         self._is_held = False
+        self._handle: dict[str, list[str]] = {}
+        """The handle that is held, with the words that it changes."""
         self._solved = exploration
         """The contour as it was last solved."""
         self._drawn = picture_of(exploration.answer) if exploration.answer else None
@@ -67,6 +69,7 @@ class Conversation:
         if self.exploration is not before and kind in _CHANGES and not self._is_held:
             self._past, self._future = [*self._past[-MOST_PAST:], before], []
         self._is_held = is_held
+        self._handle = action.get("handle", {}) if is_held else {}
         answer = self.exploration.answer
         self._solved = self.exploration if answer is not None and answer.contour is not None else self._solved
         self._drawn = picture_of(answer, self._drawn if is_held else None) if answer else None
@@ -107,7 +110,7 @@ class Conversation:
         return {"ghost": {**of, "text": instead.text, "paths": ghost_of(instead, self._drawn)}}
 
     def _viewed(self, trouble: str = "", *, is_new: bool = False) -> Data:
-        view = view_of(self.exploration, self._drawn, self._pinned)
+        view = view_of(self.exploration, self._drawn, self._pinned, self._handle)
         return {
             **view,
             "trouble": trouble,

@@ -8,6 +8,7 @@ const SETTLED = 700; // ms without a key after which the picture is fitted
 const GLIDE = 200; // ms in which a picture is fitted
 const COARSE = 2; // pixels between round numbers
 const CATCH = 6; // pixels from which a value of interest catches
+const [LETTER, LINE] = [3.6, 14]; // pixels: half a letter, and from one line to the next
 const FAST = 10; // steps of a page key
 const SVG = "http://www.w3.org/2000/svg";
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1], PageUp: [0, -FAST], PageDown: [0, FAST] };
@@ -243,7 +244,9 @@ function render({ model, el }) {
     const band = make("div", { class: "band", "aria-hidden": "true" });
     const range = make("span", { class: "range" });
     const label = make("code", { class: "word" });
-    const meaning = make("span", { class: "meaning", text: field.meaning, title: field.meaning });
+    const line = field.key.includes(":") ? `program line ${field.key.split(":")[0]}` : "";
+    const meant = [field.meaning, line].filter(Boolean).join(", ");
+    const meaning = make("span", { class: "meaning", text: meant, title: meant });
     const row = make(
       "div",
       { class: "row", "data-word": field.key },
@@ -500,7 +503,7 @@ function render({ model, el }) {
     const sent = held?.sent ?? values;
     if (Object.keys(wanted).every((key) => wanted[key] === sent[key])) return;
     if (held) [held.sent, held.isMoved] = [wanted, true];
-    act({ do: "move", values: wanted, is_held: true });
+    act({ do: "move", values: wanted, is_held: true, handle: { [handle.name]: handle.keys } });
   }
 
   function turnAbout(handle, changes) {
@@ -569,9 +572,15 @@ function render({ model, el }) {
         if (!told) return;
         const [x, y] = place([low, high][number]);
         tracks.append(draw("circle", { cx: x, cy: y, r: 3.5 }));
-        const room = { x: Math.min(Math.max(x, 8), frame.width - 8), y: Math.min(Math.max(y - 9, 14), frame.height - 6) };
-        const anchor = room.x > frame.width / 2 ? "end" : "start";
-        tracks.append(draw("text", { ...room, "text-anchor": anchor }, told));
+        const lines = told.split(": ").map((line, place, all) => (place < all.length - 1 ? `${line}:` : line));
+        const half = Math.max(...lines.map((line) => line.length)) * LETTER;
+        const left = Math.min(Math.max(x, half), frame.width - half);
+        const isBelow = number && size(minus(place(low), place(high))) < 4 * LINE; // beside the other end
+        const wanted = isBelow ? y + 20 : y - 9 - LINE * (lines.length - 1);
+        const top = Math.min(Math.max(wanted, LINE), frame.height - LINE * lines.length);
+        const label = draw("text", { "text-anchor": "middle" });
+        lines.forEach((line, place) => label.append(draw("tspan", { x: left, y: top + LINE * place }, line)));
+        tracks.append(label);
       });
     }
   }
@@ -606,8 +615,10 @@ function render({ model, el }) {
     const items = all.map((finding) => {
       const lines = make("pre", { tabindex: "0" });
       for (const line of finding.lines) {
-        for (const [piece, role] of line) lines.append(role ? make("span", { class: role, text: piece }) : piece);
-        lines.append("\n");
+        // What quotes the block keeps its columns; the rest is broken where the page ends.
+        const isQuoted = /^ *\d* *\|/.test(line.map(([piece]) => piece).join(""));
+        const pieces = line.map(([piece, role]) => (role ? make("span", { class: role, text: piece }) : piece));
+        lines.append(make("span", { class: isQuoted ? "quoted" : "told" }, ...pieces), "\n");
       }
       const fixes = finding.fixes.map((fix) =>
         haunt(

@@ -6,6 +6,7 @@ from math import atan2, degrees, floor, log10
 from typing import Any
 
 from msgspec import to_builtins
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer, AskedValue
 from contoursolve.diagnosis.solutions import list_solutions
@@ -42,13 +43,18 @@ DECIMALS = 4
 Data = dict[str, Any]
 
 
-def view_of(exploration: Exploration, drawn: Picture | None = None, pinned: Collection[str] = ()) -> Data:
-    """Everything that is shown but the ranges in which words have a contour; with a picture that is drawn already, and
-    the words that no handle changes."""
+def view_of(
+    exploration: Exploration,
+    drawn: Picture | None = None,
+    pinned: Collection[str] = (),
+    held: Mapping[str, Sequence[str]] | None = None,
+) -> Data:
+    """Everything that is shown but the ranges in which words have a contour; with a picture that is drawn already, the
+    words that no handle changes, and those of a handle that is held."""
     answer = exploration.answer
     drawn = drawn if drawn is not None or answer is None else picture_of(answer)
     motion = motion_of(answer) if answer is not None and drawn is not None else None
-    handles = handles_of(answer, drawn, motion, pinned) if answer is not None and drawn is not None else []
+    handles = handles_of(answer, drawn, motion, pinned, held) if answer is not None and drawn is not None else []
     moved = {key for handle in handles for key in handle.keys}
     return {
         "text": exploration.text,
@@ -161,7 +167,8 @@ def _findings(exploration: Exploration) -> Iterator[Data]:
     names = named_words(answer) if answer is not None else {}
     numbers = {id(each): str(number) for number, each in enumerate(answer.diagnostics, 1)} if answer is not None else {}
     for number, finding in enumerate(result.diagnostics[:MOST_FINDINGS]):
-        lines = finding_pieces(finding, "block", sources_of(result, finding))
+        # Fixes are buttons.
+        lines = finding_pieces(replace(finding, fixes=()), "block", sources_of(result, finding))
         named = [about for label in finding.labels if (about := names.get(label.span)) is not None]
         yield {
             "kind": finding.severity.value,

@@ -104,14 +104,21 @@ def motion_of(answer: Answer) -> Motion | None:
         return None
 
 
-def handles_of(answer: Answer, picture: Picture, motion: Motion | None, pinned: Collection[str] = ()) -> list[Handle]:
-    """The handles of a contour, points first. What only words that are pinned would move has none."""
+def handles_of(
+    answer: Answer,
+    picture: Picture,
+    motion: Motion | None,
+    pinned: Collection[str] = (),
+    held: Mapping[str, Sequence[str]] | None = None,
+) -> list[Handle]:
+    """The handles of a contour, points first. What only words that are pinned would move has none; a handle that is
+    `held` keeps the words that it had."""
     placement = picture.sheet.placement
     if placement is None:
         return []
     words = {each.key: each for each in stated_words(answer) if each.value is not None}
     free = {key: each for key, each in words.items() if key not in pinned and not each.is_ignored}
-    found = [*_points(motion, placement.view, free)] if motion else []
+    found = [*_points(motion, placement.view, free, held or {})] if motion else []
     done: set[str] = set()
     for grip in placement.grips:
         word = free.get(grip.word)
@@ -166,12 +173,15 @@ def _on_page(slope: Point, view: Viewport) -> Point:
 # Points ------------------------------------------------------------------------------------------------------
 
 
-def _points(motion: Motion, view: Viewport, words: Mapping[str, StatedWord]) -> Iterator[Handle]:
+def _points(
+    motion: Motion, view: Viewport, words: Mapping[str, StatedWord], held: Mapping[str, Sequence[str]]
+) -> Iterator[Handle]:
     """A handle for each named point, the end, and each centre that a word moves; one where several coincide."""
     seen: list[Point] = []
     for name, at, slopes in _places(motion):
         if all(distance(at, other) > SAME for other in seen):
-            moves = {key: _on_page(slopes[key], view) for key in _chosen(name, slopes, words)}
+            kept = [key for key in held.get(name, ()) if key in slopes]
+            moves = {key: _on_page(slopes[key], view) for key in kept or _chosen(name, slopes, words)}
             if moves:
                 seen.append(at)
                 yield Handle(name, HandleKind.POINT, view.place(at), moves)

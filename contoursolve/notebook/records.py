@@ -23,6 +23,7 @@ from contoursolve.output.plain_text import Table, printable
 from contoursolve.program.pipeline import Result
 from contoursolve.reading import Lexicon
 from contoursolve.reading.rules import Rule
+from contoursolve.sketch import Drawings, Drawn, Sketch
 from contoursolve.solving.contour import Contour
 
 MOST_ROWS = 200
@@ -30,6 +31,9 @@ MOST_ROWS = 200
 
 MOST_LINES, WIDEST = 400, 400
 """Lines of text, and characters of a line."""
+
+_DRAWN = (Answer, Result, Family, Feasible, Region, Sketch, Drawings, Drawn)
+"""What has a picture."""
 
 MOST_CHARACTERS = 2_000_000
 """Of HTML or SVG; what is larger stays text."""
@@ -40,9 +44,7 @@ def bundle(record: Shown) -> dict[str, str]:
     shown = {"text/plain": bounded(text_of(record))}
     if _is_terminal():
         return shown
-    if isinstance(record, Answer | Result | Family | Feasible | Region) and (
-        not isinstance(record, Result) or record.answers
-    ):
+    if isinstance(record, _DRAWN) and (not isinstance(record, Result) or record.answers):
         shown["image/svg+xml"] = _made(_svg, record)
     shown["text/html"] = _made(_html, record)
     return {kind: text for kind, text in shown.items() if kind == "text/plain" or 0 < len(text) <= MOST_CHARACTERS}
@@ -229,6 +231,14 @@ def slope_table(found: Sensitivity) -> Table:
     return Table("how far each result moves, mm for each unit of a word as it is written", ("result", *words), rows)
 
 
+def _sketch(sketch: Sketch) -> Iterator[str]:
+    """Every way to draw it, or why there is none."""
+    try:
+        yield from str(sketch.solve()).split("\n")
+    except ValueError as error:
+        yield str(error)
+
+
 _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Result: _result,
     Answer: _answer,
@@ -244,4 +254,5 @@ _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Found: found_lines,
     Tolerances: tolerances_lines,
     Sensitivity: _sensitivity,
+    Sketch: _sketch,
 }

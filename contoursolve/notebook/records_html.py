@@ -53,6 +53,7 @@ from contoursolve.output.listing import listed, sources_of, summary_line
 from contoursolve.output.words import form_text
 from contoursolve.program.pipeline import Result
 from contoursolve.reading.rules import Rule
+from contoursolve.sketch import Drawings, Drawn, Sketch
 from contoursolve.solving.contour import Contour
 
 MOST_ITEMS = 20
@@ -186,6 +187,11 @@ def _tolerances(found: Tolerances) -> Iterator[h.Node]:
     yield from (h.p[short(f"{line}.")] for line in spread_lines(found))
 
 
+def _sketch(record: Sketch | Drawings | Drawn) -> Iterator[h.Node]:
+    yield figure(record)
+    yield from _text(record)
+
+
 def _sensitivity(found: Sensitivity) -> h.Node:
     slopes = slope_table(found)
     return table_of(replace(slopes, caption=slopes.caption.capitalize()))
@@ -205,4 +211,7 @@ _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Found: _found,
     Tolerances: _tolerances,
     Sensitivity: _sensitivity,
+    Sketch: _sketch,
+    Drawings: _sketch,
+    Drawn: _sketch,
 }

@@ -20,8 +20,9 @@ from contoursolve.program.pipeline import Result
 
 if TYPE_CHECKING:
     from contoursolve.families import CompiledSweep, Family, Feasible, Region
+    from contoursolve.sketch import Drawings, Drawn, Sketch
 
-Drawable: TypeAlias = "Answer | Result | Family | Feasible | Region"
+Drawable: TypeAlias = "Answer | Result | Family | Feasible | Region | Sketch | Drawings | Drawn"
 """What has a picture."""
 
 __all__ = [
@@ -30,6 +31,7 @@ __all__ = [
     "Theme",
     "draw",
     "draw_answer",
+    "draw_drawings",
     "draw_family_fan",
     "draw_family_map",
     "draw_range",
@@ -40,12 +42,13 @@ __all__ = [
 
 
 def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None = None) -> Picture:
-    """The picture of a contour, of all contours of a program, or of where a block has one by one or two of its words.
-    `is_whole` is for a program: see `draw_result`.
+    """The picture of a contour, of all contours of a program, of where a block has one by one or two of its words, or
+    of every way to draw a sketch. `is_whole` is for a program: see `draw_result`.
 
-    Raises ValueError for a family that is no grid of two words.
+    Raises ValueError for a family that is no grid of two words, and for a sketch whose facts make no sense.
     """
     from contoursolve.families import Family, Feasible, Region  # noqa: PLC0415 - not needed for one contour
+    from contoursolve.sketch import Drawings, Drawn, Sketch  # noqa: PLC0415 - as above
 
     if isinstance(record, Result):
         return draw_result(record, theme=theme, is_whole=is_whole)
@@ -53,6 +56,8 @@ def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None 
         return draw_family_map(record, theme=theme)
     if isinstance(record, Feasible):
         return draw_range(record, theme=theme)
+    if isinstance(record, Sketch | Drawings | Drawn):
+        return draw_drawings(record.solve() if isinstance(record, Sketch) else record, theme=theme)
     return draw_region(record, theme=theme) if isinstance(record, Region) else draw_answer(record, theme=theme)
 
 
@@ -142,6 +147,16 @@ def draw_region(region: Region, *, theme: Theme = Theme.LIGHT, title: str | None
     from contoursolve.pictures.maps import lay_out_region  # noqa: PLC0415 - as above
 
     return finish(lay_out_region(region, title), theme)
+
+
+def draw_drawings(drawings: Drawings | Drawn, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+    """The picture of every way to draw a sketch, or of one: what is given, the facts as dimensions, and each drawing by
+    its number, with what tells it from the others below."""
+    from contoursolve.pictures.sketches import compose_drawings, compose_drawn  # noqa: PLC0415 - as above
+    from contoursolve.sketch import Drawn  # noqa: PLC0415 - as above
+
+    scene = compose_drawn(drawings, title) if isinstance(drawings, Drawn) else compose_drawings(drawings, title)
+    return finish(lay_out(scene), theme, str(drawings))
 
 
 def draw_sweep(ready: CompiledSweep, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:

@@ -22,9 +22,9 @@ from contoursolve.pictures.scene import (
     number,
     word_text,
 )
-from contoursolve.pictures.subject import Subject
+from contoursolve.pictures.subject import Subject, Traced
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import SAME, along, direction, distance, middle, on_arc, with_coordinate
+from contoursolve.pictures.vectors import DIAGONAL, SAME, along, direction, distance, middle, on_arc, with_coordinate
 from contoursolve.solving import Point
 from contoursolve.solving.contour import ArcSegment, Segment
 
@@ -47,7 +47,7 @@ def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
         if given is None or given.word is None or fact.given in beside or (fact.given, type(fact)) in done:
             continue
         text = word_text(given.word.text) + (" dia" if given.is_diameter else "")
-        drawn = _dimension(subject, elements, fact, text, subject.role(fact.given), float(given.value))
+        drawn = dimension_of(subject, fact, text, subject.role(fact.given), float(given.value))
         if drawn is not None:
             done.add((fact.given, type(fact)))
             measured.add(given.word.span)
@@ -61,14 +61,12 @@ def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
         is_angle = question.unit is Unit.DEGREE
         shown = f"{value:.3f}".rstrip("0").rstrip(".") if is_angle else number(value, subject.answer.unit)
         text = f"{word_text(question.word.text).rstrip(' =?')} = {shown}"
-        drawn = _dimension(subject, elements, question.fact, text, Role.DERIVED, asked.value)
+        drawn = dimension_of(subject, question.fact, text, Role.DERIVED, asked.value)
         if drawn is not None:
             yield replace(drawn, about=subject.about(question.word.span))
 
 
-def _dimension(
-    subject: Subject, elements: Mapping[str, Segment], fact: Fact, text: str, role: Role, value: float
-) -> Dimension | None:
+def dimension_of(subject: Traced, fact: Fact, text: str, role: Role, value: float) -> Dimension | None:
     """How a fact with a value stands on a drawing; None where its points are not known, or it has no such form."""
     from contoursolve.geometry import Distance  # noqa: PLC0415 - see `constraints`
 
@@ -89,7 +87,7 @@ def _dimension(
         at = known.points.get(fact.tail, subject.at(fact.head))
         return Angle(at, value, text, role) if at is not None else None
     if isinstance(fact, Radius):
-        return _radius(subject, elements, fact.radius, text, role)
+        return _radius(subject, fact.radius, text, role)
     if isinstance(fact, Distance | Extent):
         tail, head = subject.at(fact.tail), subject.at(fact.head)
         return Aligned(tail, head, text, role, is_beside=True) if tail is not None and head is not None else None
@@ -100,8 +98,13 @@ def _dimension(
     return None
 
 
-def _radius(subject: Subject, elements: Mapping[str, Segment], name: str, text: str, role: Role) -> Dimension | None:
-    """The radius of an arc of the path, or of a rounding."""
+def _radius(subject: Traced, name: str, text: str, role: Role) -> Dimension | None:
+    """The radius of an arc of the path, of a circle, or of a rounding."""
+    elements = subject.elements
+    for each in subject.profile.figure.circles:
+        found = subject.circle(each.center, each.radius) if each.radius == name else None
+        if found is not None:
+            return Leader(along(found[0], DIAGONAL, found[1]), DIAGONAL, text, role)
     for element in subject.profile.figure.path:
         if isinstance(element, Arc) and element.radius == name:
             drawn, circle = elements.get(element.name), subject.circle(element.center, name)

@@ -75,22 +75,12 @@ _CORNERS = (
 """Refusals after which the lines of the path are as they should be, without their corners."""
 
 
-class Subject(Struct, frozen=True):
-    """An answer, what is known of it, its path, and the role of each given whose word is drawn."""
+class Traced(Struct, frozen=True):
+    """A drawing of which points are known, and its path as far as it is known."""
 
-    answer: Answer
+    profile: Profile
     known: Known
     trails: tuple[Trail, ...]
-    roles: Mapping[str, Role]
-    blamed: frozenset[Span]
-    """The words and facts that errors are about."""
-    named: Mapping[Span, About] = {}
-    """What shows a word or a fact is about, by its place."""
-
-    @property
-    def profile(self) -> Profile:
-        """The contour as it was read."""
-        return self.answer.profile
 
     @property
     def elements(self) -> dict[str, Segment]:
@@ -104,6 +94,34 @@ class Subject(Struct, frozen=True):
     def value(self, given: str) -> float:
         """What a given states, mm or degrees."""
         return float(self.profile.givens[given].value)
+
+    def ends(self, fact: Through | TangentLine) -> tuple[Point, Point] | None:
+        """Where the line of a fact begins and ends, if it has a length."""
+        line = next((each for each in self.profile.figure.path if each.name == fact.line), None)
+        tail, head = (self.at(line.tail), self.at(line.head)) if isinstance(line, Line) else (None, None)
+        return (tail, head) if tail is not None and head is not None and distance(tail, head) > SAME else None
+
+    def circle(self, center: str, radius: str) -> tuple[Point, float] | None:
+        """A circle of which both centre and radius are known."""
+        at, size = self.at(center), self.known.radii.get(radius)
+        return (at, size) if at is not None and size is not None else None
+
+    def circles_through(self, point: str) -> list[tuple[Point, float]]:
+        """The known circles on which a point must lie."""
+        facts = (fact for fact in self.profile.facts if isinstance(fact, OnCircle) and fact.point == point)
+        found = (self.circle(fact.center, fact.radius) for fact in facts)
+        return list(dict.fromkeys(circle for circle in found if circle is not None))
+
+
+class Subject(Traced, frozen=True):
+    """An answer with what is drawn of it, and the role of each given whose word is drawn."""
+
+    answer: Answer
+    roles: Mapping[str, Role]
+    blamed: frozenset[Span]
+    """The words and facts that errors are about."""
+    named: Mapping[Span, About] = {}
+    """What shows a word or a fact is about, by its place."""
 
     def role(self, given: str) -> Role:
         """What became of a word."""
@@ -128,31 +146,15 @@ class Subject(Struct, frozen=True):
         found = self.profile.givens.get(given)
         return word_text(found.word.text) if found is not None and found.word is not None else None
 
-    def ends(self, fact: Through | TangentLine) -> tuple[Point, Point] | None:
-        """Where the line of a fact begins and ends, if it has a length."""
-        line = next((each for each in self.profile.figure.path if each.name == fact.line), None)
-        tail, head = (self.at(line.tail), self.at(line.head)) if isinstance(line, Line) else (None, None)
-        return (tail, head) if tail is not None and head is not None and distance(tail, head) > SAME else None
-
-    def circle(self, center: str, radius: str) -> tuple[Point, float] | None:
-        """A circle of which both centre and radius are known."""
-        at, size = self.at(center), self.known.radii.get(radius)
-        return (at, size) if at is not None and size is not None else None
-
-    def circles_through(self, point: str) -> list[tuple[Point, float]]:
-        """The known circles on which a point must lie."""
-        facts = (fact for fact in self.profile.facts if isinstance(fact, OnCircle) and fact.point == point)
-        found = (self.circle(fact.center, fact.radius) for fact in facts)
-        return list(dict.fromkeys(circle for circle in found if circle is not None))
-
 
 def subject_of(answer: Answer) -> Subject:
     """All that a picture of a contour shows."""
     known, blamed = find_known(answer), frozenset(_blamed(answer))
     return Subject(
-        answer,
+        answer.profile,
         known,
         tuple(list_trails(answer, known)),
+        answer,
         _roles(answer, blamed),
         blamed,
         named_words(answer),

@@ -11,6 +11,9 @@ SAME = 1e-6
 ALONG_AXIS = ((1.0, 0.0), (0.0, 1.0))
 """The directions of both axes."""
 
+DIAGONAL = (0.5**0.5, 0.5**0.5)
+"""To the right and up."""
+
 
 def minus(a: Point, b: Point) -> Point:
     """From b to a."""

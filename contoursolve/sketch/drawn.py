@@ -1,15 +1,24 @@
 """Drawings as they come out of a sketch: all their numbers, and what is proven of them."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import atan2, degrees
 
 from msgspec import Struct
 
 from contoursolve.diagnostics.display import Shown
-from contoursolve.geometry import Unit
+from contoursolve.geometry import Fact, Profile, Unit
 from contoursolve.solving.contour import ArcSegment, Contour
 from contoursolve.solving.solution import Certificate, Status
+
+
+class Stated(Struct, frozen=True):
+    """What a sketch states: its profile, the texts of its facts by the names of what they give, and the facts that ask
+    for a value by the same names."""
+
+    profile: Profile
+    texts: Mapping[str, str]
+    questions: Mapping[str, tuple[Fact, Unit]]
 
 
 class Asked(Struct, frozen=True):
@@ -38,6 +47,8 @@ class Drawn(Shown):
     certificate: Certificate
     name: str
     asked: tuple[Asked, ...] = ()
+    stated: Stated | None = field(default=None, compare=False)
+    """The sketch, which its picture shows."""
 
     def __repr__(self) -> str:
         parts = [f"{name} {_place(at)}" for name, at in self.points.items()]
@@ -84,6 +95,8 @@ class Drawings(Shown, Sequence[Drawn]):
     reach: float | None
     free: tuple[str, ...]
     ties: tuple[int, ...]
+    stated: Stated | None = field(default=None, compare=False)
+    """The sketch, which the picture shows."""
 
     def __len__(self) -> int:
         return len(self.drawings)
@@ -95,12 +108,13 @@ class Drawings(Shown, Sequence[Drawn]):
         return iter(self.drawings)
 
     def __repr__(self) -> str:
-        return f"<Drawings {self.status.value}: {self._count()}>"
+        return f"<Drawings {self.status.value}: {self.summary}>"
 
     def __str__(self) -> str:
-        return "\n".join((f"{self.status.value}: {self._count()}", *map(str, self.drawings)))
+        return "\n".join((f"{self.status.value}: {self.summary}", *map(str, self.drawings)))
 
-    def _count(self) -> str:
+    @property
+    def summary(self) -> str:
         """How many there are, and whether these are all."""
         if self.free:
             return f"still open: {', '.join(map(_unknown, self.free))}"

@@ -6,6 +6,7 @@ from decimal import Decimal, InvalidOperation
 from numbers import Integral, Real
 
 from contoursolve.analysis import analyse
+from contoursolve.diagnostics.display import Shown
 from contoursolve.geometry import (
     Arc,
     Circle,
@@ -21,7 +22,7 @@ from contoursolve.geometry import (
     Unit,
     assemble,
 )
-from contoursolve.sketch.drawn import Asked, Drawings, Drawn, worded
+from contoursolve.sketch.drawn import Asked, Drawings, Drawn, Stated, worded
 from contoursolve.solving import lookup, scalars_of
 from contoursolve.solving.alternatives import Alternative, Alternatives, decide, find_alternatives
 from contoursolve.solving.contour import trace
@@ -137,9 +138,9 @@ Questions = Mapping[str, tuple[Fact, Unit]]
 """What is asked for, by the name of the fact."""
 
 
-class Sketch:
+class Sketch(Shown):
     """A drawing under construction, in the axes X and Y. Lines and arcs make one path, in the order in which they
-    are added; circles and infinite lines stand beside it.
+    are added; circles and infinite lines stand beside it. In a notebook it shows every way to draw it.
 
     Every call raises ValueError for an argument that makes no sense, and names it. A name is a text without dots
     that no other element (or point) has; capitals do not matter.
@@ -260,23 +261,25 @@ class Sketch:
     def solve(self) -> Drawings:
         """Every way to draw the sketch. Raises GrammarError or StatementError as `profile`."""
         profile, questions = self._stated()
+        texts = {f"fact {number}": str(fact) for number, fact in enumerate(self._statements, 1)}
+        stated = Stated(profile, texts, questions)
         system = assemble(profile)
         verdict = analyse(system)
         numbers = [fact.given.removeprefix("fact ") for fact in (system.facts[index] for index in verdict.tied)]
         ties = tuple(sorted({int(number) - 1 for number in numbers if number.isdigit()}))
         if not verdict.is_determined:
-            return Drawings(Status.UNDERDETERMINED, (), False, (), None, verdict.free, ties)
+            return Drawings(Status.UNDERDETERMINED, (), False, (), None, verdict.free, ties, stated)
         alternatives = find_alternatives(profile)
-        texts = {f"fact {number}": str(fact) for number, fact in enumerate(self._statements, 1)}
         items = [item for item in alternatives.items if item.is_path]
         return Drawings(
             status=decide(alternatives, profile).status,
-            drawings=tuple(_drawn(item, profile, questions, texts) for item in items),
+            drawings=tuple(_drawn(item, stated) for item in items),
             is_complete=alternatives.is_complete and not _far(alternatives),
             doubts=(*_doubts(alternatives), *_far(alternatives)),
             reach=alternatives.reach,
             free=(),
             ties=ties,
+            stated=stated,
         )
 
     def _end(self, call: str, to: str) -> str:
@@ -303,8 +306,9 @@ def _read(number: int, fact: str | Statement, words: Vocabulary) -> Statement:
         raise GrammarError(f"fact {number} `{fact}`: {error}", error.begin, error.end) from None
 
 
-def _drawn(item: Alternative, profile: Profile, questions: Questions, texts: Mapping[str, str]) -> Drawn:
-    figure, solution = profile.figure, item.solution
+def _drawn(item: Alternative, stated: Stated) -> Drawn:
+    profile, texts, solution = stated.profile, stated.texts, item.solution
+    figure = profile.figure
     lines = {line: tuple(item.scalars[f"{line}.{part}"] for part in ("cos", "sin", "off")) for line in figure.carriers}
     at = lookup(profile, {**solution.scalars, **scalars_of(solution.points), **solution.radii})
     return Drawn(
@@ -314,7 +318,8 @@ def _drawn(item: Alternative, profile: Profile, questions: Questions, texts: Map
         contour=trace(profile, solution) if figure.path else None,
         certificate=item.certificate,
         name=worded(item.name, texts),
-        asked=tuple(Asked(texts[name], unit, fact.implied(at)) for name, (fact, unit) in questions.items()),
+        asked=tuple(Asked(texts[name], unit, fact.implied(at)) for name, (fact, unit) in stated.questions.items()),
+        stated=stated,
     )
 
 

@@ -259,7 +259,9 @@ def write_try(folder: Path) -> None:
     with ZipFile(folder / "contoursolve.zip", "w", ZIP_DEFLATED) as archive:
         for path in sorted(house.rglob("*")):
             if path.is_file() and path.suffix != ".pyc":
-                entry = ZipInfo(path.relative_to(house.parent).as_posix())  # of no date: the same files, the same archive
+                entry = ZipInfo(
+                    path.relative_to(house.parent).as_posix()
+                )  # of no date: the same files, the same archive
                 entry.compress_type = ZIP_DEFLATED
                 archive.writestr(entry, path.read_bytes())
     wheels = OUTPUT / "wheels"

@@ -223,7 +223,7 @@ def test_what_is_pointed_at_is_lit_wherever_it_stands(browser, tmp_path):
     lit = f"nodes => [...new Set(nodes.map(node => {kind}))].sort()"
     for selector in (".paper text[data-word~='P']", ".row[data-word='P'] .word"):
         page.locator(selector).first.hover()
-        assert page.locator(".lit[data-word~='P']").evaluate_all(lit) == ["finding", "row", "svg"]
+        assert page.locator(".lit[data-word~='P']").evaluate_all(lit) == ["finding", "handle", "row", "svg"]
         assert page.locator(".row[data-word='A'].lit").count() == 0
     page.locator(".finding pre").first.hover()
     assert page.locator(".row.lit").evaluate_all("rows => rows.map(row => row.dataset.word)") == ["P"]

@@ -3,6 +3,8 @@
 import builtins
 import operator
 import pickle
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from io import BytesIO
@@ -18,12 +20,11 @@ class _Desk:
 
     def __init__(self) -> None:
         self.things: dict[int, Any] = {}
-        self.number = self.asked = 0
+        self.number = 0
         self.lock = Lock()
 
     def answer(self, request: bytes) -> bytes:
         """What comes of one request."""
-        self.asked += 1
         with self.lock, numpy.errstate(all="ignore"):
             gone, kind, *rest = _Unpickler(self, BytesIO(request)).load()
             for number in gone:
@@ -96,7 +97,7 @@ class _Handler(SimpleHTTPRequestHandler):
         first, _, rest = path.partition("?")[0].lstrip("/").partition("/")
         return str(self.folders[first] / rest) if first in self.folders else super().translate_path(path)
 
-    def do_POST(self) -> None:  # noqa: N802 - the name that http.server wants
+    def do_POST(self) -> None:
         found = self.desk.answer(self.rfile.read(int(self.headers["Content-Length"])))
         self.send_response(200)
         self.send_header("Content-Length", str(len(found)))
@@ -104,16 +105,20 @@ class _Handler(SimpleHTTPRequestHandler):
         self.wfile.write(found)
         self.wfile.flush()
 
+    def handle(self) -> None:
+        with suppress(ConnectionResetError):  # the page is closed
+            super().handle()
+
     def log_message(self, *_: Any) -> None:
         pass
 
 
-def serve(site: Path, **folders: Path) -> ThreadingHTTPServer:
-    """A server of a site on this machine, with other folders below names of their own. `shutdown` ends it."""
-    desk = _Desk()
-    handler = partial(_Handler, desk=desk, folders=folders, directory=str(site))
-    server = ThreadingHTTPServer(("127.0.0.1", 0), handler)
-    server.daemon_threads = True
-    server.desk = desk
-    Thread(target=server.serve_forever, daemon=True).start()
-    return server
+@contextmanager
+def serving(site: Path, **folders: Path) -> Iterator[str]:
+    """The address of a server of a site on this machine, with other folders below names of their own."""
+    handler = partial(_Handler, desk=_Desk(), folders=folders, directory=str(site))
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        server.daemon_threads = True
+        Thread(target=server.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{server.server_port}"
+        server.shutdown()

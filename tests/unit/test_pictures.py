@@ -1,5 +1,6 @@
 """Pictures: every contour is drawn, labels stand apart, numbers are the contour's, and any reader can see it."""
 
+import math
 import os
 import random
 import re
@@ -24,6 +25,7 @@ from contoursolve.families import Code
 from contoursolve.pictures import (
     Picture,
     Theme,
+    draw,
     draw_answer,
     draw_family_fan,
     draw_family_map,
@@ -32,7 +34,7 @@ from contoursolve.pictures import (
     draw_result,
     draw_sweep,
 )
-from contoursolve.pictures.page import WIDTH, Box, Shape, Stroke, Text
+from contoursolve.pictures.page import WIDTH, Box, Shape, Stroke, Sweep, Text
 from contoursolve.pictures.svg import PIXELS
 from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
 from contoursolve.solving.contour import ArcSegment
@@ -749,6 +751,69 @@ def test_sweep_draws_one_word_as_a_fan_and_two_as_a_map(tmp_path):
     assert sweep(*one, "--plot", tmp_path / "fan.svg")[0] == 2
     assert "pictures end in .svg or .png" in sweep(*one, "--plot", tmp_path / "fan.pdf")[1]
     assert not (tmp_path / "no.svg").exists()
+
+
+# Sketches.
+
+
+def apollonius():
+    """Three circles, and one that touches all of them."""
+    sketch = contoursolve.Sketch()
+    for name, center, radius in (("a", (0, 0), 10), ("b", (40, 5), 8), ("c", (18, 35), 6)):
+        sketch.circle(name, center, radius)
+    sketch.circle("k")
+    for name in "abc":
+        sketch.state(f"k tangent to {name}")
+    return sketch
+
+
+def rings_of(picture, role):
+    """Centres and radii of the whole circles in a role, pixels."""
+    strokes = [item for item in picture.sheet.drawing if isinstance(item, Stroke) and item.role is role]
+    sweeps = [item.steps[0] for item in strokes if isinstance(item.steps[0], Sweep)]
+    return [(*sweep.center, sweep.radius) for sweep in sweeps if abs(sweep.angle) == pytest.approx(2 * math.pi)]
+
+
+def test_all_circles_that_touch_three_are_drawn_where_they_touch_and_labelled():
+    sketch = apollonius()
+    drawings, picture = sketch.solve(), draw(sketch)
+    check(picture)
+    assert picture.sheet == draw(drawings).sheet
+    given, found = rings_of(picture, Role.GIVEN), rings_of(picture, Role.CANDIDATE)
+    assert (len(given), len(found)) == (3, len(drawings))
+    for x, y, radius in found:
+        for other_x, other_y, other in given:
+            apart = math.hypot(x - other_x, y - other_y)
+            assert min(abs(apart - radius - other), abs(apart - abs(radius - other))) < 1e-6
+    told = labels(picture)
+    for number, drawn in enumerate(drawings, 1):
+        (size,) = [float(text.split("R")[1]) for text in told if text.startswith(f"{number}: k R")]
+        assert size == pytest.approx(drawn.radii["k.radius"], abs=5e-4)
+        assert f"{number}: {drawn.name}" in told
+    assert {"a R10", "b R8", "c R6", "k tangent to a"} <= set(told)
+    shown = sketch._repr_mimebundle_()
+    assert {"text/plain", "text/html", "image/svg+xml"} <= shown.keys()
+    assert shown["text/plain"] == str(drawings)
+
+
+def test_the_facts_of_a_sketch_are_dimensions_and_its_points_tell_the_drawings_apart():
+    sketch = contoursolve.Sketch((10, 20))
+    for name, to in (("a", ""), ("b", ""), ("c", "P0")):
+        sketch.line(name, to)
+    for fact in ("length of a = 8", "length of b = 7", "length of c = 5", "direction of a = 0", "direction of c = ?"):
+        sketch.state(fact)
+    drawings = sketch.solve()
+    picture = draw(drawings)
+    check(picture)
+    inside = {text.words for text in picture.sheet.drawing if isinstance(text, Text)}
+    assert {"length of a = 8", "length of b = 7", "length of c = 5", "direction of a = 0"} <= inside
+    assert {"1: P2  X12.5 Y15.67", "2: P2  X12.5 Y24.33", "P1  X18 Y20"} <= inside
+    one = draw(drawings[0])
+    check(one)
+    assert "P2  X12.5 Y15.67" in labels(one)
+    assert "direction of c = 120" in labels(one)
+    sketch.state("length of a = 9")
+    check(draw(sketch))  # facts that disagree leave no drawing
 
 
 # The command.

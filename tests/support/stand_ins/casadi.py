@@ -1,4 +1,4 @@
-"""Stands in for CasADi where it cannot be installed: as much of its interface as `contoursolve.numeric` uses, in Python.
+"""Stands in for CasADi where it cannot be installed: what `contoursolve.numeric` uses of its interface, in Python.
 
 Expressions are shared: equal ones are one object. A function is the list of its operations, run on floats or, for a
 function of columns, on arrays.

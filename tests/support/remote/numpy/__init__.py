@@ -113,7 +113,7 @@ class ndarray(_There):  # noqa: N801 - NumPy's name
     """An array on the server."""
 
 
-class generic:
+class generic:  # noqa: N801 - NumPy's name
     """What is one number there is a number here, or an array."""
 
 
