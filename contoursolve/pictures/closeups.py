@@ -34,6 +34,9 @@ from contoursolve.solving.contour import ArcSegment, Segment
 MOST_DETAILS = 4
 """Details below one drawing, in one row."""
 
+MOST_SMALL = 12
+"""Small parts of one drawing that are shown enlarged; of more, details would be as crowded."""
+
 _GAP, _TITLE = 12.0, 20.0
 _WIDE = (WIDTH - 2 * PAD - (MOST_DETAILS - 1) * _GAP) / MOST_DETAILS
 _HIGH = 124.0
@@ -72,15 +75,17 @@ class Detail(Struct, frozen=True):
 def choose_details(closeups: Iterable[Closeup], view: Viewport) -> tuple[list[Detail], list[str]]:
     """What is too small in a drawing, with neighbours in one detail; and the names of what has no room any more."""
     small: list[tuple[tuple[str, ...], Box]] = []
-    for closeup in closeups:
-        box = _box_of(closeup.segments, view)
-        if max(box.right - box.left, box.bottom - box.top) >= closeup.least:
-            continue
+    boxes = [(each, _box_of(each.segments, view)) for each in closeups]
+    tiny = [(each, box) for each, box in boxes if max(box.right - box.left, box.bottom - box.top) < each.least]
+    if len(tiny) > MOST_SMALL:
+        return [], [each.name for each, _ in tiny]
+    for closeup, own in tiny:
         names: tuple[str, ...] = (closeup.name,)
-        near = next((each for each in small if each[1].grow(_CLEAR).meets(box)), None)
+        box = own
+        near = next((each for each in small if each[1].grow(_CLEAR).meets(own)), None)
         if near is not None and near[1].right - near[1].left + near[1].bottom - near[1].top < 2 * closeup.least:
             small.remove(near)
-            names, box = (*near[0], *names), _around(near[1], box)
+            names, box = (*near[0], *names), _around(near[1], own)
         small.append((names, box))
     found = [Detail(names, box, _times(box)) for names, box in small]
     worth = [each for each in found if each.times >= _LEAST]

@@ -52,6 +52,9 @@ _LEAST = 0.4
 _MOST_LABELS = 40
 """Labels on one page. Of a larger drawing, the words that are simply given are not drawn: nobody could read them."""
 
+_MOST_NAMES = 6
+"""Names of parts that are too small to be read."""
+
 _CORNER = 130.0
 """Pixels that the axes take of the width."""
 
@@ -93,8 +96,9 @@ def _thinned(scene: Scene) -> Scene:
     left = max(_MOST_LABELS - len(special), 2)
     short = (replace(m, label=m.short if number < left else (), short=()) for number, m in enumerate(marks))
     others = (part for part in scene.parts if not isinstance(part, Dimension | Mark))
-    told = f"{len(dimensions) - len(special)} words are not drawn: there is no room for so many"
-    remarks = (*scene.remarks, (TextRun(told, Role.MUTED),))
+    dropped = len(dimensions) - len(special)
+    told = (TextRun(f"{dropped} words are not drawn: there is no room for so many", Role.MUTED),)
+    remarks = (*scene.remarks, *([told] if dropped else []))
     return replace(scene, parts=(*others, *short, *special), remarks=remarks)
 
 
@@ -264,7 +268,8 @@ def _foot_of(scene: Scene, homeless: Sequence[str], small: Sequence[str], top: f
     y += 20.0
     remarks = list(scene.remarks)
     if small:
-        remarks.append((TextRun("too small to be read here: " + ", ".join(small), Role.MUTED),))
+        more = f" and {len(small) - _MOST_NAMES} more" if len(small) > _MOST_NAMES else ""
+        remarks.append((TextRun("too small to be read here: " + ", ".join(small[:_MOST_NAMES]) + more, Role.MUTED),))
     if homeless:
         remarks.append((TextRun("no room for: " + ", ".join(homeless), Role.MUTED),))
     for runs in remarks:

@@ -175,7 +175,7 @@ def _fault(answer: Answer) -> str:
 
 def _closeups(drawn: Sequence[Drawn]) -> Iterator[Closeup]:
     """The contours, each of which may be too small."""
-    for each in drawn[:MOST_LABELED]:
+    for each in drawn:
         if each.trails and each.answer.contour is not None:
             yield Closeup(f"{each.number}  line {each.answer.lines[0]}", each.segments, _READABLE)
 
