@@ -197,7 +197,7 @@ function render({ model, el }) {
     model.set("action", { ...queue.shift(), number: asked });
     model.save_changes();
     clearTimeout(silence);
-    silence = setTimeout(() => tell("Python has not answered for two seconds: it is busy, or its kernel is gone. If it stays so, run the cell again."), SILENT);
+    silence = setTimeout(() => tell("Python has not answered for two seconds. It is busy, or it is gone: then run the cell, or load the page, again."), SILENT);
   }
 
   function tell(what) {

@@ -50,8 +50,8 @@ window.requestAnimationFrame = (call) => next((at) => {
 class Desk(Watched):
     """An explorer on a page; `talk` is Python's side of it."""
 
-    def __init__(self, browser, folder, text, **options):
-        super().__init__(browser, viewport={"width": 1400, "height": 1000})
+    def __init__(self, browser, folder, text, scheme="light", **options):
+        super().__init__(browser, viewport={"width": 1400, "height": 1000}, color_scheme=scheme)
         self.talk = Conversation(begin(text, **options))
         self.seconds = []  # of the processor, for each answer
         self.page.expose_function("answer", self.answer)
@@ -270,3 +270,20 @@ def test_a_corner_that_does_not_fit_is_pulled_back(browser, tmp_path):
     desk.page.mouse.up()
     desk.check()
     desk.page.close()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_explorer_is_accessible(axe, browser, tmp_path, scheme):
+    for text, options in (
+        (BLOCK, {"start": "X40. Z0."}),
+        (BLOCK.replace("P5.", "P60."), {"start": "X40. Z0."}),
+        (BLOCK.replace("X100.", "X?"), {"start": "X40. Z0."}),
+        ("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87", {"rules": "off"}),
+    ):
+        desk = Desk(browser, tmp_path, text, scheme, **options)
+        if desk.page.locator("summary").is_visible():
+            desk.page.locator("summary").click()
+        assert axe(desk.page) == []
+        desk.page.set_viewport_size({"width": 390, "height": 900})
+        assert axe(desk.page) == []
+        desk.page.close()

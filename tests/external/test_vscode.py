@@ -13,6 +13,7 @@ from pathlib import Path
 from urllib.parse import quote, urlsplit
 
 import pytest
+from browsing import CHROMIUM, FLAGS
 from serving import SECONDS, wait_for
 
 import contoursolve
@@ -25,16 +26,6 @@ PROGRAMS = HOUSE / "notebooks" / "programs"
 CODE_SERVERS = {"20": "4.100.3", "22": "4.117.0", "24": "4.139.1"}
 """The last code-server for each node."""
 NODES = f"node {' or '.join(CODE_SERVERS)}"
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
-FLAGS = [
-    "--no-sandbox",  # as root in a container
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
 CLIPBOARD = ["clipboard-read", "clipboard-write"]
 SETTINGS = {
     "contoursolve.python": sys.executable,

@@ -36,6 +36,23 @@ def artefacts(request, tmp_path):
     return folder
 
 
+VIOLATIONS = "async () => (await axe.run()).violations.map(each => [each.id, each.nodes.map(node => node.html)])"
+
+
+@pytest.fixture
+def axe(request):
+    """Tells which rules of axe-core a page breaks, and where."""
+    script = request.config.getoption("--axe")
+    if not script:
+        pytest.skip("--axe names axe.min.js of axe-core, to hold the page against its rules")
+
+    def violations(page):
+        page.evaluate(Path(script).read_text(encoding="utf-8"))
+        return page.evaluate(VIOLATIONS)
+
+    return violations
+
+
 class Watched:
     """A page of the browser; afterwards it has asked nobody but this machine, and complained about nothing."""
 
