@@ -6,7 +6,7 @@ from msgspec.structs import replace
 
 from contoursolve.analysis import analyse, decompose
 from contoursolve.diagnosis.attempt import Repair
-from contoursolve.diagnosis.edits import EditKind
+from contoursolve.diagnosis.edits import EditKind, apply_edits
 from contoursolve.diagnosis.examine import Answer, Policy
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
@@ -250,7 +250,8 @@ def _fix(answer: Answer, repair: Repair) -> Fix:
     dropped = [edit.old for edit in repair.edits if edit.kind is EditKind.DROP and edit.errand]
     is_beside = len(dropped) == len(repair.edits)
     effect = f"drops {join(dropped)}" if is_beside else ""
-    return Fix(description, repair.replacement, repair.applicability, effect)
+    example = "\n".join(apply_edits(blocks, repair.example)) if numbers else ""
+    return Fix(description, repair.replacement, repair.applicability, effect, example)
 
 
 def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:

@@ -48,6 +48,8 @@ class Fix(Struct, frozen=True):
     applicability: Applicability
     effect: str = ""
     """What applying it does, in words, where `applicability` alone does not say it."""
+    example: str = ""
+    """The replacement with numbers that make a contour, where it leaves gaps and such numbers are known."""
 
     def by_line(self, lines: Sequence[int]) -> dict[int, str]:
         """What to write for each of the lines that it replaces."""

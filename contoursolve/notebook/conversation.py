@@ -73,8 +73,11 @@ class Conversation:
         answer = self.exploration.answer
         self._solved = self.exploration if answer is not None and answer.contour is not None else self._solved
         self._drawn = picture_of(answer, self._drawn if is_held else None) if answer else None
-        asked = asked_now(self.exploration, before, self._solved) if kind == "fix" else []
-        return {**self._viewed(trouble, is_new=kind in _FITTED), "asks": asked}
+        asks: list[Data] = []
+        if kind == "fix" and not trouble:
+            example = explorations.example_of(before, int(action["finding"]), int(action["fix"]))
+            asks = asked_now(self.exploration, before, self._solved, example)
+        return {**self._viewed(trouble, is_new=kind in _FITTED), "asks": asks}
 
     def _done(self, action: Data) -> Exploration:
         """What the contour is after an action."""
@@ -103,11 +106,16 @@ class Conversation:
 
     def _ghosted(self, action: Data) -> Data:
         """The contour of a fix or of another solution, over the present picture."""
-        if action.get("do") != "ghost" or self._drawn is None:
+        now = self.exploration.answer
+        if action.get("do") != "ghost" or self._drawn is None or now is None:
             return {}
         of: Data = {name: action[name] for name in ("finding", "fix", "solution") if name in action}
-        instead = _CHANGES["select" if "solution" in of else "fix"](self.exploration, of)
-        return {"ghost": {**of, "text": instead.text, "paths": ghost_of(instead, self._drawn)}}
+        if "solution" in of:
+            instead = shown = explorations.select(self.exploration, of["solution"])
+        else:
+            instead = explorations.apply_fix(self.exploration, of["finding"], of["fix"])
+            shown = explorations.example_of(self.exploration, of["finding"], of["fix"])
+        return {"ghost": {**of, "text": instead.text, "paths": ghost_of(shown, now, self._drawn)}}
 
     def _viewed(self, trouble: str = "", *, is_new: bool = False) -> Data:
         view = view_of(self.exploration, self._drawn, self._pinned, self._handle)

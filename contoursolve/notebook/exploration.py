@@ -121,10 +121,22 @@ def free(exploration: Exploration, key: str) -> Exploration:
 
 def apply_fix(exploration: Exploration, finding: int, number: int) -> Exploration:
     """The contour with a fix of one of the result's findings. Raises ValueError if there is none."""
+    fix = _fix(exploration, finding, number)
+    return write(exploration, fixed_text(exploration, exploration.result.diagnostics[finding], fix))
+
+
+def example_of(exploration: Exploration, finding: int, number: int) -> Exploration:
+    """The contour with a fix, whose gaps have the numbers of its example. Raises ValueError as `apply_fix`."""
+    found = _fix(exploration, finding, number)
+    fix = replace(found, replacement=found.example or found.replacement)
+    return write(exploration, fixed_text(exploration, exploration.result.diagnostics[finding], fix))
+
+
+def _fix(exploration: Exploration, finding: int, number: int) -> Fix:
     findings = exploration.result.diagnostics
     if not (0 <= finding < len(findings) and 0 <= number < len(findings[finding].fixes)):
         raise ValueError(f"there is no fix {number} of finding {finding}")
-    return write(exploration, fixed_text(exploration, findings[finding], findings[finding].fixes[number]))
+    return findings[finding].fixes[number]
 
 
 def fixed_text(exploration: Exploration, finding: Diagnostic, fix: Fix) -> str:

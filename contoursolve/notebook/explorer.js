@@ -194,9 +194,11 @@ function render({ model, el }) {
   function send() {
     if (!queue.length || asked > answered) return;
     asked += 1;
-    model.set("action", { ...queue.shift(), number: asked });
+    const action = queue.shift();
+    model.set("action", { ...action, number: asked });
     model.save_changes();
     clearTimeout(silence);
+    if (action.do === "range") return; // nobody waits for it, and it may take long
     silence = setTimeout(() => tell("Python has not answered for two seconds. It is busy, or it is gone: then run the cell, or load the page, again."), SILENT);
   }
 

@@ -24,6 +24,7 @@ from contoursolve.output.listing import sources_of
 from contoursolve.output.words import form_text, found_value, meaning_of, stated_value
 from contoursolve.pictures import Picture, Theme, draw_answer
 from contoursolve.pictures.layout import path_data
+from contoursolve.pictures.overview import plain_trail
 from contoursolve.pictures.subject import find_known, list_trails, named_words
 from contoursolve.pictures.vectors import minus
 from contoursolve.reading import ReadIssue
@@ -133,7 +134,8 @@ def _fields(answer: Answer, pinned: Collection[str]) -> Iterator[Data]:
 
 def _size(answer: Answer) -> float:
     """How large the contour is about, in the unit of the program."""
-    values = (stated_value(word, answer) for word in words_of(answer).values())
+    known = answer.claim.lexicon.addresses
+    values = (stated_value(word, answer) for word in words_of(answer).values() if word.address in known)
     lengths = [value or 0.0 for value, unit in values if unit != "deg"]
     places = [float(value or 0) / float(answer.unit.in_mm) for value in answer.start.values]
     return max(map(abs, (*lengths, *places, 1.0)))
@@ -214,28 +216,34 @@ def _path(answer: Answer) -> list[Sequence[str]]:
 # What might be instead -----------------------------------------------------------------------------------------
 
 
-def ghost_of(instead: Exploration, drawn: Picture) -> list[str]:
-    """Another contour as it would stand in a picture: the elements of its path, as SVG writes them. Nothing where
-    nothing of it can be drawn."""
+def ghost_of(instead: Exploration, now: Answer, drawn: Picture) -> list[str]:
+    """What would stand in the picture of a contour instead: the elements of another path, as SVG writes them. Nothing
+    where nothing of it can be drawn."""
     answer, placement = instead.answer, drawn.sheet.placement
-    if answer is None or placement is None:
+    if placement is None:
         return []
-    return path_data(list_trails(answer, find_known(answer)), placement.view)
+    trails = plain_trail(instead.result, now) if answer is None else list_trails(answer, find_known(answer))
+    return path_data(trails, placement.view)
 
 
-def asked_now(now: Exploration, before: Exploration, solved: Exploration) -> list[Data]:
-    """The words that a fix asks for, with the value that each had when the contour was last solved, if it is known."""
+def asked_now(now: Exploration, before: Exploration, solved: Exploration, example: Exploration) -> list[Data]:
+    """The words that a fix asks for, with the value that each had when the contour was last solved; else that of the
+    example of the fix, if it has one."""
     answer, last = now.answer, solved.answer
     if answer is None or last is None:
         return []
     old = {key for key, word in words_of(before.answer).items() if word.is_asked} if before.answer else set()
     questions = {each.question.word.span: each.question for each in answer.answers}
     points = find_known(last).points if last.contour is not None else {}
-    return [
-        {"key": key, "value": _last_value(answer, questions[word.span], points)}
-        for key, word in words_of(answer).items()
-        if word.is_asked and key not in old and word.span in questions
-    ]
+    proposed = words_of(example.answer) if example.answer is not None else {}
+    found = []
+    for key, word in words_of(answer).items():
+        if word.is_asked and key not in old:
+            value = _last_value(answer, questions[word.span], points) if word.span in questions else None
+            if value is None and example.answer is not None and key in proposed:
+                value = stated_value(proposed[key], example.answer)[0]
+            found.append({"key": key, "value": value})
+    return found
 
 
 def _last_value(answer: Answer, question: Question, points: Mapping[str, Point]) -> float | None:

@@ -77,7 +77,7 @@ def draw_answer(
     >>> import contoursolve
     >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
     >>> draw_answer(answer).title
-    'G111 (taper multiple cornering), line 1: solved'
+    'G111 (taper multiple cornering), program line 1: solved'
     """
     scene = compose(answer, title)
     scene = scene if has_remarks else replace(scene, remarks=())

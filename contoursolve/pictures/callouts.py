@@ -34,6 +34,15 @@ _BESIDE = 20.0
 
 _SHORT = 22.0
 
+_OFF, _CROSS = 9.0, 5.0
+"""Pixels from a line to the arrow of an angle of 0, and of half a cross."""
+
+
+def keep_signs(canvas: Canvas, scene: Scene) -> None:
+    """No text stands on the cross of a centre or of a virtual intersection."""
+    crosses = (mark for mark in scene.each(Mark) if mark.kind not in _DOTS)
+    canvas.signs += [Box(*at, *at).grow(_CROSS) for at in (canvas.view.place(mark.at) for mark in crosses)]
+
 
 def draw_callouts(canvas: Canvas, scene: Scene) -> None:
     """Everything that has a label in the drawing: first all lines, then the labels, those of words first."""
@@ -82,7 +91,7 @@ def _draw_angle(canvas: Canvas, angle: Angle, at: Spot, number: int) -> tuple[Sp
     sweep = -radians(turn)
     canvas.grips.append(Grip(angle.about.word, along(at, (cos(sweep), sin(sweep)), radius), at))
     if abs(turn) < _SMALL:
-        return (at[0] + radius, at[1]), (0.4, -0.9)
+        return _draw_straight(canvas, angle, at, (cos(sweep), sin(sweep)), number)
     canvas.draw(arc(at, radius, sweep, angle.role))
     sign = 1.0 if sweep > 0 else -1.0
     # The head is a chord of the arc, so that it does not stand off it.
@@ -91,6 +100,17 @@ def _draw_angle(canvas: Canvas, angle: Angle, at: Spot, number: int) -> tuple[Sp
     canvas.fill(head(tip, (-sin(lean) * sign, cos(lean) * sign), angle.role))
     middle = cos(sweep / 2), sin(sweep / 2)
     return along(at, middle, radius), middle
+
+
+def _draw_straight(canvas: Canvas, angle: Angle, at: Spot, way: Spot, number: int) -> tuple[Spot, Spot]:
+    """A direction that is hardly turned: an arrow beside the reference line, off the path that may lie on it."""
+    a, b = along(at, way, 8.0), along(at, way, _RADIUS)
+    side = _emptier(canvas, a, b, (way[1], -way[0]))
+    aside = _OFF + number * _STEP
+    tail, tip = along(a, side, aside), along(b, side, aside)
+    canvas.draw(line(tail, tip, angle.role))
+    canvas.fill(head(tip, way, angle.role))
+    return ((tail[0] + tip[0]) / 2, (tail[1] + tip[1]) / 2), side
 
 
 def _draw_aligned(canvas: Canvas, aligned: Aligned) -> tuple[Spot, Spot]:
@@ -128,12 +148,28 @@ def _emptier(canvas: Canvas, a: Spot, b: Spot, side: Spot) -> Spot:
 def _draw_leader(canvas: Canvas, leader: Leader) -> None:
     """A word that points at a place, with an arrowhead there."""
     at = canvas.view.place(leader.at)
+    told = TextRun(leader.text, leader.role)
+    if leader.center is not None:
+        center = canvas.view.place(leader.center)
+        places = [canvas.view.place(each) for each in (leader.at, *leader.others)]
+        found = canvas.point([(each, direction(center, each)) for each in places], told)
+        canvas.grips.append(Grip(leader.about.word, found[1] if found else at))
+        if found is not None:
+            _tip(canvas, found[0], found[1], leader.role, direction(center, found[1]))
+        return
     canvas.grips.append(Grip(leader.about.word, at))
     away = leader.away[0], -leader.away[1]
-    box = canvas.label(at, [(TextRun(leader.text, leader.role),)], away, leader.role, leads=True)
+    box = canvas.label(at, [(told,)], away, leader.role, leads=True)
     if box is not None:
-        middle = (box.left + box.right) / 2, (box.top + box.bottom) / 2
-        canvas.fill(head(at, direction(middle, at), leader.role, 7.0, 2.3))
+        _tip(canvas, box, at, leader.role)
+
+
+def _tip(canvas: Canvas, box: Box, at: Spot, role: Role, ray: Spot | None = None) -> None:
+    """The arrowhead of a leader from a label to a place; along a ray if it lies on one."""
+    way = direction(((box.left + box.right) / 2, (box.top + box.bottom) / 2), at)
+    if ray is not None:
+        way = ray if way[0] * ray[0] + way[1] * ray[1] > 0 else (-ray[0], -ray[1])
+    canvas.fill(head(at, way, role, 7.0, 2.3))
 
 
 _DOTS: Mapping[MarkKind, tuple[float, bool]] = {
@@ -152,7 +188,7 @@ def _draw_point(canvas: Canvas, mark: Mark) -> None:
         radius, is_filled = _DOTS[mark.kind]
         canvas.thick.append(Dot(at, radius, mark.role, is_filled, mark.about))
         return
-    (x, y), size = at, 5.0
+    (x, y), size = at, _CROSS
     canvas.thick.append(Stroke((x - size, y), ((x + size, y),), Role.MUTED, THIN, about=mark.about))
     canvas.thick.append(Stroke((x, y - size), ((x, y + size),), Role.MUTED, THIN, about=mark.about))
 

@@ -8,7 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND
-from contoursolve.pictures.callouts import draw_callouts
+from contoursolve.pictures.callouts import draw_callouts, keep_signs
 from contoursolve.pictures.labels import FAINT_WEIGHT, PATH_WEIGHT, Canvas, clip
 from contoursolve.pictures.page import (
     ANYTHING,
@@ -34,6 +34,9 @@ from contoursolve.solving.contour import ArcSegment, Segment
 MOST_DETAILS = 4
 """Details below one drawing, in one row."""
 
+MOST_SMALL = 12
+"""Small parts of one drawing that are shown enlarged; of more, details would be as crowded."""
+
 _GAP, _TITLE = 12.0, 20.0
 _WIDE = (WIDTH - 2 * PAD - (MOST_DETAILS - 1) * _GAP) / MOST_DETAILS
 _HIGH = 124.0
@@ -41,6 +44,9 @@ _HIGH = 124.0
 
 ROW = _TITLE + _HIGH + _GAP
 """Pixels that a row of details takes."""
+
+_SMALL = SIZE - 1.0
+"""Pixels of the font of what stands at a detail."""
 
 _SHARE = 0.4
 """1. How much of a detail its subject takes."""
@@ -72,15 +78,17 @@ class Detail(Struct, frozen=True):
 def choose_details(closeups: Iterable[Closeup], view: Viewport) -> tuple[list[Detail], list[str]]:
     """What is too small in a drawing, with neighbours in one detail; and the names of what has no room any more."""
     small: list[tuple[tuple[str, ...], Box]] = []
-    for closeup in closeups:
-        box = _box_of(closeup.segments, view)
-        if max(box.right - box.left, box.bottom - box.top) >= closeup.least:
-            continue
+    boxes = [(each, _box_of(each.segments, view)) for each in closeups]
+    tiny = [(each, box) for each, box in boxes if max(box.right - box.left, box.bottom - box.top) < each.least]
+    if len(tiny) > MOST_SMALL:
+        return [], [each.name for each, _ in tiny]
+    for closeup, own in tiny:
         names: tuple[str, ...] = (closeup.name,)
-        near = next((each for each in small if each[1].grow(_CLEAR).meets(box)), None)
+        box = own
+        near = next((each for each in small if each[1].grow(_CLEAR).meets(own)), None)
         if near is not None and near[1].right - near[1].left + near[1].bottom - near[1].top < 2 * closeup.least:
             small.remove(near)
-            names, box = (*near[0], *names), _around(near[1], box)
+            names, box = (*near[0], *names), _around(near[1], own)
         small.append((names, box))
     found = [Detail(names, box, _times(box)) for names, box in small]
     worth = [each for each in found if each.times >= _LEAST]
@@ -117,8 +125,7 @@ def mark_details(canvas: Canvas, details: Sequence[Detail]) -> None:
     """A frame with a letter around each place that is shown enlarged."""
     for letter, detail in zip(_LETTERS, details, strict=False):
         box = detail.box.grow(_CLEAR)
-        corners = ((box.right, box.top), (box.right, box.bottom), (box.left, box.bottom), (box.left, box.top))
-        canvas.draw(Stroke((box.left, box.top), corners, Role.MUTED, 0.9), FAINT_WEIGHT)
+        canvas.draw(_edges(box), FAINT_WEIGHT)
         canvas.label((box.right, box.top), [(TextRun(letter, Role.INK),)], (0.7, -0.7), Role.MUTED)
 
 
@@ -130,17 +137,18 @@ def draw_details(scene: Scene, view: Viewport, details: Sequence[Detail], top: f
     for number, (letter, detail) in enumerate(zip(_LETTERS, details, strict=False)):
         left = PAD + number * (_WIDE + _GAP)
         frame = Box(left, top + _TITLE, left + _WIDE, top + _TITLE + _HIGH)
-        size = f", {detail.times:g} times as large"
-        named = shorten(f"{letter}: {', '.join(detail.names)}", _WIDE, SIZE - 1.0)
-        for y, text, role in ((13.0, named, Role.INK), (_TITLE + _HIGH - 6.0, size[2:], Role.MUTED)):
-            yield Text((left + (0.0 if role is Role.INK else 6.0), top + y), (TextRun(text, role),), SIZE - 1.0)
-        yield Stroke((frame.left, frame.top), tuple(_corners(frame)), Role.MUTED, 0.9)
+        named = shorten(f"{letter}: {', '.join(detail.names)}", _WIDE, _SMALL)
+        yield Text((left, top + 13.0), (TextRun(named, Role.INK),), _SMALL)
+        size = TextRun(f"{detail.times:g} times as large", Role.MUTED)
+        yield Text((left + 6.0, frame.bottom - 6.0), (size,), _SMALL)
+        yield _edges(frame)
         inner = Box(frame.left, frame.top, frame.right, frame.bottom - 18.0)
         yield from _drawn(scene, view, detail, inner)
 
 
-def _corners(box: Box) -> Iterator[Spot]:
-    yield from ((box.right, box.top), (box.right, box.bottom), (box.left, box.bottom), (box.left, box.top))
+def _edges(box: Box) -> Stroke:
+    corners = ((box.right, box.top), (box.right, box.bottom), (box.left, box.bottom), (box.left, box.top))
+    return Stroke((box.left, box.top), corners, Role.MUTED, 0.9)
 
 
 def _drawn(scene: Scene, view: Viewport, detail: Detail, frame: Box) -> tuple[Item, ...]:
@@ -164,7 +172,9 @@ def _drawn(scene: Scene, view: Viewport, detail: Detail, frame: Box) -> tuple[It
     named = [replace(each, label=each.short or each.label) for each in scene.each(Mark)]
     pointing: list[Mark | Leader] = [*named, *scene.each(Leader)]
     inside = [each for each in pointing if _holds(frame.grow(-6.0), large.place(each.at))]
-    draw_callouts(canvas, replace(scene, parts=(*trails, *inside)))
+    within = replace(scene, parts=(*trails, *inside))
+    keep_signs(canvas, within)
+    draw_callouts(canvas, within)
     return canvas.items
 
 

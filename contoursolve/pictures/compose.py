@@ -14,6 +14,7 @@ from contoursolve.pictures.scene import Closeup, Scene, Trail, Weight, axis_name
 from contoursolve.pictures.subject import Subject, subject_of, trace_known
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance
+from contoursolve.reading import ReadIssue
 from contoursolve.solving import Point
 from contoursolve.solving.contour import ArcSegment, Contour, trace
 
@@ -21,6 +22,10 @@ MOST_LINES = 6
 """Lines of a program in a picture's head."""
 
 MOST_REMARKS = 3
+
+_REMARKS = {Severity.ERROR: Role.CONFLICTING, Severity.WARNING: Role.IGNORED, Severity.INFO: Role.MUTED}
+"""What findings are written as."""
+
 MOST_SOLUTIONS = 6
 """Other solutions that are drawn."""
 
@@ -66,7 +71,7 @@ def title_of(answer: Answer) -> str:
     """What a contour is, where it stands, and what became of it."""
     form = answer.claim.form
     lines = answer.lines
-    where = f"line {lines[0]}" if len(lines) == 1 else f"lines {lines[0]} to {lines[-1]}"
+    where = f"program line {lines[0]}" if len(lines) == 1 else f"program lines {lines[0]} to {lines[-1]}"
     return f"{form.name} ({form.title}), {where}: {answer.status.value}"
 
 
@@ -125,11 +130,14 @@ def _lines(subject: Subject) -> Iterator[tuple[TextRun, ...]]:
 
 
 def remarks_of(diagnostics: Sequence[Diagnostic]) -> Iterator[tuple[TextRun, ...]]:
-    """The first findings."""
-    numbered = enumerate(diagnostics, 1)
-    findings = [(place, finding) for place, finding in numbered if finding.severity is not Severity.INFO]
+    """The first findings; of what is no error or warning, only that a word lacks its point."""
+    findings = [
+        (place, finding)
+        for place, finding in enumerate(diagnostics, 1)
+        if finding.severity is not Severity.INFO or finding.about is ReadIssue.POINT_MISSING
+    ]
     for place, finding in findings[:MOST_REMARKS]:
-        role = Role.CONFLICTING if finding.severity is Severity.ERROR else Role.IGNORED
+        role = _REMARKS[finding.severity]
         yield (TextRun(visible(f"{finding.severity.value}: {finding.message}"), role, About(finding=str(place))),)
     if len(findings) > MOST_REMARKS:
         yield (TextRun(f"... and {len(findings) - MOST_REMARKS} more findings", Role.MUTED),)

@@ -24,12 +24,25 @@ from contoursolve.pictures.scene import (
 )
 from contoursolve.pictures.subject import Subject, Traced
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import DIAGONAL, SAME, along, direction, distance, middle, on_arc, with_coordinate
+from contoursolve.pictures.vectors import (
+    DIAGONAL,
+    SAME,
+    along,
+    direction,
+    distance,
+    middle,
+    on_arc,
+    toward,
+    with_coordinate,
+)
 from contoursolve.solving import Point
 from contoursolve.solving.contour import ArcSegment, Segment
 
-_BESIDE_ARROW = 0.36
-"""Of an arc, from its start: where its radius is written, off the arrow in its middle."""
+_BESIDE_ARROW = (0.36, 0.64, 0.2, 0.8)
+"""Of an arc, from its start: where its radius may be written, off the arrow in its middle."""
+
+_OF_CORNER = (0.5, 0.3, 0.7)
+"""The same of a rounding, which has no arrow."""
 
 Noted = Mapping[str, Sequence[str]]
 """By the name of a point, the givens whose words state it in full and stand beside it."""
@@ -46,7 +59,7 @@ def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
         given = profile.givens.get(fact.given)
         if given is None or given.word is None or fact.given in beside or (fact.given, type(fact)) in done:
             continue
-        text = word_text(given.word.text) + (" dia" if given.is_diameter else "")
+        text = (subject.word(fact.given) or "") + (" dia" if given.is_diameter else "")
         drawn = dimension_of(subject, fact, text, subject.role(fact.given), float(given.value))
         if drawn is not None:
             done.add((fact.given, type(fact)))
@@ -104,7 +117,7 @@ def _radius(subject: Traced, name: str, text: str, role: Role) -> Dimension | No
     for each in subject.profile.figure.circles:
         found = subject.circle(each.center, each.radius) if each.radius == name else None
         if found is not None:
-            return Leader(along(found[0], DIAGONAL, found[1]), DIAGONAL, text, role)
+            return around(*found, DIAGONAL, text, role)
     for element in subject.profile.figure.path:
         if isinstance(element, Arc) and element.radius == name:
             drawn, circle = elements.get(element.name), subject.circle(element.center, name)
@@ -113,7 +126,7 @@ def _radius(subject: Traced, name: str, text: str, role: Role) -> Dimension | No
             if circle is not None:
                 tail = subject.at(element.tail)
                 way = direction(circle[0], tail if tail is not None else along(circle[0], (1, 1), 1))
-                return Leader(along(circle[0], way, circle[1]), way, text, role)
+                return Leader(along(circle[0], way, circle[1]), way, text, role, center=circle[0])
     corner = elements.get(name.rpartition(".")[0])
     return _pointing(corner, text, role) if corner is not None else None
 
@@ -123,9 +136,18 @@ def _pointing(segment: Segment, text: str, role: Role) -> Leader:
     at, way = middle(segment)
     if not isinstance(segment, ArcSegment):
         return Leader(at, (-way[1], way[0]), text, role)
-    if not segment.name.startswith("corner"):
-        at, way = on_arc(segment, _BESIDE_ARROW)
-    return Leader(at, direction(segment.center, at), text, role)
+    first, *others = _OF_CORNER if segment.name.startswith("corner") else _BESIDE_ARROW
+    at, rest = on_arc(segment, first)[0], tuple(on_arc(segment, share)[0] for share in others)
+    return Leader(at, direction(segment.center, at), text, role, center=segment.center, others=rest)
+
+
+def around(center: Point, radius: float, way: Point, text: str, role: Role) -> Leader:
+    """A word that points at a whole circle, in a direction from its centre if there is room."""
+    spokes = [
+        (way[0] * x - way[1] * y, way[0] * y + way[1] * x) for x, y in map(toward, (45, -45, 90, -90, 135, -135, 180))
+    ]
+    others = tuple(along(center, spoke, radius) for spoke in spokes)
+    return Leader(along(center, way, radius), way, text, role, center=center, others=others)
 
 
 def _corners(subject: Subject, elements: Mapping[str, Segment], measured: set[Span]) -> Iterator[Dimension]:
@@ -135,7 +157,7 @@ def _corners(subject: Subject, elements: Mapping[str, Segment], measured: set[Sp
         given = profile.givens.get(corner.size)
         if given is None or given.word is None or given.word.span in measured:
             continue
-        text = word_text(given.word.text)
+        text = subject.word(corner.size) or ""
         text += " x 45°" if corner.shape is CornerShape.CHAMFER_AXIS_45 else ""
         role, about = subject.role(corner.size), subject.about(given.word.span)
         limits = [

@@ -51,6 +51,9 @@ _TURNS = tuple(
 _PER_PIXEL = 0.35
 """What a pixel of distance weighs."""
 
+_BACKWARDS, _ELSEWHERE = 6.3, 5.0
+"""What weighs a label on the other side of its place, and one that points at a further place."""
+
 _TOUCHING = 20.0
 """Pixels. A label that is no farther needs no leader."""
 
@@ -131,6 +134,25 @@ def _needs_leader(box: Box, at: Spot) -> bool:
     return distance(_nearest(box, at), at) > _TOUCHING
 
 
+def _on_ray(box: Box, at: Spot, way: Spot) -> Spot | None:
+    """The point of a box that is nearest to a place on the line through it along a direction; None beside the line."""
+    reach = 2 * (distance(at, (box.left, box.top)) + box.right - box.left)
+    ends = clip(along(at, way, -reach), along(at, way, reach), box)
+    return min(ends, key=lambda end: distance(end, at)) if ends is not None else None
+
+
+def _boxes_on_ray(at: Spot, width: float, height: float, way: Spot) -> Iterator[tuple[Box, float]]:
+    """Boxes of a size at which a ray ends, with how little they are wanted: beyond the place, then before it; with the
+    middle on the ray, or beside its end."""
+    half = min(size / 2 / abs(step) for size, step in zip((width, height), way, strict=True) if step)
+    for far in (far for far in _FAR if far > _TOUCHING):
+        for sign in (1.0, -1.0):
+            own, end = far * _PER_PIXEL + (_BACKWARDS if sign < 0 else 0.0), along(at, way, sign * far)
+            beside = [(end[0] + side * width / 2, end[1]) for side in (1.0, -1.0)]
+            for number, (x, y) in enumerate((along(end, way, sign * half), *beside)):
+                yield Box(x - width / 2, y - height / 2, x + width / 2, y + height / 2), own + 2.0 * number
+
+
 class LabelSpot(Struct, frozen=True):
     """Where a label stands beside its place, in pixels: the way to its nearer edge across and down, and on which side
     that edge is (-1, 1; 0 for a label that lies over the place, by its middle)."""
@@ -179,6 +201,8 @@ class Canvas:
         """How much is drawn in each cell of the frame."""
         self.taken: list[Box] = []
         """Where texts stand."""
+        self.signs: list[Box] = []
+        """Where centres and virtual intersections are marked, which no text covers."""
         self.grips: list[Grip] = []
         self.thin: list[Item] = []
         self.papers: list[Item] = []
@@ -217,7 +241,7 @@ class Canvas:
     def write(self, text: Text) -> bool:
         """A text where it is wanted, if nothing is there yet; tells whether it stands."""
         box = text.box.grow(1.0)
-        if not self.frame.holds(box) or any(box.meets(other) for other in self.taken):
+        if not self.frame.holds(box) or any(box.meets(other) for other in (*self.taken, *self.signs)):
             return False
         self._add(text, box)
         return True
@@ -257,9 +281,51 @@ class Canvas:
         self.labels[name] = spot_of(at, box)
         if leads or _needs_leader(box, at):
             self.draw(line(_nearest(box, at), at, role, 0.9, is_dashed=leads))
-        at = (box.left + box.right) / 2, box.bottom - 1.0 - DESCENT * SIZE
-        self._add(Text(at, wordings[index], SIZE, Anchor.MIDDLE), box)
+        self._write_in(box, wordings[index])
         return box
+
+    def point(self, places: Sequence[tuple[Spot, Spot]], told: TextRun) -> tuple[Box, Spot] | None:
+        """A label with a leader on a ray: at one of some places, each with the direction of its ray, the wanted one
+        first. The box where it stands, and the place; None if there is no room."""
+        at, way = places[0]
+        if self.held and not self.frame.holds(Box(*at, *at)):
+            return None  # as above
+        size = width_of(told.text, SIZE) + 4.0, SIZE * (ASCENT + DESCENT) + 2.0
+        name = self.named, sum(about == self.named for about, _ in self.labels)
+        before = self._place_as_before(at, [size], name)
+        found = (before[1], at, way) if before and _on_ray(before[1], at, way) else self._best_on_ray(places, size)
+        if found is None:
+            self.homeless.append(told.text)
+            return None
+        box, at, way = found
+        self.labels[name] = spot_of(at, box)
+        self.draw(line(_on_ray(box, at, way) or _nearest(box, at), at, told.role, 0.9))
+        self._write_in(box, (told,))
+        return box, at
+
+    def _best_on_ray(
+        self, places: Sequence[tuple[Spot, Spot]], size: tuple[float, float]
+    ) -> tuple[Box, Spot, Spot] | None:
+        """Where a label on a ray stands best."""
+        best: tuple[float, Box, Spot, Spot] | None = None
+        for number, (at, way) in enumerate(places):
+            if not self.frame.holds(Box(*at, *at)):
+                continue
+            for box, own in _boxes_on_ray(at, *size, way):
+                if best is not None and own + number * _ELSEWHERE >= best[0]:
+                    continue
+                end = _on_ray(box, at, way) or at
+                cost = own + number * _ELSEWHERE + self.cost(box.grow(1.5))
+                if cost < inf and not self.is_crossed(at, end):
+                    cost += self.crossings(end, at)
+                    if best is None or cost < best[0]:
+                        best = cost, box, at, way
+        return best[1:] if best is not None else None
+
+    def _write_in(self, box: Box, runs: tuple[TextRun, ...]) -> None:
+        """The text of a label."""
+        at = (box.left + box.right) / 2, box.bottom - 1.0 - DESCENT * SIZE
+        self._add(Text(at, runs, SIZE, Anchor.MIDDLE), box)
 
     def _place_as_before(
         self, at: Spot, sizes: Sequence[tuple[float, float]], name: tuple[About, int]
@@ -291,7 +357,7 @@ class Canvas:
         """How much a text would cover; infinite where another text is, or outside the page."""
         if not self.frame.holds(box):
             return inf
-        for other in self.taken:
+        for other in (*self.taken, *self.signs):
             if box.meets(other):
                 return inf
         total = 0.0

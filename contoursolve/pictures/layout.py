@@ -7,7 +7,7 @@ from math import floor, log10, tau
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Length
-from contoursolve.pictures.callouts import draw_callouts
+from contoursolve.pictures.callouts import draw_callouts, keep_signs
 from contoursolve.pictures.closeups import ROW, choose_details, draw_details, mark_details
 from contoursolve.pictures.labels import FAINT_WEIGHT, PATH_WEIGHT, THIN_WEIGHT, Canvas, clip
 from contoursolve.pictures.margins import Placement, arrange, draw_margins, placement_of
@@ -52,12 +52,15 @@ _LEAST = 0.4
 _MOST_LABELS = 40
 """Labels on one page. Of a larger drawing, the words that are simply given are not drawn: nobody could read them."""
 
+_MOST_NAMES = 6
+"""Names of parts that are too small to be read."""
+
 _CORNER = 130.0
 """Pixels that the axes take of the width."""
 
 _GAP_ABOVE = 4.0
-_BAR = 140.0
-"""Pixels above what stands below a drawing, and of the longest bar that is its scale."""
+_BAR, _ALONE = 140.0, 44.0
+"""Pixels above what stands below a drawing, of the longest bar that is its scale, and of axes that are not there."""
 
 
 def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
@@ -67,6 +70,7 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
     margins = arrange(scene, max(item.box.bottom for item in top) + 6.0, held)
     frame, canvas = margins.frame, Canvas(margins.view, margins.frame, held.labels if held else None)
     _draw_path(canvas, scene)
+    keep_signs(canvas, scene)
     draw_margins(canvas, margins)
     details, small = choose_details(scene.closeups, margins.view)
     has_row = bool(details) and (held is None or held.foot >= frame.bottom + ROW)
@@ -75,9 +79,11 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
     # The axes stand beside the drawing's lower end where nothing else is.
     is_free = canvas.cost(Box(frame.left, frame.bottom - 34.0, _CORNER, frame.bottom)) == 0.0
     under = ROW + _GAP_ABOVE if has_row else -26.0 if is_free else _GAP_ABOVE
-    below = held.foot if held else frame.bottom + under
+    below = held.foot if held else frame.bottom + under if scene.parts or any(scene.axes) else frame.top - _ALONE
     enlarged = draw_details(whole, margins.view, details, frame.bottom + _GAP_ABOVE) if has_row else ()
-    foot = [*enlarged, *_foot_of(scene, canvas.homeless, small, below, margins.view.scale)]
+    told = {item.words for item in enlarged if isinstance(item, Text)}
+    homeless = [each for each in canvas.homeless if each not in told]
+    foot = [*enlarged, *_foot_of(scene, homeless, small, below, margins.view.scale)]
     height = round(max((item.box.bottom for item in foot if isinstance(item, Text)), default=frame.bottom) + 12.0, 1)
     height = max(height, held.height if held else 0.0)
     placement = placement_of(margins, canvas, below, height)
@@ -93,8 +99,9 @@ def _thinned(scene: Scene) -> Scene:
     left = max(_MOST_LABELS - len(special), 2)
     short = (replace(m, label=m.short if number < left else (), short=()) for number, m in enumerate(marks))
     others = (part for part in scene.parts if not isinstance(part, Dimension | Mark))
-    told = f"{len(dimensions) - len(special)} words are not drawn: there is no room for so many"
-    remarks = (*scene.remarks, (TextRun(told, Role.MUTED),))
+    dropped = len(dimensions) - len(special)
+    told = (TextRun(f"{dropped} words are not drawn: there is no room for so many", Role.MUTED),)
+    remarks = (*scene.remarks, *([told] if dropped else []))
     return replace(scene, parts=(*others, *short, *special), remarks=remarks)
 
 
@@ -264,7 +271,8 @@ def _foot_of(scene: Scene, homeless: Sequence[str], small: Sequence[str], top: f
     y += 20.0
     remarks = list(scene.remarks)
     if small:
-        remarks.append((TextRun("too small to be read here: " + ", ".join(small), Role.MUTED),))
+        more = f" and {len(small) - _MOST_NAMES} more" if len(small) > _MOST_NAMES else ""
+        remarks.append((TextRun("too small to be read here: " + ", ".join(small[:_MOST_NAMES]) + more, Role.MUTED),))
     if homeless:
         remarks.append((TextRun("no room for: " + ", ".join(homeless), Role.MUTED),))
     for runs in remarks:

@@ -7,7 +7,7 @@ from msgspec import Struct
 from contoursolve.geometry import FIRST, SECOND
 from contoursolve.pictures.labels import Canvas, Grip, LabelSpot
 from contoursolve.pictures.page import SIZE, WIDTH, About, Anchor, Box, Spot, Text, TextRun, head, line, width_of
-from contoursolve.pictures.scene import LinearDimension, Ordinate, Rectangle, Scene, Trail, Viewport, bounds_of
+from contoursolve.pictures.scene import LinearDimension, Ordinate, Rectangle, Scene, Viewport, bounds_of
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import along, direction, distance
 
@@ -107,7 +107,7 @@ def arrange(scene: Scene, top: float, held: Placement | None = None) -> Arrangem
     # Above the axis there may be room for the rows below the path.
     is_above = (own.low[SECOND] - span.low[SECOND]) * scale >= under
     low = own.low[SECOND] if is_above else span.low[SECOND]
-    tall = max(span.size[SECOND] * scale, _LOWEST) if scene.each(Trail) or scene.dimensions else 0.0
+    tall = max(span.size[SECOND] * scale, _LOWEST) if scene.parts else 0.0
     view = Viewport(span.middle, scale, (before + room / 2, top + over + tall / 2))
     left, bottom = view.place((span.low[FIRST], low))
     right, upper = view.place(span.high)

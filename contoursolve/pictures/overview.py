@@ -1,7 +1,7 @@
 """Several contours in one picture: those of a program with the moves between them, and one block for several values."""
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import PurePath
 
 from msgspec import Struct
@@ -101,7 +101,7 @@ def compose_overview(result: Result, title: str | None, *, is_whole: bool | None
             axis_names(plane),  # it has no numbers, so that contours in mm and in inches may stand together
             (*_move_trails(beside), *_contour_parts(drawn)),
             remarks=tuple(_remarks(drawn, len(own))),
-            meanings={Role.CONFLICTING: "no contour", Role.INK: "feed move"},
+            meanings={Role.CONFLICTING: "no contour", **_meaning_of(beside)},
             has_turning_axis=plane.diameters[SECOND],
             closeups=tuple(_closeups(drawn)),
             scale_unit=unit,
@@ -175,7 +175,7 @@ def _fault(answer: Answer) -> str:
 
 def _closeups(drawn: Sequence[Drawn]) -> Iterator[Closeup]:
     """The contours, each of which may be too small."""
-    for each in drawn[:MOST_LABELED]:
+    for each in drawn:
         if each.trails and each.answer.contour is not None:
             yield Closeup(f"{each.number}  line {each.answer.lines[0]}", each.segments, _READABLE)
 
@@ -229,6 +229,24 @@ def _moves(result: Result) -> list[Move]:
                 is_between = reached[number] > 1  # from both sides
                 found[number] = Move(segment, owner.plane.axes, is_rapid, is_between)
     return [found[number] for number in sorted(found)[:MOST_MOVES]]
+
+
+def plain_trail(result: Result, like: Answer) -> list[Trail]:
+    """The feed moves of a program as it is where a contour stood, which needs none any more."""
+    dialect = DIALECTS.get(result.control or "")
+    if dialect is None:
+        return []
+    axes = like.plane.axes
+    steps = follow(result, dialect.configure(result.settings), like.unit, axes).steps
+    moves = [step for step in steps if isinstance(step, Travel) and step.motion is Motion.FEED]
+    segments = [_flat(step, axes, axes) for step in moves if like.lines[0] <= step.line <= like.lines[-1]]
+    found = tuple(segment for segment in segments if segment is not None)
+    return [Trail(found, Role.INK)] if found else []
+
+
+def _meaning_of(moves: Sequence[Move]) -> Mapping[Role, str]:
+    """What thin lines are, where there are any."""
+    return {} if all(move.is_rapid for move in moves) else {Role.INK: "feed move"}
 
 
 def _move_trails(moves: Sequence[Move]) -> Iterator[Trail]:

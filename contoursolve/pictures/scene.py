@@ -131,13 +131,19 @@ class Angle(Struct, frozen=True):
 
 
 class Leader(Struct, frozen=True):
-    """A word that points at a place, from the side to which `away` leads."""
+    """A word that points at a place, from the side to which `away` leads.
+
+    That of a radius has a `center`, and its line lies on a ray through it (ISO 129); `others` are further places of the
+    arc at which it may point.
+    """
 
     at: Point
     away: Point
     text: str
     role: Role
     about: About = ANYTHING
+    center: Point | None = None
+    others: tuple[Point, ...] = ()
 
 
 class Slide(Struct, frozen=True):

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from math import cos, pi, sin
 
 from contoursolve.geometry import Figure, Length, Profile, Unit
-from contoursolve.pictures.dimensions import dimension_of
+from contoursolve.pictures.dimensions import around, dimension_of
 from contoursolve.pictures.known import Known, place_of, start_of
 from contoursolve.pictures.page import TextRun, visible
 from contoursolve.pictures.scene import (
@@ -82,7 +82,7 @@ def _given(profile: Profile) -> Iterator[Part]:
             size = float(radius.value)
             yield Ring(center, size, Role.GIVEN)
             yield Mark(center, MarkKind.CENTER)
-            yield Leader(along(center, DIAGONAL, size), DIAGONAL, f"{each.name} R{number(size, Length.MM)}", Role.GIVEN)
+            yield around(center, size, DIAGONAL, f"{each.name} R{number(size, Length.MM)}", Role.GIVEN)
     if profile.figure.path:
         at = start_of(profile)
         yield Mark(at, MarkKind.START, (TextRun(f"{profile.figure.start}  {_place(profile, at)}", Role.GIVEN),))
@@ -110,7 +110,7 @@ def _solution(drawn: Drawn, place: int | None, profile: Profile) -> Iterator[Par
             yield Ring(center, radius, role)
             yield Mark(center, MarkKind.CENTER)
             text = f"{prefix}{each.name} R{number(radius, Length.MM)}"
-            yield Leader(along(center, way, radius), way, text, role)
+            yield around(center, radius, way, text, role)
     beside = [name for name in drawn.lines if name not in {each.name for each in figure.path}]
     middle, reach = _amid(profile)
     for name in beside:

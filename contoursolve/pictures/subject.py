@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from contoursolve.analysis import analyse
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, count_choices
 from contoursolve.diagnosis.wording import word_keys
-from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT
 from contoursolve.geometry import (
@@ -43,6 +43,7 @@ from contoursolve.pictures.known import (
 )
 from contoursolve.pictures.page import ANYTHING, About
 from contoursolve.pictures.scene import Trail, word_text
+from contoursolve.pictures.slips import counted, is_mended_by, unread
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance
 from contoursolve.reading import ReadIssue
@@ -122,6 +123,8 @@ class Subject(Traced, frozen=True):
     """The words and facts that errors are about."""
     named: Mapping[Span, About] = {}
     """What shows a word or a fact is about, by its place."""
+    counted: Mapping[Span, str] = {}
+    """What the words are read as that lack their decimal point, by their places."""
 
     def role(self, given: str) -> Role:
         """What became of a word."""
@@ -142,14 +145,22 @@ class Subject(Traced, frozen=True):
         return self.about(found.word.span) if found is not None and found.word is not None else ANYTHING
 
     def word(self, given: str) -> str | None:
-        """The text of the word of a given; None without a word."""
+        """The text of the word of a given, of one that lacks its point with what it is read as; None without a word."""
         found = self.profile.givens.get(given)
-        return word_text(found.word.text) if found is not None and found.word is not None else None
+        if found is None or found.word is None:
+            return None
+        told, value = word_text(found.word.text), self.counted.get(found.word.span)
+        return told if value is None else f"{told} = {value}"
 
 
 def subject_of(answer: Answer) -> Subject:
     """All that a picture of a contour shows."""
-    known, blamed = find_known(answer), frozenset(_blamed(answer))
+    known, lacking = find_known(answer), counted(answer)
+    is_slip = bool(lacking) and answer.contour is None and is_mended_by(answer, lacking)
+    is_doubtful = any(each.severity is Severity.WARNING for each in answer.diagnostics) and answer.contour is not None
+    blamed = frozenset(
+        {*_blamed(answer, is_slip=is_slip), *unread(answer), *(lacking if is_slip or is_doubtful else ())}
+    )
     return Subject(
         answer.profile,
         known,
@@ -158,6 +169,7 @@ def subject_of(answer: Answer) -> Subject:
         _roles(answer, blamed),
         blamed,
         named_words(answer),
+        lacking,
     )
 
 
@@ -188,8 +200,9 @@ def _roles(answer: Answer, blamed: frozenset[Span]) -> dict[str, Role]:
     return roles
 
 
-def _blamed(answer: Answer) -> Iterator[Span]:
-    """The words and facts that errors are about; not those beside which a word is missing."""
+def _blamed(answer: Answer, *, is_slip: bool) -> Iterator[Span]:
+    """The words and facts that errors are about; not those beside which a word is missing, nor those that disagree only
+    because others lack their points (`is_slip`)."""
     is_short = any(finding.about is ReadIssue.UNDERDETERMINED for finding in answer.diagnostics)
     claim = answer.claim
     words = {word.span: word.address for word in (*claim.words.values(), *claim.unknown, *claim.repeated)}
@@ -197,6 +210,8 @@ def _blamed(answer: Answer) -> Iterator[Span]:
     for finding in answer.diagnostics:
         is_refusal = isinstance(finding.about, RefusalKind)
         if finding.severity is not Severity.ERROR or isinstance(finding.about, NoteKind):
+            continue
+        if is_slip and finding.basis is Basis.NUMERICAL:
             continue
         if is_refusal or not (is_short and _misses_words(finding, answer)):
             spans = (label.span for label in finding.labels if label.span in words)

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
-from contoursolve.geometry import SECOND, Length, Turn
+from contoursolve.geometry import FIRST, SECOND, Length, Turn
 from contoursolve.pictures.scene import Leader, Part, Rectangle, Scene, Thin, Trail, Weight, number
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import extent
@@ -27,6 +27,9 @@ _WORTH = 0.5
 
 _LONG = 0.02
 """1. The share of the larger side that a cylinder with a label has at least."""
+
+_ASIDE = 0.25
+"""1. Where a diameter points at a cylinder whose middle has an arrow."""
 
 Cylinder = tuple[Segment, str]
 """A line along the axis, and its diameter as it is written."""
@@ -123,5 +126,6 @@ def _diameters(cylinders: Sequence[Cylinder], *, is_below: bool) -> Iterator[Lea
             longest[told] = segment
     chosen = sorted(longest.items(), key=lambda each: (-round(each[1].length, 6), each[0]))[:MOST_DIAMETERS]
     for told, segment in chosen:
-        at = (segment.start[0] + segment.end[0]) / 2, abs(segment.end[SECOND])
-        yield Leader((at[0], -at[1] if is_below else segment.end[SECOND]), (0.0, -1.0), told, Role.INK)
+        across = segment.start[FIRST] + (0.5 if is_below else _ASIDE) * (segment.end[FIRST] - segment.start[FIRST])
+        up = -abs(segment.end[SECOND]) if is_below else segment.end[SECOND]
+        yield Leader((across, up), (0.0, -1.0), told, Role.INK)

@@ -201,6 +201,8 @@ def write_report(name, target):
 
 
 OVERFLOW = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
+BREAKS = """[["h3", "breakAfter"], [".blocks", "breakAfter"], ["figure", "breakBefore"], ["figure", "breakInside"]]
+  .map(([selector, which]) => getComputedStyle(document.querySelector(`article ${selector}`))[which])"""
 PAPER = "getComputedStyle(document.body).backgroundColor"
 
 
@@ -225,6 +227,7 @@ def test_the_report_opens_in_light_and_dark_and_prints(browser, tmp_path, artefa
             page.pdf(path=artefacts / f"report-{name}.pdf", format="A4")
             page.emulate_media(media="print")
             papers.append(page.evaluate(PAPER))
+            assert page.evaluate(BREAKS) == ["avoid"] * 4
         watched.check()
         page.close()
     assert papers == ["rgb(255, 255, 255)", "rgb(16, 21, 31)", "rgb(255, 255, 255)"]

@@ -118,3 +118,13 @@ def test_small_corners_of_a_long_contour_have_a_detail_with_their_words():
     assert texts(picture).count("P0.5") == texts(picture).count("Q0.3") == 2
     large = draw_answer(contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0])
     assert not any("times as large" in text for text in texts(large))
+
+
+def test_of_very_many_small_contours_none_is_enlarged_and_the_picture_says_how_many():
+    text = "G00 X40. Z0.\n" + "G111 A180. K-20. B120. U10. P1.\nG01 U2.\n" * 60
+    picture = draw_result(contoursolve.solve(text, control="yasnac-lx3"))
+    check(picture)
+    shown = texts(picture)
+    assert not [told for told in shown if told.endswith("times as large") or told.startswith("0 words")]
+    names = ", ".join(f"{number}  line {2 * number}" for number in range(1, 7))
+    assert f"too small to be read here: {names} and 54 more".replace("  ", " ") in shown

@@ -34,7 +34,9 @@ from contoursolve.pictures import (
     draw_result,
     draw_sweep,
 )
+from contoursolve.pictures.compose import compose
 from contoursolve.pictures.page import WIDTH, Box, Shape, Stroke, Sweep, Text
+from contoursolve.pictures.scene import Leader, Mark, MarkKind
 from contoursolve.pictures.svg import PIXELS
 from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
 from contoursolve.solving.contour import ArcSegment
@@ -476,6 +478,95 @@ def test_words_are_blamed_unless_others_are_missing_beside_them():
     assert red("G112 U0 I10. K0 R30.", "X100. Z-50.") == {"K0"}
     assert red("G111 X100. A180. B120.") == set()
     assert red("G12 W-20.") == set()
+
+
+def radii_of(answer):
+    """The words of a contour that point at arcs, with where they point from: their centres."""
+    return [(each, each.center) for each in compose(answer).each(Leader) if each.center is not None]
+
+
+def check_radii(answer):
+    """Each leader of a radius lies on a ray through the centre (ISO 129), and no text on the mark of a centre."""
+    sheet = draw_answer(answer).sheet
+    if sheet.placement is None:
+        return 0
+    view, count = sheet.placement.view, 0
+    for leader, center in radii_of(answer):
+        (x, y), size = view.place(center), leader.text
+        if size not in {text.words for text in sheet.drawing if isinstance(text, Text)}:
+            continue  # it had no room, or stands in a detail
+        rays = [
+            item
+            for item in sheet.drawing
+            if isinstance(item, Stroke)
+            and item.width == 0.9
+            and item.about == leader.about
+            and item.role is leader.role
+        ]
+        assert rays, size
+        for ray in rays:
+            (a, b), (c, d) = ray.start, ray.steps[0]
+            length = math.hypot(c - a, d - b)
+            assert abs((c - a) * (y - b) - (d - b) * (x - a)) / length < 0.02 * max(1.0, math.hypot(x - a, y - b) / 100)
+            radius = math.hypot(c - x, d - y)
+            assert radius == pytest.approx(view.scale * math.dist(leader.at, center), rel=1e-6)
+            count += 1
+    crosses = [view.place(mark.at) for mark in compose(answer).each(Mark) if mark.kind is MarkKind.CENTER]
+    for text in (item for item in sheet.drawing if isinstance(item, Text)):
+        assert not any(text.box.meets(Box(x - 4, y - 4, x + 4, y + 4)) for x, y in crosses), text
+    return count
+
+
+def test_radii_point_through_their_centres_and_no_text_lies_on_the_mark_of_one():
+    answers = [answer for path in PROGRAMS for answer in contoursolve.solve_file(path).answers]
+    assert sum(map(check_radii, [*answers, *(answer for name in KINDS for answer in answers_of(name))])) > 30
+
+
+@pytest.mark.parametrize("angle", ["A0.", "A360.", "A1."])
+def test_an_angle_of_0_has_an_arrow_beside_the_line(angle):
+    (answer,) = contoursolve.solve(f"G111 X100. {angle} K30. B60. P5.", start="X40. Z0.").answers
+    drawing = draw_answer(answer).sheet.drawing
+    (text,) = [item for item in drawing if isinstance(item, Text) and item.words == angle]
+    (arrow,) = [
+        item for item in drawing if isinstance(item, Shape) and item.role is Role.GIVEN and item.about == text.about
+    ]
+    (line,) = [
+        item for item in drawing if isinstance(item, Stroke) and item.role is Role.GIVEN and item.about == text.about
+    ]
+    assert arrow.corners[0] == line.steps[0]
+    assert line.steps[0][0] > line.start[0] + 20
+    start = draw_answer(answer).sheet.placement.view.place(answer.contour.start)
+    assert 5 < abs(line.start[1] - start[1]) < 15  # off the path
+
+
+def underlined(picture):
+    """The words at fault, by where they are: in the block, in the drawing."""
+    return [
+        {run.text.strip() for item in items if isinstance(item, Text) for run in item.runs if run.is_underlined}
+        for items in (picture.sheet.around, picture.sheet.drawing)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("block", "in_block", "drawn"),
+    [
+        ("G111 Z-95 A180. X100. B120.", {"Z-95"}, {"Z-95 = -0.095 mm"}),
+        ("G111 X100 A180. K-30. B120. P5.", {"X100"}, {"X100 = 0.100 mm dia"}),
+        ("G111 X100. A180. K-30 B120. P5.", {"K-30"}, {"K-30 = -0.030 mm"}),
+        # Its point would not mend this one.
+        ("G111 Z95 A180. X100. B120.", {"A180."}, {"A180."}),
+        ("G111 X100. A180. K-30. B120. E7.", {"E7."}, set()),
+        ("G111 X100. A180. K-30. B12O.", {"B12O."}, {"B12"}),
+        ("G111 X100. A180. K-30. B120. B130.", {"B120.", "B130."}, {"B120."}),
+    ],
+)
+def test_what_is_at_fault_is_marked_and_not_what_disagrees_with_it(block, in_block, drawn):
+    (answer,) = contoursolve.solve(block, start="X40. Z0.").answers
+    picture = draw_answer(answer)
+    check(picture)
+    lines, inside = underlined(picture)
+    assert "".join(sorted(lines)) == "".join(sorted(in_block))  # one that is read in part is in two
+    assert inside == drawn
 
 
 # Families.
