@@ -80,7 +80,7 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
     is_free = canvas.cost(Box(frame.left, frame.bottom - 34.0, _CORNER, frame.bottom)) == 0.0
     under = ROW + _GAP_ABOVE if has_row else -26.0 if is_free else _GAP_ABOVE
     below = held.foot if held else frame.bottom + under if scene.parts or any(scene.axes) else frame.top - _ALONE
-    enlarged = draw_details(whole, margins.view, details, frame.bottom + _GAP_ABOVE) if has_row else ()
+    enlarged = [*draw_details(whole, margins.view, details, frame.bottom + _GAP_ABOVE)] if has_row else []
     told = {item.words for item in enlarged if isinstance(item, Text)}
     homeless = [each for each in canvas.homeless if each not in told]
     foot = [*enlarged, *_foot_of(scene, homeless, small, below, margins.view.scale)]
