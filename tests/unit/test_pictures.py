@@ -21,6 +21,7 @@ from test_rules import examine, examples
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.diagnosis.wording import statuses_text
+from contoursolve.diagnostics.finding import Severity
 from contoursolve.families import Code
 from contoursolve.pictures import (
     Picture,
@@ -37,6 +38,7 @@ from contoursolve.pictures import (
 from contoursolve.pictures.compose import compose
 from contoursolve.pictures.page import WIDTH, Box, Shape, Stroke, Sweep, Text
 from contoursolve.pictures.scene import Leader, Mark, MarkKind
+from contoursolve.pictures.subject import subject_of
 from contoursolve.pictures.svg import PIXELS
 from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
 from contoursolve.solving.contour import ArcSegment
@@ -174,6 +176,18 @@ def test_a_drawing_in_inches_says_so():
 def test_what_a_rule_refuses_is_drawn(control, code, program):
     result = examine(program, control)
     check(draw_result(result))
+    for answer in result.answers:
+        check(draw_answer(answer))
+        check_radii(answer)
+        assert_errors_have_one_colour(answer)
+
+
+def assert_errors_have_one_colour(answer):
+    """All words that one error is about are marked, or none of them."""
+    blamed = subject_of(answer).blamed
+    words = {word.span for block in answer.claim.blocks for word in block.words}
+    for finding in (each for each in answer.diagnostics if each.severity is Severity.ERROR):
+        assert len({label.span in blamed for label in finding.labels if label.span in words}) <= 1, finding
 
 
 def random_block(draw: random.Random) -> tuple[str, str]:
