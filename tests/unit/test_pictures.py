@@ -36,6 +36,7 @@ from contoursolve.pictures import (
     draw_sweep,
 )
 from contoursolve.pictures.compose import compose
+from contoursolve.pictures.labels import clip
 from contoursolve.pictures.page import WIDTH, Box, Shape, Stroke, Sweep, Text
 from contoursolve.pictures.scene import Leader, Mark, MarkKind
 from contoursolve.pictures.subject import subject_of
@@ -534,6 +535,21 @@ def check_radii(answer):
 def test_radii_point_through_their_centres_and_no_text_lies_on_the_mark_of_one():
     answers = [answer for path in PROGRAMS for answer in contoursolve.solve_file(path).answers]
     assert sum(map(check_radii, [*answers, *(answer for name in KINDS for answer in answers_of(name))])) > 30
+
+
+CROWDED = "G00 X40 Z2\nG111 A180 K-30 B120 X100"
+"""Without points it is hardly larger than the mark of a point."""
+
+
+def test_no_label_lies_along_a_path():
+    crowded = contoursolve.solve(CROWDED, control="yasnac-lx3").answers
+    for answer in [*crowded, *(answer for name in KINDS for answer in answers_of(name))]:
+        drawing = draw_answer(answer).sheet.drawing
+        paths = [item for item in drawing if isinstance(item, Stroke) and item.width >= 2.2]
+        ends = [(path.start, path.steps[0]) for path in paths if not isinstance(path.steps[0], Sweep)]
+        for text in (item for item in drawing if isinstance(item, Text)):
+            covered = [clip(*each, text.box) for each in ends]
+            assert all(part is None or math.dist(*part) < 70 for part in covered), text
 
 
 @pytest.mark.parametrize("angle", ["A0.", "A360.", "A1."])
