@@ -29,6 +29,7 @@ from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import Rule
 
 ROOT = Path(__file__).parents[2]
+TRY = Path(__file__).with_name("try")
 OUTPUT = Path(sys.argv[1] if sys.argv[1:] else ROOT / "build" / "site").resolve()
 PAGES = OUTPUT / "pages"
 SITE = OUTPUT / "html"
@@ -37,6 +38,7 @@ STAGED = {
     ROOT / "README.md": "overview.md",
     ROOT / "CONTRIBUTING.md": "contributing.md",
     ROOT / "CHANGELOG.md": "changes.md",
+    TRY / "page.md": "try.md",
     **{path: path.name for path in sorted((ROOT / "docs").glob("*.md"))},
     **{path: f"notebooks/{path.stem}.md" for path in sorted((ROOT / "notebooks").glob("*.ipynb"))},
     **{path: f"pictures/{path.name}" for path in sorted((ROOT / "notebooks" / "pictures").iterdir())},
@@ -234,7 +236,7 @@ def reference_page() -> Iterator[str]:
 
 def try_page() -> str:
     """The page with a block to type, and what it says about where Python comes from."""
-    text = Path(__file__).with_name("try").joinpath("page.md").read_text(encoding="utf-8")
+    text = (TRY / "page.md").read_text(encoding="utf-8")
     options = (f'<option value="{name}">{escape(dialect.title)}</option>' for name, dialect in DIALECTS.items())
     host, packages = urlsplit(PYODIDE).netloc or "This site", [each.partition("==")[0] for each in WHEELS]
     for name, said in {
@@ -250,10 +252,10 @@ def try_page() -> str:
 def write_try(folder: Path) -> None:
     """What the page loads from this site: its scripts, the explorer's, this package, and wheels."""
     folder.mkdir()
-    own, house = Path(__file__).with_name("try"), Path(contoursolve.__file__).parent
-    for path in (own / "page.js", own / "worker.js", house / "notebook" / "explorer.js"):
+    house = Path(contoursolve.__file__).parent
+    for path in (TRY / "page.js", TRY / "worker.js", house / "notebook" / "explorer.js"):
         shutil.copy(path, folder)
-    styles = [own / "page.css", house / "notebook" / "explorer.css"]
+    styles = [TRY / "page.css", house / "notebook" / "explorer.css"]
     style = "".join(path.read_text(encoding="utf-8") for path in styles)
     (folder / "page.css").write_text(notebook_style() + style, encoding="utf-8")
     with ZipFile(folder / "contoursolve.zip", "w", ZIP_DEFLATED) as archive:

@@ -9,9 +9,9 @@ from urllib.parse import parse_qs, urlsplit
 from xml.etree import ElementTree
 
 import pytest
+from browsing import Watched
 from distribution import make_distribution
 from numpy_host import serving
-from test_browser import FLAGS, Watched
 
 from contoursolve.notebook.conversation import Conversation
 from contoursolve.notebook.exploration import begin
@@ -21,17 +21,6 @@ LOADED = 100_000
 """ms. Python starts in 5 to 15 s; every operation of NumPy is a request here."""
 TEXT = "{http://www.w3.org/2000/svg}text"
 BLOCK, START = "G111 X100. A180. K-30. B120. P60. Q5.", "X40. Z0."
-
-
-@pytest.fixture(scope="module")
-def browser():
-    from playwright.sync_api import sync_playwright  # noqa: PLC0415 - skipped without it
-
-    with sync_playwright() as play:
-        program = shutil.which("chromium") or shutil.which("chromium-browser")
-        found = play.chromium.launch(executable_path=program, args=FLAGS)
-        yield found
-        found.close()
 
 
 @pytest.fixture(scope="module")
@@ -55,14 +44,14 @@ def shown(page) -> dict[str, str | list[str]]:
     """What the explorer shows of a contour."""
     explorer = page.locator(".contoursolve.explorer")
     said = page.locator("#said", has_text=re.compile("could not|Error"))
-    explorer.locator("figure svg").or_(said).wait_for(timeout=LOADED)
+    explorer.locator("figure svg[role=img]").or_(said).wait_for(timeout=LOADED)
     assert not said.count(), said.inner_text()
     return {
         "text": explorer.locator("textarea").input_value(),
         "status": explorer.locator(".state strong").inner_text(),
         "findings": explorer.locator(".finding pre").all_text_contents(),
         "fixes": explorer.locator("button.fix").all_text_contents(),
-        "picture": explorer.locator("figure text").all_text_contents(),
+        "picture": explorer.locator("figure svg[role=img] text").all_text_contents(),
     }
 
 
@@ -80,10 +69,11 @@ def told(view) -> dict[str, str | list[str]]:
     }
 
 
-def test_a_block_is_solved_in_the_browser_and_its_address_shows_the_same(browser, address, request) -> None:
+def test_a_block_is_solved_in_the_browser_and_its_address_shows_the_same(axe, browser, address, artefacts) -> None:
     watched = Watched(browser, viewport={"width": 1300, "height": 1300})
     page = watched.page
     page.goto(address)
+    assert axe(page) == []
     # Before anybody asks for Python, none of it is loaded.
     assert not [each for each in watched.asked if "pyodide" in each or each.endswith((".zip", ".whl"))]
     assert "cdn.jsdelivr.net" in page.locator("article").inner_text()
@@ -98,9 +88,11 @@ def test_a_block_is_solved_in_the_browser_and_its_address_shows_the_same(browser
     assert found == told(conversation.state["view"])
     assert found["fixes"]
 
-    other = Watched(browser)
+    other = Watched(browser, color_scheme="dark")
     other.page.goto(page.url)
     assert shown(other.page) == found
+    assert axe(other.page) == []
+    other.page.screenshot(path=artefacts / "page-dark.png", full_page=True)
     other.check()
     other.page.close()
 
@@ -111,9 +103,8 @@ def test_a_block_is_solved_in_the_browser_and_its_address_shows_the_same(browser
     wanted = told(conversation.answer({"do": "fix", "finding": 0, "fix": 0})["view"])
     assert shown(page) == wanted
     fixed = wanted["text"]
-    assert parse_qs(urlsplit(page.url).fragment) == {"block": [fixed], "start": [START]}
-    if folder := request.config.getoption("--screenshots"):
-        page.screenshot(path=Path(folder) / "page.png", full_page=True)
+    page.wait_for_url(lambda url: parse_qs(urlsplit(url).fragment) == {"block": [fixed], "start": [START]})
+    page.screenshot(path=artefacts / "page.png", full_page=True)
     watched.check()
     page.close()
 

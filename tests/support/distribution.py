@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from zipfile import ZipFile
 
-SUPPORT = Path(__file__).parent
+STAND_INS = Path(__file__).with_name("stand_ins")
 
 
 def _installed(package: str) -> Path:
@@ -19,12 +19,12 @@ def _installed(package: str) -> Path:
 def make_distribution(core: Path, folder: Path) -> Path:
     """The files of npm's package `pyodide`, and beside them the packages that the page asks for.
 
-    numpy is `remote/numpy`, casadi is `stand_ins/casadi.py`. The others are copies of the pure Python installed here.
+    numpy and casadi are those of `stand_ins`. The others are copies of the pure Python that is installed here.
     """
     shutil.copytree(core, folder)
     sources = {
-        "numpy": SUPPORT / "remote" / "numpy",
-        "casadi": SUPPORT / "stand_ins" / "casadi.py",
+        "numpy": STAND_INS / "browser" / "numpy",
+        "casadi": STAND_INS / "python" / "casadi.py",
         **{name: _installed(name) for name in ("markupsafe", "sympy", "mpmath")},
     }
     depends = {"casadi": ["numpy"], "sympy": ["mpmath"]}

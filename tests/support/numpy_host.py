@@ -1,4 +1,4 @@
-"""The server behind `remote/numpy`: it sends the files of a site, and does with NumPy what its pages ask for."""
+"""The server behind `stand_ins/browser/numpy`: it sends a site, and does with NumPy what its pages ask for."""
 
 import builtins
 import operator

@@ -9,7 +9,10 @@ const button = form.querySelector("button[type=submit]");
 const said = document.getElementById("said");
 const place = document.getElementById("explorer");
 
+const PAUSE = 300; // ms without a change until the address follows; browsers forbid to write it often
+
 let worker = null;
+let pause = null;
 let model = null; // of the contour that is shown
 let close = null; // ends its front end
 let isReady = false; // whether Python has answered
@@ -64,11 +67,12 @@ const hear = {
     model = new Model(state);
     close = explorer.render({ model, el: place });
     say("");
-    keepAddress();
+    writeAddress();
   },
   changed: (state) => {
     model.tell(state);
-    if (state.view) keepAddress();
+    clearTimeout(pause);
+    pause = setTimeout(writeAddress, PAUSE);
   },
   refused: (why) => {
     isReady = true;
@@ -93,7 +97,7 @@ function solve() {
   worker.postMessage({ do: "open", text: block.value, start: start.value, control: control.value });
 }
 
-function keepAddress() {
+function writeAddress() {
   block.value = model.get("view").text;
   const told = new URLSearchParams({ block: block.value });
   for (const field of [start, control]) if (field.value) told.set(field.name, field.value);

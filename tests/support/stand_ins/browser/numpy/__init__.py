@@ -3,10 +3,11 @@
 Arrays stay there; every operation is a request that is waited for. Numbers come here.
 """
 
+import math
 import pickle
 from contextlib import nullcontext
 from io import BytesIO
-from math import copysign, inf, isnan, nan, pi
+from math import inf, nan, pi
 from typing import Any
 
 from js import Uint8Array, XMLHttpRequest
@@ -19,6 +20,10 @@ _gone: list[int] = []
 
 class float64(float):  # noqa: N801 - NumPy's name
     """A number that can be divided by zero."""
+
+    def __new__(cls, value: Any = 0.0) -> Any:
+        """Of an array, the array."""
+        return _ask("call", "float64", (value,), {}) if isinstance(value, ndarray) else super().__new__(cls, value)
 
     def __reduce__(self) -> Any:
         return float, (float(self),)
@@ -33,7 +38,7 @@ class float64(float):  # noqa: N801 - NumPy's name
 def _divided(a: float, b: float) -> float64:
     if b:
         return float64(float(a) / float(b))
-    return float64(nan if not a or isnan(a) else copysign(inf, a) * copysign(1.0, b))
+    return float64(nan if not a or math.isnan(a) else math.copysign(inf, a) * math.copysign(1.0, b))
 
 
 def _of_two(name: str) -> Any:
