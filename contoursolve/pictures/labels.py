@@ -54,6 +54,9 @@ _PER_PIXEL = 0.35
 _BACKWARDS, _ELSEWHERE = 6.3, 5.0
 """What weighs a label on the other side of its place, and one that points at a further place."""
 
+_ILLEGIBLE = 400.0
+"""What a label would cover that nobody could read: ten cells of a path."""
+
 _TOUCHING = 20.0
 """Pixels. A label that is no farther needs no leader."""
 
@@ -109,7 +112,7 @@ def _place_label(
             if best is not None and own >= best[0]:
                 continue
             cost = own + canvas.cost(box.grow(1.5))
-            if cost == inf or (far > _TOUCHING and canvas.is_crossed(at, _nearest(box, at))):
+            if cost > _ILLEGIBLE or (far > _TOUCHING and canvas.is_crossed(at, _nearest(box, at))):
                 continue
             if far > _TOUCHING:
                 cost += canvas.crossings(_nearest(box, at), at)
@@ -316,7 +319,7 @@ class Canvas:
                     continue
                 end = _on_ray(box, at, way) or at
                 cost = own + number * _ELSEWHERE + self.cost(box.grow(1.5))
-                if cost < inf and not self.is_crossed(at, end):
+                if cost <= _ILLEGIBLE and not self.is_crossed(at, end):
                     cost += self.crossings(end, at)
                     if best is None or cost < best[0]:
                         best = cost, box, at, way

@@ -117,7 +117,7 @@ def _turned(scene: Scene, drawn: Sequence[Drawn], moves: Sequence[Move], *, is_w
     cut += [move.segment for move in moves if move.is_between]
     cylinders = [each for one in solved for each in cylinders_of(one.segments, one.answer.unit)]
     told = [
-        (TextRun(f"{each.number}, line {each.answer.lines[0]}: the path crosses the turning axis", Role.INK),)
+        (TextRun(f"{each.number}, program line {each.answer.lines[0]}: the path crosses the turning axis", Role.INK),)
         for each in drawn
         if crosses_axis(each.segments)
     ]
@@ -132,7 +132,7 @@ def describe_overview(result: Result) -> str:
     for number, answer in enumerate(shown, 1):
         fault = "" if answer.contour is not None else _fault(answer)
         sentences.append(
-            f"Contour {number}, line {answer.lines[0]}, {answer.claim.form.name}: {answer.status.value}{fault}."
+            f"Contour {number}, program line {answer.lines[0]}, {answer.claim.form.name}: {answer.status.value}{fault}."
         )
     if len(result.answers) > len(shown):
         sentences.append(f"And {len(result.answers) - len(shown)} more contours.")
@@ -159,7 +159,7 @@ def _remarks(drawn: Sequence[Drawn], total: int) -> Iterator[tuple[TextRun, ...]
     """What is wrong with contours that have no path, and what cannot be seen in the picture."""
     refused = [each for each in drawn if each.answer.contour is None]
     for each in refused[:MOST_REFUSED]:
-        told = f"{each.number}, line {each.answer.lines[0]}, {each.answer.status.value}{_fault(each.answer)}"
+        told = f"{each.number}, program line {each.answer.lines[0]}, {each.answer.status.value}{_fault(each.answer)}"
         yield (TextRun(visible(told), Role.CONFLICTING),)
     if len(refused) > MOST_REFUSED:
         yield (TextRun(f"... and {len(refused) - MOST_REFUSED} more without a contour", Role.CONFLICTING),)

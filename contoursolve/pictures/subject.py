@@ -157,10 +157,10 @@ def subject_of(answer: Answer) -> Subject:
     """All that a picture of a contour shows."""
     known, lacking = find_known(answer), counted(answer)
     is_slip = bool(lacking) and answer.contour is None and is_mended_by(answer, lacking)
-    is_doubtful = any(each.severity is Severity.WARNING for each in answer.diagnostics) and answer.contour is not None
-    blamed = frozenset(
-        {*_blamed(answer, is_slip=is_slip), *unread(answer), *(lacking if is_slip or is_doubtful else ())}
-    )
+    # A contour is made from it although other words say something else.
+    is_doubted = any(each.about is ReadIssue.WORD_IGNORED for each in answer.diagnostics) and answer.contour is not None
+    at_fault = lacking if is_slip or is_doubted else ()
+    blamed = frozenset({*_blamed(answer, is_slip=is_slip), *unread(answer), *at_fault})
     return Subject(
         answer.profile,
         known,

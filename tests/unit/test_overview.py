@@ -88,7 +88,10 @@ def test_the_other_half_is_left_out_where_it_would_make_contours_small():
 def test_a_contour_without_a_path_has_its_message():
     picture = draw_result(contoursolve.solve_file(BROKEN))
     shown = "\n".join(texts(picture))
-    assert "3, line 21, no-solution: corner 1 does not fit: P4. is 4.000 mm, at most 2.500 mm fits on line 2" in shown
+    assert (
+        "3, program line 21, no-solution: corner 1 does not fit: P4. is 4.000 mm, at most 2.500 mm fits on line 2"
+        in shown
+    )
     assert "at most 2.500 mm fits on line 2" in picture.description
     check(picture)
 
@@ -96,7 +99,7 @@ def test_a_contour_without_a_path_has_its_message():
 def test_a_contour_that_is_too_small_is_shown_enlarged():
     picture = draw_result(small())
     check(picture)
-    assert {"A: 2  line 5", "3, line 7: the path crosses the turning axis"} <= set(texts(picture))
+    assert {"A: 2  line 5", "3, program line 7: the path crosses the turning axis"} <= set(texts(picture))
     (told,) = (text for text in texts(picture) if text.endswith("times as large"))
     times = float(told.split()[0])
     arcs = [

@@ -21,6 +21,7 @@ from test_rules import examine, examples
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.diagnosis.wording import statuses_text
+from contoursolve.diagnostics.finding import Severity
 from contoursolve.families import Code
 from contoursolve.pictures import (
     Picture,
@@ -35,8 +36,10 @@ from contoursolve.pictures import (
     draw_sweep,
 )
 from contoursolve.pictures.compose import compose
+from contoursolve.pictures.labels import clip
 from contoursolve.pictures.page import WIDTH, Box, Shape, Stroke, Sweep, Text
 from contoursolve.pictures.scene import Leader, Mark, MarkKind
+from contoursolve.pictures.subject import subject_of
 from contoursolve.pictures.svg import PIXELS
 from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
 from contoursolve.solving.contour import ArcSegment
@@ -174,6 +177,18 @@ def test_a_drawing_in_inches_says_so():
 def test_what_a_rule_refuses_is_drawn(control, code, program):
     result = examine(program, control)
     check(draw_result(result))
+    for answer in result.answers:
+        check(draw_answer(answer))
+        check_radii(answer)
+        assert_errors_have_one_colour(answer)
+
+
+def assert_errors_have_one_colour(answer):
+    """All words that one error is about are marked, or none of them."""
+    blamed = subject_of(answer).blamed
+    words = {word.span for block in answer.claim.blocks for word in block.words}
+    for finding in (each for each in answer.diagnostics if each.severity is Severity.ERROR):
+        assert len({label.span in blamed for label in finding.labels if label.span in words}) <= 1, finding
 
 
 def random_block(draw: random.Random) -> tuple[str, str]:
@@ -522,6 +537,21 @@ def test_radii_point_through_their_centres_and_no_text_lies_on_the_mark_of_one()
     assert sum(map(check_radii, [*answers, *(answer for name in KINDS for answer in answers_of(name))])) > 30
 
 
+CROWDED = "G00 X40 Z2\nG111 A180 K-30 B120 X100"
+"""Without points it is hardly larger than the mark of a point."""
+
+
+def test_no_label_lies_along_a_path():
+    crowded = contoursolve.solve(CROWDED, control="yasnac-lx3").answers
+    for answer in [*crowded, *(answer for name in KINDS for answer in answers_of(name))]:
+        drawing = draw_answer(answer).sheet.drawing
+        paths = [item for item in drawing if isinstance(item, Stroke) and item.width >= 2.2]
+        ends = [(path.start, path.steps[0]) for path in paths if not isinstance(path.steps[0], Sweep)]
+        for text in (item for item in drawing if isinstance(item, Text)):
+            covered = [clip(*each, text.box) for each in ends]
+            assert all(part is None or math.dist(*part) < 70 for part in covered), text
+
+
 @pytest.mark.parametrize("angle", ["A0.", "A360.", "A1."])
 def test_an_angle_of_0_has_an_arrow_beside_the_line(angle):
     (answer,) = contoursolve.solve(f"G111 X100. {angle} K30. B60. P5.", start="X40. Z0.").answers
@@ -553,6 +583,8 @@ def underlined(picture):
         ("G111 Z-95 A180. X100. B120.", {"Z-95"}, {"Z-95 = -0.095 mm"}),
         ("G111 X100 A180. K-30. B120. P5.", {"X100"}, {"X100 = 0.100 mm dia"}),
         ("G111 X100. A180. K-30 B120. P5.", {"K-30"}, {"K-30 = -0.030 mm"}),
+        ("G111 X100. A180. K-30. B120. Z-95", {"Z-95"}, {"Z-95 = -0.095 mm"}),
+        ("G111 X100. A180. K-30. B120. P5", set(), set()),
         # Its point would not mend this one.
         ("G111 Z95 A180. X100. B120.", {"A180."}, {"A180."}),
         ("G111 X100. A180. K-30. B120. E7.", {"E7."}, set()),
