@@ -10,7 +10,7 @@ from _pytest.mark import ParameterSet
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-THINNED = 5
+THINNED = 8
 """One of so many of the sampled cases is run, so that the command of the README ends in two minutes, and all of CI in
 twenty."""
 
