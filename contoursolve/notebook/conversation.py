@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 
 from contoursolve.notebook import exploration as explorations
-from contoursolve.notebook.exploration import Exploration
+from contoursolve.notebook.exploration import Exploration, words_of
 from contoursolve.notebook.front_end import Data, asked_now, frames_of, ghost_of, picture_of, range_of, view_of
 
 _CHANGES: Mapping[str, Callable[[Exploration, Data], Exploration]] = {
@@ -11,7 +11,7 @@ _CHANGES: Mapping[str, Callable[[Exploration, Data], Exploration]] = {
     "free": lambda now, action: explorations.free(now, str(action["key"])),
     "fix": lambda now, action: explorations.apply_fix(now, int(action["finding"]), int(action["fix"])),
     "select": lambda now, action: explorations.select(now, int(action["solution"])),
-    "write": lambda now, action: explorations.write(now, str(action["text"])),
+    "write": lambda now, action: explorations.rewrite(now, str(action["text"])),
     "reset": lambda now, _: explorations.reset(now),
 }
 """What the front end may do to the block. Each can be undone."""
@@ -35,6 +35,8 @@ class Conversation:
         self.exploration = exploration
         self._past: list[Exploration] = []
         self._future: list[Exploration] = []
+        self._begun: tuple[Exploration, list[Exploration], list[Exploration]] = (exploration, [], [])
+        """The contour when the reader took hold of it, and what could be undone and made again then."""
         self._pinned: set[str] = set()
         self._is_held = False
         self._handle: dict[str, list[str]] = {}
@@ -47,53 +49,67 @@ class Conversation:
     def answer(self, action: Data) -> Data:
         """Do what a front end asks for; what changes of the state. Raises nothing: what goes wrong is said in it."""
         kind = action.get("do")
-        try:
-            changed = self._ranged(str(action["key"])) if kind == "range" else self._ghosted(action)
-        except (ValueError, KeyError, TypeError):  # there is no such word, fix or solution any more
-            changed = {}
-        if kind not in ("range", "ghost"):
+        if kind in ("range", "ghost"):
+            try:
+                changed = self._ranged(str(action["key"])) if kind == "range" else self._ghosted(action)
+            except Exception:  # there is no such word, fix or solution any more, or nothing to be told of it
+                changed = {}
+        else:
             changed = {"view": self._acted(action), "ghost": {}}
         self.state |= {**changed, "number": int(action.get("number", 0))}
         return {**changed, "number": self.state["number"]}
 
     def _acted(self, action: Data) -> Data:
-        trouble, kind = "", action.get("do")
-        is_held = bool(action.get("is_held"))
-        before = self.exploration
+        before, pinned = self.exploration, set(self._pinned)
         try:
-            self.exploration = self._done(action)
-        except ValueError as error:  # what the reader typed makes no sense: nothing changes
-            trouble = str(error)
-        except Exception as error:  # the front end waits for an answer, whatever happens
-            trouble = f"{type(error).__name__}: {error}"
-        if self.exploration is not before and kind in _CHANGES and not self._is_held:
-            self._past, self._future = [*self._past[-MOST_PAST:], before], []
-        self._is_held = is_held
-        self._handle = action.get("handle", {}) if is_held else {}
-        answer = self.exploration.answer
-        self._solved = self.exploration if answer is not None and answer.contour is not None else self._solved
-        self._drawn = picture_of(answer, self._drawn if is_held else None) if answer else None
-        asks: list[Data] = []
-        if kind == "fix" and not trouble:
-            example = explorations.example_of(before, int(action["finding"]), int(action["fix"]))
-            asks = asked_now(self.exploration, before, self._solved, example)
-        return {**self._viewed(trouble, is_new=kind in _FITTED), "asks": asks}
+            self._do(action)
+            return self._shown(action, before)
+        except Exception as error:  # the front end waits for an answer, whatever happens: nothing changes
+            # A ValueError says what makes no sense of what the reader typed.
+            trouble = str(error) if isinstance(error, ValueError) else f"{type(error).__name__}: {error}"
+            self.exploration, self._pinned = before, pinned
+            return {**self.state["view"], "trouble": trouble, "is_new": False, "asks": [], "is_held": self._is_held}
 
-    def _done(self, action: Data) -> Exploration:
-        """What the contour is after an action."""
-        kind, now = action["do"], self.exploration
+    def _do(self, action: Data) -> None:
+        """Change the contour, or only what is shown of it."""
+        kind, now, is_held = action["do"], self.exploration, bool(action.get("is_held"))
         if kind in _CHANGES:
-            return _CHANGES[kind](now, action)
+            if action.get("of", now.text) != now.text:
+                return  # it was meant for what the reader saw before
+            changed = _CHANGES[kind](now, action)
+            if changed.text != now.text and not (self._is_held and is_held):
+                self._begun = now, [*self._past], [*self._future]
+                self._past, self._future = [*self._past[-MOST_PAST:], now], []
+            if kind == "write":
+                self._pinned &= _same_words(now, changed)
+            self._is_held = is_held and (self._is_held or changed.text != now.text)
+            self.exploration = changed
+            return
         if kind == "pin":
             self._pinned ^= {str(action["key"])}
         elif kind in ("undo", "redo"):
             back, forth = (self._past, self._future) if kind == "undo" else (self._future, self._past)
             if back:
                 forth.append(now)
-                return back.pop()
-        elif kind != "release":
+                self.exploration = back.pop()
+        elif kind == "cancel" and self._is_held:
+            self.exploration, self._past, self._future = self._begun
+        elif kind not in ("release", "cancel"):
             raise ValueError(f"nothing is called {kind!r} here")
-        return now
+        self._is_held = False
+
+    def _shown(self, action: Data, before: Exploration) -> Data:
+        """What is shown after an action."""
+        kind, is_held = action["do"], bool(action.get("is_held"))
+        self._handle = action.get("handle", {}) if is_held else {}
+        answer = self.exploration.answer
+        self._solved = self.exploration if answer is not None and answer.contour is not None else self._solved
+        self._drawn = picture_of(answer, self._drawn if is_held else None) if answer else None
+        asks: list[Data] = []
+        if kind == "fix" and self.exploration is not before:
+            example = explorations.example_of(before, int(action["finding"]), int(action["fix"]))
+            asks = asked_now(self.exploration, before, self._solved, example)
+        return {**self._viewed(is_new=kind in _FITTED), "asks": asks}
 
     def _ranged(self, key: str) -> Data:
         """Where one word has a contour. It is worked out when nothing else is to do, and kept while it holds."""
@@ -110,6 +126,8 @@ class Conversation:
         if action.get("do") != "ghost" or self._drawn is None or now is None:
             return {}
         of: Data = {name: action[name] for name in ("finding", "fix", "solution") if name in action}
+        if action.get("of", self.exploration.text) != self.exploration.text:
+            return {}
         if "solution" in of:
             instead = shown = explorations.select(self.exploration, of["solution"])
         else:
@@ -117,14 +135,20 @@ class Conversation:
             shown = explorations.example_of(self.exploration, of["finding"], of["fix"])
         return {"ghost": {**of, "text": instead.text, "paths": ghost_of(shown, now, self._drawn)}}
 
-    def _viewed(self, trouble: str = "", *, is_new: bool = False) -> Data:
+    def _viewed(self, *, is_new: bool = False) -> Data:
         view = view_of(self.exploration, self._drawn, self._pinned, self._handle)
         return {
             **view,
-            "trouble": trouble,
+            "trouble": "",
             "is_new": is_new,
             "is_held": self._is_held,
             "can_undo": bool(self._past),
             "can_redo": bool(self._future),
             "frames": frames_of(self.exploration),
         }
+
+
+def _same_words(one: Exploration, other: Exploration) -> set[str]:
+    """The keys of words that are the same in both."""
+    words = [words_of(each.answer) if each.answer is not None else {} for each in (one, other)]
+    return {key for key, word in words[0].items() if key in words[1] and words[1][key].text == word.text}

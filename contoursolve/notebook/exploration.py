@@ -19,6 +19,7 @@ from contoursolve.diagnostics.finding import Diagnostic, Fix
 from contoursolve.gcode import FACT, Program, Word, parse, spell
 from contoursolve.geometry import Unit
 from contoursolve.program.pipeline import Result
+from contoursolve.program.recognise import UnknownControlError
 from contoursolve.solving import Status
 
 SAME = 1e-3
@@ -41,6 +42,8 @@ class Exploration(Struct, frozen=True):
     origin: str
     last: Mapping[str, str] = field(default_factory=dict)
     """What a word was before it was freed, by its key."""
+    is_recognised: bool = False
+    """Whether the words told the control, so that others may tell another one."""
 
     @property
     def answer(self) -> Answer | None:
@@ -57,11 +60,16 @@ def begin(text: str, facts: Iterable[str] = (), **options: Any) -> Exploration:
     if several:
         text = _with_facts(solve(text, **options).program, several)
     result = solve(text, **options)
+    _check_single(result)
+    # A reader may take out the word by which the control is recognised.
+    is_recognised = options.get("control") is None
+    return Exploration(text, {**options, "control": result.control}, result, text, is_recognised=is_recognised)
+
+
+def _check_single(result: Result) -> None:
     if len(result.answers) > 1:
         lines = ", ".join(str(answer.lines[0]) for answer in result.answers)
         raise ValueError(f"one contour can be explored at a time; this text has {len(result.answers)} (lines {lines})")
-    # A reader may take out the word by which the control is recognised.
-    return Exploration(text, {**options, "control": result.control}, result, text)
 
 
 def _with_facts(program: Program, facts: Sequence[str]) -> str:
@@ -74,7 +82,29 @@ def _with_facts(program: Program, facts: Sequence[str]) -> str:
 
 def write(exploration: Exploration, text: str) -> Exploration:
     """The same contour with another text. Raises as `solve`."""
-    return replace(exploration, text=text, result=solve(text, **exploration.options))
+    return _with_result(exploration, text, solve(text, **exploration.options))
+
+
+def _with_result(exploration: Exploration, text: str, result: Result) -> Exploration:
+    now = replace(exploration, text=text, result=result)
+    words = words_of(now.answer) if now.answer is not None else {}
+    return replace(now, last={key: old for key, old in now.last.items() if key in words and words[key].is_asked})
+
+
+def rewrite(exploration: Exploration, text: str) -> Exploration:
+    """Another text that a reader typed, perhaps for another control, if nobody chose one. Raises ValueError if it has
+    several contours, and as `solve`."""
+    now = write(exploration, text)
+    if exploration.is_recognised:
+        try:
+            other = solve(text, **{**exploration.options, "control": None})
+        except UnknownControlError:
+            other = None  # several read it, or none
+        if other is not None and other.answers and other.control != exploration.result.control:
+            options = {**exploration.options, "control": other.control}
+            now = _with_result(replace(exploration, options=options), text, other)
+    _check_single(now.result)
+    return now
 
 
 def reset(exploration: Exploration) -> Exploration:

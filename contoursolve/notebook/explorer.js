@@ -163,7 +163,7 @@ function render({ model, el }) {
     if (text.value !== model.get("view").text) act({ do: "write", text: text.value });
   };
   text.addEventListener("input", () => (isTyping = true));
-  text.addEventListener("change", writeText);
+  text.addEventListener("blur", writeText); // a change that was taken back is none for the browser
   text.addEventListener("keydown", (event) => {
     if (event.key === "Enter" && !event.shiftKey) {
       event.preventDefault();
@@ -185,9 +185,11 @@ function render({ model, el }) {
   function act(action) {
     clearTimeout(quiet);
     const last = queue.at(-1);
-    // Of what is held, only the last place counts; ghosts and ranges that nobody waits for any more do not.
-    if (last && (last.do === "ghost" || last.do === "range" || (last.is_held && action.is_held))) queue.pop();
+    // Of words that are held, only the last values count; ghosts and ranges that nobody waits for any more do not.
+    const isSame = last?.is_held && action.is_held && Object.keys(last.values).join() === Object.keys(action.values).join();
+    if (last && (last.do === "ghost" || last.do === "range" || isSame)) queue.pop();
     queue.push(action);
+    watch(action);
     send();
   }
 
@@ -197,8 +199,12 @@ function render({ model, el }) {
     const action = queue.shift();
     model.set("action", { ...action, number: asked });
     model.save_changes();
-    clearTimeout(silence);
-    if (action.do === "range") return; // nobody waits for it, and it may take long
+    watch(action);
+  }
+
+  function watch(action) {
+    // Nobody waits for a range, which may take long, or for a ghost; but for what is asked behind them.
+    if (silence || action.do === "range" || action.do === "ghost") return;
     silence = setTimeout(() => tell("Python has not answered for two seconds. It is busy, or it is gone: then run the cell, or load the page, again."), SILENT);
   }
 
@@ -228,6 +234,10 @@ function render({ model, el }) {
   }
 
   // Words ----------------------------------------------------------------------------------------------------
+
+  function aboutOf(field) {
+    return `${field.unit} ${field.meaning}`;
+  }
 
   function wordRow(field) {
     const name = `${field.key}: ${field.meaning}`;
@@ -272,13 +282,22 @@ function render({ model, el }) {
       isPointed = false;
     });
     number.addEventListener("input", () => (shown.isTyping = true));
-    number.addEventListener("blur", () => (shown.isTyping = false));
+    // A value that is proposed is no change for the browser; Enter and Tab take it.
+    const accept = () => {
+      if (shown.isProposed && number.value !== "") act({ do: "move", values: { [field.key]: number.value } });
+      shown.isProposed = false;
+    };
+    number.addEventListener("keydown", (event) => {
+      if (event.key === "Enter" || event.key === "Tab") accept();
+      if (event.key === "Escape") shown.isProposed = false;
+    });
+    number.addEventListener("blur", () => (shown.isTyping = shown.isProposed = false));
     number.addEventListener("change", () => {
-      shown.isTyping = false;
+      shown.isTyping = shown.isProposed = false;
       if (number.value !== "") act({ do: "move", values: { [field.key]: number.value } });
       else showWords(model.get("view").fields, false); // what is no number changes nothing
     });
-    const shown = { row, slider, number, free, pin, band, range, label, scale: null, text: "", isTyping: false };
+    const shown = { about: aboutOf(field), row, slider, number, free, pin, band, range, label, scale: null, text: "", isTyping: false };
     return shown;
   }
 
@@ -290,7 +309,7 @@ function render({ model, el }) {
     for (const field of fields) {
       gone.delete(field.key);
       let row = rows.get(field.key);
-      if (!row) rows.set(field.key, (row = wordRow(field)));
+      if (row?.about !== aboutOf(field)) rows.set(field.key, (row = wordRow(field)));
       const isInside = row.scale && field.value >= row.scale.low && field.value <= row.scale.high;
       if (!isInside || isNew) row.scale = { low: field.low, high: field.high, step: field.step };
       row.slider.min = row.scale.low;
@@ -305,7 +324,7 @@ function render({ model, el }) {
       row.range.dataset.state = field.state;
       // What the reader is about to enter stays.
       const isMoving = queue.length && (active === row.slider || held);
-      if (!isMoving && !row.isTyping) row.number.value = field.value ?? "";
+      if (!isMoving && !row.isTyping && !row.isProposed) row.number.value = field.value ?? "";
       if (!isMoving && field.value !== null) row.slider.value = field.value;
       if (field.state === "free" && field.value !== null) row.text = "free; the others give its value";
       else if (field.state === "free") row.text = isSeveral ? "free; each solution gives its own" : "free; nothing gives its value";
@@ -364,8 +383,9 @@ function render({ model, el }) {
   function showHandles(list) {
     const gone = new Set(grips.keys());
     for (const handle of list) {
-      gone.delete(handle.name);
-      let grip = grips.get(handle.name);
+      const name = `${handle.kind} ${handle.name}`;
+      gone.delete(name);
+      let grip = grips.get(name);
       if (!grip) {
         grip = { node: make("button", { type: "button" }), handle };
         grip.node.addEventListener("pointerdown", (event) => take(event, grip));
@@ -374,14 +394,14 @@ function render({ model, el }) {
         grip.node.addEventListener("pointercancel", () => drop(grip));
         grip.node.addEventListener("keydown", (event) => step(event, grip));
         for (const name of ["focus", "pointerenter", "blur", "pointerleave"]) grip.node.addEventListener(name, showTracks);
-        grips.set(handle.name, grip);
+        grips.set(name, grip);
         handles.append(grip.node);
       }
       grip.handle = handle;
       grip.node.className = `handle ${handle.kind}`;
       grip.node.title = `${handle.text}. Drag it, or press arrow keys; Shift for fine steps.`;
       grip.node.setAttribute("aria-label", handle.text);
-      for (const name of NAMES) delete grip.node.dataset[name];
+      for (const each of NAMES) delete grip.node.dataset[each];
       grip.node.dataset[handle.kind === "point" ? "point" : "word"] = handle.name;
       const values = valuesOf(handle);
       if (held?.grip === grip) held.base = { handle, values };
@@ -419,7 +439,7 @@ function render({ model, el }) {
     grip.node.setPointerCapture(event.pointerId);
     clearTimeout(settling);
     const base = { handle: grip.handle, values: valuesOf(grip.handle) };
-    held = { grip, base, off: minus(grip.handle.at, placeOf(event)), sent: base.values, target: null, due: 0 };
+    held = { grip, base, first: base, seen: new Set(), off: minus(grip.handle.at, placeOf(event)), sent: base.values, target: null, due: 0 };
     view.classList.add("held");
     showTracks();
   }
@@ -430,6 +450,7 @@ function render({ model, el }) {
     held.target = [at[0] + held.off[0], at[1] + held.off[1]];
     held.isFine = event.shiftKey;
     held.isBeyond = event.altKey;
+    held.seen.clear();
     held.due ||= requestAnimationFrame(follow);
   }
 
@@ -443,16 +464,14 @@ function render({ model, el }) {
     held = null;
     view.classList.remove("held");
     hint.textContent = "";
-    if (isMoved) act({ do: "release" });
+    if (isMoved || model.get("view").is_held || queue.length || asked > answered) act({ do: "release" });
     showTracks();
   }
 
   function cancel() {
-    const { isMoved } = held;
     held = null;
     view.classList.remove("held");
-    act({ do: "release" });
-    if (isMoved) act({ do: "undo" });
+    act({ do: "cancel" });
   }
 
   function follow() {
@@ -460,8 +479,10 @@ function render({ model, el }) {
     held.due = 0;
     if (!held.target) return;
     const { handle, values } = held.base;
+    // An angle is counted from where it was taken: its own centre may move with it.
+    const first = held.first;
     const steps = handle.center
-      ? { [handle.name]: turned(handle.center, handle.at, held.target) }
+      ? { [handle.name]: first.values[handle.name] + turned(first.handle.center, first.handle.at, held.target) - values[handle.name] }
       : stepsTo(handle, handle.at, held.target);
     const told = [];
     const wanted = {};
@@ -481,16 +502,18 @@ function render({ model, el }) {
     const range = handle.keys.length === 1 ? freshRange(key) : null;
     const least = field.increment;
     const interval = range?.intervals?.find(([low, high]) => from >= low && from <= high);
+    const [first, last] = interval && !isBeyond ? range.stops[range.intervals.indexOf(interval)] : [-Infinity, Infinity];
     if (interval && !isBeyond) {
-      const [first, last] = [Math.ceil(interval[0] / least - 1e-6) * least, Math.floor(interval[1] / least + 1e-6) * least];
       const [low, high] = range.ends[range.intervals.indexOf(interval)];
       if (value <= first && low) return { value: tidy(first), text: `stops: ${low}` };
       if (value >= last && high) return { value: tidy(last), text: `stops: ${high}` };
     }
-    const caught = range?.snaps?.find((snap) => Math.abs(snap.value - value) * pixels < CATCH);
+    const isNear = (snap) => Math.abs(snap.value - value) * pixels < CATCH && snap.value >= first && snap.value <= last;
+    const caught = range?.snaps?.find(isNear);
     if (caught && !isFine) return { value: tidy(caught.value), text: `${tidy(caught.value)} ${caught.text}` };
     const step = isFine ? least : Math.max(least, roundStep(COARSE / pixels));
-    return { value: tidy(Math.round(value / step) * step), text: "" };
+    const rounded = Math.round(value / step) * step;
+    return { value: tidy(Math.min(Math.max(rounded, first), last)), text: "" };
   }
 
   function move(grip, wanted) {
@@ -504,8 +527,14 @@ function render({ model, el }) {
     }
     const sent = held?.sent ?? values;
     if (Object.keys(wanted).every((key) => wanted[key] === sent[key])) return;
-    if (held) [held.sent, held.isMoved] = [wanted, true];
-    act({ do: "move", values: wanted, is_held: true, handle: { [handle.name]: handle.keys } });
+    if (held) {
+      // Where the pointer rests, what was tried for it is not tried again.
+      const name = JSON.stringify(wanted);
+      if (held.seen.has(name)) return;
+      held.seen.add(name);
+      [held.sent, held.isMoved] = [wanted, true];
+    }
+    act({ do: "move", values: wanted, is_held: true, handle: handle.kind === "point" ? { [handle.name]: handle.keys } : {} });
   }
 
   function turnAbout(handle, changes) {
@@ -517,7 +546,8 @@ function render({ model, el }) {
 
   function predict(changes) {
     for (const element of model.get("view").elements) {
-      for (const item of paper.querySelectorAll(`[data-element="${CSS.escape(element.name)}"]`)) {
+      // Enlarged details stand outside the drawing, at another scale.
+      for (const item of paper.querySelectorAll(`svg > g [data-element="${CSS.escape(element.name)}"]`)) {
         if (item.localName === "path") item.setAttribute("d", pathOf(element, changes));
         else {
           const ends = [0, 1].map((number) => minus(shift(element.places[number], element.slopes[number], changes), element.places[number]));
@@ -533,26 +563,43 @@ function render({ model, el }) {
     if (!way || grip.node.disabled || held) return;
     event.preventDefault();
     const { handle } = grip;
-    const values = valuesOf(handle);
+    const values = grip.pending ?? valuesOf(handle); // what is under way counts
     const wanted = {};
     const told = [];
-    const many = Math.max(...way.map(Math.abs));
-    for (const key of handle.keys) {
-      const slope = handle.moves[key];
-      const pixels = handle.center ? (size(minus(handle.at, handle.center)) * Math.PI) / 180 : size(slope);
-      const along = handle.center ? way[0] - way[1] : (way[0] * slope[0] + way[1] * slope[1]) / pixels;
-      const field = model.get("view").fields.find((each) => each.key === key);
-      const by = event.shiftKey ? field.increment : Math.max(field.increment, roundStep(COARSE / pixels));
-      // A word that moves the handle across the arrow stays.
-      if (Math.abs(along) < 0.2 * many) continue;
-      const found = allowed(handle, key, values[key], values[key] + Math.sign(along) * by * many, Infinity, { isFine: true });
+    for (const [key, by] of Object.entries(stepsBy(handle, way, event.shiftKey))) {
+      const found = allowed(handle, key, values[key], values[key] + by, Infinity, { isFine: true });
       wanted[key] = found.value;
       if (found.text) told.push(`${key}: ${found.text}`);
     }
     if (!Object.keys(wanted).length) return;
     hint.textContent = told.join("; ");
     move(grip, { ...values, ...wanted });
+    grip.pending = { ...values, ...wanted };
     release(SETTLED);
+  }
+
+  function stepsBy(handle, way, isFine) {
+    // By how much an arrow key changes the words of a handle.
+    const many = Math.max(...way.map(Math.abs));
+    const least = Object.fromEntries(model.get("view").fields.map((field) => [field.key, field.increment]));
+    const step = (key, pixels) => (isFine ? least[key] : Math.max(least[key], roundStep(COARSE / pixels))) * many;
+    if (handle.center) {
+      const pixels = (size(minus(handle.at, handle.center)) * Math.PI) / 180;
+      return { [handle.name]: Math.sign(way[0] - way[1]) * step(handle.name, pixels) };
+    }
+    const keys = Object.keys(handle.moves);
+    if (keys.length === 1) {
+      const [slope] = Object.values(handle.moves);
+      const along = (way[0] * slope[0] + way[1] * slope[1]) / (size(slope) * many);
+      return Math.abs(along) < 0.2 ? {} : { [keys[0]]: Math.sign(along) * step(keys[0], size(slope)) }; // across it stays
+    }
+    // Two words together bring it along the arrow: the one that leads by a round step, the other by what that takes.
+    const found = stepsTo(handle, [0, 0], way);
+    const pixels = (key) => size(handle.moves[key]);
+    const [lead, other] = keys.sort((a, b) => Math.abs(found[b]) * pixels(b) - Math.abs(found[a]) * pixels(a));
+    const by = step(lead, pixels(lead));
+    const rest = (found[other] / Math.abs(found[lead])) * by;
+    return { [lead]: Math.sign(found[lead]) * by, [other]: Math.round(rest / least[other]) * least[other] };
   }
 
   function showTracks() {
@@ -592,7 +639,7 @@ function render({ model, el }) {
   function haunt(node, of) {
     const begin = () => {
       haunted = of;
-      act({ do: "ghost", ...of });
+      act({ do: "ghost", ...of, of: model.get("view").text });
     };
     const end = () => {
       haunted = null;
@@ -613,7 +660,8 @@ function render({ model, el }) {
     if (isWanted) hint.textContent = ghost.text;
   }
 
-  function showFindings(all) {
+  function showFindings(all, of) {
+    const place = placeIn(findings);
     const items = all.map((finding) => {
       const lines = make("pre", { tabindex: "0" });
       for (const line of finding.lines) {
@@ -624,7 +672,7 @@ function render({ model, el }) {
       }
       const fixes = finding.fixes.map((fix) =>
         haunt(
-          button(`${fix.text} [${fix.effect}]`, () => act({ do: "fix", finding: fix.finding, fix: fix.number }), {
+          button(`${fix.text} [${fix.effect}]`, () => act({ do: "fix", finding: fix.finding, fix: fix.number, of }), {
             class: fix.is_safe ? "fix safe" : "fix",
           }),
           { finding: fix.finding, fix: fix.number },
@@ -635,15 +683,17 @@ function render({ model, el }) {
       return make("section", { class: `finding ${finding.kind}`, ...about }, lines, bar);
     });
     findings.replaceChildren(...items);
+    focusAgain(findings, place);
   }
 
-  function showSolutions({ text: count, items }) {
+  function showSolutions({ text: count, items }, of) {
+    const place = placeIn(solutions);
     const choices = items.map((item) =>
       make(
         "li",
         {},
         haunt(
-          button(item.name, () => act({ do: "select", solution: item.number }), {
+          button(item.name, () => act({ do: "select", solution: item.number, of }), {
             "aria-pressed": String(item.is_chosen),
             disabled: item.selects || item.is_chosen ? undefined : "",
           }),
@@ -653,6 +703,18 @@ function render({ model, el }) {
       ),
     );
     solutions.replaceChildren(...(items.length ? [make("p", { text: count }), make("ul", {}, ...choices)] : []));
+    focusAgain(solutions, place);
+  }
+
+  // What is shown anew would lose the keys that follow to the page.
+  function placeIn(part) {
+    return [...part.querySelectorAll("button, pre")].findIndex((node) => node.matches(":focus"));
+  }
+
+  function focusAgain(part, place) {
+    if (place < 0) return;
+    const nodes = [...part.querySelectorAll("button:not(:disabled), pre")];
+    (nodes[Math.min(place, nodes.length - 1)] ?? handles).focus({ preventScroll: true });
   }
 
   function showPath(table) {
@@ -725,7 +787,8 @@ function render({ model, el }) {
     showPicture(now);
     showWords(now.fields, now.is_new);
     showHandles(now.handles);
-    if (!isTyping) text.value = now.text;
+    // What was typed and makes no sense stays, so that it can be mended.
+    if (!isTyping && !now.trouble) text.value = now.text;
     text.rows = Math.min(12, now.text.split("\n").length);
     // A button that is disabled loses the keys that follow to the page.
     const ways = [[again, now.is_changed], [undo, now.can_undo], [redo, now.can_redo]];
@@ -733,14 +796,15 @@ function render({ model, el }) {
     const line = [make("strong", { class: now.status.kind, text: now.status.text }), now.status.form ? ` ${now.status.form}` : ""];
     status.replaceChildren(...line.filter(Boolean));
     if (now.trouble) status.append(make("span", { class: "error", text: ` ${now.trouble}` }));
-    showFindings(now.findings);
-    showSolutions(now.solutions);
+    showFindings(now.findings, now.text);
+    showSolutions(now.solutions, now.text);
     showPath(now.path);
     if (held && held.target) held.due ||= requestAnimationFrame(follow);
     const ask = now.asks?.[0];
     const row = ask && rows.get(ask.key);
     if (row) {
       row.number.value = ask.value ?? "";
+      row.isProposed = true;
       row.number.focus();
       row.number.select();
     }
@@ -749,8 +813,11 @@ function render({ model, el }) {
   function show() {
     answered = Math.max(answered, model.get("number"));
     asked = Math.max(asked, answered);
+    clearTimeout(silence);
+    silence = null;
+    if (queue.length) watch(queue.at(-1));
     if (asked === answered) {
-      clearTimeout(silence);
+      for (const grip of grips.values()) if (!queue.length) grip.pending = null;
       if (view.classList.contains("silent")) tell("");
     }
     const now = model.get("view");

@@ -324,6 +324,9 @@ def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
             high = max(high, each.high.value + margin) if each.high.value < near[1] else high
     return {
         "intervals": [[each.low.value, each.high.value] for each in found.intervals],
+        "stops": [
+            [_stop(each.low, field, found.unit, 1), _stop(each.high, field, found.unit, -1)] for each in found.intervals
+        ],
         "ends": [[_end_text(each.low, found.unit), _end_text(each.high, found.unit)] for each in found.intervals],
         "low": max(low, found.within[0]),
         "high": min(high, found.within[1]),
@@ -356,6 +359,14 @@ def _interval(interval: Interval, name: str, unit: str) -> str:
         value, _, sign = low.rpartition(" ")
         return f"{name} {'>' if sign == '<' else '≥'} {value}"
     return f"{low} {name} {high}" if low and high else ""
+
+
+def _stop(end: End, field: Mapping[str, Any], unit: str, way: int) -> float:
+    """The first value at an end of a range that belongs to it, a whole number of increments."""
+    value = inward(Decimal(repr(end.value)), unit, -way)
+    if value == Decimal(repr(end.value)) and not end.is_included and end.way is not Way.RANGE:
+        value += way * Decimal(repr(field["increment"]))
+    return float(value)
 
 
 def _end_text(end: End, unit: str) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 
 from msgspec.structs import replace
 
+from contoursolve.analysis import analyse
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, count_choices
 from contoursolve.diagnosis.wording import angle_text, length_text
 from contoursolve.diagnostics.finding import Severity
@@ -44,7 +45,10 @@ def is_mended_by(answer: Answer, lacking: Mapping[Span, str]) -> bool:
         return replace(given, value=value if value is not None else given.value)
 
     meant = replace(profile, givens={name: pointed(given) for name, given in profile.givens.items()})
-    if not is_closed(assemble(meant)) or count_choices(meant) > MOST_CHOICES or not is_chosen(meant):
+    system = assemble(meant)
+    if not analyse(system).is_determined or not is_closed(system):
+        return False
+    if count_choices(meant) > MOST_CHOICES or not is_chosen(meant):
         return False
     return solve(meant, is_proven=False).status in (Status.SOLVED, Status.OVERDETERMINED)
 

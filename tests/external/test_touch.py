@@ -1,6 +1,7 @@
 """The explorer in a browser, without a notebook: its front end on a page, and Python behind a function of that page."""
 
 import json
+import math
 import statistics
 import time
 from importlib.resources import files
@@ -216,6 +217,16 @@ def test_a_fix_that_asks_for_a_word_leads_to_its_field(desk):
     desk.check()
 
 
+def test_a_proposed_value_is_taken_by_enter(desk):
+    desk.page.locator("button[aria-label='free X']").click()
+    desk.page.locator("button.fix", has_text="add Z?").click()
+    desk.settle()
+    desk.page.keyboard.press("Enter")
+    desk.settle()
+    assert "Z-47.321" in desk.text
+    desk.check()
+
+
 def test_what_is_pointed_at_is_lit_wherever_it_stands(browser, tmp_path):
     desk = Desk(browser, tmp_path, "G111 X100. A180. K-30. B120. P60. Q5.", start="X40. Z0.")
     page = desk.page
@@ -287,3 +298,86 @@ def test_the_explorer_is_accessible(axe, browser, tmp_path, scheme):
         desk.page.set_viewport_size({"width": 390, "height": 900})
         assert axe(desk.page) == []
         desk.page.close()
+
+
+def test_an_angle_whose_centre_moves_with_it_is_where_the_pointer_is(browser, tmp_path):
+    text = "G17 G90 G0 X0 Y0\nG1 #ANG=70\nX80 Y25 #ANG=-30"
+    desk = Desk(browser, tmp_path, text, control="isg")
+    (handle,) = [each for each in desk.talk.state["view"]["handles"] if each["name"] == "3:#ANG"]
+    (x, y), (u, v) = handle["center"], handle["at"]
+    turned = math.degrees(math.atan2(y - v + 12, u + 7 - x) - math.atan2(y - v, u - x))
+    box = desk.page.locator(".stage").bounding_box()
+    scale = box["width"] / desk.talk.state["view"]["frame"]["width"]
+    desk.drag("3:#ANG", (7 * scale, -12 * scale), steps=3)
+    desk.page.wait_for_timeout(300)
+    field = next(each for each in desk.talk.state["view"]["fields"] if each["key"] == "3:#ANG")
+    assert field["value"] == pytest.approx(-30 + turned, abs=5)
+    desk.page.close()
+
+
+def test_a_stop_comes_before_what_is_caught(desk):
+    desk.page.locator(".row[data-word='B'] .range", has_text="B").wait_for()
+    desk.drag("B", (-90, 40), steps=30)
+    assert desk.talk.state["view"]["status"]["text"] == "solved", desk.text
+    desk.page.mouse.up()
+    desk.check()
+
+
+def test_two_words_bring_a_point_along_the_arrow(desk):
+    name = ".handle[aria-label^='V2:']"
+    before = desk.talk.state["view"]["handles"][2]["at"]
+    desk.page.locator(name).focus()
+    for _ in range(6):
+        desk.page.keyboard.press("ArrowLeft")
+    desk.settle()
+    after = desk.talk.state["view"]["handles"][2]["at"]
+    assert after[0] < before[0] - 10
+    assert after[1] == pytest.approx(before[1], abs=1)
+    desk.check()
+
+
+def test_escape_and_second_clicks_leave_nothing_behind(browser, tmp_path):
+    desk = Desk(browser, tmp_path, "G111 X100 A180 K-30 B120 P5 Q5", start="X40. Z0.")
+    state = desk.talk.state
+    first = state["view"]["findings"][0]["fixes"][0]
+    action = {"do": "fix", "finding": first["finding"], "fix": first["number"], "of": desk.text}
+    desk.talk.answer({**action, "number": 1})
+    once = desk.text
+    desk.talk.answer({**action, "number": 2})
+    assert desk.text == once
+    desk.talk.answer({"do": "undo", "number": 3})
+    desk.talk.answer({"do": "move", "values": {"K": -20}, "is_held": True, "number": 4})
+    desk.talk.answer({"do": "cancel", "number": 5})
+    assert desk.talk.state["view"]["can_redo"]
+    assert not desk.talk.state["view"]["can_undo"]
+    assert desk.talk.answer({"number": 6})["view"]["trouble"]
+    desk.page.close()
+
+
+def test_what_is_typed_in_the_block_is_never_forgotten(desk):
+    box = desk.page.locator("textarea")
+    box.focus()
+    desk.page.keyboard.press("End")
+    desk.page.keyboard.type(" ")
+    desk.page.keyboard.press("Backspace")
+    field = desk.page.locator(".row[data-word='K'] input[type=number]")
+    field.fill("-50")
+    field.press("Enter")
+    desk.settle()
+    assert "K-50." in box.input_value()
+    box.fill(f"{BLOCK}\n{BLOCK}")
+    box.press("Enter")
+    desk.page.locator(".state", has_text="one contour can be explored at a time").wait_for()
+    assert box.input_value().count("G111") == 2
+    desk.check()
+
+
+def test_another_control_may_be_typed_where_nobody_chose_one(desk):
+    text = "G18 G90 DIAMON\nG0 X20 Z0\nG1 ANG=150 CHR=2\nG1 X60 Z-80 ANG=180"
+    box = desk.page.locator("textarea")
+    box.fill(text)
+    box.press("Enter")
+    desk.settle()
+    assert desk.talk.exploration.result.control == "siemens-840d"
+    assert desk.talk.state["view"]["status"]["text"] == "solved"
+    desk.check()

@@ -261,6 +261,27 @@ def test_what_is_drawn_moves_as_its_derivatives_say(text, options):
                 assert grips[handle["name"]] == pytest.approx(wanted, abs=2e-4), (key, handle["name"])
 
 
+@pytest.mark.parametrize(
+    ("text", "options"),
+    [
+        (WHOLE, START),
+        ("G00 X20. Z0.\nG01 X40. ,A150.", {"control": "fanuc-lathe"}),
+        ("G00 X100. Z-50.\nG112 U0 I10. K-50. R30. P0", {"control": "yasnac-lx3"}),
+    ],
+)
+def test_where_a_drag_stops_there_is_a_contour(text, options):
+    now = explore.begin(text, **options)
+    count = 0
+    for each in view_of(now)["fields"]:
+        found = range_of(now, each)
+        for stops, ends in zip(found.get("stops", ()), found.get("ends", ()), strict=True):
+            for value, told in zip(stops, ends, strict=True):
+                if told and stops[0] <= stops[1]:
+                    count += 1
+                    assert explore.set_word(now, each["key"], value).answer.contour is not None, (each["key"], value)
+    assert count
+
+
 def test_a_value_at_which_the_other_words_agree_is_one_to_catch():
     now = explore.begin("G18 G1 X40. Z0.\nG1 X50. ,A170. ,R3.\n,A120. Z-60. X80.\nX80. Z-90.", control="fanuc-lathe")
     assert now.answer.contour is None

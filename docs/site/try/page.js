@@ -15,6 +15,9 @@ let worker = null;
 let pause = null;
 let model = null; // of the contour that is shown
 let close = null; // ends its front end
+let asked = null; // the start and the control of the block that is being opened
+let opened = null; // and of the one that is shown
+let told = null; // what the address holds
 let isReady = false; // whether Python has answered
 
 // What the explorer's front end takes for the widget of a notebook.
@@ -65,6 +68,7 @@ const hear = {
     block.parentElement.hidden = true; // the explorer has the block now
     close?.();
     model = new Model(state);
+    opened = asked;
     close = explorer.render({ model, el: place });
     say("");
     writeAddress();
@@ -94,15 +98,18 @@ function solve() {
     worker.onmessage = ({ data: [kind, value] }) => hear[kind](value);
     worker.onerror = (event) => hear.failed(event.message || "this browser is too old for it");
   }
-  worker.postMessage({ do: "open", text: block.value, start: start.value, control: control.value });
+  if (model && block.value === told?.block) block.value = model.get("view").text; // it may have moved since
+  asked = { start: start.value, control: control.value };
+  worker.postMessage({ do: "open", text: block.value, ...asked });
 }
 
 function writeAddress() {
+  // What is shown, and what it was opened with: a start that was typed and not solved yet is not in the link.
   block.value = model.get("view").text;
-  const told = new URLSearchParams({ block: block.value });
-  for (const field of [start, control]) if (field.value) told.set(field.name, field.value);
+  told = { block: block.value, ...opened };
+  const parts = new URLSearchParams(Object.entries(told).filter(([, value]) => value));
   // A blank is %20, which every program that takes a link reads.
-  history.replaceState(null, "", `#${told.toString().replaceAll("+", "%20")}`);
+  history.replaceState(null, "", `#${parts.toString().replaceAll("+", "%20")}`);
 }
 
 // Whether the address holds a block.
@@ -131,6 +138,7 @@ block.addEventListener("keydown", (event) => {
   form.requestSubmit();
 });
 link.addEventListener("click", async () => {
+  writeAddress();
   try {
     await navigator.clipboard.writeText(location.href);
     say("The link is copied.");
