@@ -36,6 +36,8 @@ def _reading(given: Given, answer: Answer) -> str:
 def is_mended_by(answer: Answer, lacking: Mapping[Span, str]) -> bool:
     """Whether a contour that is refused would be one if these words had their points."""
     profile, lexicon = answer.profile, answer.claim.lexicon
+    if not answer.start.is_known:
+        return False
 
     def pointed(given: Given) -> Given:
         word = given.word

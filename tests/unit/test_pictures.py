@@ -1029,3 +1029,10 @@ def test_moves_that_lead_to_a_contour_are_in_the_picture_of_its_program():
     assert len(rapid) == 1  # to X80.; nobody knows where that to X60. begins
     assert all(stroke.dash for stroke in rapid)
     assert {"feed move", "rapid move"} <= set(labels(draw_result(result)))
+
+
+def test_a_word_without_a_point_where_nothing_else_is_known_keeps_its_picture():
+    for text in ("G1 X30 ,C10\nX40 Y40", "G00 X20. Z0.\nG01 Z-20 ,R2\nX40 ,A100"):
+        for control in ("fanuc-mill", "fanuc-lathe", "nct-99m"):
+            for answer in contoursolve.solve(text, control=control).answers:
+                check(draw_answer(answer))
