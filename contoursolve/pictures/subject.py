@@ -114,6 +114,16 @@ class Traced(Struct, frozen=True):
         return list(dict.fromkeys(circle for circle in found if circle is not None))
 
 
+def has_several(answer: Answer) -> bool:
+    """Whether several contours fit a block and nothing chooses, whatever else keeps it from having one."""
+    if answer.contour is not None or answer.alternatives is None:
+        return answer.status is Status.AMBIGUOUS
+    from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
+
+    fitting = [each for each in choose(answer.alternatives, answer.profile.choices) if each.is_path]
+    return answer.status is Status.AMBIGUOUS or len(fitting) > 1
+
+
 class Subject(Traced, frozen=True):
     """An answer with what is drawn of it, and the role of each given whose word is drawn."""
 
@@ -133,7 +143,7 @@ class Subject(Traced, frozen=True):
     @property
     def other(self) -> Role:
         """What other solutions are drawn as: as good as the one that is drawn, where nothing chooses."""
-        return Role.CANDIDATE if self.answer.status is Status.AMBIGUOUS else Role.GHOST
+        return Role.CANDIDATE if has_several(self.answer) else Role.GHOST
 
     def about(self, span: Span) -> About:
         """What shows the word or the fact at a place is about."""
@@ -311,7 +321,7 @@ def list_trails(answer: Answer, known: Known) -> Iterator[Trail]:
         yield from [Trail(answer.contour.elements, Role.INK)] if answer.contour.elements else []
         return
     trail: Trail | None = None
-    stated = Role.CANDIDATE if answer.status is Status.AMBIGUOUS else Role.INK
+    stated = Role.CANDIDATE if has_several(answer) else Role.INK
     for segment, state in trace_known(answer.profile, known):
         role = stated if state is Role.INK else state
         if trail is not None and trail.role is role and trail.segments[-1].end == segment.start:

@@ -1036,3 +1036,15 @@ def test_a_word_without_a_point_where_nothing_else_is_known_keeps_its_picture():
         for control in ("fanuc-mill", "fanuc-lathe", "nct-99m"):
             for answer in contoursolve.solve(text, control=control).answers:
                 check(draw_answer(answer))
+
+
+def test_contours_between_which_nothing_chooses_look_alike_whatever_else_is_wrong():
+    text = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87"
+    for more, is_open in (("", True), (" Q-1", False)):
+        for rules in ("enforce", "off"):
+            (answer,) = contoursolve.solve(text + more, control="nct-99m", rules=rules).answers
+            picture = draw_answer(answer)
+            roles = {item.role for item in picture.sheet.drawing if isinstance(item, Stroke) and item.width > 2}
+            assert roles == ({Role.CANDIDATE} if is_open else {Role.INK}), (more, rules)
+            labels = [text.words for text in picture.sheet.texts]
+            assert not is_open or all(any(each.startswith(name) for each in labels) for name in ("P1  Q1 ", "P1  Q-1 "))
