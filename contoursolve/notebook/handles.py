@@ -16,6 +16,7 @@ from contoursolve.families.sensitivities import slopes_of
 from contoursolve.geometry import Arc, Corner, Line
 from contoursolve.output.words import StatedWord, stated_words
 from contoursolve.pictures import Picture
+from contoursolve.pictures.known import Known
 from contoursolve.pictures.scene import Viewport
 from contoursolve.pictures.subject import corner_segment, find_known
 from contoursolve.pictures.vectors import SAME, along, direction, distance, middle
@@ -119,6 +120,7 @@ def handles_of(
     words = {each.key: each for each in stated_words(answer) if each.value is not None}
     free = {key: each for key, each in words.items() if key not in pinned and not each.is_ignored}
     found = [*_points(motion, placement.view, free, held or {})] if motion else []
+    known = find_known(answer) if motion is None else None
     done: set[str] = set()
     for grip in placement.grips:
         word = free.get(grip.word)
@@ -127,7 +129,7 @@ def handles_of(
         if grip.center is not None and _is_angle(word):
             found.append(Handle(grip.word, HandleKind.ANGLE, grip.at, {}, grip.center))
         else:
-            slope = _size_slope(answer, word, motion)
+            slope = _size_slope(answer, word, motion, known)
             if slope is None:
                 continue
             at = _clear_of(grip.at, [each.at for each in found])
@@ -225,13 +227,14 @@ def _chosen(name: str, slopes: Slopes, words: Mapping[str, StatedWord]) -> Seque
 # Sizes -------------------------------------------------------------------------------------------------------
 
 
-def _size_slope(answer: Answer, word: StatedWord, motion: Motion | None) -> Point | None:
-    """How one unit of a word moves the middle of the element whose size it states, where its arrow points."""
+def _size_slope(answer: Answer, word: StatedWord, motion: Motion | None, known: Known | None) -> Point | None:
+    """How one unit of a word moves the middle of the element whose size it states, where its arrow points; of a refused
+    contour from what is known of it."""
     figure = answer.profile.figure
     corners = [corner for corner in figure.corners if corner.name in word.fixes]
     names = [each.name for each in (*corners, *figure.path) if each in corners or _is_arc_of(each, word)]
     if motion is None:
-        return _refused_slope(answer, corners[0], word) if corners else None
+        return _refused_slope(known, corners[0], word) if corners and known is not None else None
     segments = {each.name: each for each in answer.contour.elements} if answer.contour is not None else {}
     segment = next((segments[name] for name in names if name in segments), None)
     if segment is None:
@@ -255,9 +258,8 @@ def _is_arc_of(element: Corner | Line | Arc, word: StatedWord) -> bool:
     return isinstance(element, Arc) and element.radius in word.fixes
 
 
-def _refused_slope(answer: Answer, corner: Corner, word: StatedWord) -> Point | None:
+def _refused_slope(known: Known, corner: Corner, word: StatedWord) -> Point | None:
     """The same for a corner that does not fit: it grows in proportion to its size, from its virtual intersection."""
-    known = find_known(answer)
     built, at = known.corners.get(corner.name), known.points.get(corner.at)
     if built is None or at is None or not word.value:
         return None

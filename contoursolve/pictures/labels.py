@@ -275,7 +275,7 @@ class Canvas:
             return None  # what moved out of a picture that is held is named again when the picture is fitted
         high = SIZE * (ASCENT + DESCENT) + 2.0
         sizes = [(width_of("".join(run.text for run in runs), SIZE) + 4.0, high) for runs in wordings]
-        name = self.named, sum(about == self.named for about, _ in self.labels)
+        name = self._next_name()
         found = self._place_as_before(at, sizes, name) or _place_label(self, at, sizes, away, leads)
         if found is None:
             self.homeless.append("".join(run.text for run in wordings[0]))
@@ -294,7 +294,7 @@ class Canvas:
         if self.held and not self.frame.holds(Box(*at, *at)):
             return None  # as above
         size = width_of(told.text, SIZE) + 4.0, SIZE * (ASCENT + DESCENT) + 2.0
-        name = self.named, sum(about == self.named for about, _ in self.labels)
+        name = self._next_name()
         before = self._place_as_before(at, [size], name)
         found = (before[1], at, way) if before and _on_ray(before[1], at, way) else self._best_on_ray(places, size)
         if found is None:
@@ -330,6 +330,10 @@ class Canvas:
         at = (box.left + box.right) / 2, box.bottom - 1.0 - DESCENT * SIZE
         self._add(Text(at, runs, SIZE, Anchor.MIDDLE), box)
 
+    def _next_name(self) -> tuple[About, int]:
+        """What the next label shows, and its number of those that show the same."""
+        return self.named, sum(about == self.named for about, _ in self.labels)
+
     def _place_as_before(
         self, at: Spot, sizes: Sequence[tuple[float, float]], name: tuple[About, int]
     ) -> tuple[int, Box] | None:
@@ -360,9 +364,10 @@ class Canvas:
         """How much a text would cover; infinite where another text is, or outside the page."""
         if not self.frame.holds(box):
             return inf
-        for other in (*self.taken, *self.signs):
-            if box.meets(other):
-                return inf
+        for boxes in (self.taken, self.signs):
+            for other in boxes:
+                if box.meets(other):
+                    return inf
         total = 0.0
         first, last = int((box.left - self.frame.left) / CELL), int((box.right - self.frame.left) / CELL)
         for row in range(int((box.top - self.frame.top) / CELL), int((box.bottom - self.frame.top) / CELL) + 1):

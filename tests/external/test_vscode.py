@@ -13,7 +13,7 @@ from pathlib import Path
 from urllib.parse import quote, urlsplit
 
 import pytest
-from browsing import CHROMIUM, FLAGS
+from browsing import CHROMIUM, launched
 from serving import SECONDS, wait_for
 
 import contoursolve
@@ -129,21 +129,8 @@ def address(code_server, package, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def browser():
-    from playwright.sync_api import sync_playwright  # noqa: PLC0415 - skipped without it
-
     # No name is looked up: what asks another host fails, and is seen.
-    rules = "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1, EXCLUDE localhost"
-    with sync_playwright() as play:
-        found = play.chromium.launch(executable_path=CHROMIUM, args=[*FLAGS, rules])
-        yield found
-        found.close()
-
-
-@pytest.fixture
-def artefacts(request, tmp_path):
-    folder = Path(request.config.getoption("--screenshots") or tmp_path)
-    folder.mkdir(parents=True, exist_ok=True)
-    return folder
+    yield from launched("--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1, EXCLUDE localhost")
 
 
 @pytest.fixture

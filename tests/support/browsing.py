@@ -19,14 +19,19 @@ FLAGS = [
 ]
 
 
-@pytest.fixture(scope="module")
-def browser():
+def launched(*flags):
+    """A browser with more flags, until a fixture that yields from this ends."""
     from playwright.sync_api import sync_playwright  # noqa: PLC0415 - skipped without it
 
     with sync_playwright() as play:
-        found = play.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        found = play.chromium.launch(executable_path=CHROMIUM, args=[*FLAGS, *flags])
         yield found
         found.close()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    yield from launched()
 
 
 @pytest.fixture
