@@ -112,6 +112,20 @@ class Parallel(Equation, Struct, frozen=True):
         return *line_scalars(self.line)[:2], *_ends(self.advance, self.axis)
 
 
+class ParallelLines(Equation, Struct, frozen=True):
+    """Two lines are parallel, in the same direction or against each other."""
+
+    first: str
+    second: str
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return *line_scalars(self.first)[:2], *line_scalars(self.second)[:2]
+
+    def residual(self, at: Lookup) -> Any:
+        return cross(at.bearing(self.first), at.bearing(self.second))
+
+
 class TangentLine(Equation, Struct, frozen=True):
     """The line touches the circle about `center`, which lies to its left (`side` +1) or right (-1)."""
 

@@ -1,6 +1,6 @@
 """Facts about arcs, circles and corners: how they touch, how long they are, where they begin and end."""
 
-from math import atan2, tau
+from math import atan2, degrees, tau
 from typing import Any
 
 from msgspec import Struct
@@ -21,6 +21,49 @@ class EqualRadii(Equation, Struct, frozen=True):
 
     def residual(self, at: Lookup) -> Any:
         return at.radius(self.first) - at.radius(self.second)
+
+
+class RadiusStep(Equation, Struct, frozen=True):
+    """A radius is larger than another one by the given length."""
+
+    given: str
+    radius: str
+    origin: str
+
+    def reads(self) -> tuple[str, ...]:
+        return self.radius, self.origin
+
+    def residual(self, at: Lookup) -> Any:
+        return at.radius(self.radius) - at.radius(self.origin) - at.amount(self.given)
+
+    def implied(self, at: Lookup) -> float | None:
+        return float(at.radius(self.radius) - at.radius(self.origin))
+
+
+class Entering(Equation, Struct, frozen=True):
+    """An arc is travelled at the given angle where it passes `point`."""
+
+    given: str
+    point: str
+    center: str
+    turn: Turn
+
+    def reads(self) -> tuple[str, ...]:
+        return both(self.point, self.center)
+
+    def _travel(self, at: Lookup) -> tuple[Any, Any]:
+        first, second = step(at, self.center, self.point)
+        return -self.turn.sign * second, self.turn.sign * first
+
+    def residual(self, at: Lookup) -> Any:
+        return cross(self._travel(at), at.direction(self.given))
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (dot(self._travel(at), at.direction(self.given)),)
+
+    def implied(self, at: Lookup) -> float | None:
+        first, second = self._travel(at)
+        return degrees(atan2(float(second), float(first)))
 
 
 class TangentCircles(Equation, Struct, frozen=True):

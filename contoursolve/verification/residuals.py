@@ -213,6 +213,12 @@ MEANINGS: Mapping[type, Meaning] = {
     kinds.Heading: ANGLE(
         "direction of the line from {tail} to {head}", lambda own, at: ((1.0, 0.0), at.way(own.tail, own.head))
     ),
+    kinds.RadiusStep: LENGTH("{radius} less {origin}", lambda own, at: at.size(own.radius) - at.size(own.origin)),
+    kinds.Entering: ANGLE(
+        "direction of the arc about {center} in {point}",
+        lambda own, at: ((1.0, 0.0), turned(at.way(own.center, own.point), (0.0, own.turn.sign))),
+        lambda own, at: (dot(at.stated(own), turned(at.way(own.center, own.point), (0.0, own.turn.sign))),),
+    ),
     kinds.Directed: ANGLE(
         "direction of {line}",
         lambda own, at: ((1.0, 0.0), at.along(own.line)),
@@ -286,6 +292,9 @@ MEANINGS: Mapping[type, Meaning] = {
         lambda own, at: at.along(own.line)[1 - own.axis],
         lambda own, at: (at.along(own.line)[own.axis] * at.advance(own),),
     ),
+    kinds.ParallelLines: Meaning(
+        "{first} is parallel to {second}", lambda own, at: cross(at.along(own.first), at.along(own.second))
+    ),
     kinds.TangentLine: Meaning(
         "{line} touches the circle about {center}",
         lambda own, at: at.left(own.line, own.center) - at.side(own.side) * at.size(own.radius),
@@ -324,7 +333,7 @@ def measured(fact: Fact, at: Place) -> tuple[float, bool, float]:
     meaning = MEANINGS[type(fact)]
     found = meaning.formula(fact, at)
     if meaning.states is States.ANGLE:
-        reach = float(norm(found[1])) if isinstance(fact, kinds.Heading) else 1.0
+        reach = float(norm(found[1])) if isinstance(fact, kinds.Heading | kinds.Entering) else 1.0
         return degrees(atan2(cross(*found), dot(*found))), True, reach
     shift = at.system.origin[fact.axis] if isinstance(fact, kinds.Coordinate) else Decimal(0)
     return float(Decimal(float(found)) + shift), False, 0.0
