@@ -266,6 +266,7 @@ def _adding(absent: Sequence[tuple[str, int]], number: int, claim: ParsedContour
 
 
 _IN_DEGREES = {RefusalKind.LINE_REVERSED}
+_OF_PICKS = {RefusalKind.PICK_NONE, NoteKind.PICK_OPEN, NoteKind.PICK_FIRST}
 _OF_A_WORD = {RefusalKind.WORDS_DISAGREE, NoteKind.WORDS_AGREE}
 
 
@@ -300,8 +301,7 @@ def explain_result(
             fields["off"] = angle_text(abs(values["expected"] - values["actual"]))
     if is_word and "expected" in values:
         fields["meant"] = statement_text(givens[0], values["expected"], profile)
-    if event.kind is NoteKind.SEVERAL:
-        fields["count"] = f"{event.values['actual']:.0f}"
+    fields |= _counted(event)
     notes: tuple[str, ...] = ()
     if event.kind in _AGAINST_OTHERS:
         fields |= _others(event, profile)
@@ -323,6 +323,16 @@ def explain_result(
     if isinstance(event, Refusal):
         finding = _with_what_helps(finding, event, values, asked, profile)
     return replace(finding, notes=finding.notes + notes)
+
+
+def _counted(event: Refusal | Note) -> dict[str, str]:
+    """How many contours there are, or how many solutions at an element."""
+    if event.kind is NoteKind.SEVERAL:
+        return {"count": f"{event.values['actual']:.0f}"}
+    if event.kind in _OF_PICKS:
+        count = int(event.values["limit"])
+        return {"limit_count": f"{count} solution{'s' * (count != 1)}"}
+    return {}
 
 
 def _smaller(told: list[str], values: Mapping[str, float], profile: Profile) -> str:

@@ -36,7 +36,7 @@ from contoursolve.geometry.lines import (
     TurnBetween,
     UnitDirection,
 )
-from contoursolve.geometry.points import Collinear, Coordinate, Heading, Level, Offset, OnCircle, Radius
+from contoursolve.geometry.points import Collinear, Coordinate, Heading, Level, Offset, OnCircle, Radius, Ray
 from contoursolve.geometry.profile import (
     INCREMENT_OF,
     Choice,
@@ -112,6 +112,7 @@ __all__ = [
     "Question",
     "Radius",
     "RadiusStep",
+    "Ray",
     "Role",
     "Setback",
     "Side",

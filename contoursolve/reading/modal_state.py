@@ -275,8 +275,11 @@ def advance(state: State, block: Block, modes: Modes) -> State:
     """The state after a block that is not a contour."""
     if not block.words and not block.faults and block.macro is None:
         return state
-    if modes.follow is not None:
-        return modes.follow(state, block, modes)
+    return modes.follow(state, block, modes) if modes.follow is not None else _follow_codes(state, block, modes)
+
+
+def _follow_codes(state: State, block: Block, modes: Modes) -> State:
+    """The state after a block that is programmed in G codes."""
     if COMMENTED in state.memory and modes.remember is not None:
         return replace(state, memory=modes.remember(state.memory, block))
     if block.macro is Macro.FLOW:

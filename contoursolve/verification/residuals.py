@@ -213,6 +213,11 @@ MEANINGS: Mapping[type, Meaning] = {
     kinds.Heading: ANGLE(
         "direction of the line from {tail} to {head}", lambda own, at: ((1.0, 0.0), at.way(own.tail, own.head))
     ),
+    kinds.Ray: ANGLE(
+        "direction from {tail} to {head}",
+        lambda own, at: ((1.0, 0.0), at.way(own.tail, own.head)),
+        lambda own, at: (dot(at.stated(own), at.way(own.tail, own.head)),),
+    ),
     kinds.RadiusStep: LENGTH("{radius} less {origin}", lambda own, at: at.size(own.radius) - at.size(own.origin)),
     kinds.Entering: ANGLE(
         "direction of the arc about {center} in {point}",

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
+from itertools import pairwise
 
 from msgspec import Struct
 
@@ -20,7 +21,6 @@ from contoursolve.geometry import (
     Extent,
     Fact,
     Foot,
-    Heading,
     Level,
     Line,
     Offset,
@@ -28,6 +28,7 @@ from contoursolve.geometry import (
     ParallelLines,
     Radius,
     RadiusStep,
+    Ray,
     Role,
     Tangent,
     TangentCircles,
@@ -81,9 +82,13 @@ class Element(Struct, frozen=True):
 
 
 class Place(Struct, frozen=True):
-    """The names of an element and of its points, and the element itself."""
+    """The names of an element and of its points, and the element itself.
+
+    `label` is the number of its block, by which programmers speak of it.
+    """
 
     number: int
+    label: str
     element: Element
     tail: str
     head: str
@@ -95,15 +100,15 @@ class Place(Struct, frozen=True):
 
     @property
     def name(self) -> str:
-        return f"{'line' if self.element.is_line else 'arc'} {self.number}"
+        return f"{'line' if self.element.is_line else 'arc'} {self.label}"
 
     @property
     def center(self) -> str:
-        return f"C{self.number}"
+        return f"C{self.label}"
 
     @property
     def radius(self) -> str:
-        return f"r{self.number}"
+        return f"r{self.label}"
 
     @property
     def turn(self) -> Turn:
@@ -156,7 +161,7 @@ def _polar_distance(of: str) -> Facts:
 
 def _polar_angle(of: str) -> Facts:
     def facts(_: Chain, place: Place, given: str) -> Iterator[Fact]:
-        yield Heading(given, place.element.pole, getattr(place, of))
+        yield Ray(given, place.element.pole, getattr(place, of))
 
     return facts
 
@@ -181,7 +186,7 @@ def _turned(of: str, word: str) -> Facts:
 
 def _direction(_: Chain, place: Place, given: str) -> Iterator[Fact]:
     if place.element.is_line:
-        yield Heading(given, place.tail, place.head)
+        yield Ray(given, place.tail, place.head)
     else:
         yield Entering(given, place.tail, place.center, place.turn)
 
@@ -205,7 +210,7 @@ def _radius(_: Chain, place: Place, given: str) -> Iterator[Fact]:
 
 
 def _end_angle(_: Chain, place: Place, given: str) -> Iterator[Fact]:
-    yield Heading(given, place.center, place.head)
+    yield Ray(given, place.center, place.head)
 
 
 def _closes(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
@@ -326,12 +331,13 @@ def _rows(chain: Chain) -> Iterator[FactRow]:
 
 
 @lru_cache(maxsize=2048)
-def compose(elements: tuple[Element, ...], assumptions: tuple[Assumption, ...] = ()) -> ContourForm:
-    """The form of a chain: everything that its words may state."""
-    points = [START, *(f"P{number}" for number in range(1, len(elements) + 1))]
-    chain = Chain(
-        tuple(Place(n, each, points[n - 1], points[n]) for n, each in enumerate(elements, 1)),
-    )
+def compose(
+    elements: tuple[Element, ...], labels: tuple[str, ...], assumptions: tuple[Assumption, ...] = ()
+) -> ContourForm:
+    """The form of a chain: everything that its words may state; `labels` are the numbers of its blocks."""
+    points = [START, *(f"P{label}" for label in labels)]
+    named = zip(labels, elements, points, points[1:], strict=False)
+    chain = Chain(tuple(Place(n, *each) for n, each in enumerate(named, 1)))
     places = chain.places
     rows = tuple(_rows(chain))
     path = tuple(
@@ -358,13 +364,13 @@ def compose(elements: tuple[Element, ...], assumptions: tuple[Assumption, ...] =
         path=path,
         corners=tuple(
             CornerRow(
-                f"corner {first.number}",
+                f"corner {first.label}",
                 first.head,
                 first.name,
                 second.name,
                 {first.prefix + word: shape for word, shape in CORNERS.items()},
             )
-            for first, second in zip(places, places[1:], strict=False)
+            for first, second in pairwise(places)
         ),
         intersections=tuple(points[1:-1]),
         allowed=frozenset(),

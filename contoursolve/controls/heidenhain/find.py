@@ -219,7 +219,7 @@ def _leads_on(blocks: Sequence[Block], index: int) -> bool:
 
 def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
     """What the blocks of a chain state."""
-    members, numbers = chain.members, _numbers(chain)
+    members, numbers, labels = chain.members, _numbers(chain), _labels(chain)
     opening = next((n for n, each in enumerate(members, 1) if _sign_of(each.block, "CLSD") > 0), 0)
     elements: list[Element] = []
     words: dict[str, Word] = {}
@@ -249,7 +249,7 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
         radius = own.get("R") if member.function == "CR" else None
         if radius is not None and radius.number is not None:
             is_left = (radius.number > 0) is (element.turn is not Turn.CW)
-            choices.append(Choice(f"C{number}", Side.LEFT if is_left else Side.RIGHT, prefix + "R"))
+            choices.append(Choice(f"C{labels[number - 1]}", Side.LEFT if is_left else Side.RIGHT, prefix + "R"))
     for name, pole in chain.poles.items():
         stated = _pole_words(pole)
         words |= {f"{name}:{axis}": word for axis, word in stated.items()}
@@ -260,7 +260,7 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
             vocabulary |= {f"{name}:{axis}": (axis, pole[0]) for axis in PLANE}
         givens |= {f"{name}:{axis}": replace(each, name=f"{name}:{axis}") for axis, each in known.items() if each}
     claim = ParsedContour(
-        form=compose(tuple(elements)),
+        form=compose(tuple(elements), labels),
         lexicon=modes.words(chain.state),
         blocks=tuple(chain.blocks),
         before=before,
@@ -272,7 +272,7 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
         repeated=tuple(repeated),
         circumstances=frozenset(circumstances),
         choices=tuple(choices),
-        makes=tuple(_makes(chain)),
+        makes=tuple(_makes(chain, labels)),
         lasting=frozenset(lasting),
         picks=tuple(picks),
         conventions=tuple(_conventions(bool(picks), modes)),
@@ -323,6 +323,15 @@ def _foreign(block: Block) -> Iterator[Word]:
     """The words of a block that have no meaning in it."""
     allowed = _ALLOWED.get(function_of(block), frozenset()) | _BESIDE_ANY
     return (word for word in block.words if word.address not in allowed)
+
+
+def _labels(chain: _Chain) -> tuple[str, ...]:
+    """What elements are called by: the numbers of their blocks, or where some lack them or share them, 1, 2, 3."""
+    words = [member.block.find("N") for member in chain.members]
+    labels = [f"{word.number:f}" for word in words if word is not None and word.number is not None]
+    if len(set(labels)) == len(chain.members):
+        return tuple(labels)
+    return tuple(str(number) for number in range(1, len(chain.members) + 1))
 
 
 def _numbers(chain: _Chain) -> dict[Decimal, int]:
@@ -422,11 +431,11 @@ def _pole_words(pole: Pole) -> dict[str, Word]:
     return {word.address: word for word in block.words if word.address in PLANE}
 
 
-def _makes(chain: _Chain) -> Iterator[tuple[str, ...]]:
+def _makes(chain: _Chain, labels: Sequence[str]) -> Iterator[tuple[str, ...]]:
     """The names of what each block of a chain makes."""
     by_block: dict[int, tuple[str, ...]] = {}
-    for number, member in enumerate(chain.members, 1):
-        by_block[member.index] = (f"{'line' if member.function in STRAIGHT else 'arc'} {number}",)
+    for label, member in zip(labels, chain.members, strict=True):
+        by_block[member.index] = (f"{'line' if member.function in STRAIGHT else 'arc'} {label}",)
         if member.corner is not None:
-            by_block[member.corner_index] = (f"corner {number}",)
+            by_block[member.corner_index] = (f"corner {label}",)
     return (by_block.get(index, ()) for index in range(len(chain.blocks)))
