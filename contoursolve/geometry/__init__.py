@@ -62,6 +62,7 @@ from contoursolve.geometry.touching import (
     EqualRadii,
     RadiusStep,
     Setback,
+    Spoke,
     TangentArc,
     TangentCircles,
 )
@@ -116,6 +117,7 @@ __all__ = [
     "Role",
     "Setback",
     "Side",
+    "Spoke",
     "Start",
     "System",
     "Tangent",
