@@ -312,17 +312,17 @@ def _point_rows(place: Place) -> Iterator[FactRow]:
         name, words = f"{q}{point}", [f"{q}{point}{axis}" for axis in "XY"]
         distance = f"{q}D"
         needs = (*words, *([distance] if point == BESIDE else []))
-        yield from (FactRow(Coordinate(word, name, axis), needs) for axis, word in enumerate(words))
-        if point != BESIDE or "D" in place.element.touching:
-            on = Through(place.name, name) if line else OnCircle(name, place.center, place.radius)
-            yield FactRow(on, needs)
-            continue
         radius, side = f"{name} distance", f"{name}.side"
-        yield FactRow(Radius(distance, radius), needs)
-        if line:
+        # What words state comes last: of what does not agree, it is named.
+        if point != BESIDE or "D" in place.element.touching:
+            yield FactRow(Through(place.name, name) if line else OnCircle(name, place.center, place.radius), needs)
+        elif line:
             yield FactRow(TangentLine(place.name, name, radius, side), needs)
         else:
             yield FactRow(TangentCircles((place.center, place.radius), (name, radius), side), needs)
+        yield from (FactRow(Coordinate(word, name, axis), needs) for axis, word in enumerate(words))
+        if point == BESIDE and "D" not in place.element.touching:
+            yield FactRow(Radius(distance, radius), needs)
 
 
 def _parallel_rows(chain: Chain, place: Place) -> Iterator[FactRow]:
@@ -336,8 +336,8 @@ def _parallel_rows(chain: Chain, place: Place) -> Iterator[FactRow]:
         yield FactRow(Through(place.name, other.tail, distance), (word, distance))
         return
     radius, side = f"{place.prefix}DP distance", f"{place.prefix}DP.side"
-    yield FactRow(Radius(distance, radius), (word, distance))
     yield FactRow(TangentLine(place.name, other.tail, radius, side), (word, distance))
+    yield FactRow(Radius(distance, radius), (word, distance))
 
 
 def _aimed_by(chain: Chain, place: Place) -> tuple[str, ...]:
@@ -391,6 +391,13 @@ def _heading(chain: Chain, place: Place) -> str | None:
     return place.prefix + ALONG if _is_aimed(chain, place) else None
 
 
+_USUAL = (
+    *("R", "AN", "X", "Y", "LEN", "CCX", "CCY", "PR", "PA", "CCA", "IX", "IY", "IAN"),
+    *("CCPR", "CCPA", "ICCX", "ICCY", "IPR", "IPA", "ICCPR", "ICCPA"),
+)
+"""The words that complete a chain, in the order in which drawings have them."""
+
+
 @lru_cache(maxsize=2048)
 def compose(
     elements: tuple[Element, ...], labels: tuple[str, ...], assumptions: tuple[Assumption, ...] = ()
@@ -438,4 +445,6 @@ def compose(
         combinations=tuple(((),) for _ in places),
         assumptions=assumptions,
         is_general=True,
+        usual=tuple(f"{each.prefix}{word}" for word in _USUAL for each in places if each.element.function in FREE),
+        picking="FSELECT",
     )
