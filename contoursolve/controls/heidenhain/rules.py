@@ -25,6 +25,7 @@ _BESIDE = START + "2 FL PDX+20 PDY+20 D0\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM"
 _ARC = START + "2 FC DR+ R20 CCX+0 CCY+20 X+20 Y+20\n3 END PGM A MM"
 _PARALLEL = START + "2 FL X+50 Y+0\n3 FL AN+90\n4 FL PAR 2 DP 30 AN+180\n5 FL X+0 Y+0 AN-90\n6 END PGM A MM"
 _POLAR = START + "2 FPOL X+10 Y+0\n3 FL PR+20 PA+45\n4 END PGM A MM"
+_POLE = START + "2 FL X+5 Y+0\n3 FPOL X+10 Y+0\n4 FL PR+20 PA+45\n5 END PGM A MM"
 _CLOSED = START + "2 FL X+30 Y+0 CLSD+\n3 FL X+30 Y+20\n4 FL CLSD-\n5 END PGM A MM"
 _TANGENT = START + "2 FL X+30 Y+0\n3 FCT DR+ R10 CCA+0\n4 END PGM A MM"
 _NUMBERED = START + "2 FL X+30 Y+0\n3 FL IX+5 IY+20 RX 2\n4 END PGM A MM"
@@ -78,7 +79,7 @@ _ROWS = (
          "add PAR and the number of that block", _ERRORS, some("DP") & ~some("PAR"), (LINE,), _PARALLEL,
          (" PAR 2", ""), alarm=_INCOMPLETE),
     _row("pole-half", "{words}: the pole has one coordinate", "write X and Y behind FPOL", _ERRORS,
-         _half("X", "Y"), (POLE,), _POLAR, (" Y+0\n3", "\n3"), alarm=_INCOMPLETE),
+         _half("X", "Y"), (POLE,), _POLE, ("10 Y+0", "10"), alarm=_INCOMPLETE),
     _row("block-illegal",
          "the chain is still open where a conventional move follows; FL, FC, RND, CHF, APPR or DEP may",
          "complete the chain before it, or write the move as FL or FC", _ERRORS, some(CUT), _ANY, _LINES,
