@@ -36,7 +36,7 @@ from contoursolve.geometry.lines import (
     TurnBetween,
     UnitDirection,
 )
-from contoursolve.geometry.points import Collinear, Coordinate, Heading, Level, Offset, OnCircle, Radius
+from contoursolve.geometry.points import Collinear, Coordinate, Heading, Level, Offset, OnCircle, Radius, Spoke
 from contoursolve.geometry.profile import (
     INCREMENT_OF,
     Choice,
@@ -59,6 +59,7 @@ from contoursolve.geometry.touching import (
     Contact,
     Entering,
     EqualRadii,
+    PointBeside,
     RadiusStep,
     Setback,
     TangentArc,
@@ -106,6 +107,7 @@ __all__ = [
     "Parallel",
     "ParallelLines",
     "Plane",
+    "PointBeside",
     "Profile",
     "Question",
     "Radius",
@@ -113,6 +115,7 @@ __all__ = [
     "Role",
     "Setback",
     "Side",
+    "Spoke",
     "Start",
     "System",
     "Tangent",

@@ -99,6 +99,13 @@ class Heading(Equation, Struct, frozen=True):
         return degrees(atan2(second, first)) if hypot(first, second) > 0 else None
 
 
+class Spoke(Heading, frozen=True):
+    """The ray from a centre (`tail`) to a point (`head`) runs at the given angle, and not against it."""
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (dot(step(at, self.tail, self.head), at.direction(self.given)),)
+
+
 class OnCircle(Equation, Struct, frozen=True):
     """`point` lies on the circle about `center`; to first order the residual is the distance from it.
 

@@ -213,6 +213,11 @@ MEANINGS: Mapping[type, Meaning] = {
     kinds.Heading: ANGLE(
         "direction of the line from {tail} to {head}", lambda own, at: ((1.0, 0.0), at.way(own.tail, own.head))
     ),
+    kinds.Spoke: ANGLE(
+        "angle of the ray from {tail} to {head}",
+        lambda own, at: ((1.0, 0.0), at.way(own.tail, own.head)),
+        lambda own, at: (dot(at.stated(own), at.way(own.tail, own.head)),),
+    ),
     kinds.RadiusStep: LENGTH("{radius} less {origin}", lambda own, at: at.size(own.radius) - at.size(own.origin)),
     kinds.Entering: ANGLE(
         "direction of the arc about {center} in {point}",
@@ -253,6 +258,15 @@ MEANINGS: Mapping[type, Meaning] = {
         "both lines are equally long", lambda own, at: norm(at.way(*own.first)) - norm(at.way(*own.second))
     ),
     kinds.TangentCircles: Meaning("both circles touch", _touching),
+    kinds.PointBeside: Meaning(
+        "the point is as far beside the circle as stated",
+        # Inside a circle, it is no farther from it than the centre is: the distance of the two is not negative.
+        lambda own, at: (
+            norm(at.way(own.first[0], own.second[0]))
+            - at.size(own.second[1])
+            - at.side(own.side) * at.size(own.first[1])
+        ),
+    ),
     kinds.Contact: Meaning(
         "{point} is in line with {first} and {second}",
         lambda own, at: cross(unit(at.way(own.first, own.second)), at.way(own.first, own.point)),

@@ -25,6 +25,7 @@ from contoursolve.geometry import (
     OnCircle,
     Profile,
     Radius,
+    Spoke,
     TurnBetween,
     line_scalars,
     scalar,
@@ -342,7 +343,7 @@ def agrees(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> b
     opposite = {side: -1 for side in fact.sides() if side not in signs}
     if opposite:
         off = min(off, abs(case.missed_by(fact, values, {**signs, **opposite})))
-    if isinstance(fact, TurnBetween | Directed) and min(senses(fact, case.system.at(values, signs))) < 0:
+    if isinstance(fact, TurnBetween | Directed | Spoke) and min(senses(fact, case.system.at(values, signs))) < 0:
         return False
     return off <= allowance(case, fact, values, signs)
 
