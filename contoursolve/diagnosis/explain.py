@@ -329,7 +329,7 @@ def explain_result(
 def _off(event: Refusal | Note, turned: float | None, unit: Length, profile: Profile) -> str:
     """By how much something is off: by an angle (`turned`, degrees) where a fact is about directions."""
     off = event.values["off_by_mm"]
-    if any(isinstance(fact, ParallelLines) and fact.given == event.subject for fact in profile.facts):
+    if any(isinstance(fact, ParallelLines) and event.subject in (fact.given, fact.part_of) for fact in profile.facts):
         turned = degrees(asin(min(1.0, off)))
     return length_text(off, unit) if turned is None else angle_text(turned)
 

@@ -14,6 +14,7 @@ from contoursolve.geometry import (
     Offset,
     OnCircle,
     Parallel,
+    ParallelLines,
     Profile,
     Radius,
     System,
@@ -143,6 +144,8 @@ def _phrase(fact: Fact, group: Group, profile: Profile) -> str:
             return f"the circles about {first[0]} and {second[0]} touch"
         case Foot(line=line, point=point):
             return f"{point} where the circle touches {line}"
+        case ParallelLines(first=first, second=second):
+            return f"{first} parallel to {second}"
         case Parallel(line=line, axis=axis):
             return f"{line} parallel to {axes[axis]}"
         case _:

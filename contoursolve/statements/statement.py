@@ -221,8 +221,8 @@ class ParallelTo(Struct, frozen=True):
             raise StatementError(
                 f"{self.line} and {self.other} meet in {meeting.pop()}, so that there is no distance between them"
             )
-        # The distance is what the fact states; that the lines are parallel may be known without it.
-        draft.add(ParallelLines(self.line, self.other))
+        parallel = draft.give(f"{name}.parallel", Decimal(0), Unit.SIGN)
+        draft.add(ParallelLines(self.line, self.other, part_of=parallel))
         point = draft.point_on(self.line)
         if not self.distance:
             return _named(draft, name, Through(self.other, point, name))
