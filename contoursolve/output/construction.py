@@ -14,7 +14,6 @@ from contoursolve.geometry import (
     Offset,
     OnCircle,
     Parallel,
-    ParallelLines,
     Profile,
     Radius,
     System,
@@ -113,7 +112,7 @@ def _things(group: Group, profile: Profile) -> str:
 
 def _phrase(fact: Fact, group: Group, profile: Profile) -> str:
     """One fact as a condition on what is to be found; empty for what goes without saying."""
-    given = profile.givens.get(fact.given)
+    given = profile.givens.get(fact.given or getattr(fact, "part_of", ""))
     word = f" ({printable(given.word.text)})" if given is not None and given.word is not None else ""
     if given is not None and given.word is not None and given.word.address == FACT:
         return printable(given.word.text)
@@ -144,8 +143,6 @@ def _phrase(fact: Fact, group: Group, profile: Profile) -> str:
             return f"the circles about {first[0]} and {second[0]} touch"
         case Foot(line=line, point=point):
             return f"{point} where the circle touches {line}"
-        case ParallelLines(first=first, second=second):
-            return f"{first} parallel to {second}"
         case Parallel(line=line, axis=axis):
             return f"{line} parallel to {axes[axis]}"
         case _:
