@@ -6,6 +6,7 @@ for every control.
 
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.fanuc import FANUC_LATHE, FANUC_MILL, HAAS_LATHE, HAAS_MILL
+from contoursolve.controls.heidenhain import HEIDENHAIN
 from contoursolve.controls.isg import ISG
 from contoursolve.controls.mitsubishi import MITSUBISHI
 from contoursolve.controls.nct_99m import NCT_99M
@@ -28,6 +29,7 @@ DIALECTS = {
         SIEMENS_840D,
         SIEMENS_808D,
         ISG,
+        HEIDENHAIN,
     )
 }
 
@@ -38,6 +40,7 @@ __all__ = [
     "FANUC_MILL",
     "HAAS_LATHE",
     "HAAS_MILL",
+    "HEIDENHAIN",
     "ISG",
     "MITSUBISHI",
     "NCT_99M",

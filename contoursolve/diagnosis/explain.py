@@ -267,6 +267,7 @@ def _adding(absent: Sequence[tuple[str, int]], number: int, claim: ParsedContour
 
 
 _IN_DEGREES = {RefusalKind.LINE_REVERSED}
+_OF_PICKS = {RefusalKind.PICK_NONE, NoteKind.PICK_OPEN, NoteKind.PICK_FIRST}
 _OF_A_WORD = {RefusalKind.WORDS_DISAGREE, NoteKind.WORDS_AGREE}
 
 
@@ -301,8 +302,7 @@ def explain_result(
         fields["off"] = _off(event, turned, context.unit, profile)
     if is_word and "expected" in values:
         fields["meant"] = statement_text(givens[0], values["expected"], profile)
-    if event.kind is NoteKind.SEVERAL:
-        fields["count"] = f"{event.values['actual']:.0f}"
+    fields |= _counted(event)
     notes: tuple[str, ...] = ()
     if event.kind in _AGAINST_OTHERS:
         fields |= _others(event, profile)
@@ -332,6 +332,16 @@ def _off(event: Refusal | Note, turned: float | None, unit: Length, profile: Pro
     if any(isinstance(fact, ParallelLines) and event.subject in (fact.given, fact.part_of) for fact in profile.facts):
         turned = degrees(asin(min(1.0, off)))
     return length_text(off, unit) if turned is None else angle_text(turned)
+
+
+def _counted(event: Refusal | Note) -> dict[str, str]:
+    """How many contours there are, or how many solutions at an element."""
+    if event.kind is NoteKind.SEVERAL:
+        return {"count": f"{event.values['actual']:.0f}"}
+    if event.kind in _OF_PICKS:
+        count = int(event.values["limit"])
+        return {"limit_count": f"{count} solution{'s' * (count != 1)}"}
+    return {}
 
 
 def _smaller(told: list[str], values: Mapping[str, float], profile: Profile) -> str:

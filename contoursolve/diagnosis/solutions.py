@@ -83,9 +83,10 @@ def list_solutions(answer: Answer) -> Listing | None:
         doubts = (f"the other sides of {choices} points: {why}",) if choices else ()
         return Listing((only,), is_complete=not doubts, method="closed form", doubts=doubts, chosen_by="")
     from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
+    from contoursolve.solving.picks import pick  # noqa: PLC0415
 
     eligible = choose(alternatives, answer.profile.choices)
-    paths = [item for item in eligible if item.is_path]
+    paths, _ = pick([item for item in eligible if item.is_path], answer.profile)
     chosen = paths[0] if len(paths) == 1 and answer.contour is not None else None
     words = [
         answer.claim.words[choice.given].text for choice in answer.profile.choices if choice.given in answer.claim.words

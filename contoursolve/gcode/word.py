@@ -73,8 +73,33 @@ _ADDRESS = re.compile(
 )
 
 
+_BEFORE_NUMBER = {
+    **{f"{axis}{name}": f"{axis}{name}" for axis in ("", "I") for name in ("CCX", "CCY", "CCPR", "CCPA", "AN")},
+    **{f"I{name}": f"I{name}" for name in ("X", "Y", "Z", "A", "B", "C", "PR", "PA")},
+    **{f"P{point}{axis}": f"P{point}{axis}" for point in "123D" for axis in "XY"},
+    **{f"R{name}": f"R{name} " for name in ("X", "Y", "PR", "PA", "AN", "CCX", "CCY", "CCPR", "CCPA")},
+    "PR": "PR",
+    "PA": "PA",
+    "LEN": "LEN",
+    "CCA": "CCA",
+    "DP": "DP",
+    "PAR": "PAR ",
+    "FSELECT": "FSELECT ",
+    "ROUNDING": "RND R",
+    "CHAMFER": "CHF ",
+}
+"""What Klartext writes before the numbers of words that have several letters: no equals sign."""
+
+_SIGN_ALONE = frozenset({"DR", "CLSD"})
+"""Words of Klartext that are a sign and no number."""
+
+
 def spell(address: str, number: str) -> str:
-    """A word of an address and a number: `X40.`, `,A30.`, `ANG=30`, `X=IC(5)`."""
+    """A word of an address and a number: `X40.`, `,A30.`, `ANG=30`, `X=IC(5)`, `LEN40`, `DR-`."""
+    if address in _BEFORE_NUMBER:
+        return _BEFORE_NUMBER[address] + number
+    if address in _SIGN_ALONE:
+        return address + ("-" if number.startswith("-") else "+")
     if "=" in address:
         return f"{address}({number})"
     return f"{address}={number}" if len(address.lstrip(", \t")) > 1 else address + number
@@ -82,7 +107,13 @@ def spell(address: str, number: str) -> str:
 
 def number_of(text: str, address: str) -> str:
     """The number of a word that is spelled so, as it is written."""
+    if address in _BEFORE_NUMBER:
+        found = _LAST_NUMBER.search(text)
+        return found[0] if found else ""
     return text.strip()[len(address) :].strip("=() \t")
+
+
+_LAST_NUMBER = re.compile(r"[+-]?+[\d.,]++(?=\s*+$)|\?(?=\s*+$)")
 
 
 def call(word: Word, words: Sequence[Word]) -> str:

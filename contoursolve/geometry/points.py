@@ -99,8 +99,8 @@ class Heading(Equation, Struct, frozen=True):
         return degrees(atan2(second, first)) if hypot(first, second) > 0 else None
 
 
-class Spoke(Heading, frozen=True):
-    """The ray from a centre (`tail`) to a point (`head`) runs at the given angle, and not against it."""
+class Ray(Heading, frozen=True):
+    """`head` lies in the given direction from `tail`, and not in the opposite one."""
 
     def senses(self, at: Lookup) -> tuple[Any, ...]:
         return (dot(step(at, self.tail, self.head), at.direction(self.given)),)

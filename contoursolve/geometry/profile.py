@@ -110,6 +110,15 @@ class Choice(Struct, frozen=True):
     given: str
 
 
+class Pick(Struct, frozen=True):
+    """Which solution is meant at an element of the path: the number of the element and of the solution there, from 1,
+    in the order of travel; and the given that says so, empty for one that nothing says."""
+
+    element: int
+    number: int
+    given: str
+
+
 class Layout(Struct, frozen=True, eq=False):
     """A figure with the facts that some combination of words states about it.
 
@@ -139,6 +148,7 @@ class Profile(Struct, frozen=True):
     ignored: tuple[Fact, ...] = ()
     choices: tuple[Choice, ...] = ()
     questions: tuple[Question, ...] = ()
+    picks: tuple[Pick, ...] = ()
     is_extended: bool = False
     """Whether it states or asks more than its form provides for."""
 

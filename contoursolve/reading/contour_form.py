@@ -11,7 +11,18 @@ from typing import Any
 from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Evidence, Source
-from contoursolve.geometry import Arc, Corner, CornerShape, Fact, Figure, Layout, Line, Role
+from contoursolve.geometry import (
+    Arc,
+    Corner,
+    CornerShape,
+    Fact,
+    Figure,
+    Layout,
+    Line,
+    Role,
+    Through,
+    UnitDirection,
+)
 from contoursolve.reading.lexicon import WithoutPoint
 from contoursolve.reading.rules import Condition, Stated
 
@@ -169,6 +180,8 @@ class ContourForm:
     """Sine of the change of direction up to which the control makes no corner."""
     refuses: bool = False
     """Whether it refuses such a corner; else it leaves it out."""
+    is_general: bool = False
+    """Whether its facts may be of any kind, and no rule tells which of them make a contour."""
 
     def __hash__(self) -> int:
         return hash(self.name)
@@ -192,7 +205,8 @@ def lay_out(
     `sharp` are the corner words of value 0, which make no corner.
     """
     facts = tuple(row.fact for row in form.facts if stated.issuperset(row.needs))
-    mentioned = {name.partition(".")[0] for fact in facts for name in fact.reads()}
+    read = {name for fact in facts for name in fact.reads()}
+    mentioned = read | {name.rpartition(".")[0] for name in read}
     stating = {fact.given for fact in facts}
     path: list[Line | Arc] = []
     for element in form.path:
@@ -211,7 +225,18 @@ def lay_out(
         tuple(corner for row in form.corners for corner in _corners(form, row, stated, asked, sharp)),
         lines=tuple(line for line in form.lines if line.heading is None or line.heading in stated),
     )
-    return Layout(figure, facts)
+    return Layout(*_with_carriers(figure, facts, mentioned) if form.is_general else (figure, facts))
+
+
+def _with_carriers(figure: Figure, facts: tuple[Fact, ...], mentioned: set[str]) -> tuple[Figure, tuple[Fact, ...]]:
+    """The figure and its facts, with those that lines have whose direction facts speak about and no word states."""
+    lines = [each for each in figure.path if isinstance(each, Line) and each.heading is None and each.name in mentioned]
+    more = [
+        fact
+        for line in lines
+        for fact in (UnitDirection(line.name), Through(line.name, line.tail), Through(line.name, line.head))
+    ]
+    return replace(figure, carriers=tuple(line.name for line in lines)), (*facts, *more)
 
 
 def _corners(

@@ -179,6 +179,9 @@ class Modes:
     """Addresses with several letters of words that change no path where no contour is."""
     separate: frozenset[int] = field(default=frozenset(), kw_only=True)
     """G codes of blocks that belong to a contour and move nothing."""
+    follow: Callable[[State, Block, "Modes"], State] | None = field(default=None, kw_only=True)
+    """From the state before a block that is no contour to the one behind it, where the control is not programmed in G
+    codes."""
 
     def is_call(self, word: Word) -> bool:
         """Whether a word calls or ends a subprogram, or moves in a way that is not followed."""
@@ -272,6 +275,11 @@ def advance(state: State, block: Block, modes: Modes) -> State:
     """The state after a block that is not a contour."""
     if not block.words and not block.faults and block.macro is None:
         return state
+    return modes.follow(state, block, modes) if modes.follow is not None else _follow_codes(state, block, modes)
+
+
+def _follow_codes(state: State, block: Block, modes: Modes) -> State:
+    """The state after a block that is programmed in G codes."""
     if COMMENTED in state.memory and modes.remember is not None:
         return replace(state, memory=modes.remember(state.memory, block))
     if block.macro is Macro.FLOW:

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, Directive, Word
-from contoursolve.geometry import Choice, Fact, Given, Layout, Plane, Profile, Question, Radius, Side
+from contoursolve.geometry import Choice, Fact, Given, Layout, Pick, Plane, Profile, Question, Radius, Side
 from contoursolve.reading.contour_form import Assumption, ContourForm, Convention, lay_out
 from contoursolve.reading.lexicon import Lexicon
 from contoursolve.reading.modal_state import Modes, Position, State, apply_modes, axis_words, positions
@@ -92,6 +92,8 @@ class ParsedContour:
     choices: tuple[Choice, ...] = ()
     selectors: tuple[Selector, ...] = ()
     """The words that would choose, whether they are stated or not."""
+    picks: tuple[Pick, ...] = ()
+    """Which of several solutions is meant, element by element."""
     conventions: tuple[Convention, ...] = ()
     """What the manual does not say and the reading rests on."""
     selected: Plane | None = None
@@ -158,7 +160,8 @@ def read(claim: ParsedContour, ignored: frozenset[str]) -> Profile:
         ignored=dropped,
         choices=claim.choices,
         questions=tuple(_questions(claim, asked, layout)),
-        is_extended=bool(asked or claim.directives),
+        picks=claim.picks,
+        is_extended=bool(asked or claim.directives or claim.form.is_general),
     )
 
 

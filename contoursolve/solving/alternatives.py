@@ -41,6 +41,7 @@ from contoursolve.solving.exact_inputs import ground_of
 from contoursolve.solving.krawczyk import Prover, radius_of
 from contoursolve.solving.numbers import corner_of, sizes_of
 from contoursolve.solving.path import check_path
+from contoursolve.solving.picks import pick
 from contoursolve.solving.solution import (
     Certificate,
     CornerSolution,
@@ -409,12 +410,17 @@ def decide(alternatives: Alternatives, profile: Profile) -> Solution:
     Several contours, between which nothing chooses, are ambiguous.
     """
     eligible = choose(alternatives, profile.choices)
-    paths = [item for item in eligible if item.is_path]
+    paths, events = pick([item for item in eligible if item.is_path], profile)
+    refusals = tuple(event for event in events if isinstance(event, Refusal))
+    if refusals:
+        return Solution(Status.NO_SOLUTION, refusals=refusals)
+    notes = tuple(event for event in events if isinstance(event, Note))
     count = {"actual": float(len(paths))}
     if len(paths) > 1:
-        return Solution(Status.AMBIGUOUS, remarks=(Note(NoteKind.SEVERAL, "", (), count),))
+        return Solution(Status.AMBIGUOUS, remarks=(*notes, Note(NoteKind.SEVERAL, "", (), count)))
     if paths:
         solution = _without_selecting(paths[0].solution, alternatives)
+        solution = replace(solution, remarks=(*solution.remarks, *notes))
         if alternatives.is_complete:
             return solution
         return replace(solution, remarks=(*solution.remarks, Note(NoteKind.COUNT_OPEN, "", (), count)))

@@ -113,6 +113,9 @@ class RefusalKind(Enum):
     CORNER_SIGN = "corner-sign"
     """The sign of a corner word says that the next line runs the other way."""
 
+    PICK_NONE = "pick-none"
+    """A word chooses a solution that is not there."""
+
     @property
     def status(self) -> Status:
         """The status that this refusal gives a contour."""
@@ -141,6 +144,10 @@ class NoteKind(Enum):
     SENSITIVE = "sensitive"
     """Rounding alone may move a point by more than a thousandth of the least increment."""
     LINE_VANISHES = "line-vanishes"
+    PICK_OPEN = "pick-open"
+    """A word chooses among solutions, and the other words leave one alone."""
+    PICK_FIRST = "pick-first"
+    """Nothing chooses, and a setting takes the first of several contours."""
     WORDS_AGREE = "words-agree"
     """A word that was not needed agrees."""
     RADIUS_DIFFERS = "radius-differs"

@@ -29,7 +29,7 @@ from contoursolve.geometry import (
     ParallelLines,
     PointBeside,
     Radius,
-    Spoke,
+    Ray,
     TangentCircles,
     TangentLine,
     Through,
@@ -253,7 +253,7 @@ class PolarAngleIs(Struct, frozen=True):
     def state(self, draft: Draft, name: str) -> Fact:
         form = _arc(draft, self.arc)
         end = form.begin if self.part == "begin" else form.end
-        return _stated(draft, Spoke(name, form.center, end), self.value, Unit.DEGREE)
+        return _stated(draft, Ray(name, form.center, end), self.value, Unit.DEGREE)
 
 
 class RadiusIs(Struct, frozen=True):

@@ -213,8 +213,8 @@ MEANINGS: Mapping[type, Meaning] = {
     kinds.Heading: ANGLE(
         "direction of the line from {tail} to {head}", lambda own, at: ((1.0, 0.0), at.way(own.tail, own.head))
     ),
-    kinds.Spoke: ANGLE(
-        "angle of the ray from {tail} to {head}",
+    kinds.Ray: ANGLE(
+        "direction from {tail} to {head}",
         lambda own, at: ((1.0, 0.0), at.way(own.tail, own.head)),
         lambda own, at: (dot(at.stated(own), at.way(own.tail, own.head)),),
     ),

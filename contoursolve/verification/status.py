@@ -25,7 +25,7 @@ from contoursolve.geometry import (
     OnCircle,
     Profile,
     Radius,
-    Spoke,
+    Ray,
     TurnBetween,
     line_scalars,
     scalar,
@@ -341,7 +341,7 @@ def allowance(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -
 def agrees(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> bool:
     """Whether a fact that is not needed is true of a solution."""
     off = abs(case.missed_by(fact, values, signs))
-    if isinstance(fact, TurnBetween | Directed | Spoke) and min(senses(fact, case.system.at(values, signs))) < 0:
+    if isinstance(fact, TurnBetween | Directed | Ray) and min(senses(fact, case.system.at(values, signs))) < 0:
         return False
     return off <= allowance(case, fact, values, signs)
 

@@ -1,0 +1,26 @@
+"""HEIDENHAIN TNC: free contour programming FK in Klartext programs.
+
+Its words, elements and rules come in; a control goes out. Begin with `elements`.
+"""
+
+from contoursolve.controls.heidenhain.find import find
+from contoursolve.controls.heidenhain.follow import follow
+from contoursolve.controls.heidenhain.lexicon import CODES, LEXICON, SYNTAX, shown_by
+from contoursolve.controls.heidenhain.rules import RULES
+from contoursolve.controls.heidenhain.settings import SETTINGS
+from contoursolve.controls.plain import PLANES
+from contoursolve.reading import Modes
+from contoursolve.reading.dialect import Dialect
+
+HEIDENHAIN = Dialect(
+    name="heidenhain",
+    title="HEIDENHAIN TNC, Klartext with free contours FK",
+    modes=Modes(LEXICON, CODES, ("X", "Y", "Z"), frozenset(), syntax=SYNTAX, follow=follow),
+    plane=PLANES[17],
+    forms=(),
+    rules=RULES,
+    find=find,
+    signs=shown_by,
+    contours="free contours: FL, FLT, FC, FCT",
+    settings=SETTINGS,
+)

@@ -1,0 +1,380 @@
+"""The elements of a chain of lines and arcs, and what each word states about them: one row of facts a word."""
+
+from collections.abc import Callable, Iterator, Mapping
+from functools import lru_cache
+from itertools import pairwise
+
+from msgspec import Struct
+
+from contoursolve.controls.heidenhain.lexicon import CHAMFER, FREE, ROUNDING, STRAIGHT, TANGENT
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Along,
+    Arc,
+    Chord,
+    Contact,
+    Coordinate,
+    CornerShape,
+    Distance,
+    Entering,
+    Extent,
+    Fact,
+    Foot,
+    Level,
+    Line,
+    Offset,
+    OnCircle,
+    ParallelLines,
+    Radius,
+    RadiusStep,
+    Ray,
+    Role,
+    Tangent,
+    TangentCircles,
+    TangentLine,
+    Through,
+    Turn,
+    TurnBetween,
+)
+from contoursolve.reading import Assumption, ContourForm, CornerRow, FactRow
+
+START = "S"
+TANGENCY = "tangent"
+"""What a function states that begins in the direction of the element before it."""
+
+LINE, ARC, PLAIN, POLE = "line", "arc", "plain", "pole"
+"""The roles of blocks: free lines and arcs, conventional moves, poles."""
+
+CORNERS = {ROUNDING: CornerShape.FILLET, CHAMFER: CornerShape.CHAMFER_SETBACK}
+
+
+class Element(Struct, frozen=True):
+    """One element as far as its facts depend on it.
+
+    `counted` are the increments that count from another block, each with the number of the element at whose end that
+    is (0 for the start of the chain). `parallel` is the number of the line to which it is parallel.
+    `touching` are the distances of value 0: D and DP.
+    """
+
+    function: str
+    turn: Turn | None = None
+    pole: str = ""
+    counted: tuple[tuple[str, int], ...] = ()
+    parallel: int = 0
+    touching: frozenset[str] = frozenset()
+    is_entered: bool = False
+    """Whether AN states its direction."""
+    closes: int = 0
+    """The number of the element at whose begin it ends: the one with CLSD+."""
+
+    @property
+    def is_line(self) -> bool:
+        """Whether it is straight."""
+        return self.function in STRAIGHT
+
+    @property
+    def role(self) -> str:
+        """Which rules speak about it."""
+        if self.function not in FREE:
+            return PLAIN
+        return LINE if self.is_line else ARC
+
+
+class Place(Struct, frozen=True):
+    """The names of an element and of its points, and the element itself.
+
+    `label` is the number of its block, by which programmers speak of it.
+    """
+
+    number: int
+    label: str
+    element: Element
+    tail: str
+    head: str
+
+    @property
+    def prefix(self) -> str:
+        """What the names begin with of what its block states."""
+        return f"{self.number}:"
+
+    @property
+    def name(self) -> str:
+        return f"{'line' if self.element.is_line else 'arc'} {self.label}"
+
+    @property
+    def center(self) -> str:
+        return f"C{self.label}"
+
+    @property
+    def radius(self) -> str:
+        return f"r{self.label}"
+
+    @property
+    def turn(self) -> Turn:
+        return self.element.turn or Turn.CCW
+
+    def travel(self, point: str) -> Along | Tangent:
+        """The direction in which it is travelled at one of its ends."""
+        return Along(self.name) if self.element.is_line else Tangent(point, self.center, self.radius, self.turn)
+
+
+class Chain(Struct, frozen=True):
+    """All elements with their names; `poles` are the names of the poles that blocks of the chain state."""
+
+    places: tuple[Place, ...]
+
+    def at(self, number: int) -> str:
+        """Where the element of a number ends; of 0, where the chain begins."""
+        return self.places[number - 1].head if number else START
+
+    def counted_from(self, place: Place, word: str) -> str:
+        """The point from which an increment counts: where the element begins, or where another block ends."""
+        counted = dict(place.element.counted)
+        return self.at(counted[word]) if word in counted else place.tail
+
+
+Facts = Callable[[Chain, Place, str], Iterator[Fact]]
+"""(chain, element, name of the word) to what the word states."""
+
+
+def _coordinate(of: str, axis: int) -> Facts:
+    def facts(_: Chain, place: Place, given: str) -> Iterator[Fact]:
+        yield Coordinate(given, getattr(place, of), axis)
+
+    return facts
+
+
+def _step(of: str, axis: int, word: str) -> Facts:
+    def facts(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
+        yield Offset(given, getattr(place, of), chain.counted_from(place, word), axis)
+
+    return facts
+
+
+def _polar_distance(of: str) -> Facts:
+    def facts(_: Chain, place: Place, given: str) -> Iterator[Fact]:
+        yield Distance(given, place.element.pole, getattr(place, of))
+
+    return facts
+
+
+def _polar_angle(of: str) -> Facts:
+    def facts(_: Chain, place: Place, given: str) -> Iterator[Fact]:
+        yield Ray(given, place.element.pole, getattr(place, of))
+
+    return facts
+
+
+def _farther(of: str, word: str) -> Facts:
+    def facts(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
+        origin, point, pole = chain.counted_from(place, word), getattr(place, of), place.element.pole
+        radii = [f"{given} {each}" for each in ("from", "to")]
+        yield from (OnCircle(each, pole, radius) for each, radius in zip((origin, point), radii, strict=True))
+        yield RadiusStep(given, radii[1], radii[0])
+
+    return facts
+
+
+def _turned(of: str, word: str) -> Facts:
+    def facts(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
+        pole = place.element.pole
+        yield TurnBetween(given, Chord(pole, chain.counted_from(place, word)), Chord(pole, getattr(place, of)))
+
+    return facts
+
+
+def _direction(_: Chain, place: Place, given: str) -> Iterator[Fact]:
+    if place.element.is_line:
+        yield Ray(given, place.tail, place.head)
+    else:
+        yield Entering(given, place.tail, place.center, place.turn)
+
+
+def _angle_to(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
+    number = dict(place.element.counted).get("IAN", place.number - 1)
+    if number:
+        other = chain.places[number - 1]
+        yield TurnBetween(given, other.travel(other.head), place.travel(place.tail))
+
+
+def _length(_: Chain, place: Place, given: str) -> Iterator[Fact]:
+    if place.element.is_line:
+        yield Extent(given, place.name, place.tail, place.head)
+    else:
+        yield Distance(given, place.tail, place.head)
+
+
+def _radius(_: Chain, place: Place, given: str) -> Iterator[Fact]:
+    yield Radius(given, place.radius)
+
+
+def _end_angle(_: Chain, place: Place, given: str) -> Iterator[Fact]:
+    yield Ray(given, place.center, place.head)
+
+
+def _closes(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
+    if place.element.closes:
+        begin = chain.at(place.element.closes - 1)
+        yield from (Level(place.head, begin, axis, given) for axis in (FIRST, SECOND))
+
+
+def _touches_before(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
+    """That an element begins in the direction in which the one before it ends."""
+    if place.number == 1:
+        return
+    before = chain.places[place.number - 2]
+    arcs = [each for each in (before, place) if not each.element.is_line]
+    if len(arcs) == 1:
+        line = place if place.element.is_line else before
+        yield TangentLine(line.name, arcs[0].center, arcs[0].radius, arcs[0].turn.sign, given)
+        yield Foot(line.name, place.tail, arcs[0].center)
+    elif arcs:
+        side = 1 if before.turn is not place.turn else -1
+        yield Contact(place.tail, before.center, place.center, side, given)
+    else:
+        yield TurnBetween(given, Along(before.name), Along(place.name))
+
+
+WORDS: Mapping[str, Facts] = {
+    "X": _coordinate("head", FIRST),
+    "Y": _coordinate("head", SECOND),
+    "IX": _step("head", FIRST, "IX"),
+    "IY": _step("head", SECOND, "IY"),
+    "PR": _polar_distance("head"),
+    "PA": _polar_angle("head"),
+    "IPR": _farther("head", "IPR"),
+    "IPA": _turned("head", "IPA"),
+    "AN": _direction,
+    "IAN": _angle_to,
+    "LEN": _length,
+    "CCX": _coordinate("center", FIRST),
+    "CCY": _coordinate("center", SECOND),
+    "CCPR": _polar_distance("center"),
+    "CCPA": _polar_angle("center"),
+    "ICCX": _step("center", FIRST, "ICCX"),
+    "ICCY": _step("center", SECOND, "ICCY"),
+    "ICCPR": _farther("center", "ICCPR"),
+    "ICCPA": _turned("center", "ICCPA"),
+    "R": _radius,
+    "CCA": _end_angle,
+    "CLSD-": _closes,
+    TANGENCY: _touches_before,
+}
+"""What a word states by itself."""
+
+OF_LINES = ("X", "Y", "IX", "IY", "PR", "PA", "IPR", "IPA", "AN", "IAN", "LEN")
+OF_ARCS = (*OF_LINES, "CCX", "CCY", "CCPR", "CCPA", "ICCX", "ICCY", "ICCPR", "ICCPA", "R", "CCA")
+POLAR = frozenset({"PR", "PA", "IPR", "IPA", "CCPR", "CCPA", "ICCPR", "ICCPA"})
+POINTS = ("P1", "P2", "P3")
+BESIDE = "PD"
+
+
+def _point_rows(place: Place) -> Iterator[FactRow]:
+    """Points on the element, each by two words, and one beside it, by three."""
+    q, line = place.prefix, place.element.is_line
+    for point in (POINTS[:2] if line else POINTS) + (BESIDE,):
+        name, words = f"{q}{point}", [f"{q}{point}{axis}" for axis in "XY"]
+        distance = f"{q}D"
+        needs = (*words, *([distance] if point == BESIDE else []))
+        yield from (FactRow(Coordinate(word, name, axis), needs) for axis, word in enumerate(words))
+        if point != BESIDE or "D" in place.element.touching:
+            on = Through(place.name, name) if line else OnCircle(name, place.center, place.radius)
+            yield FactRow(on, needs)
+            continue
+        radius, side = f"{name} distance", f"{name}.side"
+        yield FactRow(Radius(distance, radius), needs)
+        if line:
+            yield FactRow(TangentLine(place.name, name, radius, side), needs)
+        else:
+            yield FactRow(TangentCircles((place.center, place.radius), (name, radius), side), needs)
+
+
+def _parallel_rows(chain: Chain, place: Place) -> Iterator[FactRow]:
+    """A line parallel to another one, and at which distance."""
+    number = place.element.parallel
+    if not (number and place.element.is_line):
+        return
+    other, word, distance = chain.places[number - 1], f"{place.prefix}PAR", f"{place.prefix}DP"
+    yield FactRow(ParallelLines(other.name, place.name, word), (word,))
+    if "DP" in place.element.touching:
+        yield FactRow(Through(place.name, other.tail, distance), (word, distance))
+        return
+    radius, side = f"{place.prefix}DP distance", f"{place.prefix}DP.side"
+    yield FactRow(Radius(distance, radius), (word, distance))
+    yield FactRow(TangentLine(place.name, other.tail, radius, side), (word, distance))
+
+
+def _rows(chain: Chain) -> Iterator[FactRow]:
+    places = chain.places
+    for pole in dict.fromkeys(place.element.pole for place in places if place.element.pole):
+        for axis, letter in enumerate("XY"):
+            yield FactRow(Coordinate(f"{pole}:{letter}", pole, axis), (f"{pole}:{letter}",))
+    for place in places:
+        own = OF_LINES if place.element.is_line else OF_ARCS
+        for word in (*own, "CLSD-", TANGENCY):
+            given = place.prefix + word
+            needs = (given, *((f"{place.element.pole}:{axis}") for axis in "XY" if word in POLAR))
+            if word not in POLAR or place.element.pole:
+                yield from (FactRow(fact, needs) for fact in WORDS[word](chain, place, given))
+        yield from _point_rows(place)
+        yield from _parallel_rows(chain, place)
+        if place.element.is_line:
+            continue
+        after = places[place.number] if place.number < len(places) else None
+        # Where a line touches the arc, the point of contact follows from that.
+        met = [place.element.function in TANGENT and place.number > 1 and places[place.number - 2].element.is_line]
+        met.append(after is not None and after.element.function in TANGENT and after.element.is_line)
+        for point, is_met in zip((place.tail, place.head), met, strict=True):
+            if not is_met:
+                yield FactRow(OnCircle(point, place.center, place.radius), ())
+
+
+@lru_cache(maxsize=2048)
+def compose(
+    elements: tuple[Element, ...], labels: tuple[str, ...], assumptions: tuple[Assumption, ...] = ()
+) -> ContourForm:
+    """The form of a chain: everything that its words may state; `labels` are the numbers of its blocks."""
+    points = [START, *(f"P{label}" for label in labels)]
+    named = zip(labels, elements, points, points[1:], strict=False)
+    chain = Chain(tuple(Place(n, *each) for n, each in enumerate(named, 1)))
+    places = chain.places
+    rows = tuple(_rows(chain))
+    path = tuple(
+        Line(each.name, each.tail, each.head, f"{each.prefix}AN" if each.element.is_entered else None)
+        if each.element.is_line
+        else Arc(each.name, each.tail, each.head, each.center, each.radius, each.turn)
+        for each in places
+    )
+    poles = tuple(dict.fromkeys(each.element.pole for each in places if each.element.pole))
+    beside = tuple(f"{each.prefix}{point}" for each in places for point in (*POINTS, BESIDE))
+    arcs = [each for each in places if not each.element.is_line]
+    radii = [name for row in rows for name in row.fact.reads() if name.endswith((" distance", " from", " to"))]
+    return ContourForm(
+        name="free-contour",
+        title="free contour FK",
+        roles=(
+            *(Role(each.element.role, (each.prefix,)) for each in places),
+            *(Role(POLE, (f"{pole}:",)) for pole in poles),
+        ),
+        start=START,
+        points=(*points[1:], *(each.center for each in arcs), *poles, *beside),
+        radii=tuple(dict.fromkeys((*(each.radius for each in arcs), *radii))),
+        facts=rows,
+        path=path,
+        corners=tuple(
+            CornerRow(
+                f"corner {first.label}",
+                first.head,
+                first.name,
+                second.name,
+                {first.prefix + word: shape for word, shape in CORNERS.items()},
+            )
+            for first, second in pairwise(places)
+        ),
+        intersections=tuple(points[1:-1]),
+        allowed=frozenset(),
+        combinations=tuple(((),) for _ in places),
+        assumptions=assumptions,
+        is_general=True,
+    )

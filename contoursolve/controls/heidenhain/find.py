@@ -1,0 +1,441 @@
+"""Which blocks make a chain that is solved together, and what they state.
+
+A chain goes through free elements in a row, and through conventional moves that a corner or a tangency joins to them.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace as replace_fields
+from decimal import Decimal
+from itertools import count
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from contoursolve.analysis import analyse
+from contoursolve.controls.heidenhain.elements import (
+    BESIDE,
+    OF_ARCS,
+    OF_LINES,
+    POINTS,
+    POLAR,
+    TANGENCY,
+    Element,
+    compose,
+)
+from contoursolve.controls.heidenhain.follow import CENTER, PLANE, POLE, TOOL_AXIS, pole_of, resolved, set_pole
+from contoursolve.controls.heidenhain.lexicon import (
+    CHAMFER,
+    FREE,
+    MOVES,
+    REFERRED,
+    ROUNDING,
+    STRAIGHT,
+    TANGENT,
+    function_of,
+)
+from contoursolve.controls.heidenhain.settings import SELECTION
+from contoursolve.gcode import Block, Word
+from contoursolve.geometry import Choice, Given, Pick, Side, Turn, Unit, assemble
+from contoursolve.reading import Convention, Modes, ParsedContour, State, apply_modes, read
+
+NO_SENSE, NO_BLOCK, NO_POLE, NO_BEFORE = "@no-sense", "@no-block", "@no-pole", "@no-before"
+"""An arc without DR; a block that data refer to and that is not there, or no line; polar data without a pole; a tangent
+element behind none."""
+CUT, TOOL, CLOSES_NOTHING = "@cut", "@tool-axis", "@closes-nothing"
+"""A conventional move behind a chain that is still open; a tool axis that is not Z; CLSD- without CLSD+, or alone."""
+
+_CORNERS = {"RND": ROUNDING, "CHF": CHAMFER}
+_BESIDE_ANY = frozenset({"N", "G", "F", "M", "S"})
+_POINTS = frozenset(f"{point}{axis}" for point in POINTS for axis in PLANE)
+_SHARED = frozenset({f"{BESIDE}X", f"{BESIDE}Y", "D", "CLSD", "Z", "IZ", *(f"R{name}" for name in REFERRED)})
+_LINE_WORDS = frozenset({*OF_LINES, "P1X", "P1Y", "P2X", "P2Y", "PAR", "DP"}) | _SHARED
+_ARC_WORDS = frozenset({*OF_ARCS, "DR"}) | _POINTS | _SHARED
+_ENDS = frozenset({"X", "Y", "Z", "IX", "IY", "IZ"})
+_ALLOWED: Mapping[str, frozenset[str]] = {
+    **{name: (_LINE_WORDS if name in STRAIGHT else _ARC_WORDS) for name in FREE},
+    "L": _ENDS,
+    "LP": frozenset({"PR", "PA", "IPR", "IPA", "Z", "IZ"}),
+    "C": _ENDS | {"DR"},
+    "CP": frozenset({"PA", "IPA", "DR", "Z", "IZ"}),
+    "CR": _ENDS | {"DR", "R"},
+    "CT": _ENDS,
+    "CTP": frozenset({"PR", "PA", "IPR", "IPA", "Z", "IZ"}),
+    "FPOL": frozenset({"X", "Y"}),
+    "CC": _ENDS,
+    "RND": frozenset({ROUNDING}),
+    "CHF": frozenset({CHAMFER}),
+    "FSELECT": frozenset({"FSELECT"}),
+}
+"""The words that a function may have."""
+
+
+Pole = tuple[int, Block] | tuple[Decimal, Decimal]
+"""A block with its place in the chain, or coordinates, mm, that were in force before."""
+
+
+class _Member(Struct):
+    """One block of a chain on its way: its function, the states before and behind its modes, its place among the
+    blocks, what stands behind it, and the poles that are in force for it."""
+
+    block: Block
+    function: str
+    here: State
+    index: int
+    pole: str
+    center_at: tuple[Decimal, Decimal] | None
+    """Where CC is, mm, for a conventional arc about it."""
+    corner: Block | None = None
+    corner_index: int = 0
+    picked: Word | None = None
+
+
+class _Chain:
+    """The blocks of a chain as they are read."""
+
+    def __init__(self, state: State, modes: Modes) -> None:
+        self.start = self.state = state
+        self.modes = modes
+        self.blocks: list[Block] = []
+        self.members: list[_Member] = []
+        self.poles: dict[str, Pole] = {}
+        """The poles by name: a block with its place, or coordinates that were in force before the chain."""
+        self.is_cut = False
+
+    def read(self, blocks: Sequence[Block], index: int) -> bool:
+        """Read the chain that begins at a block; whether there is one."""
+        self._keep(POLE, "pole 0")
+        for place in count(index):
+            try:
+                block = blocks[place]
+            except IndexError:
+                break
+            if block.macro is None and not block.words and not block.faults:
+                continue
+            if block.macro is not None or not self._take(block):
+                break
+        while self.blocks and self.blocks[-1] is not self._last_block():
+            self.blocks.pop()
+        return any(member.function in FREE for member in self.members)
+
+    def _last_block(self) -> Block:
+        """The last block that belongs to an element."""
+        last = self.members[-1]
+        behind = [block for block in self.blocks if block.find("FSELECT") or block is last.corner]
+        return max((last.block, *behind), key=lambda block: block.line)
+
+    def _keep(self, function: str, name: str) -> None:
+        values = pole_of(self.state, function)
+        if values is not None:
+            self.poles[name] = values
+
+    def _take(self, block: Block) -> bool:
+        """Whether a block belongs to the chain; then it is taken."""
+        function, last = function_of(block), self.members[-1] if self.members else None
+        block = resolved(block, self.state)
+        is_free = function in FREE
+        if function in MOVES and not is_free and not _is_in_plane(block):
+            # A move of the tool axis alone may stand between.
+            return self._pass(block) if last else False
+        if function in MOVES:
+            is_joined = last is None or is_free or last.corner is not None or function in TANGENT
+            if not is_joined:
+                self.is_cut = True
+                return False
+            self._add(block, function)
+            return True
+        if last is None:
+            return False
+        if function in _CORNERS and last.corner is None:
+            last.corner, last.corner_index = block, len(self.blocks)
+        elif function == "FSELECT":
+            last.picked = block.find("FSELECT")
+        elif function == POLE:
+            self.poles[f"pole {len(self.poles) + 1}"] = len(self.blocks), block
+        elif function == CENTER:
+            self.state = set_pole(self.state, block, CENTER, self.modes)
+        elif function:
+            self.is_cut = not function.startswith(("APPR", "DEP"))
+            return False
+        return self._pass(block)
+
+    def _pass(self, block: Block) -> bool:
+        self.state = apply_modes(self.state, block, self.modes)
+        self.blocks.append(block)
+        return True
+
+    def _add(self, block: Block, function: str) -> None:
+        pole = next((name for name in reversed(self.poles) if name.startswith("pole")), "")
+        center = pole_of(self.state, CENTER)
+        if function not in FREE:
+            pole = f"centre {len(self.members) + 1}" if center and function in ("CP", "LP", "CTP") else ""
+            if center and pole:
+                self.poles[pole] = center
+        index = len(self.blocks)
+        self._pass(block)
+        self.members.append(_Member(block, function, self.state, index, pole, center))
+
+
+def _is_in_plane(block: Block) -> bool:
+    return any(word.address in _MOVING for word in block.words)
+
+
+_MOVING = frozenset({"X", "Y", "IX", "IY", "PR", "PA", "IPR", "IPA", "DR", "R"})
+
+
+def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> ParsedContour | None:
+    """The chain that begins at a block, if any."""
+    block = blocks[index]
+    if block.macro is not None or not block.words:
+        return None
+    function = function_of(block)
+    is_known = state.start().is_known
+    if function not in MOVES or (function not in FREE and not is_known):
+        return None
+    if not is_known and function == "FL" and block.find("X") and block.find("Y"):
+        # A chain may begin with where it begins.
+        return None
+    if function not in FREE and not _leads_on(blocks, index):
+        return None
+    chain = _Chain(state, modes)
+    if not chain.read(blocks, index):
+        return None
+    return _claim(chain, state, modes)
+
+
+def _leads_on(blocks: Sequence[Block], index: int) -> bool:
+    """Whether a conventional move is joined to what follows: by a corner or a tangency."""
+    for place in count(index + 1):
+        try:
+            block = blocks[place]
+        except IndexError:
+            return False
+        if block.macro is None and not block.words:
+            continue
+        function = function_of(block)
+        if block.macro is not None or function not in (POLE, CENTER):
+            return block.macro is None and (function in _CORNERS or function in TANGENT)
+    return False
+
+
+def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
+    """What the blocks of a chain state."""
+    members, numbers, labels = chain.members, _numbers(chain), _labels(chain)
+    opening = next((n for n, each in enumerate(members, 1) if _sign_of(each.block, "CLSD") > 0), 0)
+    elements: list[Element] = []
+    words: dict[str, Word] = {}
+    givens: dict[str, Given] = {}
+    vocabulary: dict[str, tuple[str, int]] = {}
+    circumstances: set[str] = set()
+    repeated: list[Word] = []
+    lasting: set[str] = set()
+    picks: list[Pick] = []
+    choices: list[Choice] = []
+    for number, member in enumerate(members, 1):
+        prefix = f"{number}:"
+        own = _own_words(member, repeated)
+        element, lacking = _element(member, own, number, numbers, opening)
+        elements.append(element)
+        words |= {prefix + name: word for name, word in own.items()}
+        circumstances |= {prefix + each for each in lacking}
+        given = _givens(member, own, modes)
+        givens |= {prefix + name: replace(each, name=prefix + name) for name, each in given.items()}
+        lasting |= {prefix + name for name in own if name in _NO_FACTS}
+        vocabulary |= {prefix + name: (name, member.index) for name in _may_state(member)}
+        vocabulary |= {prefix + name: (word.address, member.index) for name, word in own.items()}
+        if member.corner is not None:
+            vocabulary |= {prefix + name: (name, member.corner_index) for name in (ROUNDING, CHAMFER)}
+        if member.picked is not None and member.picked.number is not None:
+            picks.append(Pick(number, int(member.picked.number), prefix + "FSELECT"))
+        radius = own.get("R") if member.function == "CR" else None
+        if radius is not None and radius.number is not None:
+            is_left = (radius.number > 0) is (element.turn is not Turn.CW)
+            choices.append(Choice(f"C{labels[number - 1]}", Side.LEFT if is_left else Side.RIGHT, prefix + "R"))
+    for name, pole in chain.poles.items():
+        stated = _pole_words(pole)
+        words |= {f"{name}:{axis}": word for axis, word in stated.items()}
+        known = {axis: modes.lexicon.given(axis, word, before.unit) for axis, word in stated.items()}
+        if not isinstance(pole[1], Block):
+            known = {axis: Given(axis, value, Unit.MM, None) for axis, value in zip(PLANE, pole, strict=True)}
+        else:
+            vocabulary |= {f"{name}:{axis}": (axis, pole[0]) for axis in PLANE}
+        givens |= {f"{name}:{axis}": replace(each, name=f"{name}:{axis}") for axis, each in known.items() if each}
+    claim = ParsedContour(
+        form=compose(tuple(elements), labels),
+        lexicon=modes.words(chain.state),
+        blocks=tuple(chain.blocks),
+        before=before,
+        after=chain.state,
+        words=words,
+        givens=givens,
+        vocabulary=vocabulary,
+        unknown=tuple(word for block in chain.blocks for word in _foreign(block)),
+        repeated=tuple(repeated),
+        circumstances=frozenset(circumstances),
+        choices=tuple(choices),
+        makes=tuple(_makes(chain, labels)),
+        lasting=frozenset(lasting),
+        picks=tuple(picks),
+        conventions=tuple(_conventions(bool(picks), modes)),
+    )
+    if chain.is_cut and not analyse(assemble(read(claim, frozenset()))).is_determined:
+        return replace_fields(claim, circumstances=claim.circumstances | {f"{len(members)}:{CUT}"})
+    return claim
+
+
+def _conventions(is_picked: bool, modes: Modes) -> Iterator[Convention]:
+    if is_picked:
+        yield modes.convention(SELECTION)
+
+
+_NO_FACTS = frozenset({"DR", "CLSD+", "FSELECT", "Z", "IZ", *(f"R{name}" for name in REFERRED)})
+"""Words that state no equation: they say which one it is."""
+
+
+def _sign_of(block: Block, address: str) -> int:
+    """The sign of a word; 0 if the block has none."""
+    word = block.find(address)
+    return 0 if word is None or not word.number else 1 if word.number > 0 else -1
+
+
+def _own_words(member: _Member, repeated: list[Word]) -> dict[str, Word]:
+    """The words about an element by their names; those that are there twice are added to `repeated`."""
+    own: dict[str, Word] = {}
+    for block in (member.block, member.corner):
+        for word in block.words if block else ():
+            if word.address in _BESIDE_ANY:
+                continue
+            name = word.address
+            if name == "CLSD":
+                name += "+" if word.text.strip().endswith("+") or not word.text.strip().endswith("-") else "-"
+            if name in own:
+                repeated.append(word)
+            own.setdefault(name, word)
+    if member.picked is not None:
+        own["FSELECT"] = member.picked
+    if member.function in TANGENT:
+        # What the function states is a word like others.
+        function = next(word for word in member.block.words if word.address == "G")
+        own[TANGENCY] = replace(function, address=member.function, number=Decimal(0))
+    return own
+
+
+def _foreign(block: Block) -> Iterator[Word]:
+    """The words of a block that have no meaning in it."""
+    allowed = _ALLOWED.get(function_of(block), frozenset()) | _BESIDE_ANY
+    return (word for word in block.words if word.address not in allowed)
+
+
+def _labels(chain: _Chain) -> tuple[str, ...]:
+    """What elements are called by: the numbers of their blocks, or where some lack them or share them, 1, 2, 3."""
+    words = [member.block.find("N") for member in chain.members]
+    labels = [f"{word.number:f}" for word in words if word is not None and word.number is not None]
+    if len(set(labels)) == len(chain.members):
+        return tuple(labels)
+    return tuple(str(number) for number in range(1, len(chain.members) + 1))
+
+
+def _numbers(chain: _Chain) -> dict[Decimal, int]:
+    """The numbers of the elements by those of their blocks; 0 is where the chain begins. A file without numbers counts
+    its lines from 0."""
+    stated = [member.block.find("N") for member in chain.members]
+    found: dict[Decimal, int] = {}
+    is_numbered = any(stated)
+    for number, (word, member) in enumerate(zip(stated, chain.members, strict=True), 1):
+        own = word.number if word is not None else None if is_numbered else Decimal(member.block.line - 1)
+        if own is not None:
+            found.setdefault(own, number)
+    first, where = chain.members[0].block, [chain.start.axes[axis].span for axis in PLANE]
+    if found and where[0] is not None and where[0] == where[1]:
+        found.setdefault(next(iter(found)) - (first.line - where[0].line), 0)
+    return found
+
+
+def _element(
+    member: _Member, own: Mapping[str, Word], number: int, numbers: Mapping[Decimal, int], opening: int
+) -> tuple[Element, list[str]]:
+    """The element of a block, and what it lacks."""
+    lacking: list[str] = []
+    counted: list[tuple[str, int]] = []
+    is_line = member.function in STRAIGHT
+    for name in REFERRED:
+        word = own.get(f"R{name}")
+        if word is not None:
+            other = numbers.get(word.number) if word.number is not None else None
+            if other is None or other >= number or (name == "AN" and not other):
+                lacking.append(NO_BLOCK)
+            else:
+                counted.append((f"I{name}", other))
+    parallel, word = 0, own.get("PAR")
+    if word is not None:
+        parallel = numbers.get(word.number, 0) if word.number is not None else 0
+        if not parallel or parallel >= number:
+            lacking.append(NO_BLOCK)
+            parallel = 0
+    sense = _sign_of(member.block, "DR")
+    if not is_line and member.function not in TANGENT[2:] and not sense:
+        lacking.append(NO_SENSE)
+    if own.keys() & POLAR and not member.pole:
+        lacking.append(NO_POLE)
+    if number == 1 and (member.function in TANGENT or ("IAN" in own and "RAN" not in own)):
+        lacking.append(NO_BEFORE)
+    if "CLSD-" in own and not 0 < opening < number:
+        lacking.append(CLOSES_NOTHING)
+    tool = member.here.memory.get(TOOL_AXIS)
+    if tool is not None and tool.text != "Z":
+        lacking.append(TOOL)
+    turn = None if is_line else Turn.CW if sense < 0 else Turn.CCW
+    touching = frozenset(name for name in ("D", "DP") if name in own and own[name].number == 0)
+    closes = opening if "CLSD-" in own and opening < number else 0
+    is_entered = "AN" in own and own["AN"].number is not None and is_line
+    element = Element(member.function, turn, member.pole, tuple(counted), parallel, touching, is_entered, closes)
+    return element, lacking
+
+
+def _givens(member: _Member, own: Mapping[str, Word], modes: Modes) -> dict[str, Given]:
+    """The values of the words of a block, with those that its function supplies."""
+    lexicon = modes.words(member.here)
+    found = {name: lexicon.given(name, word, member.here.unit) for name, word in own.items()}
+    stated = {name: given for name, given in found.items() if given is not None and name != TANGENCY}
+    if "R" in stated:
+        stated["R"] = replace(stated["R"], value=abs(stated["R"].value))
+    if member.function in TANGENT:
+        stated[TANGENCY] = Given(TANGENCY, Decimal(0), Unit.DEGREE, own[TANGENCY])
+    if member.function in FREE:
+        return stated
+    if member.function in ("L", "C", "CR", "CT"):
+        for axis in PLANE:
+            if axis not in own and f"I{axis}" not in own:
+                stated[f"I{axis}"] = Given("", Decimal(0), Unit.MM, None)
+    if member.function in ("C", "CP") and member.center_at is not None:
+        for axis, value in zip(PLANE, member.center_at, strict=True):
+            stated[f"CC{axis}"] = Given("", value, Unit.MM, None)
+    if member.function == "LP":
+        for name in ("PR", "PA"):
+            if name not in own and f"I{name}" not in own:
+                stated[f"I{name}"] = Given("", Decimal(0), Unit.MM if name == "PR" else Unit.DEGREE, None)
+    return stated
+
+
+def _may_state(member: _Member) -> Iterator[str]:
+    """The words that a free element may have, of those that stand alone."""
+    if member.function in FREE:
+        words = OF_LINES if member.function in STRAIGHT else OF_ARCS
+        yield from (word for word in words if member.pole or word not in POLAR)
+
+
+def _pole_words(pole: Pole) -> dict[str, Word]:
+    """The words of the block that states a pole."""
+    block = pole[1]
+    if not isinstance(block, Block):
+        return {}
+    return {word.address: word for word in block.words if word.address in PLANE}
+
+
+def _makes(chain: _Chain, labels: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """The names of what each block of a chain makes."""
+    by_block: dict[int, tuple[str, ...]] = {}
+    for label, member in zip(labels, chain.members, strict=True):
+        by_block[member.index] = (f"{'line' if member.function in STRAIGHT else 'arc'} {label}",)
+        if member.corner is not None:
+            by_block[member.corner_index] = (f"corner {label}",)
+    return (by_block.get(index, ()) for index in range(len(chain.blocks)))

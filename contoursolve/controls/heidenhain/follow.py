@@ -1,0 +1,183 @@
+"""Where the tool is behind the blocks of a Klartext program that are no free contour, and what Q parameters are."""
+
+import re
+from collections.abc import Mapping
+from decimal import Decimal
+from math import atan2, cos, degrees, hypot, radians, sin
+
+from msgspec.structs import replace
+
+from contoursolve.controls.heidenhain.formulas import evaluate
+from contoursolve.controls.heidenhain.lexicon import FREE, function_of
+from contoursolve.gcode import Block, Word
+from contoursolve.geometry import Length
+from contoursolve.reading import Modes, Position, State, apply_modes
+from contoursolve.reading.modal_state import axis_words, positions
+
+PLANE = ("X", "Y")
+CENTER, POLE = "CC", "FPOL"
+"""Poles: of conventional moves and of free contours. Their coordinates stay in force under these names and an axis."""
+
+TOOL_AXIS = "tool axis"
+
+_UNMOVED = ("RND", "CHF", "FSELECT", "STOP")
+_DECIMALS = Decimal("1e-9")
+
+
+def resolved(block: Block, state: State) -> Block:
+    """A block with the numbers of its Q parameters, as far as they are known."""
+    if "Q" not in block.text.upper():
+        return block
+    words = tuple(_resolve(word, state.memory) if word.number is None else word for word in block.words)
+    return replace(block, words=words)
+
+
+_PARAMETER = re.compile(r"(?P<sign>[+-]?)(?P<name>Q[LRS]?\d+)\s*$", re.IGNORECASE)
+
+
+def _resolve(word: Word, memory: Mapping[str, Word]) -> Word:
+    found = _PARAMETER.search(word.text)
+    value = memory.get(found["name"].upper()) if found else None
+    if found is None or value is None or value.number is None:
+        return word
+    return replace(word, number=-value.number if found["sign"] == "-" else value.number, has_point=True)
+
+
+def follow(state: State, block: Block, modes: Modes) -> State:
+    """The state behind a block that is no free contour."""
+    if block.macro is not None:
+        return _statement(state, block, modes)
+    block = resolved(block, apply_modes(state, block, modes))
+    state, function = apply_modes(state, block, modes), function_of(block)
+    if block.faults:
+        return state.lose(modes.axes, "the block has an error", block.span)
+    if not function or function in _UNMOVED:
+        moved = state
+    elif function in (CENTER, POLE):
+        return set_pole(state, block, function, modes)
+    elif function.startswith("DEP"):
+        return state.lose(PLANE, "the tool departs from the contour", block.span)
+    elif function in FREE:
+        return state.lose(PLANE, "a free contour leads there", block.span)
+    elif any(block.find(name) for name in ("PR", "PA", "IPR", "IPA")):
+        moved = _polar(state, block, modes)
+    else:
+        moved = state.move(positions(state, axis_words(block, modes), modes, block.is_skippable))
+    if any(word.address == "M" and word.number in _ENDS for word in block.words):
+        return moved.lose(modes.axes, "the program ends there", block.span)
+    return moved
+
+
+_ENDS = (2, 30)
+
+
+def set_pole(state: State, block: Block, function: str, modes: Modes) -> State:
+    """The state behind a block that sets a pole: where the tool is, if it has no coordinates."""
+    moved = positions(state, axis_words(block, modes), modes, block.is_skippable)
+    memory = dict(state.memory)
+    for axis in PLANE:
+        # A centre keeps the coordinate that its block leaves out; CC alone takes the position.
+        if axis in moved or (function == CENTER and not moved):
+            value = (moved[axis] if axis in moved else state.axes[axis]).value
+            memory.pop(function + axis, None)
+            if value is not None:
+                number = value / state.unit.in_mm
+                memory[function + axis] = Word(axis, number, True, f"{axis}{number:f}", block.span)
+    return replace(state, memory=memory)
+
+
+def pole_of(state: State, function: str) -> tuple[Decimal, Decimal] | None:
+    """The coordinates of a pole, mm; None if one of them is not known."""
+    words = [state.memory.get(function + axis) for axis in PLANE]
+    first, second = (word.number * state.unit.in_mm if word and word.number is not None else None for word in words)
+    return None if first is None or second is None else (first, second)
+
+
+def _polar(state: State, block: Block, modes: Modes) -> State:
+    """Where polar coordinates lead."""
+    pole, here = pole_of(state, CENTER), state.start().values
+    values = {
+        name: modes.lexicon.value(word, state.unit)
+        for name in ("PR", "PA", "IPR", "IPA")
+        for word in [block.find(name)]
+        if word is not None
+    }
+    if pole is None or None in values.values():
+        what = "the pole is not known" if pole is None else "its polar coordinates depend on a parameter"
+        return state.lose(PLANE, what, block.span)
+    known = here[0] is not None and here[1] is not None
+    spoke = (float((here[0] or 0) - pole[0]), float((here[1] or 0) - pole[1]))
+    distance, angle = values.get("PR"), values.get("PA")
+    if (distance is None or angle is None) and not known:
+        return state.lose(PLANE, "where the tool was is not known", block.span)
+    radius = float(distance) if distance is not None else hypot(*spoke) + float(values.get("IPR") or 0)
+    turn = float(angle) if angle is not None else degrees(atan2(spoke[1], spoke[0])) + float(values.get("IPA") or 0)
+    ends = (float(pole[0]) + radius * cos(radians(turn)), float(pole[1]) + radius * sin(radians(turn)))
+    moved = {
+        axis: Position(Decimal(repr(end)).quantize(_DECIMALS), "polar coordinates", block.span, block.is_skippable)
+        for axis, end in zip(PLANE, ends, strict=True)
+    }
+    others = [word for word in axis_words(block, modes) if modes.lexicon.addresses[word.address].axis not in PLANE]
+    return state.move({**moved, **positions(state, others, modes, block.is_skippable)})
+
+
+_STATEMENT = r"[ \t/]*+(?>(?:N?\d++(?![.,\w])[ \t]*+)?)"
+_ASSIGNED = re.compile(
+    _STATEMENT + r"(?:FN[ \t]*0[ \t]*:[ \t]*)?(?P<name>Q[LRS]?\d++)[ \t]*=(?P<formula>[^;~]*)", re.IGNORECASE
+)
+_LOSING: tuple[tuple[re.Pattern[str], str], ...] = tuple(
+    (re.compile(_STATEMENT + pattern, re.IGNORECASE), reason)
+    for pattern, reason in (
+        (r"LBL[ \t]*(?!0\b)[\w\"]", "a label begins there, which other blocks call"),
+        (r"LBL[ \t]*0\b", "the label ends there"),
+        (r"CALL\b", "it calls other blocks"),
+        (r"FN[ \t]*(?:9|10|11|12)[ \t]*:", "it may jump"),
+        (r"CYCL[ \t]+CALL\b", "a cycle runs"),
+        (r"CYCL[ \t]+DEF[ \t]+(?:7|8|10|11|19|26|247)\b", "it changes the coordinate system"),
+        (r"PLANE\b|TRANS\b|FUNCTION\b", "it may change the coordinate system"),
+        (r"TOOL[ \t]+CALL\b", "the tool is changed"),
+    )
+)
+_TOOL = re.compile(_STATEMENT + r"TOOL[ \t]+CALL\b[^;]*?[ \t](?P<axis>[XYZUVW])(?=[ \t]|$)", re.IGNORECASE)
+_BEGIN = re.compile(_STATEMENT + r"BEGIN[ \t]+PGM\b[^;]*?\b(?P<unit>MM|INCH)[ \t]*$", re.IGNORECASE)
+_OTHER_FORMULA = re.compile(_STATEMENT + r"(?:FN[ \t]*\d+[ \t]*:[^;]*?)(?P<name>Q[LRS]?\d++)", re.IGNORECASE)
+
+
+def _statement(state: State, block: Block, modes: Modes) -> State:
+    """The state behind a block that is no list of words."""
+    begins = _BEGIN.match(block.text)
+    if begins:
+        return replace(state, unit=Length.INCH if begins["unit"].upper() == "INCH" else Length.MM)
+    assigned = _ASSIGNED.match(block.text)
+    if assigned:
+        return _assign(state, block, assigned["name"].upper(), assigned["formula"])
+    tool = _TOOL.match(block.text)
+    if tool:
+        word = Word(TOOL_AXIS, None, False, tool["axis"].upper(), block.span)
+        state = replace(state, memory={**state.memory, TOOL_AXIS: word})
+    for pattern, reason in _LOSING:
+        if pattern.match(block.text):
+            return _forget(state.lose(modes.axes, reason, block.span), block)
+    other = _OTHER_FORMULA.match(block.text)
+    return _assign(state, block, other["name"].upper(), "") if other else state
+
+
+def _forget(state: State, block: Block) -> State:
+    """The state without parameters, where blocks run that are not followed."""
+    if not re.match(_STATEMENT + r"(?:CALL|FN|CYCL[ \t]+CALL)\b", block.text, re.IGNORECASE):
+        return state
+    memory = {name: word for name, word in state.memory.items() if not name.startswith("Q")}
+    return replace(state, memory=memory)
+
+
+def _assign(state: State, block: Block, name: str, formula: str) -> State:
+    """The state with a parameter as its formula gives it; not known if that rests on what is not known."""
+    values = {key: word.number for key, word in state.memory.items() if key.startswith("Q") and word.number is not None}
+    # A parameter that counts on is another one in each pass.
+    counts_on = re.search(rf"\b{name}\b", formula, re.IGNORECASE)
+    value = None if counts_on else evaluate(formula, values)
+    memory = dict(state.memory)
+    memory.pop(name, None)
+    if value is not None:
+        memory[name] = Word(name, value, True, formula.strip(), block.span)
+    return replace(state, memory=memory)

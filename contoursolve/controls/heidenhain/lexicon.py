@@ -1,0 +1,194 @@
+"""Klartext: how its blocks are spelled, its words, and its functions."""
+
+import re
+from collections.abc import Mapping
+
+from contoursolve.diagnostics.source import Book, Source
+from contoursolve.gcode import Block, Syntax, Word, words_as
+from contoursolve.geometry import Unit
+from contoursolve.reading import Address, Code, Effect, Lexicon, NumberFormat, WithoutPoint
+
+BOOK = Book("HEIDENHAIN TNC user's manuals")
+_FK, _PATH = BOOK.printed("free contour programming FK"), BOOK.printed("path functions")
+
+ROUNDING, CHAMFER = "ROUNDING", "CHAMFER"
+"""What the sizes are called that RND and CHF state."""
+
+FREE = ("FL", "FLT", "FC", "FCT")
+"""Elements of free contour programming."""
+STRAIGHT = ("L", "LP", "FL", "FLT")
+TANGENT = ("FLT", "FCT", "CT", "CTP")
+"""Elements that begin in the direction of the one before them."""
+MOVES = ("L", "LP", "C", "CP", "CR", "CT", "CTP", *FREE)
+_WAYS = ("PLT", "PLN", "PCT", "PLCT", "LT", "LN", "CT", "LCT")
+APPROACHES = tuple(f"{side} {way}" for side in ("APPR", "DEP") for way in _WAYS)
+
+_FIRST_CODE = 20_001
+_FUNCTIONS: tuple[tuple[Effect, str, tuple[str, ...], Source], ...] = (
+    (Effect.CONTOUR, "element of a contour", MOVES, _PATH),
+    (Effect.CONTOUR, "pole of a free contour", ("FPOL",), _FK),
+    (Effect.NONE, "centre of a circle, or pole", ("CC",), _PATH),
+    (Effect.NONE, "approach or departure", APPROACHES, BOOK.printed("approach and departure")),
+    (Effect.NONE, "stop", ("STOP",), BOOK.assumed("stop")),
+)
+_COMPENSATION = (("R0", 40), ("RL", 41), ("RR", 42))
+
+
+def _codes() -> dict[int, Code]:
+    rows, number = list[Code](), _FIRST_CODE
+    for effect, meaning, names, source in _FUNCTIONS:
+        for name in names:
+            rows.append(Code(number, effect, meaning, source, name=name))
+            number += 1
+    source = BOOK.printed("radius compensation")
+    rows += [Code(code, Effect.COMPENSATION, "compensation", source, name=name) for name, code in _COMPENSATION]
+    return {code.number: code for code in rows}
+
+
+CODES = _codes()
+_NAMES = {code.name: code.number for code in CODES.values()}
+
+_NUMBER = r"[+-]?+(?>\d++(?>[.,]\d*+)?|[.,]\d++)"
+_LONG = (
+    r"I?(?:CCX|CCY|CCPR|CCPA|PR|PA|AN)|LEN|CCA|P[123][XY]|PD[XY]|PAR|DP"
+    r"|R(?:X|Y|PR|PA|AN|CCX|CCY|CCPR|CCPA)|FSELECT"
+)
+_AXIS = "I?[XYZABCUVW]"
+_BY_LENGTH = "|".join(sorted((*MOVES, "FPOL", "CC", "STOP", "R0", "RL", "RR"), key=len, reverse=True))
+_MOVING = (
+    rf"(?:{_BY_LENGTH}|FSELECT|RND|CHF|APPR|DEP)(?![A-Z])|{_AXIS}[ \t]*+[+-]?+[\d.,Q?]"
+    rf"|(?:{_LONG})[ \t]*+[+-]?+[\d.,Q?]|(?:DR|CLSD)[ \t]*+[+-]|[FMS][ \t]*+[\dQ]"
+)
+"""What a block begins with that is read into words."""
+
+
+def _value(prefix: str) -> str:
+    """A number, a parameter, or a question mark, in groups that begin so."""
+    return rf"(?:(?P<{prefix}_number>{_NUMBER})(?![\d.,\w])|[+-]?+Q[LRS]?+\d++|(?P<{prefix}_asked>\?))"
+
+
+def _parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
+    """The parts of a word; a comma stands for a point, and a sign alone for 1."""
+    found = token.groupdict()
+    if found["label"] is not None:
+        return "N", found["label"].strip().lstrip("Nn"), False
+    if found["sense"] is not None:
+        return found["sense"].upper(), f"{found['sign'] or '+'}1", False
+    if found["feed"] is not None:
+        return found["feed"][0].upper(), None, False
+    kind = next(kind for kind in ("long", "corner", "letter") if found[kind] is not None)
+    address, number = found[kind].upper(), found[f"{kind}_number"]
+    if kind == "corner":
+        address = ROUNDING if address == "RND" else CHAMFER
+    return address, number and number.replace(",", "."), found[f"{kind}_asked"] is not None
+
+
+SYNTAX = Syntax(
+    "klartext",
+    token=re.compile(
+        rf"""
+    (?P<word>
+        (?P<label>(?:\A|(?<=/))[ \t]*+N?+\d++(?![.,\w]))
+      | (?P<sense>DR(?=[ \t]*+[+-])|CLSD(?!\w))[ \t]*+(?P<sign>[+-]?+)
+      | (?P<feed>F[ \t]*+(?:AUTO|MAX)\b|F[UZ][ \t]*+{_NUMBER}|M[BT][ \t]*+(?:MAX|{_NUMBER}))
+      | (?P<long>{_LONG})[ \t]*+{_value("long")}
+      | (?P<corner>RND|CHF)(?![A-Z])[ \t]*+(?>(?:R[ \t]*+)?){_value("corner")}
+      | (?P<letter>{_AXIS}|[A-Z])(?![A-Z])[ \t]*+(?!0\b(?<=R0)){_value("letter")})
+  | (?P<blank>[ \t\f\v\x1a\ufeff~]++)
+  | (?P<comment>;.*+)
+  | (?P<name>(?:APPR|DEP)[ \t]++[A-Z]++|(?:{_BY_LENGTH})(?!\w))
+  | (?P<malformed>(?:{_LONG}|RND[ \t]*+R?+|CHF|{_AXIS}|[A-Z](?![A-Z]))[ \t]*+(?=[\d.,+-])[\w.,+-]++)
+  | (?P<bare>[A-Z]++[+-]?+)
+  | (?P<stray>[^ \tA-Z;]++)
+    """,
+        re.VERBOSE | re.ASCII | re.IGNORECASE,
+    ),
+    statement=re.compile(
+        r"[ \t/]*+(?>(?:N?\d++(?![.,\w])[ \t]*+)?)"
+        rf"(?!{_MOVING}|;|~?+[ \t]*+$)(?:(?P<flow>CALL\b|FN[ \t]*+(?:9|10|11|12)[ \t]*+:)|(?P<assignment>\S))",
+        re.IGNORECASE,
+    ),
+    comment=re.compile(r";.*+"),
+    remark=";{}",
+    codes=_NAMES,
+    parts=_parts,
+)
+"""Words of letters and a number without an equals sign, comments behind a semicolon, a number before each block."""
+
+NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, _PATH)
+
+
+def _rows() -> dict[str, Address]:
+    """The addresses; of what another block counts for, the address of its number, too."""
+    rows = [
+        *(Address(axis, "coordinate", Unit.MM, _PATH, axis, is_absolute=True) for axis in "XYZ"),
+        *(Address(f"I{axis}", "increment", Unit.MM, _PATH, axis, True) for axis in "XYZ"),
+    ]
+    table = (
+        (_PATH, Unit.MM, "PR", "distance of the end from the pole"),
+        (_PATH, Unit.DEGREE, "PA", "direction from the pole to the end"),
+        (_PATH, Unit.MM, "IPR", "how much farther the end is from the pole"),
+        (_PATH, Unit.DEGREE, "IPA", "how far the direction from the pole turns"),
+        (_FK, Unit.DEGREE, "AN", "direction of the line, or of the arc where it begins"),
+        (_FK, Unit.DEGREE, "IAN", "angle to the element before it"),
+        (BOOK.assumed("LEN of an arc is its chord"), Unit.MM, "LEN", "length of the line, or chord of the arc"),
+        (_FK, Unit.MM, "CCX", "X of the centre"),
+        (_FK, Unit.MM, "CCY", "Y of the centre"),
+        (_FK, Unit.MM, "CCPR", "distance of the centre from the pole"),
+        (_FK, Unit.DEGREE, "CCPA", "direction from the pole to the centre"),
+        (_FK, Unit.MM, "ICCX", "increment along X to the centre"),
+        (_FK, Unit.MM, "ICCY", "increment along Y to the centre"),
+        (_FK, Unit.MM, "R", "radius"),
+        (_FK, Unit.SIGN, "DR", "sense of the arc: + is counter-clockwise"),
+        (BOOK.assumed("CCA counts from +X"), Unit.DEGREE, "CCA", "direction from the centre to the end of the arc"),
+        *((_FK, Unit.MM, f"P{number}{axis}", f"{axis} of a point on the element") for number in "123" for axis in "XY"),
+        (_FK, Unit.MM, "PDX", "X of a point beside the element"),
+        (_FK, Unit.MM, "PDY", "Y of a point beside the element"),
+        (_FK, Unit.MM, "D", "distance of that point from the element"),
+        (_FK, Unit.SIGN, "PAR", "block of the line to which it is parallel"),
+        (_FK, Unit.MM, "DP", "distance from that line"),
+        *((_FK, Unit.SIGN, f"R{name}", f"block from which I{name} counts") for name in REFERRED),
+        *((_FK, Unit.SIGN, name, "begins in the direction of the element before it") for name in TANGENT),
+        (_FK, Unit.SIGN, "CLSD", "begin (+) and end (-) of a closed contour"),
+        (_FK, Unit.SIGN, "FSELECT", "which of several solutions"),
+        (_PATH, Unit.MM, ROUNDING, "rounding"),
+        (_PATH, Unit.MM, CHAMFER, "chamfer: the distance of both its ends from the corner"),
+    )
+    rows += [Address(address, meaning, unit, source) for source, unit, address, meaning in table]
+    return {row.address: row for row in rows}
+
+
+REFERRED = ("X", "Y", "PR", "PA", "AN", "CCX", "CCY", "CCPR", "CCPA")
+"""Increments that may count from another block: I and these, whose block R and these name."""
+
+LEXICON = Lexicon(_rows(), NUMBERS)
+
+
+def function_of(block: Block) -> str:
+    """The function of a block: L where it has coordinates alone, RND, CHF and FSELECT by their words; empty if none."""
+    for word in block.words:
+        if word.address == "G":
+            name = " ".join(word.text.upper().split())
+            if name not in ("R0", "RL", "RR"):
+                return name
+        elif word.address in _BY_WORD:
+            return _BY_WORD[word.address]
+    return "L" if any(word.address in LEXICON.addresses for word in block.words) else ""
+
+
+_BY_WORD: Mapping[str, str] = {ROUNDING: "RND", CHAMFER: "CHF", "FSELECT": "FSELECT"}
+"""Functions that are a word with a number."""
+
+
+def shown_by(block: Block) -> tuple[Word, ...]:
+    """What shows Klartext: the begin of a program, and elements of free contour programming."""
+    if not _SHOWS.search(block.text):
+        return ()
+    begins = _BEGIN.match(block.text)
+    if begins:
+        return (Word("PGM", None, False, "BEGIN PGM", block.span),)
+    return tuple(word for word in words_as(block, SYNTAX) if word.address == "G" and word.text.upper() in FREE)
+
+
+_SHOWS = re.compile(r"BEGIN|F[LC]T?[ \t\r\n]|F[LC]T?$", re.IGNORECASE)
+_BEGIN = re.compile(r"[ \t\ufeff]*+\d*+[ \t]*+BEGIN[ \t]++PGM\b", re.IGNORECASE)

@@ -1,0 +1,137 @@
+"""Free contour programming: what a block must state together, and what has no solution."""
+
+from dataclasses import replace
+from decimal import Decimal
+
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES
+from contoursolve.controls.heidenhain.elements import ARC, LINE, PLAIN, POLE
+from contoursolve.controls.heidenhain.find import CLOSES_NOTHING, CUT, NO_BEFORE, NO_BLOCK, NO_POLE, NO_SENSE, TOOL
+from contoursolve.controls.heidenhain.lexicon import BOOK
+from contoursolve.diagnostics.finding import Alarm, Severity
+from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.reading.rules import Condition, Rule, Value, all_of, some
+from contoursolve.solving import NoteKind, RefusalKind
+
+_INCOMPLETE = Alarm("402-0008 (incomplete input in the FK block)", Evidence.PRINTED)
+_ILLEGAL = Alarm("402-0009 (illegal positioning block in an FK sequence)", Evidence.PRINTED)
+_ERRORS = BOOK.printed("NC error messages 402-0008, 402-0009")
+_FK, _ANY = (LINE, ARC), (LINE, ARC, PLAIN)
+
+START = "0 BEGIN PGM A MM\n1 L X+0 Y+0\n"
+_LINES = START + "2 FL AN+60\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM"
+_POINT = START + "2 FL P1X+20 P1Y+20\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM"
+_BESIDE = START + "2 FL PDX+20 PDY+20 D0\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM"
+_ARC = START + "2 FC DR+ R20 CCX+0 CCY+20 X+20 Y+20\n3 END PGM A MM"
+_PARALLEL = "0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL X+50 Y+0\n3 FL AN+90\n4 FL PAR 2 DP 30 AN+180\n5 FL X+0 Y+0 AN-90\n6 END PGM A MM"
+_POLAR = START + "2 FPOL X+10 Y+0\n3 FL PR+20 PA+45\n4 END PGM A MM"
+_CLOSED = START + "2 FL X+30 Y+0 CLSD+\n3 FL X+30 Y+20\n4 FL CLSD-\n5 END PGM A MM"
+_TANGENT = START + "2 FL X+30 Y+0\n3 FCT DR+ R10 CCA+0\n4 END PGM A MM"
+_NUMBERED = START + "2 FL X+30 Y+0\n3 FL IX+5 IY+20 RX 2\n4 END PGM A MM"
+_CHOSEN = START + "2 FL LEN40 P1X+30 P1Y+10\n3 FSELECT 1\n4 FL X+80 Y+20\n5 END PGM A MM"
+_TOOL = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S100\n2 L X+0 Y+0\n3 FL AN+60\n4 FL X+80 Y+20 AN-30\n5 END PGM A MM"
+
+
+def _row(  # noqa: PLR0913 - a row has these columns
+    code: str,
+    message: str,
+    help_: str,
+    source: Source,
+    when: Condition,
+    roles: tuple[str, ...],
+    good: str,
+    *bad: tuple[str, str],
+    alarm: Alarm | None = None,
+    severity: Severity = Severity.ERROR,
+) -> Rule:
+    """A row; what is wrong are two texts, of which the second stands for the first in the right example."""
+    rejected = tuple(good.replace(*each) for each in bad)
+    return Rule(
+        f"heidenhain-{code}", message, help_, source, (good,), rejected,
+        roles=roles, when=when, alarm=alarm, severity=severity,
+    )  # fmt: skip
+
+
+_LEAST = Decimal("0.001")
+
+
+def _half(*words: str) -> Condition:
+    """Some of these words is there, and not all of them."""
+    return some(*words) & ~all_of(*words)
+
+
+_ROWS = (
+    *(
+        _row(f"point-{number}", "{words}: of this point one coordinate is missing", "write both coordinates", _ERRORS,
+             _half(f"P{number}X", f"P{number}Y"), _FK, good, bad, alarm=_INCOMPLETE)
+        for number, good, bad in (
+            (1, _POINT, (" P1Y+20", "")),
+            (2, _POINT.replace("P1", "P2"), (" P2Y+20", "")),
+            (3, _ARC.replace("R20 CCX+0 CCY+20", "P1X+10 P1Y+2.679 P3X+17.321 P3Y+10"), (" P3Y+10", "")),
+        )
+    ),
+    _row("beside", "{words}: a point beside the element takes PDX, PDY and D", "write all three", _ERRORS,
+         _half("PDX", "PDY", "D"), _FK, _BESIDE, (" D0", ""), (" PDY+20", ""), alarm=_INCOMPLETE),
+    _row("sense", "the arc has no DR", "add DR+ (counter-clockwise) or DR-", _ERRORS, some(NO_SENSE), (ARC, PLAIN),
+         _ARC, (" DR+", ""), alarm=_INCOMPLETE),
+    _row("distance-alone", "{words}: a distance needs the block of the line to which it is parallel",
+         "add PAR and the number of that block", _ERRORS, some("DP") & ~some("PAR"), (LINE,), _PARALLEL,
+         (" PAR 2", ""), alarm=_INCOMPLETE),
+    _row("pole-half", "{words}: the pole has one coordinate", "write X and Y behind FPOL", _ERRORS,
+         _half("X", "Y"), (POLE,), _POLAR, (" Y+0\n3", "\n3"), alarm=_INCOMPLETE),
+    _row("block-illegal",
+         "the chain is still open where a conventional move follows; FL, FC, RND, CHF, APPR or DEP may",
+         "complete the chain before it, or write the move as FL or FC", _ERRORS, some(CUT), _ANY, _LINES,
+         ("3 FL X+80 Y+20 AN-30", "3 L X+80 Y+20"), alarm=_ILLEGAL),
+    _row("block-missing", "{words}: no block of this number is before it in the chain, or it is none that fits",
+         "write the number of a block of this chain that stands before; PAR and RAN name a line",
+         BOOK.printed("data relative to a block"), some(NO_BLOCK), _FK, _NUMBERED, ("RX 2", "RX 7")),
+    _row("pole-missing", "{words}: polar data need a pole, and no FPOL is in force; CC does not serve here",
+         "write FPOL X Y before the chain or in it", BOOK.printed("pole of FK"), some(NO_POLE), _FK, _POLAR,
+         ("2 FPOL X+10 Y+0\n", "2 CC X+10 Y+0\n")),
+    _row("tangent-first", "it begins in the direction of the element before, which is not known here",
+         "write FL or FC with AN, or let the move before it begin at a known point",
+         BOOK.derived("tangential connection"), some(NO_BEFORE), (LINE, ARC, PLAIN), _TANGENT,
+         ("1 L X+0 Y+0\n2 FL X+30 Y+0\n", "1 CC X+0\n2 APPR LCT X+30 Y+0 R5\n")),
+    _row("closes-nothing", "CLSD- ends a contour that CLSD+ in an earlier block begins, and there is none",
+         "write CLSD+ into the first block of the contour", BOOK.printed("closed contour"), some(CLOSES_NOTHING), _FK,
+         _CLOSED, (" CLSD+", "")),
+    _row("polar-size", "{words}: a distance from the pole is larger than 0", "write the direction by PA",
+         BOOK.assumed("polar coordinates"), Value(("PR", "CCPR"), least=_LEAST), _FK, _POLAR,
+         ("PR+20", "PR-20")),
+    _row("tool-axis", "free contours are solved in X and Y, and the tool axis is another one",
+         "check TOOL CALL: contoursolve reads free contours with the tool axis Z", BOOK.assumed("planes"), some(TOOL),
+         _FK, _TOOL, ("1 Z S", "1 X S")),
+)  # fmt: skip
+
+_OWN = (
+    Rule(
+        "heidenhain-selection", "{words}: there {are} {limit_count} at {subject}",
+        "write a number from 1 to {limit_count}", BOOK.assumed("how FSELECT counts"), (_CHOSEN,),
+        (_CHOSEN.replace("SELECT 1", "SELECT 3"),), about=RefusalKind.PICK_NONE,
+    ),
+    Rule(
+        "heidenhain-selection-open",
+        "{words} cannot be counted here: the blocks behind it leave one solution at {subject} alone",
+        "nothing is wrong; the solution that is taken is the one that fits all blocks",
+        BOOK.assumed("how FSELECT counts"), (_CHOSEN,), (_LINES.replace("60\n3", "60\n9 FSELECT 2\n3"),),
+        about=NoteKind.PICK_OPEN, severity=Severity.INFO,
+    ),
+    Rule(
+        "heidenhain-first-taken", "{subject} has {limit_count}: the first one is taken, as the setting ambiguous says",
+        "write FSELECT behind its block", BOOK.assumed("an open contour cannot be run"), (_CHOSEN,), (),
+        about=NoteKind.PICK_FIRST, severity=Severity.WARNING,
+    ),
+)  # fmt: skip
+
+
+def _agreeing() -> Rule:
+    """What is said twice and agrees is accepted, with a note."""
+    row = next(rule for rule in COMMON_RULES if rule.about is NoteKind.WORDS_AGREE)
+    return replace(
+        row, code="heidenhain-redundant", severity=Severity.INFO, accepted=(_LINES,),
+        rejected=(_LINES.replace("AN+60", "AN+60 LEN57.321"),),
+    )  # fmt: skip
+
+
+RULES = (*_OWN, _agreeing(), *COMMON_RULES, *_ROWS, *GEOMETRY_RULES)
