@@ -63,6 +63,7 @@ from contoursolve.geometry.touching import (
     PointBeside,
     RadiusStep,
     Setback,
+    Spoke,
     TangentArc,
     TangentCircles,
 )
@@ -118,6 +119,7 @@ __all__ = [
     "Role",
     "Setback",
     "Side",
+    "Spoke",
     "Start",
     "System",
     "Tangent",

@@ -5,7 +5,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import Lookup, Turn, line_scalars
+from contoursolve.geometry.figure import Lookup, Turn, line_scalars, scalar
 from contoursolve.geometry.system import Equation, both, cross, dot, rotate, step
 
 
@@ -64,6 +64,28 @@ class Entering(Equation, Struct, frozen=True):
     def implied(self, at: Lookup) -> float | None:
         first, second = self._travel(at)
         return degrees(atan2(float(second), float(first)))
+
+
+class Spoke(Equation, Struct, frozen=True):
+    """A radius leads from the centre to `point` in the given direction turned by quarters; its part along `axis`."""
+
+    given: str
+    center: str
+    point: str
+    radius: str
+    axis: int
+    quarters: int = 0
+
+    def reads(self) -> tuple[str, ...]:
+        return scalar(self.center, self.axis), scalar(self.point, self.axis), self.radius
+
+    def residual(self, at: Lookup) -> Any:
+        first, second = at.direction(self.given)
+        for _ in range(self.quarters % 4):
+            first, second = -second, first
+        part = second if self.axis else first
+        off = at.coordinate(self.point, self.axis) - at.coordinate(self.center, self.axis)
+        return off - part * at.radius(self.radius)
 
 
 class TangentCircles(Equation, Struct, frozen=True):

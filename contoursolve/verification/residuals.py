@@ -127,6 +127,10 @@ class Place(Struct, frozen=True):
         """The direction that a fact states."""
         return self.system.directions[fact.given]
 
+    def spoke(self, fact: Any) -> Vector:
+        """The direction in which a radius leads."""
+        return turned(self.stated(fact), ((1, 0), (0, 1), (-1, 0), (0, -1))[fact.quarters % 4])
+
     def advance(self, fact: Any) -> Any:
         """How a path advances along an axis: by the lines between which it is, or else by the first of its parts that
         moves along it at all."""
@@ -305,6 +309,10 @@ MEANINGS: Mapping[type, Meaning] = {
         "{line} is parallel to {axis}",
         lambda own, at: at.along(own.line)[1 - own.axis],
         lambda own, at: (at.along(own.line)[own.axis] * at.advance(own),),
+    ),
+    kinds.Spoke: Meaning(
+        "direction of the radius from {center} to {point}",
+        lambda own, at: at.way(own.center, own.point)[own.axis] - at.spoke(own)[own.axis] * at.size(own.radius),
     ),
     kinds.ParallelLines: Meaning(
         "{first} is parallel to {second}", lambda own, at: cross(at.along(own.first), at.along(own.second))
