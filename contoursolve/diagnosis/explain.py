@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache, partial
+from math import asin, degrees
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct, field
@@ -31,7 +32,7 @@ from contoursolve.diagnosis.wording import (
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, spell
-from contoursolve.geometry import Arc, Length, Profile, Radius, Role, Unit, assemble
+from contoursolve.geometry import Arc, Length, ParallelLines, Profile, Radius, Role, Unit, assemble
 from contoursolve.reading import ParsedContour, ReadIssue
 from contoursolve.reading.rules import VERBS, Offence, Rule
 from contoursolve.solving import (
@@ -327,9 +328,9 @@ def explain_result(
     fields |= zip(compared, tell_apart([values[name] for name in compared], write), strict=True)
     fields |= {name: length_text(values[name], context.unit) for name in ("radius", "distance") if name in values}
     if "off_by_mm" in values:
-        fields["off"] = length_text(values["off_by_mm"], context.unit)
-        if is_word and givens[0].unit is Unit.DEGREE and words and words[0].address == FACT and "expected" in values:
-            fields["off"] = angle_text(abs(values["expected"] - values["actual"]))
+        is_angle = is_word and givens[0].unit is Unit.DEGREE and words and words[0].address == FACT
+        turned = abs(values["expected"] - values["actual"]) if is_angle and "expected" in values else None
+        fields["off"] = _off(event, turned, context.unit, profile)
     if is_word and "expected" in values:
         fields["meant"] = statement_text(givens[0], values["expected"], profile)
     fields |= _counted(event)
@@ -354,6 +355,14 @@ def explain_result(
     if isinstance(event, Refusal):
         finding = _with_what_helps(finding, event, values, asked, profile)
     return replace(finding, notes=finding.notes + notes)
+
+
+def _off(event: Refusal | Note, turned: float | None, unit: Length, profile: Profile) -> str:
+    """By how much something is off: by an angle (`turned`, degrees) where a fact is about directions."""
+    off = event.values["off_by_mm"]
+    if any(isinstance(fact, ParallelLines) and event.subject in (fact.given, fact.part_of) for fact in profile.facts):
+        turned = degrees(asin(min(1.0, off)))
+    return length_text(off, unit) if turned is None else angle_text(turned)
 
 
 def _counted(event: Refusal | Note) -> dict[str, str]:

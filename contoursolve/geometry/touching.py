@@ -116,6 +116,15 @@ class TangentCircles(Equation, Struct, frozen=True):
         return self.equation(at) / (2 * (at.radius(self.first[1]) + at.radius(self.second[1])))
 
 
+class PointBeside(TangentCircles, frozen=True):
+    """A point, about which `first` is a circle, lies as far beside the circle `second` as that has for its radius:
+    outside (`side` +1) or inside (-1). A circle whose radius is less than that has no such point inside."""
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        side, inside = side_of(self.side, at), at.radius(self.second[1]) - at.radius(self.first[1])
+        return (1 + side + (1 - side) * inside,)
+
+
 class Contact(Equation, Struct, frozen=True):
     """`point`, which lies on two circles, is where they touch: in line with their centres.
 

@@ -262,6 +262,15 @@ MEANINGS: Mapping[type, Meaning] = {
         "both lines are equally long", lambda own, at: norm(at.way(*own.first)) - norm(at.way(*own.second))
     ),
     kinds.TangentCircles: Meaning("both circles touch", _touching),
+    kinds.PointBeside: Meaning(
+        "the point is as far beside the circle as stated",
+        # Inside a circle, it is no farther from it than the centre is: the distance of the two is not negative.
+        lambda own, at: (
+            norm(at.way(own.first[0], own.second[0]))
+            - at.size(own.second[1])
+            - at.side(own.side) * at.size(own.first[1])
+        ),
+    ),
     kinds.Contact: Meaning(
         "{point} is in line with {first} and {second}",
         lambda own, at: cross(unit(at.way(own.first, own.second)), at.way(own.first, own.point)),
