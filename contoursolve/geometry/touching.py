@@ -40,32 +40,6 @@ class RadiusStep(Equation, Struct, frozen=True):
         return float(at.radius(self.radius) - at.radius(self.origin))
 
 
-class Entering(Equation, Struct, frozen=True):
-    """An arc is travelled at the given angle where it passes `point`."""
-
-    given: str
-    point: str
-    center: str
-    turn: Turn
-
-    def reads(self) -> tuple[str, ...]:
-        return both(self.point, self.center)
-
-    def _travel(self, at: Lookup) -> tuple[Any, Any]:
-        first, second = step(at, self.center, self.point)
-        return -self.turn.sign * second, self.turn.sign * first
-
-    def residual(self, at: Lookup) -> Any:
-        return cross(self._travel(at), at.direction(self.given))
-
-    def senses(self, at: Lookup) -> tuple[Any, ...]:
-        return (dot(self._travel(at), at.direction(self.given)),)
-
-    def implied(self, at: Lookup) -> float | None:
-        first, second = self._travel(at)
-        return degrees(atan2(float(second), float(first)))
-
-
 class Spoke(Equation, Struct, frozen=True):
     """A radius leads from the centre to `point` in the given direction turned by quarters; its part along `axis`."""
 
@@ -86,6 +60,10 @@ class Spoke(Equation, Struct, frozen=True):
         part = second if self.axis else first
         off = at.coordinate(self.point, self.axis) - at.coordinate(self.center, self.axis)
         return off - part * at.radius(self.radius)
+
+    def implied(self, at: Lookup) -> float | None:
+        first, second = step(at, self.center, self.point)
+        return degrees(atan2(float(second), float(first))) - 90 * self.quarters
 
 
 class TangentCircles(Equation, Struct, frozen=True):

@@ -223,11 +223,6 @@ MEANINGS: Mapping[type, Meaning] = {
         lambda own, at: (dot(at.stated(own), at.way(own.tail, own.head)),),
     ),
     kinds.RadiusStep: LENGTH("{radius} less {origin}", lambda own, at: at.size(own.radius) - at.size(own.origin)),
-    kinds.Entering: ANGLE(
-        "direction of the arc about {center} in {point}",
-        lambda own, at: ((1.0, 0.0), turned(at.way(own.center, own.point), (0.0, own.turn.sign))),
-        lambda own, at: (dot(at.stated(own), turned(at.way(own.center, own.point), (0.0, own.turn.sign))),),
-    ),
     kinds.Directed: ANGLE(
         "direction of {line}",
         lambda own, at: ((1.0, 0.0), at.along(own.line)),
@@ -355,7 +350,7 @@ def measured(fact: Fact, at: Place) -> tuple[float, bool, float]:
     meaning = MEANINGS[type(fact)]
     found = meaning.formula(fact, at)
     if meaning.states is States.ANGLE:
-        reach = float(norm(found[1])) if isinstance(fact, kinds.Heading | kinds.Entering) else 1.0
+        reach = float(norm(found[1])) if isinstance(fact, kinds.Heading) else 1.0
         return degrees(atan2(cross(*found), dot(*found))), True, reach
     shift = at.system.origin[fact.axis] if isinstance(fact, kinds.Coordinate) else Decimal(0)
     return float(Decimal(float(found)) + shift), False, 0.0

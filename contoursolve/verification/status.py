@@ -19,7 +19,6 @@ from contoursolve.geometry import (
     Choice,
     Coordinate,
     Directed,
-    Entering,
     Fact,
     Heading,
     Offset,
@@ -342,10 +341,7 @@ def allowance(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -
 def agrees(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> bool:
     """Whether a fact that is not needed is true of a solution."""
     off = abs(case.missed_by(fact, values, signs))
-    if (
-        isinstance(fact, TurnBetween | Directed | Entering | Ray)
-        and min(senses(fact, case.system.at(values, signs))) < 0
-    ):
+    if isinstance(fact, TurnBetween | Directed | Ray) and min(senses(fact, case.system.at(values, signs))) < 0:
         return False
     return off <= allowance(case, fact, values, signs)
 

@@ -48,7 +48,6 @@ from contoursolve.geometry import (
     Coordinate,
     Directed,
     Distance,
-    Entering,
     EqualDistances,
     EqualRadii,
     Extent,
@@ -67,6 +66,7 @@ from contoursolve.geometry import (
     RadiusStep,
     Ray,
     Setback,
+    Spoke,
     Tangent,
     TangentArc,
     TangentCircles,
@@ -126,7 +126,7 @@ FACTS: tuple[Any, ...] = (
     OnCircle("P", "C", "r"),
     Radius("length", "r"),
     RadiusStep("length", "r", "s"),
-    *(Entering("angle", "P", "C", turn) for turn in Turn),
+    *(Spoke("angle", "C", "P", "r", axis, quarters) for axis in (0, 1) for quarters in (0, 3)),
     EqualRadii("", "r", "s"),
     *(kind(*CIRCLES, side) for kind in (TangentCircles, PointBeside) for side in (1, -1, "side")),
     *(Contact("P", "C", "D", side) for side in (1, -1)),
@@ -150,7 +150,7 @@ FACTS: tuple[Any, ...] = (
     TurnBetween("angle", AROUND, ALONG),
     TurnBetween("angle", AROUND, Tangent("P", "D", "s", CW)),
 )
-OF_AN_AXIS = (Coordinate, Offset, Level, Parallel, ChamferLeg)
+OF_AN_AXIS = (Coordinate, Offset, Level, Parallel, ChamferLeg, Spoke)
 WITHOUT_LENGTH = (UnitDirection, Directed, Parallel, ParallelLines, TurnBetween)
 """Their residual is a sine, or close to one; all others' are in mm."""
 
@@ -330,8 +330,10 @@ def mirrored(place: Place, fact: Any) -> tuple[Place, Any]:
     )
     if swaps_side and isinstance(fact.side, int):
         fact = replace(fact, side=-fact.side)
-    if isinstance(fact, ArcLength | TangentArc | ArcContact | ChordSetback | Entering):
+    if isinstance(fact, ArcLength | TangentArc | ArcContact | ChordSetback):
         fact = replace(fact, turn=CW if fact.turn is CCW else CCW)
+    if isinstance(fact, Spoke):
+        fact = replace(fact, quarters=-fact.quarters)
     if isinstance(fact, TurnBetween):
         fact = replace(fact, first=other_way(fact.first), second=other_way(fact.second))
     negates = isinstance(fact, Coordinate | Offset) and fact.axis == 1
@@ -408,7 +410,7 @@ def test_the_implied_value_makes_a_fact_true_in_its_sense(seed: int) -> None:
         if not fact.given:
             continue
         at = place
-        if isinstance(fact, ArcLength):  # the equation holds on any circle, its length only on this one
+        if isinstance(fact, ArcLength | Spoke):  # on this circle alone
             spoke = place.points["P"] - place.points["C"]
             on = place.points["C"] + spoke / abs(spoke) * place.radii["r"]
             spoke = place.points["Q"] - place.points["C"]

@@ -25,13 +25,13 @@ from contoursolve.geometry import (
     Offset,
     OnCircle,
     ParallelLines,
+    PointBeside,
     Radius,
     RadiusStep,
     Ray,
     Role,
     Spoke,
     Tangent,
-    TangentCircles,
     TangentLine,
     Through,
     Turn,
@@ -319,7 +319,7 @@ def _point_rows(place: Place) -> Iterator[FactRow]:
         elif line:
             yield FactRow(TangentLine(place.name, name, radius, side), needs)
         else:
-            yield FactRow(TangentCircles((place.center, place.radius), (name, radius), side), needs)
+            yield FactRow(PointBeside((name, radius), (place.center, place.radius), side), needs)
         yield from (FactRow(Coordinate(word, name, axis), needs) for axis, word in enumerate(words))
         if point == BESIDE and "D" not in place.element.touching:
             yield FactRow(Radius(distance, radius), needs)
