@@ -34,7 +34,7 @@ from contoursolve.controls.heidenhain.lexicon import (
     TANGENT,
     function_of,
 )
-from contoursolve.controls.heidenhain.settings import SELECTION
+from contoursolve.controls.heidenhain.settings import AMBIGUOUS, SELECTION
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Choice, Given, Pick, Side, Turn, Unit, assemble
 from contoursolve.reading import Convention, Modes, ParsedContour, State, apply_modes, read
@@ -281,7 +281,7 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
         choices=tuple(choices),
         makes=tuple(_makes(chain, labels)),
         lasting=frozenset(lasting),
-        picks=tuple(picks),
+        picks=tuple(_picks(picks, len(members), modes)),
         conventions=tuple(_conventions(bool(picks), modes)),
     )
     if chain.is_cut and not analyse(assemble(read(claim, frozenset()))).is_determined:
@@ -289,9 +289,22 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
     return claim
 
 
+def _picks(stated: Sequence[Pick], count: int, modes: Modes) -> Iterator[Pick]:
+    """What FSELECT chooses, and where settings say so, the first solution elsewhere."""
+    if modes.convention(SELECTION).value == "ignore":
+        stated = ()
+    yield from stated
+    if modes.convention(AMBIGUOUS).value == "first":
+        told = {each.element for each in stated}
+        yield from (Pick(number, 1, "") for number in range(1, count + 1) if number not in told)
+
+
 def _conventions(is_picked: bool, modes: Modes) -> Iterator[Convention]:
+    """The settings on which the reading rests."""
     if is_picked:
         yield modes.convention(SELECTION)
+    if modes.convention(AMBIGUOUS).value == "first":
+        yield modes.convention(AMBIGUOUS)
 
 
 _NO_FACTS = frozenset({"DR", "CLSD+", "FSELECT", "Z", "IZ", *(f"R{name}" for name in REFERRED)})
