@@ -110,7 +110,7 @@ units_option = click.option(
     type=click.Choice([unit.value for unit in Length]),
     default="mm",
     show_default=True,
-    help="Unit of the program's numbers before any G20 or G21.",
+    help="Unit of the program's numbers where no G20, G21, MM or INCH says it.",
 )
 
 

@@ -175,14 +175,15 @@ def _directives(comment: str, line: int, offset: int, syntax: Syntax) -> list[Di
     if match is None or not comment.startswith(syntax.remark[0]):
         return []
     found, at = [], match.end()
-    for part in comment[at:].removesuffix(")").split(";"):
+    told = comment[at:].removesuffix(")") if "(" in match[0] else comment[at:]
+    for part in told.split(";"):
         if part.strip():
             found.append(read_directive(part, line, offset + at + 1))
         at += len(part) + 1
     return found
 
 
-_DIRECTIVE = re.compile(r"[(;]\s*+contoursolve\s*+:", re.IGNORECASE)
+_DIRECTIVE = re.compile(r"(?:\(|;\s*+\(?+)\s*+contoursolve\s*+:", re.IGNORECASE)
 _UNMARKED = re.compile(r"[(;]\s*+c\w*tour[\s_-]*+sol\w*+(?P<gap>[\s:;.,=-]*+)(?P<fact>[^)]*+)", re.IGNORECASE)
 _STATES = re.compile(r"=|passes\s++through|tangent\s++to|meets", re.IGNORECASE)
 

@@ -124,6 +124,21 @@ def test_several_facts_in_a_comment_are_separated_by_semicolons() -> None:
 
 
 @pytest.mark.parametrize(
+    "comment",
+    [
+        "; contoursolve: line 2 passes through (X10 Y17.321); length of line 3 = 59.282",
+        "; (contoursolve: line 2 passes through [X10 Y17.321]; length of line 3 = 59.282)",
+    ],
+)
+def test_comments_behind_a_semicolon_state_facts_with_parentheses_and_without(comment: str) -> None:
+    blocks = (f"2 FL AN+60 {comment}", "3 FL X+80 Y+20 AN-30", "4 END PGM A MM")
+    (answer,) = solve("\n".join(("0 BEGIN PGM A MM", "1 L X+0 Y+0", *blocks))).answers
+    assert answer.status.value == "overdetermined"
+    assert answer.claim.directives[0].text.startswith("line 2 passes through")
+    assert answer.claim.directives[1].text == "length of line 3 = 59.282"
+
+
+@pytest.mark.parametrize(
     "comment", ["(contoursolve)", "(contour solve: x)", "(see contoursolve: x)", "; contoursolve: x"]
 )
 def test_other_comments_state_nothing(comment: str) -> None:

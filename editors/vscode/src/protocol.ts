@@ -2,8 +2,8 @@
 import type { Range } from "vscode-languageclient";
 import type { LanguageClient } from "vscode-languageclient/node";
 
-/** What the server reads. Klartext has colours alone: no control that reads it is known yet. */
-export const LANGUAGES = ["gcode", "sinumerik"];
+/** What the server reads. */
+export const LANGUAGES = ["gcode", "sinumerik", "klartext"];
 
 export interface Status {
   uri: string;
