@@ -15,7 +15,7 @@ from contoursolve.diagnostics.choices import choice_of
 from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.gcode import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 from contoursolve.geometry import Length
-from contoursolve.postprocess.numbering import Numbers
+from contoursolve.postprocess.numbering import numbers_of
 from contoursolve.program.pipeline import Result, Run, run
 from contoursolve.program.project import configure, find_settings, restate_control, stated_settings
 from contoursolve.program.recognise import choose, find_dialect
@@ -305,7 +305,7 @@ def expand(
             unit=unit,
             policy=policy,
             start=beginning,
-            numbers=Numbers(gcode.split_lines(text)) if numbering is Numbering.ALL else None,
+            numbers=numbers_of(gcode.split_lines(text), dialect) if numbering is Numbering.ALL else None,
         )
     )
     opening = opening_of(options, dialect, unit, summary)

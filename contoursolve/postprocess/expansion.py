@@ -2,8 +2,10 @@
 
 from collections import deque
 from collections.abc import Hashable, Iterable, Iterator, Sequence
+from dataclasses import replace as fields_replaced
 from decimal import Decimal
 from itertools import chain
+from math import atan2, ceil, cos, dist, radians, sin
 
 from msgspec.structs import replace
 
@@ -11,8 +13,8 @@ from contoursolve.diagnosis.examine import Answer, Depth, Policy
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import Block, Directive, Passage, Program, Syntax, Word, parse_block, spell
 from contoursolve.gcode.comments import comment_out, is_remark, own_comments, remark, with_comments_of
-from contoursolve.geometry import Length
-from contoursolve.postprocess.emit import Format, Move, emit
+from contoursolve.geometry import Length, Turn
+from contoursolve.postprocess.emit import Format, Move, emit, longest
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
 from contoursolve.postprocess.numbering import Numberer, Numbers, Offsets
 from contoursolve.postprocess.post_processors import SAME, Machine, machine_of
@@ -28,6 +30,7 @@ from contoursolve.reading import (
     ParsedContour,
     ReadIssue,
     State,
+    advance,
     apply_modes,
     codes_of,
     motion_of,
@@ -37,6 +40,7 @@ from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import ContourBlock, blocks_of
 from contoursolve.reading.modal_dependence import (
     STANDING_ALONE,
+    Carried,
     Reliance,
     carried,
     frame_of,
@@ -44,7 +48,9 @@ from contoursolve.reading.modal_dependence import (
     restate,
     why_unmet,
 )
+from contoursolve.reading.writer import NOTHING, Plain, Restated
 from contoursolve.solving import Point
+from contoursolve.solving.contour import ArcSegment
 
 OPENING = object()
 """Stands where the words belong that the target needs before anything else."""
@@ -54,6 +60,8 @@ _NO_MOTION = -1
 
 _NAMES = tuple(f"G{code:02}" for code in range(4))
 """The codes of motions as they are written."""
+
+_UNITS = {Length.INCH: "G20", Length.MM: "G21"}
 
 
 _TOLD = (
@@ -82,6 +90,8 @@ def expand_lines(
     `numbers` are those of the whole program, where every line is to have one. Unless the control of the lines is
     certain, raises UnknownControlError if some block is for another one.
     """
+    if dialect.writing is not None and options.post is not SAME:
+        dialect = fields_replaced(dialect, find=dialect.writing.find)
     together = Batch(dialect, policy, is_proven=False)
     steps = walk(lines.blocks(), dialect, unit, policy, Depth.PATH, start, together)
     yield from _Expander(dialect, options, summary, lines, numbers).expand(steps)
@@ -100,10 +110,12 @@ def lines_of_facts(
 def opening_of(options: Options, dialect: Dialect, unit: Length, summary: Summary) -> str:
     """The line that the target needs before the first block; empty if it needs none, or nothing was replaced."""
     text = options.post.opening.get(machine_of(dialect), "") if summary.replaced else ""
+    if summary.unit is not None and dialect.writing is not None and options.post is not SAME:
+        unit, text = summary.unit, options.post.opening.get(machine_of(dialect), dialect.writing.opening)
     if dialect.diameter is not None:
         counts = summary.counts_diameters or any(dialect.initial_state(unit).plane.diameters)
         text = text.replace("G8 ", "G7 ") if counts else text.replace("G7 ", "G8 ")
-    return text.format(unit="G20" if unit is Length.INCH else "G21") + summary.line_end if text else ""
+    return text.format(unit=_UNITS[unit]) + summary.line_end if text else ""
 
 
 class _Expander:
@@ -119,7 +131,10 @@ class _Expander:
         self.lines = lines
         self.watch = Watch(options.post, dialect, options.post.readings.get(machine_of(dialect)))
         summary.unfamiliar = self.watch.found
-        self.numberer = Numberer(self.modes, numbers)
+        writing, is_same = dialect.writing, options.post is SAME
+        self.own = writing.own() if writing and is_same else None
+        self.plain = writing.plain() if writing and not is_same else None
+        self.numberer = Numberer(self.modes, numbers, writing.number_prefix if writing and is_same else "N")
         self.lasting = self.modes.lasting if self.watch.reading is None else {}
         self.formats: dict[Hashable, Format] = {}
         self.offsets = Offsets(self.modes)
@@ -149,7 +164,9 @@ class _Expander:
                 for block in step.blocks:
                     yield from self._keep(block, step.before)
                 continue
-            reason = self._obstacle(step.answer) or self._relying(step.answer, rest, coming)
+            reason = self._obstacle(step.answer)
+            if not reason and self.dialect.writing is None:
+                reason = self._relying(step.answer, rest, coming)
             if reason:
                 yield from self._leave(step, step.answer, reason)
             else:
@@ -190,6 +207,11 @@ class _Expander:
     def _keep(self, block: Block, state: State, there: int | None = None) -> Iterator[str]:
         """A block as it is; `there` is the motion that is in force before it in the expanded program. The target writes
         units, X as a diameter, and comments in its own way."""
+        if self.plain is not None:
+            yield from self._restate(self.plain, block, state)
+            return
+        if self.own is not None:
+            self.own.keep(block)
         if block.words or block.macro or block.faults:
             there = self._motion_before(block, state) if there is None else there
             if self.motion is not None:
@@ -207,6 +229,79 @@ class _Expander:
                     yield remark(unread.reason, self._syntax_of(block)) + self.lines.end
         self.is_marked = is_remark(block.text)
         yield self._commented(block.text) + self.lines.take_end(block.line)
+
+    def _restate(self, plain: Plain, block: Block, state: State) -> Iterator[str]:
+        """A block in G codes, or as a comment."""
+        after = advance(state, block, self.modes)
+        said = plain.restate(block, state, after) if block.words or block.macro or block.faults else Restated()
+        moves = list(self._moves(said, state))
+        if block.macro and self.summary.unit not in (None, after.unit):
+            said = replace(said, says=said.says._replace(codes=(_UNITS[after.unit], *said.says.codes)))
+        if block.words or block.macro:
+            self.summary.unit = self.summary.unit or after.unit
+            self.summary.restated += 1
+        if said.reason:
+            yield from self._tell_left(block, said.reason)
+        self.is_marked = False
+        yield self._write_plainly(block, said.says, moves, is_kept=bool(said.reason and not moves))
+
+    def _tell_left(self, block: Block, reason: str) -> Iterator[str]:
+        """Why a block, or some of it, is not written; blocks in a row for the same reason are one."""
+        left = self.summary.left
+        if left and left[-1].reason == reason and left[-1].lines[-1] == block.line - 1:
+            before = left.pop()
+            left.append(
+                replace(before, lines=(*before.lines, block.line), sources={**before.sources, block.line: block.text})
+            )
+        else:
+            self._tell(block, reason)
+            yield remark(reason, self._syntax_of(block)) + self.lines.end
+
+    def _moves(self, said: Restated, before: State) -> Iterator[Move]:
+        """The moves of a block: a line to its end, or its arc, which other axes go along with."""
+        form, ends, axes = self._format(before), said.ends, before.plane.axes
+        if said.around is None:
+            self.offsets.keep([axis for axis in self.modes.axes if axis not in ends])
+            words = tuple(axis + form.number(end / form.mm) for axis, end in ends.items())
+            yield from [Move(0 if said.is_rapid else 1, words, (0.0, 0.0), 0.0)] * bool(words)
+            return
+        center, sweep = said.around
+        start, turn = [float(before.axes[axis].value or 0) for axis in axes], Turn.CCW if sweep > 0 else Turn.CW
+        here = start[0] + (off := self.offsets.take(axes))[0], start[1] + off[1]
+        radius, begin = dist(start, center), atan2(start[1] - center[1], start[0] - center[0])
+        beside = {axis: (float(before.axes[axis].value or 0), end) for axis, end in ends.items() if axis not in axes}
+        parts, at = ceil(abs(sweep) / longest(form)), (start[0], start[1])
+        for number in range(1, parts + 1):
+            share = number / parts
+            angle = begin + radians(sweep) * share
+            end = (center[0] + radius * cos(angle), center[1] + radius * sin(angle))
+            if number == parts:
+                end = ends[axes[0]], ends[axes[1]]
+            rise = [axis + form.number((low + (high - low) * share) / form.mm) for axis, (low, high) in beside.items()]
+            for move in emit(ArcSegment("", at, end, center, radius, turn), here, form):
+                yield move._replace(words=(*move.words, *rise)) if move.words else move
+                here = move.end
+            at = end
+        self.offsets.leave(axes, here, at)
+
+    def _write_plainly(self, block: Block, says: Carried, moves: Sequence[Move], *, is_kept: bool = False) -> str:
+        """The lines in place of a block in G codes; `is_kept` where the block itself has to stay as a comment."""
+        syntax, end = self._syntax_of(block), self.lines.take_end(block.line)
+        is_remark_alone = not (block.words or block.macro or block.faults)
+        comments = [text for each in own_comments(block) for text in comment_out(each.strip("; "), syntax)]
+        texts = [[_NAMES[move.code], *move.words] for move in moves if move.words]
+        texts = texts or ([[]] if says.codes or says.words or says.last else [])
+        shows = (self.options.has_comments or is_kept or not texts) and not is_remark_alone
+        if texts:
+            texts[0] = [*says.codes, *texts[0], *says.words]
+            texts[-1] += says.last
+            texts[0] += comments if not shows else []
+            self._tell(block, self.numberer.number(block, list(says.numbers), texts))
+        lines = comment_out(block.text, syntax) if shows else comments if not texts else []
+        lines += [("/" if block.is_skippable else "") + " ".join(text) for text in texts]
+        if not lines and block.text.strip():
+            return ""
+        return (end or self.lines.end).join(lines) + end
 
     def _commented(self, text: str) -> str:
         """A line with its comments as the target has them."""
@@ -273,6 +368,10 @@ class _Expander:
         self.summary.left.append(Left(lines, reason, answer.diagnostics, sources))
         first, *others = step.blocks
         there = self._motion_before(first, step.before)
+        if self.plain is not None:
+            yield remark(reason, self._syntax_of(first)) + self.lines.end
+            yield from (self._write_plainly(block, NOTHING, (), is_kept=True) for block in step.blocks)
+            return
         if self.motion is not None:
             before, first = self._restore(first, step.before)
             yield from before
@@ -296,7 +395,9 @@ class _Expander:
         miscounted = self._miscounted(answer)
         if miscounted:
             return miscounted
-        beside = [word.text for block in answer.claim.blocks for word in answer.claim.beside_plane(block)]
+        makes = answer.claim.makes or [(block,) for block in answer.claim.blocks]
+        pairs = zip(answer.claim.blocks, makes, strict=True)
+        beside = [word.text for block, made in pairs if made for word in answer.claim.beside_plane(block)]
         if not beside or (len(answer.claim.blocks) == 1 and len(answer.contour.elements) <= 1):
             return ""
         return f"{beside[0]} moves an axis outside the plane: move it in a block of its own"
@@ -341,20 +442,23 @@ class _Expander:
         motion = self.motion if had_ended else state.motion
         translated = self._translate(answer, list(parts.values()), here)
         ended = self._ended(claim, state)
+        self.summary.unit, standing = self.summary.unit or claim.after.unit, state
         for block in step.blocks:
             part = parts.get(block.line)
-            if part is None:
-                yield from self._keep(block, state)
+            if part is None or (self.dialect.writing and part.names == frozenset() and claim.beside_plane(block)):
+                yield from self._keep(block, standing)
+                standing = advance(standing, block, self.modes)
                 continue
             state = part.state
             form = self._format(state if answer.plane is state.plane else replace(state, plane=answer.plane))
             moves: list[Move] = []
+            said = self.plain.beside(block, step.before) if self.plain else Restated(is_rapid=part.is_rapid)
             if translated is not None:
                 moves = [move for name, each in translated.items() if part.makes(name) for move in each]
                 here = moves[-1].end if moves else here
                 self.summary.deviation = max([self.summary.deviation, *(move.deviation for move in moves)])
             for segment in (each for each in elements if translated is None and part.makes(each.name)):
-                for move in emit(segment, here, form, is_rapid=part.is_rapid):
+                for move in emit(segment, here, form, is_rapid=said.is_rapid):
                     here = move.end
                     if move.deviation > self.summary.deviation:
                         self.summary.deviation = move.deviation
@@ -366,13 +470,24 @@ class _Expander:
                 moves.append(move._replace(words=(*move.words, *beside)))
             end = self.lines.take_end(block.line)
             self._end_lasting(moves, ended, claim.after if block is step.blocks[-1] else None)
-            text = self._write(block, moves, end, state)
+            if self.plain is not None:
+                if said.reason:
+                    yield from self._tell_left(block, said.reason)
+                text = self._write_plainly(block, said.says, moves)
+            elif self.own is not None:
+                behind = self.own.close(claim.after) if block is step.blocks[-1] else []
+                text = self._write_own(
+                    block, self.own.write(block, [(each.code, each.words) for each in moves]), behind, end
+                )
+            else:
+                text = self._write(block, moves, end, state)
             if text:
                 yield text
             if moves:
                 motion = moves[-1].code
         self.is_marked = False
-        is_same = motion == claim.after.motion and not (had_ended and claim.blocks[0].is_skippable)
+        is_same = self.dialect.writing is not None or motion == claim.after.motion
+        is_same = is_same and not (had_ended and claim.blocks[0].is_skippable)
         self.motion = None if is_same else _NO_MOTION if motion is None else motion
         contour = answer.contour
         if contour is not None:
@@ -398,7 +513,7 @@ class _Expander:
     def _translate(self, answer: Answer, parts: Sequence[ContourBlock], here: Point) -> Moves | None:
         """The moves of a contour in the words of the target, where that is asked for and it has them."""
         target = self.options.post.target
-        if target is None:
+        if target is None or self.plain is not None:
             return None
         moves = None
         if len({(part.state.is_incremental, part.is_rapid) for part in parts}) == 1:
@@ -420,6 +535,7 @@ class _Expander:
         if key not in self.formats:
             numbers, post = self.modes.lexicon.numbers, self.options.post
             own, decimals = post.digits(state.unit, numbers), self.options.decimals
+            more = self.dialect.writing.center_decimals if self.dialect.writing and self.own else 0
             self.formats[key] = Format(
                 state.plane,
                 state.unit,
@@ -427,8 +543,9 @@ class _Expander:
                 post.writes_point(numbers),
                 self.options.arcs,
                 state.is_incremental,
-                own,
+                own + more,
                 self._radius,
+                is_center_absolute=self.own is not None,
             )
         return self.formats[key]
 
@@ -438,6 +555,19 @@ class _Expander:
         exponent = value.normalize().as_tuple().exponent
         places = max(form.decimals, -exponent if isinstance(exponent, int) else 0)
         return spell(word.address, form.number(float(value), f"%.{places}f"))
+
+    def _write_own(self, block: Block, texts: list[list[str]], behind: list[list[str]], end: str) -> str:
+        """The lines in place of a block in the words of its control, and those behind it."""
+        frame = frame_of(block.text)
+        comments = comment_out(block.text, block.syntax) if self.options.has_comments else []
+        beside = [] if comments else own_comments(block)
+        if texts:
+            texts[0] += beside
+            number = block.find("N")
+            self._tell(block, self.numberer.number(block, [number.text.strip()] if number else [], texts))
+        written = [frame.skip + " ".join(text) for text in (*texts, *behind)]
+        lines = [frame.indent + text for text in (*comments, *(written or beside))]
+        return (end or self.lines.end).join(lines) + end if lines else ""
 
     def _write(self, block: Block, moves: list[Move], end: str, state: State) -> str:
         """The lines in place of a block. Its number and what it sets stand in the first, what ends it in the last."""

@@ -6,6 +6,7 @@ A chain goes through free elements in a row, and through conventional moves that
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace as replace_fields
 from decimal import Decimal
+from functools import partial
 from itertools import count
 
 from msgspec import Struct
@@ -182,8 +183,10 @@ def _is_in_plane(block: Block) -> bool:
 _MOVING = frozenset({"X", "Y", "IX", "IY", "PR", "PA", "IPR", "IPA", "DR", "R"})
 
 
-def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> ParsedContour | None:
-    """The chain that begins at a block, if any."""
+def find(
+    blocks: Sequence[Block], index: int, state: State, modes: Modes, *, is_joined: bool = False
+) -> ParsedContour | None:
+    """The chain that begins at a block, if any; also one of conventional moves alone that are joined (`is_joined`)."""
     block = blocks[index]
     if block.macro is not None or not block.words:
         return None
@@ -197,9 +200,12 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Par
     if function not in FREE and not _leads_on(blocks, index):
         return None
     chain = _Chain(state, modes)
-    if not chain.read(blocks, index):
+    if not chain.read(blocks, index) and not (is_joined and len(chain.members) > 1):
         return None
     return _claim(chain, state, modes)
+
+
+find_joined = partial(find, is_joined=True)
 
 
 def _leads_on(blocks: Sequence[Block], index: int) -> bool:
