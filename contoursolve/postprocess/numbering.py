@@ -46,9 +46,10 @@ class Numbers:
 class Numberer:
     """Numbers the lines in the place of blocks; what cannot be numbered as it has to be is told as a reason."""
 
-    def __init__(self, modes: Modes, numbers: Numbers | None, prefix: str = "N") -> None:
-        """`numbers` are those of the program, where all lines are to have one; `prefix` is what stands before one."""
-        self._prefix = prefix
+    def __init__(self, modes: Modes, numbers: Numbers | None) -> None:
+        """`numbers` are those of the program, where all lines are to have one."""
+        self.prefix = "N"
+        """What stands before a number."""
         self._modes = modes
         self._numbers = numbers
         self._ends: set[Decimal] = set()
@@ -80,12 +81,12 @@ class Numberer:
             self._divided[word.number] = block.line
         if self._numbers is None or word.number % 1:
             return ""
-        number, width = int(word.number), len(word.text.strip()) - len(self._prefix)
+        number, width = int(word.number), len(word.text.strip()) - len(self.prefix)
         for text in (text for at, text in enumerate(texts) if at != place):
             free = self._numbers.take_after(number)
             if free is None:
                 return f"no block number up to {self._numbers.highest} is free for it: number its first line only"
-            text.insert(0, f"{self._prefix}{free:0{width}}")
+            text.insert(0, f"{self.prefix}{free:0{width}}")
             number = free
         return ""
 

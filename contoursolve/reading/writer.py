@@ -53,6 +53,9 @@ class Plain(Protocol):
     def restate(self, block: Block, before: State, after: State) -> Restated:
         """A block that belongs to no contour."""
 
+    def is_rapid(self, block: Block) -> bool:
+        """Whether a block moves in rapid."""
+
     def beside(self, block: Block, before: State) -> Restated:
         """What a block of a contour says besides it."""
 

@@ -109,8 +109,9 @@ def _is_rapid_word(text: str) -> bool:
     return text.upper().startswith("F") and text.upper().endswith("MAX")
 
 
-_SAME_M = frozenset({0, 1, 2, 3, 4, 5, 6, 8, 9, 30})
-_SEVERAL_M = {13: ("M3", "M8"), 14: ("M4", "M8")}
+_M = {number: (f"M{number}",) for number in (0, 1, 2, 3, 4, 5, 6, 8, 9, 30)} | {13: ("M3", "M8"), 14: ("M4", "M8")}
+"""M functions in the words of the others."""
+_AS_WRITTEN = frozenset({"S", "A", "B", "C", "U", "V", "W"})
 _OTHER_PLACE_M = frozenset({89, 91, 92, 99, 128, 144})
 """M functions with which a block leads somewhere else than its coordinates say, or runs more."""
 _PROGRAM_ENDS = (2, 30)
@@ -184,36 +185,32 @@ class _Plain:
         due = self.feed.take(block)
         codes, words, last, reasons = list[str](), list[str](), list[str](), list[str]()
         for word in block.words:
-            text = word.text.strip().upper()
-            if word.address == "G" and text in _SIDES:
-                codes += self._turn(_SIDES[text])
-            elif word.address == "F":
-                is_inch = before.unit is Length.INCH
-                if word.number is not None and text[1:2] not in ("U", "Z"):
-                    words.append(_feed(text, is_inch=is_inch))
-                elif not _is_rapid_word(text):
-                    reasons.append(f"{text} {_UNTRANSLATED}")
-            elif word.address == "S" and word.number is not None:
-                words.append(f"S{word.number:f}")
-            elif word.address in ("A", "B", "C", "U", "V", "W") and word.number is not None:
-                words.append(f"{word.address}{word.number:f}")
-            elif word.address == "M" and word.number in (*_SAME_M, *_SEVERAL_M):
-                number = int(word.number or 0)
+            text, number = word.text.strip().upper(), word.number
+            if word.address == "G":
+                codes += self._turn(_SIDES.get(text, self.side))
+            elif word.address == "F" and number is not None and text[1:2] not in ("U", "Z"):
+                words.append(_feed(text, before.unit))
+            elif word.address in _AS_WRITTEN and number is not None:
+                words.append(f"{word.address}{number:f}")
+            elif word.address == "M" and number in _M:
                 self.has_ended |= number in _PROGRAM_ENDS
-                (last if number in _AT_ITS_END else words).extend(_SEVERAL_M.get(number, (f"M{number}",)))
-            elif word.address not in ("N", "G") and word.address not in LEXICON.addresses:
+                (last if number in _AT_ITS_END else words).extend(_M[int(number or 0)])
+            elif not (word.address in LEXICON.addresses or word.address == "N" or _is_rapid_word(text)):
                 reasons.append(f"{text} {_UNTRANSLATED}")
         if function_of(block) == "STOP":
             last.insert(0, "M0")
         if due:
-            words.append(_feed(due, is_inch=before.unit is Length.INCH))
+            words.append(_feed(due, before.unit))
         if is_length and self.is_length_due:
             codes.append(f"G43 H{self.tool}")
             self.is_length_due = False
-        rapid = block.find("F")
-        is_rapid = rapid is not None and rapid.number is None and _is_rapid_word(rapid.text.strip())
         says = _says(block.find("N"), codes, words, last)
-        return Restated(says, is_rapid=is_rapid, reason="; ".join(reasons))
+        return Restated(says, is_rapid=self.is_rapid(block), reason="; ".join(reasons))
+
+    def is_rapid(self, block: Block) -> bool:
+        """Whether it has FMAX."""
+        feed = block.find("F")
+        return feed is not None and feed.number is None and _is_rapid_word(feed.text.strip())
 
     def _turn(self, side: str) -> list[str]:
         """The code for the side of the tool, where that is another one."""
@@ -231,14 +228,14 @@ class _Plain:
         if name == "begin":
             self.has_ended = False
         if name == "tool":
-            return self._tool(number, found["words"], is_inch=after.unit is Length.INCH)
+            return self._tool(number, found["words"], after.unit)
         if name == "assignment":
             # Its value stands wherever it is used.
             is_known = found["name"].upper() in after.memory
             return Restated(reason="" if is_known else f"the value of {found['name']} is not known")
         return Restated(reason=f"{found['what']} {_UNTRANSLATED}" if name == "other" else "")
 
-    def _tool(self, number: str | None, text: str, *, is_inch: bool) -> Restated:
+    def _tool(self, number: str | None, text: str, unit: Length) -> Restated:
         """A tool: its change, its speed, and its length where the tool axis moves next."""
         found = _TOOL_WORDS.fullmatch(text)
         if found is None:
@@ -254,7 +251,7 @@ class _Plain:
             words.append("S" + found["speed"].replace(",", "."))
         if found["feed"]:
             self.feed.in_force = "F" + found["feed"]
-            words.append(_feed(self.feed.in_force, is_inch=is_inch))
+            words.append(_feed(self.feed.in_force, unit))
         return Restated(_says(number, codes, words, []))
 
 
@@ -268,10 +265,10 @@ def _says(number: Word | str | None, codes: list[str], words: list[str], last: l
     return Carried((f"N{label}",) if label else (), tuple(codes), tuple(words), tuple(last), ())
 
 
-def _feed(text: str, *, is_inch: bool) -> str:
+def _feed(text: str, unit: Length) -> str:
     """A feed; that of a program in inches counts tenths of an inch."""
     value = float(text[1:].strip().replace(",", "."))
-    return f"F{value / (10 if is_inch else 1):g}"
+    return f"F{value / (10 if unit is Length.INCH else 1):g}"
 
 
 def _wrong_place(block: Block) -> str:
