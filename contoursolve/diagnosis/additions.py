@@ -2,8 +2,6 @@
 a control."""
 
 from collections.abc import Iterator
-from dataclasses import replace
-from decimal import Decimal
 from itertools import combinations, islice
 
 from msgspec import Struct
@@ -14,8 +12,8 @@ from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.table import legal_samples
 from contoursolve.gcode import spell
-from contoursolve.geometry import Given, assemble
-from contoursolve.reading import ParsedContour, read
+from contoursolve.geometry import assemble
+from contoursolve.reading import ParsedContour, read, stating
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import check
 from contoursolve.solving.contour import Contour
@@ -24,9 +22,6 @@ MOST_ADDED = 3
 """Words that complete a block; of a block that lacks more, all is still open."""
 
 MOST_WAYS = 12
-
-_ANY = Decimal(1)
-"""The value of a word of which only matters that it is there."""
 
 
 class Addition(Struct, frozen=True):
@@ -128,7 +123,7 @@ def _is_complete(claim: ParsedContour, dialect: Dialect, names: tuple[str, ...])
     """Whether the words of a contour and some more are legal and determine it."""
     if _refusals(claim, dialect, names):
         return False
-    return analyse(assemble(read(_with(claim, names), frozenset()))).is_determined
+    return analyse(assemble(read(stating(claim, names), frozenset()))).is_determined
 
 
 def _possible(claim: ParsedContour, dialect: Dialect) -> Iterator[str]:
@@ -139,7 +134,7 @@ def _possible(claim: ParsedContour, dialect: Dialect) -> Iterator[str]:
         if name in claim.words or address not in claim.lexicon.addresses or block.find(address) is not None:
             continue
         if _refusals(claim, dialect, (name,)) <= refused:
-            system = assemble(read(_with(claim, (name,)), frozenset()))
+            system = assemble(read(stating(claim, (name,)), frozenset()))
             tied = {system.facts[fact].given for fact in analyse(system).tied}
             if name not in tied:
                 yield name
@@ -149,10 +144,3 @@ def _refusals(claim: ParsedContour, dialect: Dialect, names: tuple[str, ...]) ->
     """The rules that refuse the words of a contour and some more, or ignore one of them."""
     stated = {**claim.stated(), **dict.fromkeys(names)}
     return {offence.rule.code for offence in check(dialect.rules, claim.form.roles, stated)}
-
-
-def _with(claim: ParsedContour, names: tuple[str, ...]) -> ParsedContour:
-    """A contour that states more; with what values does not matter."""
-    units = {name: claim.lexicon.addresses[claim.vocabulary[name][0]].unit for name in names}
-    more = {name: Given(name, _ANY, unit, None) for name, unit in units.items()}
-    return replace(claim, givens={**claim.givens, **more})

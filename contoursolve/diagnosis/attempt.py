@@ -439,7 +439,7 @@ def _now_agrees(finding: Diagnostic, before: Before) -> bool:
 
 def examine_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Answer | None:
     """The answer to the edited blocks; None where they are not read as the same contour any more."""
-    found = _find(claim, dialect, edits, before)
+    found = find_edited(claim, dialect, edits, before)
     if found is None or _largest_step(found, before) > LARGEST_STEP:
         return None
     return examine(found, dialect.rules, Policy.ENFORCE, lambda: before.next_place)
@@ -447,7 +447,7 @@ def examine_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ..
 
 def _extra(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> int:
     """How many more drafts trying these edits counts for."""
-    found = _find(claim, dialect, edits, before) if claim.directives else None
+    found = find_edited(claim, dialect, edits, before) if claim.directives else None
     return SLOW - 1 if found and EASY_STEP < _largest_step(found, before) <= LARGEST_STEP else 0
 
 
@@ -471,7 +471,10 @@ def _is_comma(edit: Edit) -> bool:
     return is_long or edit.text.strip(", ") == edit.old.strip(", ")
 
 
-def _find(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> ParsedContour | None:
+def find_edited(
+    claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before
+) -> ParsedContour | None:
+    """The edited blocks as they are read; None where they are not the same contour any more."""
     texts = apply_edits(claim.blocks, edits)
     lines = [(part, block.line) for text, block in zip(texts, claim.blocks, strict=True) for part in text.split("\n")]
     ahead, blocks, behind = _parted([parse_block(*line, dialect.modes.syntax) for line in lines], edits)
@@ -505,7 +508,7 @@ def _example(
 ) -> tuple[Edit, ...] | None:
     """The edits with a number for every placeholder that makes a contour; as they are where further facts determine a
     drawing that has no closed form. None if nothing is found."""
-    found = _find(claim, dialect, sampled(edits), Before(frozenset(), None))
+    found = find_edited(claim, dialect, sampled(edits), Before(frozenset(), None))
     profile = _stated(found, before) if found else None
     if found is None or profile is None:
         return None
@@ -523,7 +526,7 @@ def _example(
 
 def _with_ends(repair: Repair, claim: ParsedContour, dialect: Dialect, before: Before) -> Repair:
     """A repair with a placeholder, with the numbers between which that of its example stands."""
-    found = _find(claim, dialect, repair.example, before) if repair.example != repair.edits else None
+    found = find_edited(claim, dialect, repair.example, before) if repair.example != repair.edits else None
     if found is None:
         return repair
 

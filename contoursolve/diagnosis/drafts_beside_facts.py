@@ -5,24 +5,36 @@ from collections.abc import Iterable, Iterator
 from decimal import ROUND_HALF_EVEN, Decimal
 from itertools import combinations, product
 
-from contoursolve.diagnosis.attempt import Before, examine_edited
+from contoursolve.analysis import analyse
+from contoursolve.diagnosis.attempt import Before, examine_edited, find_edited
 from contoursolve.diagnosis.drafts import change, drop, marked, mended_words, missing_points, unreadable, variants
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue
+from contoursolve.diagnosis.examples import sampled
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, number_of, spell
 from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Length, Offset, Profile, Unit, assemble, scalar
-from contoursolve.reading import Lexicon, ReadIssue
+from contoursolve.reading import Lexicon, ReadIssue, read
 from contoursolve.reading.dialect import Dialect
 from contoursolve.solving import NoteKind, RefusalKind, Status
+from contoursolve.solving.alternatives import choose
 from contoursolve.solving.ambiguity import tied_with
+from contoursolve.solving.picks import numbers_of, pick
 from contoursolve.statements.apply import word_of
 
 MOST_ADDED = 2
 """Words that a repair adds to such a block."""
 
-_TWICE = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, NoteKind.WORDS_AGREE)
+MOST_HELPING, MOST_SHOWN = 20, 12
+"""Of a chain in which any word may stand: the words that are combined, and the sets of them that are tried."""
+
+_TWICE = (
+    RefusalKind.WORDS_DISAGREE,
+    RefusalKind.FACT_DISAGREES,
+    RefusalKind.RADIUS_DIFFERENCE,
+    NoteKind.WORDS_AGREE,
+)
 _NOT_TOGETHER = (
     RefusalKind.NO_POINT,
     RefusalKind.SEARCH_UNFINISHED,
@@ -41,19 +53,37 @@ def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator
     if not findings:
         return
     yield mended_words(answer)
+    yield _picked(answer)
     yield missing_points(answer)
     yield marked(answer)
     yield _brackets(answer)
     yield _decimal_commas(answer)
     yield _useless(answer, findings)
     twice = [each for each in findings if each.about in _TWICE]
-    missing = list(_additions(answer)) if any(each.about is ReadIssue.UNDERDETERMINED for each in findings) else [()]
+    ways = _completing(answer, dialect, before) if answer.claim.form.is_general else _additions(answer)
+    missing = list(ways) if any(each.about is ReadIssue.UNDERDETERMINED for each in findings) else [()]
     drops = [[(drop(word),) for word in _blamed(answer, each)] for each in twice]
     yield [tuple(dict.fromkeys(sum(choice, ()))) for choice in product(*drops, missing) if any(choice)]
     yield _corrected(answer, dialect, twice, before)
     yield _slips(answer, findings)
     yield from _without_corners(answer, [each for each in findings if each.about is ReadIssue.CORNER_NOWHERE])
     yield _exchanged(answer, [each for each in findings if each.about in _NOT_TOGETHER])
+
+
+def _picked(answer: Answer) -> Iterator[tuple[Edit, ...]]:
+    """Of several contours each, by the words that choose it, where the control has such."""
+    word = answer.claim.form.picking
+    if not word or answer.status is not Status.AMBIGUOUS or answer.alternatives is None:
+        return
+    profile, blocks = answer.profile, answer.claim.blocks
+    lines = {name: block.line for block, names in zip(blocks, answer.claim.makes, strict=True) for name in names}
+    eligible = [item for item in choose(answer.alternatives, profile.choices) if item.is_path]
+    paths, _ = pick(eligible, profile)
+    for item in paths:
+        picks = numbers_of(item, paths, profile)
+        places = [lines[profile.figure.path[each.element - 1].name] for each in picks]
+        texts = [f"\n{spell(word, str(each.number))}" for each in picks]
+        yield tuple(Edit(EditKind.ADD, word, text=text, line=line) for text, line in zip(texts, places, strict=True))
 
 
 def _without_corners(answer: Answer, findings: list[Diagnostic]) -> Iterator[list[tuple[Edit, ...]]]:
@@ -135,6 +165,30 @@ def _additions(answer: Answer) -> Iterator[tuple[Edit, ...]]:
         edits.append(Edit(EditKind.ADD, address, text=spell(address, PLACEHOLDER), line=claim.blocks[index].line))
     for size in range(1, MOST_ADDED + 1):
         yield from combinations(edits, size)
+
+
+def _completing(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tuple[Edit, ...]]:
+    """Words that determine a chain in which any may stand, the usual ones first: each alone, or else two."""
+    claim = answer.claim
+
+    def freedom(edits: tuple[Edit, ...]) -> int:
+        found = find_edited(claim, dialect, sampled(edits), before)
+        system = assemble(read(found, frozenset())) if found else None
+        return len(system.unknowns) - analyse(system).rank if system else len(claim.vocabulary)
+
+    names = [name for name in claim.form.usual if name not in claim.words and name in claim.vocabulary]
+    places = [claim.vocabulary[name] for name in names]
+    edits = [
+        Edit(EditKind.ADD, address, text=spell(address, PLACEHOLDER), line=claim.blocks[index].line)
+        for address, index in places
+    ]
+    open_ = freedom(())
+    helping = [edit for edit in edits if freedom((edit,)) < open_][:MOST_HELPING]
+    for size in range(1, MOST_ADDED + 1):
+        sets = [each for each in combinations(helping, size) if open_ <= size and not freedom(each)]
+        yield from sets[:MOST_SHOWN]
+        if sets:
+            return
 
 
 def _coordinate(fact: Fact) -> tuple[str, int] | None:

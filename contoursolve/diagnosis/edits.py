@@ -105,7 +105,7 @@ class Edit:
     old: str = ""
     text: str = ""
     line: int = 0
-    """Line of the block that an added word goes to."""
+    """Line of the block that an added word goes to; behind it, if the text begins with the end of a line."""
     why: Why = field(default=Why.OTHER, compare=False)
 
     @property
@@ -121,14 +121,15 @@ class Edit:
         if self.kind is EditKind.MOVE and errand is not None and errand.side is not None:
             return f"move {old} ({errand.meaning}) into a block of its own {errand.side.value} this one"
         meaning = f" ({errand.meaning})" if errand is not None and self.kind is EditKind.DROP else ""
-        return f"{self.kind.value} {text if self.text else old}{meaning}"
+        return f"{self.kind.value} {text.strip() if self.text else old}{meaning}"
 
     def among(self, blocks: Sequence[Block]) -> str:
         """It in words, with its program line where other blocks have the same word, or could get it."""
         line, is_added = (self.span.line if self.span else self.line), self.kind is EditKind.ADD
         others = (block for block in blocks if block.line != line)
         if line > 0 and any(is_added or any(word.text == self.old for word in block.words) for block in others):
-            return f"{self} {'to' if is_added else 'in'} program line {line}"
+            where = "behind" if self.text.startswith("\n") else "to" if is_added else "in"
+            return f"{self} {where} program line {line}"
         return str(self)
 
     @property
@@ -169,7 +170,9 @@ def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ..
             else:
                 text = before.rstrip(" ") + after if before.strip() else before + after.lstrip(" ")
         for edit in edits:
-            if edit.kind is EditKind.ADD and edit.line == block.line:
+            if edit.kind is EditKind.ADD and edit.line == block.line and edit.text.startswith("\n"):
+                text += edit.text
+            elif edit.kind is EditKind.ADD and edit.line == block.line:
                 text = (
                     _with_code(text, edit.text, block.syntax)
                     if edit.address == "G"

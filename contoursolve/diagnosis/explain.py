@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache, partial
+from math import asin, degrees
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct, field
@@ -15,6 +16,7 @@ from contoursolve.analysis import Determinacy
 from contoursolve.diagnosis.wording import (
     angle_text,
     by_line,
+    either,
     element_text,
     join,
     length_limit,
@@ -30,7 +32,7 @@ from contoursolve.diagnosis.wording import (
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, spell
-from contoursolve.geometry import Length, Profile, Radius, Role, Unit, assemble
+from contoursolve.geometry import Arc, Length, ParallelLines, Profile, Radius, Role, Unit, assemble
 from contoursolve.reading import ParsedContour, ReadIssue
 from contoursolve.reading.rules import VERBS, Offence, Rule
 from contoursolve.solving import (
@@ -241,6 +243,10 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
         ]
         ways += [f"give {' or '.join(open_sizes)} a value"] if open_sizes else []
     told = open_text(shown, profile)
+    if claim.form.is_general:
+        told = _open_elements(free, open_count, profile)
+        usual = [claim.vocabulary[name] for name in claim.form.usual if name in able and name in claim.vocabulary]
+        ways = [_adding_by_line(usual[:_MOST_NAMED], open_count, claim)] if usual else []
     completions = "; or ".join(ways) or f"state a fact about {'them' if told.endswith('are still open') else 'it'}"
     return report(
         context,
@@ -250,6 +256,32 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
         open=told,
         completions=completions,
     )
+
+
+_MOST_NAMED = 8
+"""Words that a message names as missing."""
+
+
+def _open_elements(free: set[str], number: int, profile: Profile) -> str:
+    """How many words are missing, and which elements they leave open: `one word is missing: arc 3 and line 4 are`."""
+    things = {name.rpartition(".")[0] or name for name in free}
+    open_ = [
+        each.name
+        for each in profile.figure.path
+        if things & {each.name, each.head, *((each.center, each.radius) if isinstance(each, Arc) else ())}
+    ]
+    missing = f"{_NUMBERS.get(number, number)} word{' is' if number == 1 else 's are'} missing"
+    return f"{missing}, so {join(open_)} {'is' if len(open_) == 1 else 'are'} open"
+
+
+def _adding_by_line(words: Sequence[tuple[str, int]], number: int, claim: ParsedContour) -> str:
+    """To add so many of these words, those of one line together."""
+    lines: dict[int, list[str]] = {}
+    for address, index in words:
+        lines.setdefault(claim.blocks[index].line, []).append(address)
+    told = [f"{either(own)} in program line {line}" for line, own in lines.items()]
+    amount = "" if number == 1 else f"{_NUMBERS.get(number, number)} of "
+    return f"add {amount}{', or '.join(told) if number == 1 else ', '.join(told)}"
 
 
 _NUMBERS = {1: "one", 2: "two", 3: "three"}
@@ -296,9 +328,9 @@ def explain_result(
     fields |= zip(compared, tell_apart([values[name] for name in compared], write), strict=True)
     fields |= {name: length_text(values[name], context.unit) for name in ("radius", "distance") if name in values}
     if "off_by_mm" in values:
-        fields["off"] = length_text(values["off_by_mm"], context.unit)
-        if is_word and givens[0].unit is Unit.DEGREE and words and words[0].address == FACT and "expected" in values:
-            fields["off"] = angle_text(abs(values["expected"] - values["actual"]))
+        is_angle = is_word and givens[0].unit is Unit.DEGREE and words and words[0].address == FACT
+        turned = abs(values["expected"] - values["actual"]) if is_angle and "expected" in values else None
+        fields["off"] = _off(event, turned, context.unit, profile)
     if is_word and "expected" in values:
         fields["meant"] = statement_text(givens[0], values["expected"], profile)
     fields |= _counted(event)
@@ -325,13 +357,22 @@ def explain_result(
     return replace(finding, notes=finding.notes + notes)
 
 
+def _off(event: Refusal | Note, turned: float | None, unit: Length, profile: Profile) -> str:
+    """By how much something is off: by an angle (`turned`, degrees) where a fact is about directions."""
+    off = event.values["off_by_mm"]
+    if any(isinstance(fact, ParallelLines) and event.subject in (fact.given, fact.part_of) for fact in profile.facts):
+        turned = degrees(asin(min(1.0, off)))
+    return length_text(off, unit) if turned is None else angle_text(turned)
+
+
 def _counted(event: Refusal | Note) -> dict[str, str]:
     """How many contours there are, or how many solutions at an element."""
     if event.kind is NoteKind.SEVERAL:
         return {"count": f"{event.values['actual']:.0f}"}
     if event.kind in _OF_PICKS:
         count = int(event.values["limit"])
-        return {"limit_count": f"{count} solution{'s' * (count != 1)}"}
+        numbers = "1" if count == 1 else f"a number from 1 to {count}"
+        return {"limit_count": f"{count} solution{'s' * (count != 1)}", "numbers": numbers}
     return {}
 
 

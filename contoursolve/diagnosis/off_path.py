@@ -37,8 +37,13 @@ def facts_beyond(profile: Profile, solution: Solution, contour: Contour) -> Iter
     fillets = (corner.name for corner in profile.figure.corners if corner.shape is CornerShape.FILLET)
     round_ones = {f"{name}.center": name for name in fillets}
     round_ones |= {arc.center: arc.name for arc in profile.figure.path if isinstance(arc, Arc)}
+    ends = {point for element in profile.figure.path for point in (element.tail, element.head)}
     for fact in profile.facts:
-        if not fact.given:
+        # How far a line is from another one holds of all of it, wherever the end of that lies.
+        is_apart = (isinstance(fact, TangentLine) and fact.center in ends) or (
+            isinstance(fact, Through) and fact.point in ends
+        )
+        if not fact.given or is_apart:
             continue
         for name, place in _places(fact, at):
             segment = cut.get(round_ones.get(name, name))

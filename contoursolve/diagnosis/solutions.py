@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import floor, inf, log10
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,7 @@ from contoursolve.diagnosis.examine import (
     is_rounded,
     list_alternatives,
 )
-from contoursolve.gcode import FACT
+from contoursolve.gcode import FACT, spell
 from contoursolve.geometry import Length
 from contoursolve.solving.contour import Contour, trace
 from contoursolve.solving.solution import Certificate, Proof, up_to_one_digit
@@ -129,6 +129,8 @@ def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alt
     """The words, or else the fact, that would select a solution."""
     if len(alternatives.items) == 1:
         return []
+    if answer.claim.form.picking and item.is_path:
+        return list(_picking(item, alternatives, answer))
     words = [
         selector.word
         for selector in answer.claim.selectors
@@ -151,6 +153,16 @@ def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alt
                 fact = f"contoursolve: {plane.axes[axis]} of {point} = {shown:.3f}"
                 return [answer.claim.blocks[0].syntax.remark.format(fact)]
     return []
+
+
+def _picking(item: Alternative, alternatives: Alternatives, answer: Answer) -> Iterator[str]:
+    """The words that choose a solution by its number, each with its element."""
+    from contoursolve.solving.picks import numbers_of  # noqa: PLC0415 - few controls have such words
+
+    profile, word = answer.profile, answer.claim.form.picking
+    paths = [each for each in alternatives.items if each.is_path]
+    for each in numbers_of(item, paths, profile):
+        yield f"{spell(word, str(each.number))} behind {profile.figure.path[each.element - 1].name}"
 
 
 def _written(asked: AskedValue, answer: Answer) -> str:

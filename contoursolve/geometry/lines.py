@@ -118,6 +118,8 @@ class ParallelLines(Equation, Struct, frozen=True):
     first: str
     second: str
     given: str = ""
+    part_of: str = ""
+    """The given of a statement that says more than this: if only this repeats others, the statement does not."""
 
     def reads(self) -> tuple[str, ...]:
         return *line_scalars(self.first)[:2], *line_scalars(self.second)[:2]

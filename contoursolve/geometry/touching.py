@@ -5,7 +5,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import Lookup, Turn, line_scalars
+from contoursolve.geometry.figure import Lookup, Turn, line_scalars, scalar
 from contoursolve.geometry.system import Equation, both, cross, dot, rotate, step
 
 
@@ -40,30 +40,30 @@ class RadiusStep(Equation, Struct, frozen=True):
         return float(at.radius(self.radius) - at.radius(self.origin))
 
 
-class Entering(Equation, Struct, frozen=True):
-    """An arc is travelled at the given angle where it passes `point`."""
+class Spoke(Equation, Struct, frozen=True):
+    """A radius leads from the centre to `point` in the given direction turned by quarters; its part along `axis`."""
 
     given: str
-    point: str
     center: str
-    turn: Turn
+    point: str
+    radius: str
+    axis: int
+    quarters: int = 0
 
     def reads(self) -> tuple[str, ...]:
-        return both(self.point, self.center)
-
-    def _travel(self, at: Lookup) -> tuple[Any, Any]:
-        first, second = step(at, self.center, self.point)
-        return -self.turn.sign * second, self.turn.sign * first
+        return scalar(self.center, self.axis), scalar(self.point, self.axis), self.radius
 
     def residual(self, at: Lookup) -> Any:
-        return cross(self._travel(at), at.direction(self.given))
-
-    def senses(self, at: Lookup) -> tuple[Any, ...]:
-        return (dot(self._travel(at), at.direction(self.given)),)
+        first, second = at.direction(self.given)
+        for _ in range(self.quarters % 4):
+            first, second = -second, first
+        part = second if self.axis else first
+        off = at.coordinate(self.point, self.axis) - at.coordinate(self.center, self.axis)
+        return off - part * at.radius(self.radius)
 
     def implied(self, at: Lookup) -> float | None:
-        first, second = self._travel(at)
-        return degrees(atan2(float(second), float(first)))
+        first, second = step(at, self.center, self.point)
+        return degrees(atan2(float(second), float(first))) - 90 * self.quarters
 
 
 class TangentCircles(Equation, Struct, frozen=True):
@@ -92,6 +92,15 @@ class TangentCircles(Equation, Struct, frozen=True):
 
     def residual(self, at: Lookup) -> Any:
         return self.equation(at) / (2 * (at.radius(self.first[1]) + at.radius(self.second[1])))
+
+
+class PointBeside(TangentCircles, frozen=True):
+    """A point, about which `first` is a circle, lies as far beside the circle `second` as that has for its radius:
+    outside (`side` +1) or inside (-1). A circle whose radius is less than that has no such point inside."""
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        side, inside = side_of(self.side, at), at.radius(self.second[1]) - at.radius(self.first[1])
+        return (1 + side + (1 - side) * inside,)
 
 
 class Contact(Equation, Struct, frozen=True):

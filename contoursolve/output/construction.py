@@ -112,7 +112,7 @@ def _things(group: Group, profile: Profile) -> str:
 
 def _phrase(fact: Fact, group: Group, profile: Profile) -> str:
     """One fact as a condition on what is to be found; empty for what goes without saying."""
-    given = profile.givens.get(fact.given)
+    given = profile.givens.get(fact.given or getattr(fact, "part_of", ""))
     word = f" ({printable(given.word.text)})" if given is not None and given.word is not None else ""
     if given is not None and given.word is not None and given.word.address == FACT:
         return printable(given.word.text)

@@ -16,7 +16,7 @@ from contoursolve.geometry import (
     Through,
     Unit,
 )
-from contoursolve.pictures.known import place_of
+from contoursolve.pictures.known import place_beside, place_of
 from contoursolve.pictures.scene import Aligned, Leader, Mark, MarkKind, Part, Ring, Slide, Thin, number
 from contoursolve.pictures.subject import Subject
 from contoursolve.pictures.theme import Role
@@ -97,6 +97,8 @@ def _slides(subject: Subject) -> Iterator[Slide]:
 def _places(subject: Subject) -> Iterator[Part]:
     """Each place with its fact, the line or circle as far as that, and the gap where they miss each other."""
     for fact in subject.profile.facts:
+        if (beside := place_beside(subject.profile, fact)) is not None:
+            yield Mark(beside, MarkKind.CENTER)
         if not isinstance(fact, Through | OnCircle) or fact.point not in subject.profile.figure.places:
             continue
         text, at = subject.word(fact.given), place_of(subject.profile, fact.point)

@@ -7,7 +7,21 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.wording import length_limit
 from contoursolve.diagnostics.source import Span
-from contoursolve.geometry import Arc, Coordinate, CornerShape, Directed, Extent, Fact, Heading, Offset, Radius, Unit
+from contoursolve.geometry import (
+    Arc,
+    Coordinate,
+    CornerShape,
+    Directed,
+    Extent,
+    Fact,
+    Heading,
+    Offset,
+    PointBeside,
+    Radius,
+    TangentLine,
+    Unit,
+)
+from contoursolve.pictures.known import place_of
 from contoursolve.pictures.page import About, TextRun
 from contoursolve.pictures.scene import (
     Aligned,
@@ -30,6 +44,7 @@ from contoursolve.pictures.vectors import (
     along,
     direction,
     distance,
+    foot,
     middle,
     on_arc,
     toward,
@@ -108,7 +123,23 @@ def dimension_of(subject: Traced, fact: Fact, text: str, role: Role, value: floa
         lines = (each for each in (*figure.path, *figure.lines) if each.name == fact.line)
         at = next((subject.at(line.tail) for line in lines), None)
         return Angle(at, value, text, role) if at is not None else None
-    return None
+    return _apart(subject, fact, text, role) if isinstance(fact, TangentLine | PointBeside) else None
+
+
+def _apart(subject: Traced, fact: TangentLine | PointBeside, text: str, role: Role) -> Dimension | None:
+    """How far a point is from a line or a circle, which a circle about the point touches that is not drawn."""
+    center, radius = (fact.center, fact.radius) if isinstance(fact, TangentLine) else fact.first
+    figure = subject.profile.figure
+    at = subject.known.points.get(center, place_of(subject.profile, center))
+    if at is None or radius not in figure.known_radii or radius in {each.radius for each in figure.circles}:
+        return None
+    # Of a fact that is too long to stand on a drawing, the distance counts.
+    text = number(subject.value(radius), subject.profile.unit) if text.endswith("…") else text
+    if isinstance(fact, TangentLine):
+        ray = subject.ray(fact)
+        return Aligned(at, foot(at, *ray), text, role) if ray is not None else None
+    circle = subject.circle(*fact.second)
+    return Aligned(at, along(circle[0], direction(circle[0], at), circle[1]), text, role) if circle else None
 
 
 def _radius(subject: Traced, name: str, text: str, role: Role) -> Dimension | None:

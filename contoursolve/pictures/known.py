@@ -23,8 +23,10 @@ from contoursolve.geometry import (
     Level,
     Offset,
     OnCircle,
+    PointBeside,
     Profile,
     Radius,
+    TangentLine,
     Unit,
     assemble,
     scalar,
@@ -80,6 +82,15 @@ def place_of(profile: Profile, name: str) -> Point | None:
     given = [profile.givens.get(scalar(name, axis)) for axis in (FIRST, SECOND)]
     values = [float(each.value) for each in given if each is not None]
     return (values[0], values[1]) if len(values) == len(given) else None
+
+
+def place_beside(profile: Profile, fact: Fact) -> Point | None:
+    """The place that an element passes at a distance; None for any other fact."""
+    match fact:
+        case TangentLine(center=name) | PointBeside(first=(name, _)):
+            is_circle = name in {each.center for each in profile.figure.circles}
+            return place_of(profile, name) if name in profile.figure.places and not is_circle else None
+    return None
 
 
 def start_of(profile: Profile) -> Point:

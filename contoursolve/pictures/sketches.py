@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Sequence
 from math import cos, pi, sin
 
-from contoursolve.geometry import Figure, Length, Profile, Unit
+from contoursolve.geometry import Figure, Length, Profile, Unit, line_scalars
 from contoursolve.pictures.dimensions import around, dimension_of
-from contoursolve.pictures.known import Known, place_of, start_of
+from contoursolve.pictures.known import Known, place_beside, place_of, start_of
 from contoursolve.pictures.page import TextRun, visible
 from contoursolve.pictures.scene import (
     Leader,
@@ -75,7 +75,7 @@ def _scene(drawings: Sequence[Drawn], stated: Stated | None, title: str) -> Scen
 
 
 def _given(profile: Profile) -> Iterator[Part]:
-    """The circles and lines that are stated, and where the path begins."""
+    """The circles and the places that are stated, and where the path begins."""
     for each in profile.figure.circles:
         center, radius = place_of(profile, each.center), profile.givens.get(each.radius)
         if center is not None and radius is not None:
@@ -83,6 +83,9 @@ def _given(profile: Profile) -> Iterator[Part]:
             yield Ring(center, size, Role.GIVEN)
             yield Mark(center, MarkKind.CENTER)
             yield around(center, size, DIAGONAL, f"{each.name} R{number(size, Length.MM)}", Role.GIVEN)
+    for fact in profile.facts:
+        if (beside := place_beside(profile, fact)) is not None:
+            yield Mark(beside, MarkKind.CENTER)
     if profile.figure.path:
         at = start_of(profile)
         yield Mark(at, MarkKind.START, (TextRun(f"{profile.figure.start}  {_place(profile, at)}", Role.GIVEN),))
@@ -155,7 +158,12 @@ def _dimensions(drawn: Drawn, stated: Stated) -> Iterator[Part]:
     figure: Figure = stated.profile.figure
     trails = (Trail(drawn.contour.elements, Role.INK),) if drawn.contour is not None else ()
     points = {**drawn.points, **({figure.start: start_of(stated.profile)} if figure.path else {})}
-    traced = Traced(stated.profile, Known(points, drawn.radii), trails)
+    lines = {
+        scalar: value
+        for name, values in drawn.lines.items()
+        for scalar, value in zip(line_scalars(name), values, strict=True)
+    }
+    traced = Traced(stated.profile, Known(points, drawn.radii, scalars=lines), trails)
     for fact in stated.profile.facts:
         text = stated.texts.get(fact.given)
         if text is not None:

@@ -28,6 +28,7 @@ from contoursolve.geometry import (
     Through,
     Turn,
     assemble,
+    line_scalars,
     scalar,
 )
 from contoursolve.pictures.known import (
@@ -45,7 +46,7 @@ from contoursolve.pictures.page import ANYTHING, About
 from contoursolve.pictures.scene import Trail, word_text
 from contoursolve.pictures.slips import counted, is_mended_by, unread
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.vectors import SAME, distance
+from contoursolve.pictures.vectors import SAME, direction, distance
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import (
     NoteKind,
@@ -101,6 +102,14 @@ class Traced(Struct, frozen=True):
         line = next((each for each in self.profile.figure.path if each.name == fact.line), None)
         tail, head = (self.at(line.tail), self.at(line.head)) if isinstance(line, Line) else (None, None)
         return (tail, head) if tail is not None and head is not None and distance(tail, head) > SAME else None
+
+    def ray(self, fact: TangentLine) -> tuple[Point, Point] | None:
+        """A place on the line of a fact, and its direction: of the path, or a whole line beside it."""
+        ends, names = self.ends(fact), line_scalars(fact.line)
+        if ends is not None or not self.known.scalars.keys() >= {*names}:
+            return None if ends is None else (ends[0], direction(*ends))
+        cosine, sine, offset = (self.known.scalars[name] for name in names)
+        return (-sine * offset, cosine * offset), (cosine, sine)
 
     def circle(self, center: str, radius: str) -> tuple[Point, float] | None:
         """A circle of which both centre and radius are known."""

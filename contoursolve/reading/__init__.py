@@ -41,6 +41,7 @@ from contoursolve.reading.parsed_contour import (
     leave,
     next_place,
     read,
+    stating,
     unused_words,
 )
 
@@ -83,6 +84,7 @@ __all__ = [
     "positions",
     "read",
     "stated_sets",
+    "stating",
     "unused_words",
     "words_of",
 ]

@@ -182,6 +182,11 @@ class ContourForm:
     """Whether it refuses such a corner; else it leaves it out."""
     is_general: bool = False
     """Whether its facts may be of any kind, and no rule tells which of them make a contour."""
+    usual: tuple[str, ...] = ()
+    """Of such a form, the words that a block may get, those first that a drawing usually has."""
+    picking: str = ""
+    """The word that chooses one of several solutions by its number, in a block of its own behind that of its element;
+    empty if there is none."""
 
     def __hash__(self) -> int:
         return hash(self.name)
@@ -236,7 +241,7 @@ def _with_carriers(figure: Figure, facts: tuple[Fact, ...], mentioned: set[str])
         for line in lines
         for fact in (UnitDirection(line.name), Through(line.name, line.tail), Through(line.name, line.head))
     ]
-    return replace(figure, carriers=tuple(line.name for line in lines)), (*facts, *more)
+    return replace(figure, carriers=tuple(line.name for line in lines)), (*more, *facts)
 
 
 def _corners(

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from dataclasses import replace as replace_fields
 from decimal import Decimal
 from enum import Enum
 
@@ -163,6 +164,17 @@ def read(claim: ParsedContour, ignored: frozenset[str]) -> Profile:
         picks=claim.picks,
         is_extended=bool(asked or claim.directives or claim.form.is_general),
     )
+
+
+def stating(claim: ParsedContour, names: Iterable[str]) -> ParsedContour:
+    """A contour that states more; with what values does not matter."""
+    units = {name: claim.lexicon.addresses[claim.vocabulary[name][0]].unit for name in names}
+    more = {name: Given(name, _ANY, unit, None) for name, unit in units.items()}
+    return replace_fields(claim, givens={**claim.givens, **more})
+
+
+_ANY = Decimal(1)
+"""The value of a word of which only matters that it is there."""
 
 
 def unused_words(claim: ParsedContour, profile: Profile) -> list[Word]:

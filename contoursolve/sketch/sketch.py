@@ -28,7 +28,6 @@ from contoursolve.solving.alternatives import Alternative, Alternatives, decide,
 from contoursolve.solving.contour import trace
 from contoursolve.solving.solution import RefusalKind, Status
 from contoursolve.statements import (
-    DirectionIs,
     Draft,
     GrammarError,
     PointIs,
@@ -36,11 +35,11 @@ from contoursolve.statements import (
     Statement,
     StatementError,
     Touches,
-    TurnIs,
     Vocabulary,
     read_statement,
 )
 from contoursolve.statements.apply import rank
+from contoursolve.statements.statement import ANGLES
 from contoursolve.tolerance import LARGEST
 
 Number = Decimal | float | int | str
@@ -242,7 +241,7 @@ class Sketch(Shown):
             except StatementError as error:
                 raise StatementError(f"{name} `{self._statements[number - 1]}`: {error}") from None
             if name not in draft.givens and fact.given == name:
-                questions[number] = fact, Unit.DEGREE if isinstance(statement, DirectionIs | TurnIs) else Unit.MM
+                questions[number] = fact, Unit.DEGREE if isinstance(statement, ANGLES) else Unit.MM
         for line in self._free_lines:
             draft.line(line.name)
         profile = Profile(

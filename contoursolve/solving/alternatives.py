@@ -1,6 +1,6 @@
 """Every contour that satisfies a profile, named and certified, and which one the control takes."""
 
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from itertools import pairwise
 from math import inf
 from typing import Any
@@ -380,15 +380,24 @@ def _is_fixed(key: str, items: list[Alternative]) -> bool:
     )
 
 
+def _apart(values: Iterable[float]) -> list[float]:
+    """Values in order; of those that are one, the first."""
+    found: list[float] = []
+    for value in sorted(values):
+        if not found or value - found[-1] > LENGTH:
+            found.append(value)
+    return found
+
+
 _RANKS = ("lowest", "second lowest", "third lowest", "fourth lowest")
 
 
 def _place(item: Alternative, same: list[Alternative], profile: Profile) -> str:
     """Which of several solutions it is by the first coordinate or radius in which they differ."""
     for key in item.scalars:
-        values = sorted(other.scalars[key] for other in same)
-        if values[-1] - values[0] > LENGTH and not key.endswith((".cos", ".sin", ".off")):
-            rank = values.index(item.scalars[key])
+        values = _apart(other.scalars[key] for other in same)
+        if len(values) > 1 and not key.endswith((".cos", ".sin", ".off")):
+            rank = sum(value < item.scalars[key] - LENGTH for value in values)
             point, _, axis = key.rpartition(".")
             what = f"{profile.plane.axes[int(axis)]} of {point}" if axis.isdigit() else key
             if rank == len(values) - 1:

@@ -14,6 +14,7 @@ from contoursolve.geometry import (
     Heading,
     Offset,
     OnCircle,
+    ParallelLines,
     Profile,
     Radius,
     System,
@@ -116,14 +117,17 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
         if off > AGREEMENT:
             return Note(NoteKind.RADIUS_DIFFERS, fact.point, givens_of(fact, system), values)
         return None
-    givens = givens_of(fact, system)
+    name = fact.given or (fact.part_of if isinstance(fact, ParallelLines) else "")
+    givens = (name,) if name else givens_of(fact, system)
     values = compare(fact, profile, at) if fact.given else {"off_by_mm": off}
     is_word = isinstance(fact, Coordinate | Offset | Heading | Radius)
     gap = inf if is_word else abs(values.get("expected", inf) - values.get("actual", inf))
-    if off <= allowance(fact, at, increments_of(profile)) or gap <= AGREEMENT:
+    # The equation alone is true of the opposite direction, too.
+    is_opposite = any(float(sense) < -AGREEMENT for sense in fact.senses(at))
+    if not is_opposite and (off <= allowance(fact, at, increments_of(profile)) or gap <= AGREEMENT):
         return Note(NoteKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
     kind = RefusalKind.WORDS_DISAGREE if "expected" in values else RefusalKind.FACT_DISAGREES
-    return Refusal(kind, fact.given, givens, values)
+    return Refusal(kind, name, givens, values)
 
 
 def compare_affine(profile: Profile, affine: AffineFacts) -> Iterator[Refusal | Note]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import atan2, dist, pi, tau
 from typing import TYPE_CHECKING
 
-from contoursolve.geometry import Line, Profile
+from contoursolve.geometry import Line, Pick, Profile
 from contoursolve.solving.solution import Note, NoteKind, Point, Refusal, RefusalKind
 from contoursolve.tolerance import LENGTH
 
@@ -35,6 +35,18 @@ def pick(paths: Sequence[Alternative], profile: Profile) -> tuple[list[Alternati
                 events.append(Note(NoteKind.PICK_FIRST, subject, (), values))
             left = groups[each.number - 1]
     return left, events
+
+
+def numbers_of(item: Alternative, paths: Sequence[Alternative], profile: Profile) -> list[Pick]:
+    """The picks that leave one contour of several: at each element at which they part, in the order of travel."""
+    left, found = list(paths), list[Pick]()
+    for element in range(1, len(profile.figure.path) + 1):
+        groups = _groups(left, element, profile)
+        number = next(number for number, group in enumerate(groups, 1) if item in group)
+        if len(groups) > 1:
+            found.append(Pick(element, number, ""))
+            left = groups[number - 1]
+    return found
 
 
 def _groups(paths: Sequence[Alternative], element: int, profile: Profile) -> list[list[Alternative]]:

@@ -7,14 +7,18 @@ from contoursolve.statements.apply import Fault, Flaw, apply_statements
 from contoursolve.statements.draft import Draft, Meeting, MeetsLine, StatementError
 from contoursolve.statements.grammar import GrammarError, Vocabulary, read_statement, write_statement
 from contoursolve.statements.statement import (
+    ChordIs,
     CircleAt,
     DirectionIs,
     EqualLengths,
     EqualSizes,
     LengthIs,
     LineAt,
+    ParallelTo,
+    PassesBeside,
     PassesThrough,
     PointIs,
+    PolarAngleIs,
     RadiusIs,
     Statement,
     StraightIs,
@@ -23,6 +27,7 @@ from contoursolve.statements.statement import (
 )
 
 __all__ = [
+    "ChordIs",
     "CircleAt",
     "DirectionIs",
     "Draft",
@@ -35,8 +40,11 @@ __all__ = [
     "LineAt",
     "Meeting",
     "MeetsLine",
+    "ParallelTo",
+    "PassesBeside",
     "PassesThrough",
     "PointIs",
+    "PolarAngleIs",
     "RadiusIs",
     "Statement",
     "StatementError",

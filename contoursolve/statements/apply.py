@@ -13,7 +13,10 @@ from contoursolve.geometry import Corner, Profile, Question, Radius, Unit
 from contoursolve.statements.draft import Draft, Meeting, MeetsLine, StatementError
 from contoursolve.statements.grammar import GrammarError, Vocabulary, read_statement
 from contoursolve.statements.statement import (
+    ANGLES,
     DirectionIs,
+    ParallelTo,
+    PassesBeside,
     PassesThrough,
     Place,
     PointIs,
@@ -31,7 +34,7 @@ def word_of(directive: Directive, begin: int = 0, end: int | None = None) -> Wor
     return Word(FACT, None, False, text, Span(directive.span.line, column, column + max(len(text), 1)))
 
 
-_FIRST = (MeetsLine, Touches, DirectionIs, TurnIs, PassesThrough, StraightIs)
+_FIRST = (MeetsLine, Touches, DirectionIs, TurnIs, PassesThrough, PassesBeside, ParallelTo, StraightIs)
 """Statements that say what a line is come before those that measure it."""
 
 
@@ -86,8 +89,8 @@ def apply_statements(
         if name in draft.givens:
             draft.givens[name] = replace(draft.givens[name], is_diameter=is_diameter)
         elif fact.given == name:
-            is_angle = isinstance(stated, DirectionIs | TurnIs)
-            questions.append(Question(name, fact, Unit.DEGREE if is_angle else Unit.MM, word, is_diameter))
+            unit = Unit.DEGREE if isinstance(stated, ANGLES) else Unit.MM
+            questions.append(Question(name, fact, unit, word, is_diameter))
     draft.word = None
     for question in profile.questions:
         _add_size(draft, question, faults)

@@ -97,6 +97,24 @@ class Draft:
             self.add(*(Through(name, end) for end in (line.tail, line.head) if end))
         return line
 
+    def point_on(self, line: str) -> str:
+        """A point of a line: where it begins, a place that it passes through, or else the point nearest to the start,
+        which is added."""
+        tail = self.line(line).tail
+        own = next((fact.point for fact in self.facts if isinstance(fact, Through) and fact.line == line), "")
+        if tail or own:
+            return tail or own
+        foot = f"{line}.foot"
+        self.figure = replace(self.figure, points=(*self.figure.points, foot))
+        self.add(Through(line, foot), Foot(line, foot, self.figure.start))
+        return foot
+
+    def around(self, name: str, center: str, distance: Decimal) -> Round:
+        """What lies a given distance from a point: a circle that is not drawn."""
+        radius = self.give(f"{name}.radius", distance, Unit.MM)
+        self.figure = replace(self.figure, known_radii=(*self.figure.known_radii, radius))
+        return Round(center, radius)
+
     def round(self, name: str) -> Round:
         """An arc, a circle, or a rounding. Raises StatementError for anything else."""
         match self.element(name):

@@ -9,15 +9,20 @@ from msgspec import Struct
 from contoursolve.geometry import Length, Plane
 from contoursolve.statements.draft import Meeting, MeetsLine
 from contoursolve.statements.statement import (
+    ANGLES,
+    ChordIs,
     CircleAt,
     DirectionIs,
     EqualLengths,
     EqualSizes,
     LengthIs,
     LineAt,
+    ParallelTo,
+    PassesBeside,
     PassesThrough,
     Place,
     PointIs,
+    PolarAngleIs,
     RadiusIs,
     Statement,
     StraightIs,
@@ -84,11 +89,22 @@ class _Reader:
         element = self._element("an element, or a quantity such as `length of`, `radius of`, `Z of`")
         if self._accept("passes through") or self._accept("through"):
             return PassesThrough(element, self._place())
+        if self._accept("passes beside") or self._accept("passes"):
+            return PassesBeside(element, self._place(), self._distance())
+        if self._accept("is parallel to") or self._accept("parallel to"):
+            other = self._element("a line")
+            self._skip()
+            return ParallelTo(element, other, self._distance() if self.at < len(self.text) else None)
         if self._accept("is tangent to") or self._accept("tangent to"):
             return Touches(element, self._other())
         if self._accept("meets"):
             return MeetsLine(element, self._meeting())
-        raise self._error("`passes through`, `tangent to` or `meets`")
+        raise self._error("`passes through`, `passes beside`, `parallel to`, `tangent to` or `meets`")
+
+    def _distance(self) -> Decimal:
+        if not self._accept("at"):
+            raise self._error("`at` and a distance")
+        return self._number() * self.words.unit.in_mm
 
     def finish(self) -> None:
         self._skip()
@@ -124,6 +140,13 @@ class _Reader:
         if self._accept("radius of") or self._accept("size of"):
             name = self._element("an element")
             return _Quantity("radius", (name,), lambda value: RadiusIs(name, value))
+        if self._accept("chord of"):
+            name = self._element("an arc")
+            return _Quantity("chord", (name,), lambda value: ChordIs(name, value))
+        if self._accept("polar angle of"):
+            part = self._part(("begin", "end")) or "end"
+            name = self._element("an arc, or `begin of` or `end of` one")
+            return _Quantity("polar angle", (name,), lambda value: PolarAngleIs(name, value, part), is_angle=True)
         if self._accept("angle from"):
             first = self._element("an element")
             if not self._accept("to"):
@@ -137,10 +160,14 @@ class _Reader:
 
     def _coordinate(self, axis: int) -> _Quantity:
         factor = Decimal("0.5") if self.words.plane.diameters[axis] else Decimal(1)
-        part = next((part for part, spellings in _PARTS.items() if any(map(self._accept, spellings))), "")
+        part = self._part()
         expected = "an element" if part else "a point, or `begin of`, `end of`, `center of`"
         name = self._name(self.words.elements if part else self.words.points, expected)
         return _Quantity("coordinate", (name,), lambda value: PointIs(part, name, axis, value), factor=factor)
+
+    def _part(self, parts: Sequence[str] = tuple(_PARTS)) -> str:
+        """Which part of an element is meant; empty if none is said."""
+        return next((part for part in parts if any(map(self._accept, _PARTS[part]))), "")
 
     def _other(self) -> str | CircleAt | LineAt:
         begin = self.at
@@ -271,12 +298,12 @@ class _Reader:
 _OF: dict[type, tuple[str, str]] = {
     LengthIs: ("length of", "element"),
     StraightIs: ("straight part of", "line"),
+    ChordIs: ("chord of", "arc"),
     DirectionIs: ("direction of", "line"),
     RadiusIs: ("radius of", "element"),
 }
 """What each is called, and the field that names what it is of."""
 _EQUAL = {EqualLengths: "length of", EqualSizes: "radius of"}
-_ANGLES = (DirectionIs, TurnIs)
 
 
 def write_statement(statement: Statement, plane: Plane, unit: Length) -> str:
@@ -286,6 +313,12 @@ def write_statement(statement: Statement, plane: Plane, unit: Length) -> str:
         return f"{what} {statement.first} = {what} {statement.second}"
     if isinstance(statement, PassesThrough):
         return f"{statement.element} passes through [{_place(statement.place, plane, unit)}]"
+    if isinstance(statement, PassesBeside):
+        place = _place(statement.place, plane, unit)
+        return f"{statement.element} passes beside [{place}] at {_length(statement.distance, unit)}"
+    if isinstance(statement, ParallelTo):
+        apart = "" if statement.distance is None else f" at {_length(statement.distance, unit)}"
+        return f"{statement.line} parallel to {statement.other}{apart}"
     if isinstance(statement, Touches):
         return f"{statement.first} tangent to {_other(statement.second, plane, unit)}"
     if isinstance(statement, MeetsLine):
@@ -295,9 +328,12 @@ def write_statement(statement: Statement, plane: Plane, unit: Length) -> str:
         part = f"{statement.part} of " if statement.part else ""
         shown = "?" if value is None else _length(value, unit, is_diameter=plane.diameters[statement.axis])
         return f"{plane.axes[statement.axis]} of {part}{statement.of} = {shown}"
-    shown = "?" if value is None else _number(value) if isinstance(statement, _ANGLES) else _length(value, unit)
+    shown = "?" if value is None else _number(value) if isinstance(statement, ANGLES) else _length(value, unit)
     if isinstance(statement, TurnIs):
         return f"angle from {statement.first} to {statement.second} = {shown}"
+    if isinstance(statement, PolarAngleIs):
+        part = "" if statement.part == "end" else f"{statement.part} of "
+        return f"polar angle of {part}{statement.arc} = {shown}"
     what, field = _OF[type(statement)]
     return f"{what} {getattr(statement, field)} = {shown}"
 

@@ -26,7 +26,10 @@ from contoursolve.geometry import (
     Foot,
     Line,
     OnCircle,
+    ParallelLines,
+    PointBeside,
     Radius,
+    Ray,
     TangentCircles,
     TangentLine,
     Through,
@@ -97,9 +100,7 @@ class LengthIs(Struct, frozen=True):
             draft.corner(element.name)
             ends = f"{element.name}.begin", f"{element.name}.end"
             return _stated(draft, Distance(name, *ends), self.value, Unit.MM)
-        form = draft.round(self.element)
-        if not form.begin:
-            raise StatementError(f"{self.element} is a whole circle and has no ends")
+        form = _arc(draft, self.element)
         turn = element.turn if isinstance(element, Arc) else None
         if turn is None:
             raise StatementError(
@@ -171,6 +172,88 @@ class PassesThrough(Struct, frozen=True):
             return _named(draft, name, Through(self.element, place, name))
         form = draft.round(self.element)
         return _named(draft, name, OnCircle(place, form.center, form.radius, name))
+
+
+class PassesBeside(Struct, frozen=True):
+    """An element, or the line or circle that it is part of, passes a place at a distance, on either side of it.
+
+    A distance of 0 says that it passes through the place.
+    """
+
+    element: str
+    place: Place
+    distance: Decimal
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        _check_distance(self.distance)
+        if not self.distance:
+            return PassesThrough(self.element, self.place).state(draft, name)
+        element = draft.element(self.element)
+        form = None if isinstance(element, Line) else draft.round(self.element)
+        around = draft.around(name, draft.place(f"{name}.place", self.place), self.distance)
+        side = f"{name}.side"
+        if form is None:
+            draft.line(self.element)
+            return _named(draft, name, TangentLine(self.element, around.center, around.radius, side, name))
+        circles = (around.center, around.radius), (form.center, form.radius)
+        return _named(draft, name, PointBeside(*circles, side, name))
+
+
+class ParallelTo(Struct, frozen=True):
+    """A line is parallel to another one, in the same direction or against it, and may be at a distance from it.
+
+    With a distance it lies on either side. A distance of 0 says that both lie on one line.
+    """
+
+    line: str
+    other: str
+    distance: Decimal | None = None
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        if self.line == self.other:
+            raise StatementError(f"{self.line} is one line, and parallel to itself")
+        line, other = draft.line(self.line), draft.line(self.other)
+        if self.distance is None:
+            return _named(draft, name, ParallelLines(self.line, self.other, name))
+        _check_distance(self.distance)
+        meeting = {line.tail, line.head} & {other.tail, other.head} - {""}
+        if self.distance and meeting:
+            raise StatementError(
+                f"{self.line} and {self.other} meet in {meeting.pop()}, so that there is no distance between them"
+            )
+        parallel = draft.give(f"{name}.parallel", Decimal(0), Unit.SIGN)
+        draft.add(ParallelLines(self.line, self.other, part_of=parallel))
+        point = draft.point_on(self.line)
+        if not self.distance:
+            return _named(draft, name, Through(self.other, point, name))
+        around = draft.around(name, point, self.distance)
+        return _named(draft, name, TangentLine(self.other, around.center, around.radius, f"{name}.side", name))
+
+
+class ChordIs(Struct, frozen=True):
+    """The length of the chord of an arc or a rounding: straight from its begin to its end."""
+
+    arc: str
+    value: Decimal | None
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        _check_size(self.value, "a chord")
+        form = _arc(draft, self.arc)
+        return _stated(draft, Distance(name, form.begin, form.end), self.value, Unit.MM)
+
+
+class PolarAngleIs(Struct, frozen=True):
+    """The angle from the plane's first axis to the ray from the centre of an arc or a rounding to one of its ends."""
+
+    arc: str
+    value: Decimal | None
+    part: str = "end"
+    """`begin` or `end`."""
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        form = _arc(draft, self.arc)
+        end = form.begin if self.part == "begin" else form.end
+        return _stated(draft, Ray(name, form.center, end), self.value, Unit.DEGREE)
 
 
 class RadiusIs(Struct, frozen=True):
@@ -279,6 +362,17 @@ class EqualSizes(Struct, frozen=True):
         return _named(draft, name, EqualRadii(name, *radii))
 
 
+ANGLES = (DirectionIs, PolarAngleIs, TurnIs)
+"""Statements whose value is an angle."""
+
+
+def _arc(draft: Draft, name: str) -> Round:
+    form = draft.round(name)
+    if not form.begin:
+        raise StatementError(f"{name} is a whole circle and has no ends")
+    return form
+
+
 def _stated(draft: Draft, fact: Fact, value: Decimal | None, unit: Unit) -> Fact:
     """A fact with its value; one that is asked for is not added."""
     if value is not None:
@@ -297,6 +391,11 @@ def _named(draft: Draft, name: str, fact: Fact) -> Fact:
 def _check_size(value: Decimal | None, what: str) -> None:
     if value is not None and value <= 0:
         raise StatementError(f"{what} is larger than 0, not {value:f}")
+
+
+def _check_distance(value: Decimal) -> None:
+    if value < 0:
+        raise StatementError(f"a distance is not negative, as {value:f} is")
 
 
 def _check_ends(line: Line) -> None:

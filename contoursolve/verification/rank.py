@@ -229,7 +229,9 @@ def search(
     radii = [name in system.figure.radii for name in system.unknowns]
     starts[:, radii] = abs(starts[:, radii])
     _spread_directions(system, starts, rng)
-    signs = {side: rng.choice((-1, 1), STARTS) for side in system.sides}
+    # The sides of other facts are no solutions of their own.
+    sides = dict.fromkeys(side for fact in facts for side in fact.sides())
+    signs = {side: rng.choice((-1, 1), STARTS) for side in sides}
     for number, values in enumerate(near[:STARTS]):
         starts[number] = values
     values = _descend(system, facts, starts, signs, size)
@@ -237,7 +239,7 @@ def search(
     found: list[tuple[Array, dict[str, int]]] = []
     for number in numpy.argsort(off, kind="stable"):
         own = {side: int(sign[number]) for side, sign in signs.items()}
-        is_new = all(abs(values[number] - other).max() > APART * size or own != sides for other, sides in found)
+        is_new = all(abs(values[number] - other).max() > APART * size or own != signs_of for other, signs_of in found)
         if off[number] <= FOUND * size and is_new and (values[number, radii] > 0).all():
             found.append((values[number], own))
     return found

@@ -127,6 +127,10 @@ class Place(Struct, frozen=True):
         """The direction that a fact states."""
         return self.system.directions[fact.given]
 
+    def spoke(self, fact: Any) -> Vector:
+        """The direction in which a radius leads."""
+        return turned(self.stated(fact), ((1, 0), (0, 1), (-1, 0), (0, -1))[fact.quarters % 4])
+
     def advance(self, fact: Any) -> Any:
         """How a path advances along an axis: by the lines between which it is, or else by the first of its parts that
         moves along it at all."""
@@ -219,11 +223,6 @@ MEANINGS: Mapping[type, Meaning] = {
         lambda own, at: (dot(at.stated(own), at.way(own.tail, own.head)),),
     ),
     kinds.RadiusStep: LENGTH("{radius} less {origin}", lambda own, at: at.size(own.radius) - at.size(own.origin)),
-    kinds.Entering: ANGLE(
-        "direction of the arc about {center} in {point}",
-        lambda own, at: ((1.0, 0.0), turned(at.way(own.center, own.point), (0.0, own.turn.sign))),
-        lambda own, at: (dot(at.stated(own), turned(at.way(own.center, own.point), (0.0, own.turn.sign))),),
-    ),
     kinds.Directed: ANGLE(
         "direction of {line}",
         lambda own, at: ((1.0, 0.0), at.along(own.line)),
@@ -258,6 +257,15 @@ MEANINGS: Mapping[type, Meaning] = {
         "both lines are equally long", lambda own, at: norm(at.way(*own.first)) - norm(at.way(*own.second))
     ),
     kinds.TangentCircles: Meaning("both circles touch", _touching),
+    kinds.PointBeside: Meaning(
+        "the point is as far beside the circle as stated",
+        # Inside a circle, it is no farther from it than the centre is: the distance of the two is not negative.
+        lambda own, at: (
+            norm(at.way(own.first[0], own.second[0]))
+            - at.size(own.second[1])
+            - at.side(own.side) * at.size(own.first[1])
+        ),
+    ),
     kinds.Contact: Meaning(
         "{point} is in line with {first} and {second}",
         lambda own, at: cross(unit(at.way(own.first, own.second)), at.way(own.first, own.point)),
@@ -296,6 +304,10 @@ MEANINGS: Mapping[type, Meaning] = {
         "{line} is parallel to {axis}",
         lambda own, at: at.along(own.line)[1 - own.axis],
         lambda own, at: (at.along(own.line)[own.axis] * at.advance(own),),
+    ),
+    kinds.Spoke: Meaning(
+        "direction of the radius from {center} to {point}",
+        lambda own, at: at.way(own.center, own.point)[own.axis] - at.spoke(own)[own.axis] * at.size(own.radius),
     ),
     kinds.ParallelLines: Meaning(
         "{first} is parallel to {second}", lambda own, at: cross(at.along(own.first), at.along(own.second))
@@ -338,7 +350,7 @@ def measured(fact: Fact, at: Place) -> tuple[float, bool, float]:
     meaning = MEANINGS[type(fact)]
     found = meaning.formula(fact, at)
     if meaning.states is States.ANGLE:
-        reach = float(norm(found[1])) if isinstance(fact, kinds.Heading | kinds.Entering) else 1.0
+        reach = float(norm(found[1])) if isinstance(fact, kinds.Heading) else 1.0
         return degrees(atan2(cross(*found), dot(*found))), True, reach
     shift = at.system.origin[fact.axis] if isinstance(fact, kinds.Coordinate) else Decimal(0)
     return float(Decimal(float(found)) + shift), False, 0.0

@@ -25,6 +25,7 @@ from contoursolve.geometry import (
     OnCircle,
     Profile,
     Radius,
+    Ray,
     TurnBetween,
     line_scalars,
     scalar,
@@ -144,8 +145,9 @@ class Case(Struct, frozen=True):
         return draw(self.system, scalars, sizes, (self.increment(str(FIRST)), self.increment(str(SECOND))))
 
     def missed_by(self, fact: Fact, values: Array, signs: Mapping[str, int]) -> float:
-        """How far a fact is from being true, mm; it is to the left or outside of what it touches on an open side."""
-        return float(residual(fact, self.system.at(values, {**dict.fromkeys(fact.sides(), 1), **signs})))
+        """How far a fact is from being true, mm; on the side that fits best where `signs` lack one."""
+        tried = [{**dict.fromkeys(fact.sides(), side), **signs} for side in (1, -1)]
+        return min((float(residual(fact, self.system.at(values, each))) for each in tried), key=abs)
 
 
 def prepare(found: Found) -> Case:
@@ -339,10 +341,7 @@ def allowance(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -
 def agrees(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> bool:
     """Whether a fact that is not needed is true of a solution."""
     off = abs(case.missed_by(fact, values, signs))
-    opposite = {side: -1 for side in fact.sides() if side not in signs}
-    if opposite:
-        off = min(off, abs(case.missed_by(fact, values, {**signs, **opposite})))
-    if isinstance(fact, TurnBetween | Directed) and min(senses(fact, case.system.at(values, signs))) < 0:
+    if isinstance(fact, TurnBetween | Directed | Ray) and min(senses(fact, case.system.at(values, signs))) < 0:
         return False
     return off <= allowance(case, fact, values, signs)
 

@@ -5,20 +5,31 @@ oracle, and it is the oracle that measures what comes back.
 """
 
 import json
+from cmath import phase
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from functools import cache
 from itertools import combinations, permutations, product
-from math import cos, pi, sin
+from math import cos, degrees, pi, sin
 from random import Random
 from typing import Any
 
 import casadi
 import numpy
 import pytest
-from chains import KINDS, Chain, Fact, distance_between, form_residuals, measure, random_chain, random_facts
+from chains import (
+    KINDS,
+    Chain,
+    Fact,
+    distance_between,
+    form_residuals,
+    measure,
+    random_chain,
+    random_facts,
+    standard_facts,
+)
 from examples import law, some_of
 from hypothesis import strategies as st
 from records import replace
@@ -48,8 +59,14 @@ from contoursolve.geometry import (
     Offset,
     OnCircle,
     Parallel,
+    ParallelLines,
+    Plane,
+    PointBeside,
     Radius,
+    RadiusStep,
+    Ray,
     Setback,
+    Spoke,
     Tangent,
     TangentArc,
     TangentCircles,
@@ -65,15 +82,25 @@ from contoursolve.output.document import to_json
 from contoursolve.solving import NoClosedFormError, is_closed
 from contoursolve.solving import solve as solve_in_closed_form
 from contoursolve.statements import (
+    ChordIs,
+    CircleAt,
     DirectionIs,
+    EqualLengths,
     EqualSizes,
     LengthIs,
+    LineAt,
     Meeting,
     MeetsLine,
+    ParallelTo,
+    PassesBeside,
     PassesThrough,
     PointIs,
+    PolarAngleIs,
     RadiusIs,
     StraightIs,
+    Touches,
+    TurnIs,
+    Vocabulary,
     read_statement,
     write_statement,
 )
@@ -92,18 +119,22 @@ FACTS: tuple[Any, ...] = (
     *(Level("P", "Q", axis) for axis in (0, 1)),
     Collinear("P", "Q", "R"),
     Heading("angle", "P", "Q"),
+    Ray("angle", "P", "Q"),
     Distance("length", "P", "Q"),
     EqualDistances("", ("P", "Q"), ("R", "S")),
     EqualDistances("", ("P", "Q"), ("Q", "R")),
     OnCircle("P", "C", "r"),
     Radius("length", "r"),
+    RadiusStep("length", "r", "s"),
+    *(Spoke("angle", "C", "P", "r", axis, quarters) for axis in (0, 1) for quarters in (0, 3)),
     EqualRadii("", "r", "s"),
-    *(TangentCircles(*CIRCLES, side) for side in (1, -1, "side")),
+    *(kind(*CIRCLES, side) for kind in (TangentCircles, PointBeside) for side in (1, -1, "side")),
     *(Contact("P", "C", "D", side) for side in (1, -1)),
     *(ArcLength("length", "P", "Q", "C", "r", turn) for turn in Turn),
     UnitDirection("L"),
     Directed("angle", "L"),
     Through("L", "P"),
+    ParallelLines("L", "M"),
     *(Parallel("L", axis, (("P", "Q"),)) for axis in (0, 1)),
     Foot("L", "P", "C"),
     *(Foot("L", "P", "C", corner="Q", way=way) for way in (1, -1)),
@@ -119,8 +150,8 @@ FACTS: tuple[Any, ...] = (
     TurnBetween("angle", AROUND, ALONG),
     TurnBetween("angle", AROUND, Tangent("P", "D", "s", CW)),
 )
-OF_AN_AXIS = (Coordinate, Offset, Level, Parallel, ChamferLeg)
-WITHOUT_LENGTH = (UnitDirection, Directed, Parallel, TurnBetween)
+OF_AN_AXIS = (Coordinate, Offset, Level, Parallel, ChamferLeg, Spoke)
+WITHOUT_LENGTH = (UnitDirection, Directed, Parallel, ParallelLines, TurnBetween)
 """Their residual is a sine, or close to one; all others' are in mm."""
 
 
@@ -301,6 +332,8 @@ def mirrored(place: Place, fact: Any) -> tuple[Place, Any]:
         fact = replace(fact, side=-fact.side)
     if isinstance(fact, ArcLength | TangentArc | ArcContact | ChordSetback):
         fact = replace(fact, turn=CW if fact.turn is CCW else CCW)
+    if isinstance(fact, Spoke):
+        fact = replace(fact, quarters=-fact.quarters)
     if isinstance(fact, TurnBetween):
         fact = replace(fact, first=other_way(fact.first), second=other_way(fact.second))
     negates = isinstance(fact, Coordinate | Offset) and fact.axis == 1
@@ -377,7 +410,7 @@ def test_the_implied_value_makes_a_fact_true_in_its_sense(seed: int) -> None:
         if not fact.given:
             continue
         at = place
-        if isinstance(fact, ArcLength):  # the equation holds on any circle, its length only on this one
+        if isinstance(fact, ArcLength | Spoke):  # on this circle alone
             spoke = place.points["P"] - place.points["C"]
             on = place.points["C"] + spoke / abs(spoke) * place.radii["r"]
             spoke = place.points["Q"] - place.points["C"]
@@ -492,6 +525,107 @@ def test_a_drawing_of_two_elements_comes_back_from_a_fact_about_both(enough: int
     assert min(count[kind] for kind in PAIRED) >= enough, count
 
 
+def beside(chain: Chain, number: int, rng: Random) -> str:
+    """A place that an element passes at some distance, and the distance as it is."""
+    place = complex(rng.randint(-60, 60), rng.randint(-60, 60))
+    if chain.is_arc(number):
+        arc = chain.arc(number)
+        distance = abs(abs(place - arc.center) - arc.radius)
+    else:
+        start, travel = chain.line(number)
+        distance = abs((travel.conjugate() * (place - start)).imag) / abs(travel)
+    return f"E{number} passes beside [X{place.real} Y{place.imag}] at {distance:.12f}"
+
+
+def measured(chain: Chain, rng: Random) -> list[str]:
+    """Facts of further kinds, with what is measured of a drawing."""
+    facts = [beside(chain, number, rng) for number in chain.numbers]
+    for number in chain.arcs:
+        center, ends = chain.arc(number).center, chain.points[number - 1 : number + 1]
+        facts.append(f"chord of E{number} = {abs(ends[1] - ends[0]):.12f}")
+        for part, end in zip(("begin of ", ""), ends, strict=True):
+            facts.append(f"polar angle of {part}E{number} = {degrees(phase(end - center)):.12f}")
+    return facts
+
+
+@law(st.integers(0, 2**32), few=80, many=800)
+def test_a_fact_that_is_measured_on_a_drawing_is_true_of_it_and_adds_nothing(seed: int) -> None:
+    rng = Random(seed)
+    chain = random_chain(rng, rng.randint(1, 3))
+    facts = standard_facts(chain)
+    before = sketch_of(chain, facts).solve()
+    for text in measured(chain, rng):
+        sketch = sketch_of(chain, facts)
+        sketch.state(text)
+        after = sketch.solve()
+        assert min(distance_between(chain_of(drawing, chain), chain) for drawing in after) < 1e-6, text
+        assert not before.ties, text
+        assert len(facts) in after.ties, text  # the last one repeats others
+        # What is measured asks for the same value, but for whole turns.
+        asking = sketch_of(chain, facts)
+        if "=" in text:
+            asking.state(f"{text.partition('=')[0]}= ?")
+            values = [drawing.asked[0].value or 0.0 for drawing in asking.solve()]
+            assert min(abs(value - float(text.partition("=")[2])) for value in values) < 1e-6, text
+
+
+@law(st.integers(0, 2**32), few=80, many=800)
+def test_a_point_beside_an_element_is_as_far_from_it_as_stated_on_either_side(seed: int) -> None:
+    rng = Random(seed)
+    radius, distance, place = rng.randint(5, 30), rng.randint(1, 40), complex(rng.randint(-60, 60), 0)
+    line, circle = Sketch(), Sketch()
+    line.infinite_line("e")
+    line.state(f"direction of e = {rng.randint(-89, 89)}")
+    circle.circle("e")
+    for fact in (f"radius of e = {radius}", f"X of center of e = {rng.randint(-60, 60)}"):
+        circle.state(fact)
+    for sketch in (line, circle):
+        sketch.state(f"e passes [X{place.real} Y0] at {distance}")
+        for drawn in sketch.solve():
+            if drawn.radii:
+                off = abs(abs(complex(*drawn.points["e.center"]) - place) - radius)
+            else:
+                cosine, sine, offset = drawn.lines["e"]
+                off = abs(cosine * place.imag - sine * place.real - offset)
+            assert off == pytest.approx(distance, abs=1e-9)
+    assert len(line.solve()) == 2
+
+
+@law(st.integers(0, 2**32), few=40, many=400)
+def test_a_parallel_line_is_as_far_away_as_measured(seed: int) -> None:
+    """Of four corners the last one is left open, and comes back from how far its side is from the first."""
+    rng = Random(seed)
+    corners = [complex(rng.uniform(-60, 60), rng.uniform(-60, 60)) for _ in range(3)]
+    way = corners[1] - corners[0]
+    share = rng.choice((1, -1)) * rng.uniform(0.2, 2)
+    apart = abs((way.conjugate() * (corners[2] - corners[0])).imag) / abs(way)
+    last = corners[2] + share * way
+    if min(apart, abs(way), abs(corners[2] - corners[1])) < 1:
+        return
+    for fact in ("c parallel to a", f"c parallel to a at {apart:.12f}"):
+        sketch = Sketch((corners[0].real, corners[0].imag))
+        for name in "abc":
+            sketch.line(name)
+        for name, at in (("P1", corners[1]), ("P2", corners[2])):
+            sketch.state(f"X of {name} = {at.real:.12f}")
+            # The distance says where P2 is, but for the side.
+            if not (name == "P2" and "at" in fact):
+                sketch.state(f"Y of {name} = {at.imag:.12f}")
+        sketch.state(f"X of P3 = {last.real:.12f}")
+        sketch.state(fact)
+        drawings = sketch.solve()
+        assert drawings.is_complete
+        assert min(abs(complex(*drawn.points["P3"]) - last) for drawn in drawings) < 1e-6
+        sketch.state(f"c parallel to a at {apart:.12f}")
+        assert min(abs(complex(*drawn.points["P3"]) - last) for drawn in sketch.solve()) < 1e-6
+
+
+def test_a_fact_against_the_direction_that_a_word_states_is_no_repetition() -> None:
+    for fact in ("direction of line 2 = -60", "angle from line 1 to line 2 = 120"):
+        (answer,) = solve("G111 A180. K-30. B120. X100.", start=START, facts=[fact]).answers
+        assert answer.status.value == "conflicting"
+
+
 def test_no_arc_is_longer_than_its_circle() -> None:
     """A circle of radius 3 about a given centre through the start: its arcs are shorter than 18.85 mm."""
     sketch = Sketch()
@@ -549,6 +683,13 @@ STATEMENTS: Mapping[str, Any] = {
 
 
 MORE_STATEMENTS = (
+    "line 2 passes beside [Z-40. X80.] at 5",
+    "line 2 parallel to line 1",
+    "line 2 parallel to line 1 at 10.5",
+    "chord of corner 1 = 6",
+    "chord of corner 1 = ?",
+    "polar angle of corner 1 = 90",
+    "polar angle of begin of corner 1 = ?",
     "angle from line 1 to line 2 = -60.5",
     "X of begin of corner 1 = 44",
     "length of line 1 = length of line 2",
@@ -627,6 +768,40 @@ def test_a_statement_is_written_as_a_text_that_reads_as_itself(fact: str, unit: 
     text = write_statement(statement, words.plane, unit)
     assert read_statement(text, words) == statement
     assert not set("()") & set(text)
+
+
+NAMES = "line 1", "line 2", "arc", "corner 1", "k"
+VALUE = st.integers(-9_999_999, 9_999_999).map(lambda thousandths: Decimal(thousandths) * Decimal("0.0254"))
+"""mm: with few digits in inches, too."""
+NAME = st.sampled_from(NAMES)
+ALL_STATEMENTS = st.one_of(
+    st.builds(PassesBeside, NAME, st.tuples(VALUE, VALUE), VALUE),
+    st.builds(PassesThrough, NAME, st.tuples(VALUE, VALUE)),
+    st.builds(ParallelTo, NAME, NAME, st.none() | VALUE),
+    *(st.builds(kind, NAME, st.none() | VALUE) for kind in (ChordIs, DirectionIs, LengthIs, RadiusIs, StraightIs)),
+    st.builds(PolarAngleIs, NAME, st.none() | VALUE, st.sampled_from(("begin", "end"))),
+    st.builds(TurnIs, NAME, NAME, st.none() | VALUE),
+    st.builds(PointIs, st.sampled_from(("", "begin", "end", "center")), NAME, st.integers(0, 1), st.none() | VALUE),
+    st.builds(EqualLengths, NAME, NAME),
+    st.builds(EqualSizes, NAME, NAME),
+    st.builds(
+        Touches,
+        NAME,
+        NAME
+        | st.builds(CircleAt, st.tuples(VALUE, VALUE), VALUE.map(abs))
+        | st.builds(LineAt, st.tuples(VALUE, VALUE), VALUE),
+    ),
+    st.builds(MeetsLine, NAME, st.builds(Meeting, st.none(), st.none() | VALUE)),
+    st.builds(MeetsLine, NAME, st.builds(Meeting, st.tuples(VALUE, VALUE), st.none())),
+)
+
+
+@law(ALL_STATEMENTS, st.sampled_from(Length), st.booleans(), few=400, many=4_000)
+def test_every_statement_is_written_as_a_text_that_reads_as_itself(statement: Any, unit: Length, turned: bool) -> None:
+    axes = ("Z", "X") if turned else ("X", "Y")
+    words = Vocabulary(NAMES, NAMES, Plane("", axes, ("K", "I"), (False, turned)), unit)
+    text = write_statement(statement, words.plane, unit)
+    assert read_statement(text, words) == statement
 
 
 def test_statements_as_objects_are_shown_as_text() -> None:

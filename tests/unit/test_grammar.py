@@ -17,7 +17,7 @@ from contoursolve.output.catalogue import vocabulary_lines
 from contoursolve.statements import GrammarError, Vocabulary, read_statement
 
 LATHE = Vocabulary(
-    ("line 1", "line 2", "corner 1", "corner 2", "arc", "line"),
+    ("line 1", "line 2", "line 3", "corner 1", "corner 2", "arc", "line"),
     ("S", "V1", "V2"),
     Plane("G18", ("Z", "X"), ("K", "I"), (False, True)),
     Length.MM,
@@ -47,7 +47,7 @@ def findings(block: str, *facts: str) -> list[dict[str, Any]]:
 
 
 def test_the_examples_are_found() -> None:
-    assert len(EXAMPLES) >= 17
+    assert len(EXAMPLES) >= 23
     assert "length of line 1 = 30" in EXAMPLES
     assert "line tangent to arc" in EXAMPLES
 
@@ -80,6 +80,12 @@ def test_the_listing_itself_shows_a_block_that_is_solved() -> None:
         ("line 2 passes through (Z-40. X80.)", "line 2 passes through [Z-40 X80]"),
         ("line 2 passes through (Z-40. X80.)", "line 2 passes through Z-40 X80"),
         ("line 2 passes through (Z-40. X80.)", "line 2 through (Z -40, X 80)"),
+        ("line 2 passes beside (Z-40. X80.) at 5", "line 2 passes [Z-40 X80] at 5.0"),
+        ("line 2 passes beside (Z-40. X80.) at 5", "LINE 2 Passes Beside x80 z-40 AT +5"),
+        ("line 2 parallel to line 1", "line 2 is parallel to line 1 "),
+        ("line 2 parallel to line 1 at 10", "line 2  is  parallel to line 1  at 1e1"),
+        ("polar angle of arc = 90", "polar angle of end of arc = 90."),
+        ("polar angle of begin of arc = 90", "Polar Angle of start of arc=90"),
         ("line 2 tangent to circle (Z-40. X120. R10.)", "line 2 is tangent to circle Z-40 X120 R10"),
         ("corner 1 tangent to line (Z0. X30. A180.)", "corner 1 tangent to line [x30 z0 a180]"),
         ("corner 2 meets line to (Z-60. X130.)", "corner 2 MEETS LINE TO Z-60 X130"),
@@ -145,6 +151,13 @@ MISTAKES = [
     ("line 1 passes through Z-40. Z3.", "Z3.", "a place such as"),
     ("line 1 tangent to circle [Z0 X0]", "]", "`R` and a number"),
     ("corner 1 tangent to line [Z0 X0]", "]", "`A` and a number"),
+    ("line 1 passes [Z0 X0]", "", "`at` and a distance"),
+    ("line 1 passes beside [Z0 X0] at", "", "a number"),
+    ("line 1 parallel line 2", "parallel", "`parallel to`"),
+    ("line 1 parallel to line 2 by 3", "by", "`at` and a distance"),
+    ("line 1 parallel to line 2 at X3", "X3", "a number"),
+    ("chord of line 1 = length of line 1", "length of line 1", "only two lengths or two radii"),
+    ("polar angle of center of corner 1 = 3", "center", "`begin of` or `end of`"),
     ("line 1 touches line 2", "touches", "`tangent to`"),
     ("corner 2 meets line", "line", "`next line`"),
     ("angle from line 1 line 2 = 20", "line", "`to`"),
@@ -207,6 +220,14 @@ IMPOSSIBLE = [
     ("corner 1 meets line at 4", "corner 1 is no last corner"),
     ("corner 2 meets next line", "no next block"),
     ("length of corner 1 = 3", "state the angle between its lines"),
+    ("chord of line 1 = 3", "line 1 is not round"),
+    ("chord of corner 1 = 0", "a chord is larger than 0"),
+    ("polar angle of line 1 = 3", "line 1 is not round"),
+    ("line 1 passes beside [Z0 X0] at -1", "a distance is not negative"),
+    ("line 1 parallel to corner 1", "corner 1 is not a line"),
+    ("line 1 parallel to line 1", "parallel to itself"),
+    ("line 1 parallel to line 2 at -1", "a distance is not negative"),
+    ("line 1 parallel to line 2 at 1", "meet in V1"),
 ]
 
 

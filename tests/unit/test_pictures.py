@@ -939,6 +939,28 @@ def test_the_facts_of_a_sketch_are_dimensions_and_its_points_tell_the_drawings_a
     check(draw(sketch))  # facts that disagree leave no drawing
 
 
+def test_distances_of_a_sketch_are_dimensions_from_lines_and_places():
+    sketch = contoursolve.Sketch()
+    sketch.circle("a", (0, 0), 10)
+    for name in "mn":
+        sketch.infinite_line(name)
+    sketch.circle("k")
+    stated = ("m tangent to a", "direction of m = 30", "n parallel to m at 7", "X of center of k = 40")
+    for fact in (*stated, "Y of center of k = 10", "k passes beside [X40 Y20] at 3"):
+        sketch.state(fact)
+    picture = draw(sketch)
+    check(picture)
+    assert {"n parallel to m at 7", "3"} <= {text.words for text in picture.sheet.drawing if isinstance(text, Text)}
+
+
+def test_how_far_a_line_passes_from_a_place_is_a_dimension():
+    fact = "line 2 passes beside [Z-40. X80.] at 2"
+    (answer,) = contoursolve.solve("G111 X100. A180. K-30.", start="X40. Z0.", facts=[fact]).answers
+    picture = draw_answer(answer)
+    check(picture)
+    assert "2" in {text.words for text in picture.sheet.drawing if isinstance(text, Text)}
+
+
 # The command.
 
 

@@ -1,7 +1,7 @@
 """`contoursolve.Sketch`: names, closed paths, values that are asked for, and calls that make no sense."""
 
 from decimal import Decimal
-from math import hypot, pi, radians, sqrt, tan
+from math import cos, hypot, pi, radians, sqrt, tan
 from typing import Any
 
 import numpy as np
@@ -75,6 +75,64 @@ def test_nothing_follows_a_closed_path() -> None:
         sketch.line("c")
     with pytest.raises(ValueError, match=r"an element from P0 to P0 has no length"):
         Sketch().arc("a", "cw", to="P0")
+
+
+# --- Distances, parallels and arcs from their centres -----------------------------------------------
+
+
+def test_a_plate_is_drawn_from_the_distance_of_its_sides() -> None:
+    sketch = path(("a",), ("b",), ("c",), ("d",))
+    facts = ("direction of a = 10", "length of a = 30", "c parallel to a at 12", "d is parallel to b")
+    drawings = stated(sketch, *facts, "angle from a to b = 80", "length of b = ?")
+    (drawn,) = drawings
+    assert (drawings.is_complete, drawings.ties) == (True, ())
+    assert drawn.asked[0].value == pytest.approx(12 / cos(radians(10)), abs=1e-9)
+    assert drawn.points["P3"] == pytest.approx((0, 12 / cos(radians(10))), abs=1e-9)
+
+
+def whole_lines(*facts: Any) -> Drawings:
+    sketch = Sketch()
+    sketch.circle("a", (0, 0), 10)
+    sketch.infinite_line("m")
+    sketch.infinite_line("n")
+    return stated(sketch, "m tangent to a", "direction of m = 0", *facts)
+
+
+def test_whole_lines_lie_at_a_distance_on_either_side_and_on_one_line_at_none() -> None:
+    drawings = whole_lines("n parallel to m at 4")
+    assert sorted(drawn.lines["n"][2] for drawn in drawings) == pytest.approx([-14, -6, 6, 14], abs=1e-9)
+    assert {drawn.name.split(", ")[1] for drawn in drawings} == {
+        f"n parallel to m at 4 {side}" for side in ("left", "right")
+    }
+    assert all(drawn.points["n.foot"] == pytest.approx((0, drawn.lines["n"][2]), abs=1e-9) for drawn in drawings)
+    assert sorted(drawn.lines["n"][2] for drawn in whole_lines("m parallel to n at 0")) == pytest.approx([-10, 10])
+    assert whole_lines("n parallel to m").free == ("n.off",)
+    assert (
+        whole_lines("n parallel to m", "direction of n = 20", "n passes through [X0 Y0]").status is Status.CONFLICTING
+    )
+
+
+def test_a_circle_passes_beside_a_place_outside_or_inside_and_a_small_one_only_outside() -> None:
+    def radii(place: int, distance: int) -> list[float]:
+        sketch = Sketch()
+        sketch.circle("k")
+        facts = ("X of center of k = 0", "Y of center of k = 0", f"k passes beside [X{place} Y0] at {distance}")
+        return sorted(drawn.radii["k.radius"] for drawn in stated(sketch, *facts))
+
+    assert radii(20, 5) == pytest.approx([15, 25])
+    assert radii(3, 5) == pytest.approx([8])  # the nearest place of a circle of radius 2 is 1 mm away, and not 5
+    assert radii(20, 0) == pytest.approx([20])
+
+
+def test_an_arc_is_drawn_from_its_ends_seen_from_its_centre_and_from_its_chord() -> None:
+    sketch = path(("b", "ccw"), closes=False)
+    asked = ("chord of b = ?", "polar angle of begin of b = ?", "X of center of b = ?")
+    (drawn,) = stated(sketch, "radius of b = 5", "polar angle of begin of b = -90", "polar angle of b = 30", *asked)
+    assert drawn.points["P1"] == pytest.approx((5 * cos(radians(30)), 7.5), abs=1e-9)
+    assert [each.value for each in drawn.asked] == pytest.approx([5 * sqrt(3), -90, 0], abs=1e-9)
+    assert [each.unit.value for each in drawn.asked] == ["mm", "deg", "mm"]
+    sketch.state("polar angle of b = 210")
+    assert len(sketch.solve()) == 0  # the opposite direction
 
 
 # --- What comes out ---------------------------------------------------------------------------------
@@ -171,6 +229,10 @@ def taken() -> Sketch:
         (lambda s: s.state(""), "state: a fact is a text or a statement, not ''"),
         (lambda s: stated(s, "radius of b = 3", "length of x = 3"), "fact 2 `length of x = 3`: expected an element"),
         (lambda s: stated(s, "length of k = 3"), "fact 1 `length of k = 3`: k is a whole circle and has no ends"),
+        (lambda s: stated(s, "chord of k = 3"), "fact 1 `chord of k = 3`: k is a whole circle and has no ends"),
+        (lambda s: stated(s, "polar angle of a = 3"), "a is not round"),
+        (lambda s: stated(s, "m parallel to k"), "k is not a line"),
+        (lambda s: stated(s, "k passes beside [X0 Y0] at -1"), "a distance is not negative"),
         (lambda s: stated(s, "radius of b = -3"), "fact 1 `radius of b = -3`: a radius is larger than 0"),
         (lambda s: stated(s, RadiusIs("x", Decimal(3))), "there is no element 'x' here; elements are a, b, m, k"),
         (lambda s: stated(s, "a meets line at 30"), "fact 1 `a meets line at 30`: a is no last corner"),

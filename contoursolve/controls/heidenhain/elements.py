@@ -17,7 +17,6 @@ from contoursolve.geometry import (
     Coordinate,
     CornerShape,
     Distance,
-    Entering,
     Extent,
     Fact,
     Foot,
@@ -26,12 +25,13 @@ from contoursolve.geometry import (
     Offset,
     OnCircle,
     ParallelLines,
+    PointBeside,
     Radius,
     RadiusStep,
     Ray,
     Role,
+    Spoke,
     Tangent,
-    TangentCircles,
     TangentLine,
     Through,
     Turn,
@@ -64,7 +64,9 @@ class Element(Struct, frozen=True):
     parallel: int = 0
     touching: frozenset[str] = frozenset()
     is_entered: bool = False
-    """Whether AN states its direction."""
+    """Whether AN states the direction in which it begins."""
+    is_ended: bool = False
+    """Whether CCA states the direction from its centre to its end."""
     closes: int = 0
     """The number of the element at whose begin it ends: the one with CLSD+."""
 
@@ -188,7 +190,7 @@ def _direction(_: Chain, place: Place, given: str) -> Iterator[Fact]:
     if place.element.is_line:
         yield Ray(given, place.tail, place.head)
     else:
-        yield Entering(given, place.tail, place.center, place.turn)
+        yield from _spokes(given, place, place.tail, -place.turn.sign)
 
 
 def _angle_to(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
@@ -210,7 +212,12 @@ def _radius(_: Chain, place: Place, given: str) -> Iterator[Fact]:
 
 
 def _end_angle(_: Chain, place: Place, given: str) -> Iterator[Fact]:
-    yield Ray(given, place.center, place.head)
+    yield from _spokes(given, place, place.head)
+
+
+def _spokes(given: str, place: Place, point: str, quarters: int = 0) -> Iterator[Fact]:
+    """The radius of an arc that leads to a point in a stated direction, along both axes."""
+    yield from (Spoke(given, place.center, point, place.radius, axis, quarters) for axis in (FIRST, SECOND))
 
 
 def _closes(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
@@ -224,6 +231,9 @@ def _touches_before(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
     if place.number == 1:
         return
     before = chain.places[place.number - 2]
+    if _is_aimed(chain, place):
+        yield from _goes_on(before, place)
+        return
     arcs = [each for each in (before, place) if not each.element.is_line]
     if len(arcs) == 1:
         line = place if place.element.is_line else before
@@ -235,6 +245,31 @@ def _touches_before(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
     else:
         yield TurnBetween(given, Along(before.name), Along(place.name))
 
+
+def _is_aimed(chain: Chain, place: Place) -> bool:
+    """Whether a word states the direction in which an arc ends or begins, where it touches another element."""
+    if place.number == 1 or place.element.function not in TANGENT:
+        return False
+    before = chain.places[place.number - 2]
+    return before.element.is_ended or (
+        place.element.is_entered and not place.element.is_line and not before.element.is_line
+    )
+
+
+def _goes_on(before: Place, place: Place) -> Iterator[Fact]:
+    """What the direction where two elements touch says of the other one: all of these are affine."""
+    if before.element.is_ended:
+        given = f"{before.prefix}CCA"
+        if place.element.is_line:
+            yield Ray(place.prefix + ALONG, place.tail, place.head)
+        else:
+            yield from _spokes(given, place, place.tail, 0 if before.turn is place.turn else 2)
+    else:
+        yield from _spokes(f"{place.prefix}AN", before, place.tail, -before.turn.sign)
+
+
+ALONG = "along"
+"""The direction of a line that begins where CCA ends an arc: a quarter of a turn from that."""
 
 WORDS: Mapping[str, Facts] = {
     "X": _coordinate("head", FIRST),
@@ -277,17 +312,17 @@ def _point_rows(place: Place) -> Iterator[FactRow]:
         name, words = f"{q}{point}", [f"{q}{point}{axis}" for axis in "XY"]
         distance = f"{q}D"
         needs = (*words, *([distance] if point == BESIDE else []))
-        yield from (FactRow(Coordinate(word, name, axis), needs) for axis, word in enumerate(words))
-        if point != BESIDE or "D" in place.element.touching:
-            on = Through(place.name, name) if line else OnCircle(name, place.center, place.radius)
-            yield FactRow(on, needs)
-            continue
         radius, side = f"{name} distance", f"{name}.side"
-        yield FactRow(Radius(distance, radius), needs)
-        if line:
+        # What words state comes last: of what does not agree, it is named.
+        if point != BESIDE or "D" in place.element.touching:
+            yield FactRow(Through(place.name, name) if line else OnCircle(name, place.center, place.radius), needs)
+        elif line:
             yield FactRow(TangentLine(place.name, name, radius, side), needs)
         else:
-            yield FactRow(TangentCircles((place.center, place.radius), (name, radius), side), needs)
+            yield FactRow(PointBeside((name, radius), (place.center, place.radius), side), needs)
+        yield from (FactRow(Coordinate(word, name, axis), needs) for axis, word in enumerate(words))
+        if point == BESIDE and "D" not in place.element.touching:
+            yield FactRow(Radius(distance, radius), needs)
 
 
 def _parallel_rows(chain: Chain, place: Place) -> Iterator[FactRow]:
@@ -301,8 +336,18 @@ def _parallel_rows(chain: Chain, place: Place) -> Iterator[FactRow]:
         yield FactRow(Through(place.name, other.tail, distance), (word, distance))
         return
     radius, side = f"{place.prefix}DP distance", f"{place.prefix}DP.side"
-    yield FactRow(Radius(distance, radius), (word, distance))
     yield FactRow(TangentLine(place.name, other.tail, radius, side), (word, distance))
+    yield FactRow(Radius(distance, radius), (word, distance))
+
+
+def _aimed_by(chain: Chain, place: Place) -> tuple[str, ...]:
+    """The words that state the direction in which an element begins."""
+    if not _is_aimed(chain, place):
+        return ()
+    before = chain.places[place.number - 2]
+    if not before.element.is_ended:
+        return (f"{place.prefix}AN",)
+    return (f"{before.prefix}CCA", *([place.prefix + ALONG] if place.element.is_line else []))
 
 
 def _rows(chain: Chain) -> Iterator[FactRow]:
@@ -315,6 +360,7 @@ def _rows(chain: Chain) -> Iterator[FactRow]:
         for word in (*own, "CLSD-", TANGENCY):
             given = place.prefix + word
             needs = (given, *((f"{place.element.pole}:{axis}") for axis in "XY" if word in POLAR))
+            needs += tuple(name for name in _aimed_by(chain, place) if word == TANGENCY)
             if word not in POLAR or place.element.pole:
                 yield from (FactRow(fact, needs) for fact in WORDS[word](chain, place, given))
         yield from _point_rows(place)
@@ -322,12 +368,34 @@ def _rows(chain: Chain) -> Iterator[FactRow]:
         if place.element.is_line:
             continue
         after = places[place.number] if place.number < len(places) else None
-        # Where a line touches the arc, the point of contact follows from that.
-        met = [place.element.function in TANGENT and place.number > 1 and places[place.number - 2].element.is_line]
-        met.append(after is not None and after.element.function in TANGENT and after.element.is_line)
+        # Where a line touches the arc, or its radius has a direction, that it passes the point follows.
+        is_smooth = place.element.function in TANGENT and place.number > 1
+        met = [
+            place.element.is_entered
+            or (is_smooth and (places[place.number - 2].element.is_line or _is_aimed(chain, place)))
+        ]
+        is_smooth = after is not None and after.element.function in TANGENT
+        met.append(
+            place.element.is_ended
+            or (after is not None and is_smooth and (after.element.is_line or _is_aimed(chain, after)))
+        )
         for point, is_met in zip((place.tail, place.head), met, strict=True):
             if not is_met:
                 yield FactRow(OnCircle(point, place.center, place.radius), ())
+
+
+def _heading(chain: Chain, place: Place) -> str | None:
+    """The given that states the direction of a line, if one does."""
+    if place.element.is_entered:
+        return f"{place.prefix}AN"
+    return place.prefix + ALONG if _is_aimed(chain, place) else None
+
+
+_USUAL = (
+    *("R", "AN", "X", "Y", "LEN", "CCX", "CCY", "PR", "PA", "CCA", "IX", "IY", "IAN"),
+    *("CCPR", "CCPA", "ICCX", "ICCY", "IPR", "IPA", "ICCPR", "ICCPA"),
+)
+"""The words that complete a chain, in the order in which drawings have them."""
 
 
 @lru_cache(maxsize=2048)
@@ -341,7 +409,7 @@ def compose(
     places = chain.places
     rows = tuple(_rows(chain))
     path = tuple(
-        Line(each.name, each.tail, each.head, f"{each.prefix}AN" if each.element.is_entered else None)
+        Line(each.name, each.tail, each.head, _heading(chain, each))
         if each.element.is_line
         else Arc(each.name, each.tail, each.head, each.center, each.radius, each.turn)
         for each in places
@@ -377,4 +445,6 @@ def compose(
         combinations=tuple(((),) for _ in places),
         assumptions=assumptions,
         is_general=True,
+        usual=tuple(f"{each.prefix}{word}" for word in _USUAL for each in places if each.element.function in FREE),
+        picking="FSELECT",
     )

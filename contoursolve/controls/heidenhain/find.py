@@ -14,6 +14,7 @@ from msgspec.structs import replace
 
 from contoursolve.analysis import analyse
 from contoursolve.controls.heidenhain.elements import (
+    ALONG,
     BESIDE,
     OF_ARCS,
     OF_LINES,
@@ -244,6 +245,11 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
         words |= {prefix + name: word for name, word in own.items()}
         circumstances |= {prefix + each for each in lacking}
         given = _givens(member, own, modes)
+        ended = givens.get(f"{number - 1}:CCA")
+        if ended is not None and element.is_line and member.function in TANGENT:
+            # The line goes on where CCA of the arc before ends, a quarter of a turn from that direction.
+            quarter = 90 * elements[-2].turn.sign if elements[-2].turn else 0
+            given[ALONG] = replace(ended, value=ended.value + quarter)
         givens |= {prefix + name: replace(each, name=prefix + name) for name, each in given.items()}
         lasting |= {prefix + name for name in own if name in _NO_FACTS}
         vocabulary |= {prefix + name: (name, member.index) for name in _may_state(member)}
@@ -392,9 +398,18 @@ def _element(
     turn = None if is_line else Turn.CW if sense < 0 else Turn.CCW
     touching = frozenset(name for name in ("D", "DP") if name in own and own[name].number == 0)
     closes = opening if "CLSD-" in own and opening < number else 0
-    is_entered = "AN" in own and own["AN"].number is not None and is_line
-    element = Element(member.function, turn, member.pole, tuple(counted), parallel, touching, is_entered, closes)
-    return element, lacking
+    stated = [name in own and own[name].number is not None for name in ("AN", "CCA")]
+    return Element(
+        member.function,
+        turn,
+        member.pole,
+        tuple(counted),
+        parallel,
+        touching,
+        is_entered=stated[0],
+        is_ended=stated[1] and not is_line,
+        closes=closes,
+    ), lacking
 
 
 def _givens(member: _Member, own: Mapping[str, Word], modes: Modes) -> dict[str, Given]:

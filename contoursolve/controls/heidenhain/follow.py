@@ -57,7 +57,7 @@ def follow(state: State, block: Block, modes: Modes) -> State:
         return set_pole(state, block, function, modes)
     elif function.startswith("DEP"):
         return state.lose(PLANE, "the tool departs from the contour", block.span)
-    elif function in FREE:
+    elif function in FREE and not all(block.find(axis) for axis in PLANE):
         return state.lose(PLANE, "a free contour leads there", block.span)
     elif any(block.find(name) for name in ("PR", "PA", "IPR", "IPA")):
         moved = _polar(state, block, modes)

@@ -138,6 +138,8 @@ def _rows() -> dict[str, Address]:
         (_FK, Unit.DEGREE, "CCPA", "direction from the pole to the centre"),
         (_FK, Unit.MM, "ICCX", "increment along X to the centre"),
         (_FK, Unit.MM, "ICCY", "increment along Y to the centre"),
+        (_FK, Unit.MM, "ICCPR", "how much farther the centre is from the pole"),
+        (_FK, Unit.DEGREE, "ICCPA", "how far the direction from the pole turns to that of the centre"),
         (_FK, Unit.MM, "R", "radius"),
         (_FK, Unit.SIGN, "DR", "sense of the arc: + is counter-clockwise"),
         (BOOK.assumed("CCA counts from +X"), Unit.DEGREE, "CCA", "direction from the centre to the end of the arc"),

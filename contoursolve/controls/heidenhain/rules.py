@@ -5,7 +5,7 @@ from decimal import Decimal
 
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
-from contoursolve.controls.heidenhain.elements import ARC, LINE, PLAIN, POLE
+from contoursolve.controls.heidenhain.elements import ARC, LINE, PLAIN, POLE, TANGENCY
 from contoursolve.controls.heidenhain.find import CLOSES_NOTHING, CUT, NO_BEFORE, NO_BLOCK, NO_POLE, NO_SENSE, TOOL
 from contoursolve.controls.heidenhain.lexicon import BOOK
 from contoursolve.diagnostics.finding import Alarm, Severity
@@ -23,8 +23,9 @@ _LINES = START + "2 FL AN+60\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM"
 _POINT = START + "2 FL P1X+20 P1Y+20\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM"
 _BESIDE = START + "2 FL PDX+20 PDY+20 D0\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM"
 _ARC = START + "2 FC DR+ R20 CCX+0 CCY+20 X+20 Y+20\n3 END PGM A MM"
-_PARALLEL = "0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL X+50 Y+0\n3 FL AN+90\n4 FL PAR 2 DP 30 AN+180\n5 FL X+0 Y+0 AN-90\n6 END PGM A MM"
+_PARALLEL = START + "2 FL X+50 Y+0\n3 FL AN+90\n4 FL PAR 2 DP 30 AN+180\n5 FL X+0 Y+0 AN-90\n6 END PGM A MM"
 _POLAR = START + "2 FPOL X+10 Y+0\n3 FL PR+20 PA+45\n4 END PGM A MM"
+_POLE = START + "2 FL X+5 Y+0\n3 FPOL X+10 Y+0\n4 FL PR+20 PA+45\n5 END PGM A MM"
 _CLOSED = START + "2 FL X+30 Y+0 CLSD+\n3 FL X+30 Y+20\n4 FL CLSD-\n5 END PGM A MM"
 _TANGENT = START + "2 FL X+30 Y+0\n3 FCT DR+ R10 CCA+0\n4 END PGM A MM"
 _NUMBERED = START + "2 FL X+30 Y+0\n3 FL IX+5 IY+20 RX 2\n4 END PGM A MM"
@@ -78,7 +79,7 @@ _ROWS = (
          "add PAR and the number of that block", _ERRORS, some("DP") & ~some("PAR"), (LINE,), _PARALLEL,
          (" PAR 2", ""), alarm=_INCOMPLETE),
     _row("pole-half", "{words}: the pole has one coordinate", "write X and Y behind FPOL", _ERRORS,
-         _half("X", "Y"), (POLE,), _POLAR, (" Y+0\n3", "\n3"), alarm=_INCOMPLETE),
+         _half("X", "Y"), (POLE,), _POLE, ("10 Y+0", "10"), alarm=_INCOMPLETE),
     _row("block-illegal",
          "the chain is still open where a conventional move follows; FL, FC, RND, CHF, APPR or DEP may",
          "complete the chain before it, or write the move as FL or FC", _ERRORS, some(CUT), _ANY, _LINES,
@@ -91,7 +92,7 @@ _ROWS = (
          ("2 FPOL X+10 Y+0\n", "2 CC X+10 Y+0\n")),
     _row("tangent-first", "it begins in the direction of the element before, which is not known here",
          "write FL or FC with AN, or let the move before it begin at a known point",
-         BOOK.derived("tangential connection"), some(NO_BEFORE), (LINE, ARC, PLAIN), _TANGENT,
+         BOOK.derived("tangential connection"), some(NO_BEFORE) & some("IAN", TANGENCY), (LINE, ARC, PLAIN), _TANGENT,
          ("1 L X+0 Y+0\n2 FL X+30 Y+0\n", "1 CC X+0\n2 APPR LCT X+30 Y+0 R5\n")),
     _row("closes-nothing", "CLSD- ends a contour that CLSD+ in an earlier block begins, and there is none",
          "write CLSD+ into the first block of the contour", BOOK.printed("closed contour"), some(CLOSES_NOTHING), _FK,
@@ -106,8 +107,8 @@ _ROWS = (
 
 _OWN = (
     Rule(
-        "heidenhain-selection", "{words}: there {are} {limit_count} at {subject}",
-        "write a number from 1 to {limit_count}", BOOK.assumed("how FSELECT counts"), (_CHOSEN,),
+        "heidenhain-selection", "{words}: {subject} has {limit_count} alone", "write {numbers}",
+        BOOK.assumed("how FSELECT counts"), (_CHOSEN,),
         (_CHOSEN.replace("SELECT 1", "SELECT 3"),), about=RefusalKind.PICK_NONE,
     ),
     Rule(
