@@ -36,6 +36,7 @@ from contoursolve.controls.heidenhain.lexicon import (
     function_of,
 )
 from contoursolve.controls.heidenhain.settings import SELECTION
+from contoursolve.controls.heidenhain.tangents import senses
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Choice, Given, Pick, Side, Turn, Unit, assemble
 from contoursolve.reading import Convention, Modes, ParsedContour, State, apply_modes, read
@@ -89,6 +90,8 @@ class _Member(Struct):
     corner: Block | None = None
     corner_index: int = 0
     picked: Word | None = None
+    sense: int = 0
+    """Of a conventional arc that has no DR, where it is known: 1 is counter-clockwise."""
 
 
 class _Chain:
@@ -227,6 +230,9 @@ def _leads_on(blocks: Sequence[Block], index: int) -> bool:
 def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
     """What the blocks of a chain state."""
     members, numbers, labels = chain.members, _numbers(chain), _labels(chain)
+    tangents = dict(senses(chain.blocks, before, modes))
+    for member in members:
+        member.sense = tangents.get(member.block.line, 0)
     opening = next((n for n, each in enumerate(members, 1) if _sign_of(each.block, "CLSD") > 0), 0)
     elements: list[Element] = []
     words: dict[str, Word] = {}
@@ -395,7 +401,7 @@ def _element(
     tool = member.here.memory.get(TOOL_AXIS)
     if tool is not None and tool.text != "Z":
         lacking.append(TOOL)
-    turn = None if is_line else Turn.CW if sense < 0 else Turn.CCW
+    turn = None if is_line else Turn.CW if (sense or member.sense) < 0 else Turn.CCW
     touching = frozenset(name for name in ("D", "DP") if name in own and own[name].number == 0)
     closes = opening if "CLSD-" in own and opening < number else 0
     stated = [name in own and own[name].number is not None for name in ("AN", "CCA")]

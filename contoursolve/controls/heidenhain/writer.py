@@ -118,7 +118,7 @@ _PROGRAM_ENDS = (2, 30)
 
 _NUMBER = r"[ \t/]*+(?>(?:N?(?P<number>\d++)(?![.,\w])[ \t]*+)?)"
 _STATEMENTS = tuple(
-    (name, re.compile(_NUMBER + pattern, re.IGNORECASE))
+    (name, re.compile(rf"{_NUMBER}(?:{pattern})", re.IGNORECASE))
     for name, pattern in (
         ("begin", r"BEGIN[ \t]+PGM\b"),
         ("end", r"END[ \t]+PGM\b"),
