@@ -160,7 +160,7 @@ class InGCodes(_Expander):
         here, at, turn = (first + one, second + two), (first, second), Turn.CCW if sweep > 0 else Turn.CW
         radius, begin = dist(at, center), atan2(second - center[1], first - center[0])
         beside = {axis: (float(before.axes[axis].value or 0), end) for axis, end in ends.items() if axis not in axes}
-        parts = ceil(abs(sweep) / longest(form))
+        parts = ceil(abs(sweep) / (longest(form) - 1.0))
         for number in range(1, parts + 1):
             share = number / parts
             angle = begin + radians(sweep) * share
