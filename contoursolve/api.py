@@ -347,7 +347,7 @@ def convert(
     G01 X100. ,A120.
     """
     # Only this function needs them.
-    from contoursolve.comparison import compare, follow  # noqa: PLC0415
+    from contoursolve.comparison import compare, follow, whole  # noqa: PLC0415
     from contoursolve.postprocess.expansion_report import Conversion  # noqa: PLC0415
     from contoursolve.postprocess.post_processors import machine_of, post_of  # noqa: PLC0415
     from contoursolve.postprocess.translate import language_of  # noqa: PLC0415
@@ -369,7 +369,7 @@ def convert(
     unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
     axes = tuple(sorted({*dialect.modes.axes, *target.modes.axes}))
     old, new = (
-        follow(run(gcode.parse(program, name), each, unit, policy), each, unit, axes)
+        follow(run(gcode.parse(program, name), whole(each), unit, policy), each, unit, axes)
         for program, each in ((text, dialect), (found.text, target))
     )
     comparison = compare(old, new, _CONVERTED_WITHIN)

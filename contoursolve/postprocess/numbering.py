@@ -81,7 +81,7 @@ class Numberer:
             self._divided[word.number] = block.line
         if self._numbers is None or word.number % 1:
             return ""
-        number, width = int(word.number), len(word.text.strip()) - len(self.prefix)
+        number, width = int(word.number), len(word.text.strip().lstrip("Nn"))
         for text in (text for at, text in enumerate(texts) if at != place):
             free = self._numbers.take_after(number)
             if free is None:

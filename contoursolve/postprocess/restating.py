@@ -121,8 +121,9 @@ class InGCodes(_Expander):
     def _is_rapid(self, part: ContourBlock) -> bool:
         return self.plain.is_rapid(part.block)
 
-    def _translate(self, *_: object) -> None:
-        return None
+    def _translate(self, answer: Answer, *_: object) -> None:
+        if self.options.post.target is not None:
+            self.summary.written_out.append(answer.lines[0])
 
     def _write(self, block: Block, moves: list[Move], end: str, state: State) -> str:
         said = self.plain.beside(block, state)

@@ -280,3 +280,29 @@ def test_a_program_without_an_end_gets_one():
 def test_compensation_is_said_where_it_changes():
     lines = in_place_of(chain("L X+5 RL", "L X+9 RL", "L Y+5 R0", "L Y+9 R0"), post="linuxcnc")
     assert lines[3:7] == ["N2 G41 G01 X5", "N3 G01 X9", "N4 G40 G01 Y5", "N5 G01 Y9"]
+
+
+# --- The same path ---
+
+
+@pytest.mark.parametrize("post", ["same", "linuxcnc"])
+@pytest.mark.parametrize("share", [1.0, 0.5, 0.0])
+def test_diff_finds_an_expanded_program_equal(tmp_path, post, share):
+    old, new = tmp_path / "old.h", tmp_path / "new.nc"
+    for seed in range(3):
+        old.write_text(random_program(Random(seed), share).text)
+        done = CliRunner().invoke(main, ["expand", "--post", post, str(old), "-o", str(new), "--force"])
+        assert done.exit_code == 0, done.stderr
+        control = ["--new-control", "linuxcnc"] if post == "linuxcnc" else []
+        done = CliRunner().invoke(main, ["diff", "--tolerance", "0.002", *control, str(old), str(new)])
+        assert done.exit_code == 0, done.output
+
+
+def test_convert_writes_contours_out_and_follows_both_paths():
+    helix = chain("L Z+0", "CC X+10 Y+0", "CP IPA+810 IZ-9 DR+", "L X+5 A+30")
+    assert contoursolve.convert(helix, "fanuc-mill").text is None
+    found = contoursolve.convert(helix.replace(" A+30", ""), "fanuc-mill", comments=False)
+    assert found.comparison.is_equal
+    found = contoursolve.convert(CAM, "fanuc-mill", comments=False)
+    assert found.text.splitlines()[9] == "N8 G01 X8.682 Y49.24"
+    assert (found.summary.in_words, found.summary.written_out) == (0, [9])

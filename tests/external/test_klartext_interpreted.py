@@ -63,7 +63,7 @@ def test_linuxcnc_runs_the_worked_examples_along_their_contours(name, tmp_path):
         else (complex(*each.start), complex(*each.end), None, "line")
         for each in answer.contour.elements
     ]
-    motions = cut(interpret(expanded(text), tmp_path))
+    motions = cut(interpret("F200\n" + expanded(text), tmp_path))
     begin = next(place for place, each in enumerate(motions) if abs(each.end - path[0][1]) <= WITHIN)
     assert_path(motions[begin : begin + len(path)], path, WITHIN)
 
@@ -71,7 +71,7 @@ def test_linuxcnc_runs_the_worked_examples_along_their_contours(name, tmp_path):
 @pytest.mark.interpreter
 def test_linuxcnc_runs_a_helix_of_several_turns(tmp_path):
     text = "0 BEGIN PGM A MM\n1 L X+30 Y+0 Z+0 F200\n2 CC X+0 Y+0\n3 CP IPA+810 IZ-9 DR+\n4 END PGM A MM\n"
-    motions = cut(interpret(expanded(text), tmp_path))
+    motions = cut(interpret("F200\n" + expanded(text), tmp_path))
     assert all(each.kind == "ccw" and hypot(each.center.real, each.center.imag) <= WITHIN for each in motions[1:])
     assert abs(motions[-1].end - 30j) <= WITHIN
     assert " Z-9\n" in expanded(text)
