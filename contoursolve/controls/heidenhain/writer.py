@@ -159,10 +159,8 @@ class _Plain:
             return Restated(reason=f"{function} {_UNTRANSLATED}")
         # Behind the end of a program, nothing is known.
         path = replace(block, words=tuple(word for word in block.words if word.address != "M"))
-        after, axes = (
-            follow(before, path, _MODES),
-            {LEXICON.addresses[word.address].axis for word in axis_words(block, _MODES)},
-        )
+        after = follow(before, path, _MODES)
+        axes = {LEXICON.addresses[word.address].axis for word in axis_words(block, _MODES)}
         if function in _ARCS or (function in MOVES and any(block.find(name) for name in ("PR", "PA", "IPR", "IPA"))):
             axes |= {*PLANE}
         around = None
