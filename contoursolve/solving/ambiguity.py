@@ -31,6 +31,7 @@ from contoursolve.solving.alternatives import Alternative, Alternatives, decide,
 from contoursolve.solving.compare import compare_affine
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import enumerate_solutions
+from contoursolve.solving.plan import is_closed
 from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind, Solution, Status
 from contoursolve.solving.solve import solve
 
@@ -228,7 +229,7 @@ def _affine(profile: Profile, groups: tuple[Group, ...], doubtful: list[Group]) 
     """What the solver of ordinary words says of a group, where it and all before it are about such words."""
     part = _first(profile, groups[: groups.index(doubtful[0]) + 1])
     system = assemble(part)
-    if not is_affine(part.facts) or not analyse(system).is_determined:
+    if not is_affine(part.facts) or not analyse(system).is_determined or not is_closed(system):
         return None
     refusals = [each for each in solve(part).refusals if isinstance(each, Refusal)]
     return Solution(refusals[0].kind.status, refusals=tuple(refusals)) if refusals else None
