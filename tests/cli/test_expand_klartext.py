@@ -103,6 +103,8 @@ def test_the_feed_of_a_rounding_ends_with_it():
     assert in_place_of(text)[2:6] == ["2 L X+45 Y+0", "3 CC X+45 Y+5", "C X+50 Y+5 DR+ F50", "4 L X+50 Y+50 F200"]
     text = chain("FL X+50 Y+0", "RND R5 F50", "FL X+50 Y+50 FMAX", "L X+0")
     assert in_place_of(text)[5:8] == ["4 L X+50 Y+50 FMAX", "L F200", "5 L X+0"]
+    lines = in_place_of(text.replace("5 L", "M8\n/L Y+0\n5 L"), post="linuxcnc")
+    assert lines[5:9] == ["N4 G00 X50 Y50", "M8", "/G01 Y0 F200", "N5 G01 X0 F200"]
 
 
 def test_a_centre_that_was_in_force_is_in_force_behind_the_contour():
@@ -257,6 +259,13 @@ def test_corners_between_conventional_moves_are_written_out():
         "N2 G01 X45 Y0", "N3 G03 X50 Y5 I0 J5", "N4 G01 X50 Y48", "N5 G01 X48 Y50", "N6 G01 X0 Y50",
         "N7 G03 X0 Y20 I0 J-15", "N8 G01 X30 Y20",
     ]  # fmt: skip
+
+
+def test_what_a_block_that_is_not_written_puts_in_force_is_said_in_the_next_that_moves():
+    text = chain("APPR LT X+10 Y+20 LEN15 RL F250", "M8", "FL X+50 AN+0", "FL X+50 Y+50", "DEP LT LEN5", "L X+90")
+    lines = contoursolve.expand(text, post="linuxcnc", comments=False, keep_going=True).text.splitlines()
+    assert lines[5:8] == ["N3 G41 M8", "N4 G01 X50 Y20 F250", "N5 G01 X50 Y50"]
+    assert lines[10] == "N7 G40 G01 X90"
 
 
 def test_parameters_that_are_known_are_written_as_numbers():

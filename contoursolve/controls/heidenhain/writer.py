@@ -37,9 +37,14 @@ class _Feed:
             self.is_due = bool(stated and self.in_force)
         elif stated:
             self.in_force, self.is_due = stated, False
-        elif self.is_due and found is None:
-            return self.resume()
+        elif self.is_due and found is None and _is_moving(block):
+            return self.in_force if block.is_skippable else self.resume()
         return ""
+
+    def leave(self, block: Block) -> None:
+        """A block is not written: what it says of the feed is due."""
+        self.take(block)
+        self.is_due |= block.find("F") is not None and bool(self.in_force)
 
     def resume(self) -> str:
         """The word that puts the feed before a corner in force again, if that is due."""
@@ -101,6 +106,10 @@ class _Own:
         return [*lines, *([["L", feed]] if feed else [])]
 
 
+def _is_moving(block: Block) -> bool:
+    return function_of(block) in MOVES or bool(axis_words(block, _MODES))
+
+
 def _signed(number: str) -> str:
     return number if number.startswith("-") else f"+{number}"
 
@@ -140,13 +149,19 @@ class _Plain:
 
     def __init__(self) -> None:
         self.feed = _Feed()
-        self.side, self.tool = "G40", ""
+        self.side, self.wanted, self.tool = "G40", "G40", ""
+        """The side of the tool as it is written, and as the program has it: a block between may not be written."""
         self.is_length_due = self.has_ended = False
 
     def restate(self, block: Block, before: State, after: State) -> Restated:
         """A block that belongs to no contour."""
-        if block.macro is not None:
-            return self._statement(block, after)
+        said = self._statement(block, after) if block.macro is not None else self._move(block, before)
+        if said.reason and not said.ends:
+            self.feed.leave(block)
+            self._take_side(block)
+        return said
+
+    def _move(self, block: Block, before: State) -> Restated:
         if block.faults:
             return Restated(reason=f"{block.faults[0].text.strip()} cannot be read")
         block, function = resolved(block, before), function_of(block)
@@ -181,19 +196,18 @@ class _Plain:
     def beside(self, block: Block, before: State, *, is_length: bool = False) -> Restated:
         """The words of a block that are no path: compensation, feed, spindle, other axes, M functions."""
         due = self.feed.take(block)
-        codes, words, last, reasons = list[str](), list[str](), list[str](), list[str]()
+        self._take_side(block)
+        codes, words, last, reasons = self._turn(), list[str](), list[str](), list[str]()
         for word in block.words:
             text, number = word.text.strip().upper(), word.number
-            if word.address == "G":
-                codes += self._turn(_SIDES.get(text, self.side))
-            elif word.address == "F" and number is not None and text[1:2] not in ("U", "Z"):
+            if word.address == "F" and number is not None and text[1:2] not in ("U", "Z"):
                 words.append(_feed(text, before.unit))
             elif word.address in _AS_WRITTEN and number is not None:
                 words.append(f"{word.address}{number:f}")
             elif word.address == "M" and number in _M:
                 self.has_ended |= number in _PROGRAM_ENDS
                 (last if number in _AT_ITS_END else words).extend(_M[int(number or 0)])
-            elif not (word.address in LEXICON.addresses or word.address == "N" or _is_rapid_word(text)):
+            elif not (word.address in LEXICON.addresses or word.address in ("N", "G") or _is_rapid_word(text)):
                 reasons.append(f"{text} {_UNTRANSLATED}")
         if function_of(block) == "STOP":
             last.insert(0, "M0")
@@ -210,12 +224,18 @@ class _Plain:
         feed = block.find("F")
         return feed is not None and feed.number is None and _is_rapid_word(feed.text.strip())
 
-    def _turn(self, side: str) -> list[str]:
+    def _take_side(self, block: Block) -> None:
+        """Keep in mind on which side of the contour the tool goes; a departure ends that."""
+        for word in block.words:
+            if word.address == "G":
+                self.wanted = _SIDES.get(word.text.strip().upper()[:3].strip(), self.wanted)
+
+    def _turn(self) -> list[str]:
         """The code for the side of the tool, where that is another one."""
-        if side == self.side:
+        if self.wanted == self.side:
             return []
-        self.side = side
-        return [f"{side} D{self.tool}" if self.tool and side != "G40" else side]
+        self.side = self.wanted
+        return [f"{self.side} D{self.tool}" if self.tool and self.side != "G40" else self.side]
 
     def _statement(self, block: Block, after: State) -> Restated:
         name, found = next((name, found) for name, row in _STATEMENTS if (found := row.match(block.text)))
@@ -253,7 +273,7 @@ class _Plain:
         return Restated(_says(number, codes, words, []))
 
 
-_SIDES = {"R0": "G40", "RL": "G41", "RR": "G42"}
+_SIDES = {"R0": "G40", "RL": "G41", "RR": "G42", "DEP": "G40"}
 _AT_ITS_END = frozenset({0, 1, 2, 5, 9, 30})
 
 
