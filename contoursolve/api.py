@@ -259,6 +259,9 @@ def expand(
 ) -> Expansion:
     """A program with every contour written as plain G00, G01, G02 and G03, and everything else as it was.
 
+    A control that is not programmed in G codes gets its own lines and arcs; for another target, all of its program is
+    written in G codes.
+
     Args:
         text: the program, with its line ends.
         post: the target: `same` (the control that the program is for), `linuxcnc` or `fanuc`, or one of your own.

@@ -118,6 +118,13 @@ class InGCodes(_Expander):
         for block in step.blocks:
             yield self._lines(block, NOTHING, (), self.lines.take_end(block.line), is_kept=True)
 
+    def _obstacle(self, answer: Answer) -> str:
+        rows = self.modes.lexicon.addresses
+        beside = (word for block in answer.claim.blocks[:1] for word in answer.claim.beside_plane(block))
+        steps = [word.text for word in beside if rows[word.address].is_increment]
+        reason = f"{steps[0]} moves an axis outside the plane: move it in a block of its own" if steps else ""
+        return super()._obstacle(answer) or reason
+
     def _is_rapid(self, part: ContourBlock) -> bool:
         return self.plain.is_rapid(part.block)
 

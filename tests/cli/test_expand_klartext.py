@@ -118,6 +118,16 @@ def test_a_move_of_the_tool_axis_between_free_elements_stays():
     assert in_place_of(text, post="linuxcnc")[4:6] == ["N3 G01 Z-5 F80 (DOWN)", "N4 G01 Z-6"]
 
 
+@pytest.mark.parametrize(("word", "is_written"), [("Z-5", True), ("IZ-5", False)])
+def test_a_single_free_line_may_move_the_tool_axis(word, is_written):
+    text = chain(f"FL X+50 Y+0 {word}", before="L X+0 Y+0 Z+0 F200")
+    assert in_place_of(text)[2] == f"2 L X+50 Y+0 {word}"
+    found = contoursolve.expand(text, post="linuxcnc", comments=False)
+    assert (found.text is not None) is is_written
+    if is_written:
+        assert "N2 G01 X50 Y0 Z-5\n" in found.text
+
+
 def test_numbers_for_every_line_are_those_that_are_free():
     written = contoursolve.expand(CAM, block_numbers="all", comments=False).text.splitlines()
     assert [line.split()[0] for line in written[8:12]] == ["8", "9", "18", "10"]

@@ -80,8 +80,9 @@ class _Own:
         return lines
 
     def _move(self, code: int, words: Sequence[str]) -> Iterator[list[str]]:
-        numbers = {word[0]: _signed(word[1:]) for word in words}
-        ends = [axis + numbers[axis] for axis in "XYZ" if axis in numbers]
+        parts = [_PARTS.fullmatch(word) for word in words]
+        numbers = {part["address"]: _signed(part["number"]) for part in parts if part}
+        ends = [axis + numbers[axis] for axis in ("X", "Y", "Z", "IZ") if axis in numbers]
         sense = {2: "DR-", 3: "DR+"}.get(code)
         if sense is None:
             yield ["L", *ends]
@@ -108,6 +109,9 @@ class _Own:
 
 def _is_moving(block: Block) -> bool:
     return function_of(block) in MOVES or bool(axis_words(block, _MODES))
+
+
+_PARTS = re.compile(r"(?P<address>[A-Z]+)(?P<number>.*)")
 
 
 def _signed(number: str) -> str:
