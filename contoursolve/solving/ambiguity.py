@@ -119,10 +119,11 @@ class Settlement(Struct, frozen=True):
     loose: tuple[str, ...] = ()
 
 
-def settle(profile: Profile) -> Settlement:
+def settle(profile: Profile, *, is_blaming: bool = True) -> Settlement:
     """The contour that the control makes of a determined profile, or the only one that there is.
 
-    Where the first facts are singular at their values, those that were not needed are tried instead of them.
+    Where the first facts are singular at their values, those that were not needed are tried instead of them. Which
+    facts are to blame where there is no contour takes searches of its own.
     """
     alternatives = find_alternatives(profile)
     if not alternatives.items and _singular(alternatives):
@@ -131,7 +132,7 @@ def settle(profile: Profile) -> Settlement:
     nearest = tuple(sorted(alternatives.items, key=_disagreement))
     solution = decide(replace(alternatives, items=nearest), profile)
     kinds = {refusal.kind for refusal in solution.refusals}
-    if not kinds & {RefusalKind.NO_POINT, RefusalKind.SEARCH_UNFINISHED}:
+    if not is_blaming or not kinds & {RefusalKind.NO_POINT, RefusalKind.SEARCH_UNFINISHED}:
         return Settlement(solution, alternatives)
     system = assemble(profile)
     groups = _groups(system)
