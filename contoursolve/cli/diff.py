@@ -73,9 +73,10 @@ def diff(
 ) -> None:
     """Tell whether OLD and NEW describe the same path, and if not, where they differ first.
 
-    diff solves the contours and follows all moves by G0 to G3. It reads either program as its own control does. Either
-    program may divide a line or an arc. diff does not follow cycles, subprograms and the like: they must be the same
-    word by word, and it lists them. It does not compare feeds, leads, speeds, tools, offsets, dwells and M functions.
+    diff solves the contours and follows all moves by G0 to G3, and the path functions of Klartext. It reads either
+    program as its own control does. Either program may divide a line or an arc. diff does not follow cycles,
+    subprograms and the like: they must be the same word by word, and it lists them. It does not compare feeds, leads,
+    speeds, tools, offsets, dwells and M functions.
 
     Exit status: 0 the same path, 1 not the same or not solved, 2 could not run.
 

@@ -126,6 +126,9 @@ def expand(
     translates contours alone. It names every word of the rest that the target does not know. It writes nothing where a
     contour fails, or where the target would run another path: a turning cycle as a rapid, for example.
 
+    Of a Klartext program, free contours become L, CC and C. For another target, such as --post linuxcnc, expand writes
+    the other blocks in G codes, too.
+
     Exit status: 0 every contour is expanded, 1 one is left or nothing is written, 2 could not run.
 
     \b

@@ -57,4 +57,6 @@ lowest = low.intervals[0].low.value
 assert low.is_complete
 assert abs(lowest - 5 - setback(slope(15, low=lowest)[1])) < 1e-6
 assert plain.summary.replaced == 1
+assert "C X+28.253 Y+60.848 DR-" in plain.text
+assert not {"FL", "FLT", "FCT"} & set(plain.text.split())
 assert moved.summary.replaced == 1
