@@ -68,6 +68,8 @@ class Element(Struct, frozen=True):
     """Whether AN states the direction in which it begins."""
     is_ended: bool = False
     """Whether CCA states the direction from its centre to its end."""
+    is_placed: bool = False
+    """Whether both coordinates of its end are stated."""
     closes: int = 0
     """The number of the element at whose begin it ends: the one with CLSD+."""
 
@@ -238,9 +240,10 @@ def _touches_before(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
     arcs = [each for each in (before, place) if not each.element.is_line]
     if len(arcs) == 1:
         line = place if place.element.is_line else before
-        # Where the point is known besides, the tangency comes last, and is what does not agree.
-        yield Foot(line.name, place.tail, arcs[0].center)
-        yield TangentLine(line.name, arcs[0].center, arcs[0].radius, arcs[0].turn.sign, given)
+        foot = Foot(line.name, place.tail, arcs[0].center)
+        tangent = TangentLine(line.name, arcs[0].center, arcs[0].radius, arcs[0].turn.sign, given)
+        # Where the point is stated, the tangency comes last, and is what does not agree.
+        yield from (foot, tangent) if before.element.is_placed else (tangent, foot)
     elif arcs:
         side = 1 if before.turn is not place.turn else -1
         yield Contact(place.tail, before.center, place.center, side, given)

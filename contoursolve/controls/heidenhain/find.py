@@ -441,6 +441,7 @@ def _element(
         touching,
         is_entered=stated[0],
         is_ended=stated[1] and not is_line,
+        is_placed=member.function not in FREE or all(own.keys() & {axis, f"I{axis}"} for axis in PLANE),
         closes=closes,
     ), lacking
 
