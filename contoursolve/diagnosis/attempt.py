@@ -412,6 +412,8 @@ def _drops_more(edit: Edit, claim: ParsedContour) -> bool:
 def _is_settled(answer: Answer, edits: tuple[Edit, ...]) -> bool:
     """Whether it is solved. A value that was corrected may then say what the others say."""
     if answer.status is Status.OVERDETERMINED:
+        if answer.claim.form.is_general:
+            return True
         return answer.profile.is_extended and any(edit.kind is EditKind.CHANGE for edit in edits)
     return answer.status is Status.SOLVED
 

@@ -155,7 +155,8 @@ class _Notebook:
         self.statuses: set[Status] = set()
 
     def add(self, finding: Diagnostic, status: Status | None = None) -> None:
-        self.findings.append(finding)
+        if finding not in self.findings:
+            self.findings.append(finding)
         if status and finding.severity is Severity.ERROR:
             self.statuses.add(status)
 

@@ -232,7 +232,10 @@ def lay_out(
         tuple(corner for row in form.corners for corner in _corners(form, row, stated, asked, sharp)),
         lines=tuple(line for line in form.lines if line.heading is None or line.heading in stated),
     )
-    return Layout(*_with_carriers(figure, facts, mentioned) if form.is_general else (figure, facts))
+    if not form.is_general:
+        return Layout(figure, facts)
+    wanted = {name for row in form.facts if row.fact.given in asked for name in row.fact.reads()}
+    return Layout(*_with_carriers(figure, facts, mentioned | {name.rpartition(".")[0] for name in wanted}))
 
 
 def _with_carriers(figure: Figure, facts: tuple[Fact, ...], mentioned: set[str]) -> tuple[Figure, tuple[Fact, ...]]:

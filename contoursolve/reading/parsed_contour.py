@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, Directive, Word
-from contoursolve.geometry import Choice, Fact, Given, Layout, Pick, Plane, Profile, Question, Radius, Side
+from contoursolve.geometry import Choice, Fact, Given, Layout, Line, Pick, Plane, Profile, Question, Radius, Side
 from contoursolve.reading.contour_form import Assumption, ContourForm, Convention, lay_out
 from contoursolve.reading.lexicon import Lexicon
 from contoursolve.reading.modal_state import Modes, Position, State, apply_modes, axis_words, positions
@@ -192,7 +192,9 @@ def _questions(claim: ParsedContour, asked: frozenset[str], layout: Layout) -> I
     """The words that are asked for, each with the fact that it would state about what there is."""
     if not asked:
         return
-    drawn = {layout.figure.start, *layout.figure.points, *layout.figure.radii}
+    figure = layout.figure
+    headed = (each.name for each in figure.path if isinstance(each, Line) and each.heading)
+    drawn = {figure.start, *figure.points, *figure.radii, *figure.carriers, *headed}
     facts: dict[str, Fact] = {}
     for row in claim.form.facts:
         if row.fact.given in asked and drawn.issuperset(name.partition(".")[0] for name in row.fact.reads()):

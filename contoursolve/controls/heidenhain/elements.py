@@ -256,9 +256,7 @@ def _is_aimed(chain: Chain, place: Place) -> bool:
     if place.number == 1 or place.element.function not in TANGENT:
         return False
     before = chain.places[place.number - 2]
-    return before.element.is_ended or (
-        place.element.is_entered and not place.element.is_line and not before.element.is_line
-    )
+    return before.element.is_ended or (place.element.is_entered and not place.element.is_line)
 
 
 def _goes_on(before: Place, place: Place) -> Iterator[Fact]:
@@ -269,6 +267,8 @@ def _goes_on(before: Place, place: Place) -> Iterator[Fact]:
             yield Ray(place.prefix + ALONG, place.tail, place.head)
         else:
             yield from _spokes(given, place, place.tail, 0 if before.turn is place.turn else 2)
+    elif before.element.is_line:
+        yield Ray(f"{place.prefix}AN", before.tail, before.head)
     else:
         yield from _spokes(f"{place.prefix}AN", before, place.tail, -before.turn.sign)
 

@@ -90,13 +90,13 @@ _WORDS = (
     rf"(?P<long>{_LONG})[ \t]*+{_value('long')}",
     rf"(?P<corner>RND|CHF)(?![A-Z])[ \t]*+(?>(?:R[ \t]*+)?){_value('corner')}",
     # R0 is no radius: it ends the compensation.
-    rf"(?!R0(?!\w))(?P<letter>{_AXIS}|[A-Z])(?![A-Z])[ \t]*+{_value('letter')}",
+    rf"(?!R0(?![\w.,]))(?P<letter>{_AXIS}|[A-Z])(?![A-Z])[ \t]*+{_value('letter')}",
 )
 _TOKENS = (
     f"(?P<word>{'|'.join(_WORDS)})",
     r"(?P<blank>[ \t\f\v\x1a\ufeff~]++)",
     r"(?P<comment>;.*+)",
-    rf"(?P<name>(?:APPR|DEP)[ \t]++[A-Z]++|(?:{_BY_LENGTH})(?!\w))",
+    rf"(?P<name>(?:APPR|DEP)[ \t]++[A-Z]++|(?:{_BY_LENGTH})(?![\w.,]))",
     rf"(?P<malformed>(?:{_LONG}|RND[ \t]*+R?+|CHF|{_AXIS}|[A-Z](?![A-Z]))[ \t]*+(?=[\d.,+-])[\w.,+-]++)",
     r"(?P<bare>[A-Z]++[+-]?+)",
     r"(?P<stray>[^ \tA-Z;]++)",
