@@ -213,6 +213,9 @@ class BranchRows:
         paths, chosen = count(is_path), count(pairs.is_chosen)
         differs = count(pairs.is_chosen & (status != settled.status[pairs.rows])) > 0
         settled.again |= differs & (paths == 0)
+        if self.case.profile.picks:
+            # Which of several a number chooses is counted for each row by itself.
+            settled.again |= paths > 1
         settled.status[paths > 1] = Code.AMBIGUOUS
         settled.reason[paths > 1] = 0
         is_only = (paths == 1) | ((paths == 0) & (chosen == 1))
