@@ -38,7 +38,7 @@ from contoursolve.pictures.page import (
 )
 from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thin, Trail, Viewport, Weight
 from contoursolve.pictures.svg import steps_text
-from contoursolve.pictures.theme import DASHES, MEANINGS, Role
+from contoursolve.pictures.theme import CHAINS, DASHES, MEANINGS, Role
 from contoursolve.pictures.vectors import along, direction, distance, middle, sweep_of
 from contoursolve.solving.contour import ArcSegment, Segment
 
@@ -155,7 +155,7 @@ def _ends_of(canvas: Canvas, thin: Thin) -> tuple[Spot, Spot] | None:
 
 def _strokes(view: Viewport, trail: Trail) -> Iterator[Stroke]:
     """A path as strokes; one where it has no gap."""
-    is_ink = trail.role is Role.INK
+    is_ink = trail.role in (Role.INK, Role.DETERMINED)
     width = (THICK if is_ink else THICK - 0.4) if trail.weight is Weight.MAIN else 1.4
     dash = () if is_ink or trail.weight is Weight.MIRRORED else DASHES.get(trail.role, ())
     steps: list[Spot | Sweep] = []
@@ -265,7 +265,7 @@ def _foot_of(scene: Scene, homeless: Sequence[str], small: Sequence[str], top: f
         wide = 34.0 + width_of(text, _SMALL) + 18.0
         if x + wide > right and x > begin:
             x, y = begin, y + 16.0
-        yield line((x, y - 4.0), (x + 28.0, y - 4.0), role, 1.6)
+        yield line((x, y - 4.0), (x + 28.0, y - 4.0), role, THICK if role in CHAINS else 1.6)
         yield Text((x + 34.0, y), (TextRun(text, role),), _SMALL)
         x += wide
     y += 20.0
@@ -294,6 +294,7 @@ def _bar(unit: Length, scale: float, y: float) -> Iterator[Item]:
 
 _STATES = (
     Role.INK,
+    *CHAINS,
     Role.RAPID,
     Role.GIVEN,
     Role.DERIVED,
