@@ -24,7 +24,7 @@ from contoursolve.pictures.scene import Aligned, Leader, Mark, MarkKind, Part, R
 from contoursolve.pictures.subject import Subject
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import ALONG_AXIS, SAME, along, direction, distance, foot, toward, with_coordinate
-from contoursolve.solving import Point, Refusal, RefusalKind
+from contoursolve.solving import Point, Refusal, RefusalKind, Status
 from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.contour import LineSegment
 
@@ -83,7 +83,8 @@ def _rings(subject: Subject) -> Iterator[Ring]:
     for element in profile.figure.path:
         circle = subject.circle(element.center, element.radius) if isinstance(element, Arc) else None
         if circle is not None and (chosen & {element.tail, element.head} or subject.answer.contour is None):
-            is_open = subject.is_chain and element.name not in subject.elements
+            is_open = subject.is_chain and subject.answer.status is Status.UNDERDETERMINED
+            is_open = is_open and element.name not in subject.elements
             yield Ring(*circle, Role.OPEN if is_open else Role.MUTED)
     for each in profile.figure.circles:
         center = place_of(profile, each.center)
@@ -104,24 +105,25 @@ def _open_elements(subject: Subject) -> Iterator[Part]:
     """What is known of the elements of a chain for which there are too few data: the line of one of known direction
     through a known point, the chord of an arc. The circles of arcs are drawn as circles."""
     reach = _reach(subject)
+    role = Role.OPEN if subject.answer.status is Status.UNDERDETERMINED else Role.CONFLICTING
     for element in subject.profile.figure.path:
         if element.name in subject.elements:
             continue
         tail, head = subject.at(element.tail), subject.at(element.head)
         if isinstance(element, Arc):
             if tail is not None and head is not None:
-                yield Thin(tail, head, Role.OPEN)
+                yield Thin(tail, head, role)
             continue
         way = _way_of(subject, element)
         if way is None:
             continue
         if tail is not None or head is not None:
             begin = tail if tail is not None else along(head or (0.0, 0.0), way, -reach)
-            yield Trail((LineSegment(element.name, begin, along(begin, way, reach)),), Role.OPEN)
+            yield Trail((LineSegment(element.name, begin, along(begin, way, reach)),), role)
         elif line_scalars(element.name)[2] in subject.known.scalars:
             offset = subject.known.scalars[line_scalars(element.name)[2]]
             on = -way[1] * offset, way[0] * offset
-            yield _endless(on, way, Role.OPEN)
+            yield _endless(on, way, role)
 
 
 def _way_of(subject: Subject, line: Line) -> Point | None:

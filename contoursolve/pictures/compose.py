@@ -64,7 +64,8 @@ _READABLE = 11.0
 def _corners(trails: Sequence[Trail]) -> Iterator[Closeup]:
     """The corners of a path, in its order."""
     segments = [segment for trail in trails if trail.weight is Weight.MAIN for segment in trail.segments]
-    yield from (Closeup(each.name, (each,), _READABLE) for each in segments if each.name.startswith("corner"))
+    corners = {each.name: each for each in segments[::-1] if each.name.startswith("corner")}
+    yield from (Closeup(each.name, (each,), _READABLE) for each in segments if corners.get(each.name) is each)
 
 
 def title_of(answer: Answer) -> str:
