@@ -6,7 +6,6 @@ then `lexer`.
 
 from contoursolve.gcode.lexer import (
     LONGEST_BLOCK,
-    SKIP,
     find_words,
     parse,
     parse_block,
@@ -54,7 +53,6 @@ __all__ = [
     "FACT",
     "ISO",
     "LONGEST_BLOCK",
-    "SKIP",
     "STANDARD_INPUT",
     "Block",
     "Directive",

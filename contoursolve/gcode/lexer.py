@@ -23,8 +23,6 @@ _SIMPLE_WORD = r"[ \t]*+([A-DF-Za-df-z])([+-]?+(?:[0-9]{1,16}+(?>(?:\.[0-9]{0,15
 _SIMPLE = re.compile(rf"(?>(?:{_SIMPLE_WORD})+)[ \t]*+")
 """Nothing but words without blanks inside them; E may be an exponent."""
 _SIMPLE_WORDS = re.compile(_SIMPLE_WORD)
-SKIP = re.compile(r"[ \t]*+/[1-9]?+(?!\d)")
-"""What begins a block that a switch at the machine skips."""
 
 
 def parse(text: str, name: str = "<program>", first_line: int = 1, syntax: Syntax = ISO) -> Program:
@@ -101,7 +99,7 @@ def parse_block(text: str, line: int, syntax: Syntax = ISO) -> Block:
     faults: list[Fault] = []
     directives: list[Directive] = []
     unmarked: list[Directive] = []
-    skip = SKIP.match(text)
+    skip = syntax.skip.match(text)
     for token in syntax.token.finditer(text, skip.end() if skip else 0):
         shape = token.lastgroup
         if shape == "comment":

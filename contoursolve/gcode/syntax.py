@@ -21,6 +21,9 @@ def long_parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
     return address.upper(), number and number.replace(",", "."), is_asked
 
 
+_SKIP = re.compile(r"[ \t]*+/[1-9]?+(?!\d)")
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Syntax:
     """One way to spell blocks.
@@ -40,6 +43,8 @@ class Syntax:
     codes: Mapping[str, int] = field(default_factory=dict)
     """The codes that have a name instead of G and a number, by that name in upper case: a number that no G code has."""
     parts: Callable[[re.Match[str]], tuple[str, str | None, bool]] = letter_parts
+    skip: re.Pattern[str] = _SKIP
+    """What begins a block that a switch at the machine skips."""
 
 
 # Runs are possessive (`++`, `*+`): what they take is never tried again, so that a line takes time by its length.

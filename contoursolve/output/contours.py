@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer, AskedValue, list_alternatives
+from contoursolve.diagnosis.reasons import resolved_later
 from contoursolve.diagnosis.solutions import Listed, Listing, list_solutions, printed_certificate
 from contoursolve.diagnosis.wording import (
     axis_labels,
@@ -49,6 +50,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
         path = path_table(answer.contour, answer.unit)
         lines += ["", *columns([("", "", *path.header[2:]), *path.rows], path.left)]
         lines += [line for text in resting_texts(answer, result.control or "") for line in ("", f"  {text}")]
+        lines += [line for text in _later_texts(answer) for line in ("", f"  {text}")]
     if answer.filled:
         lines += ["", f"  filled in (the contour moves by {small(answer.filled.deviation)}):"]
         lines += [f"    {printable(text.strip())}" for text in answer.filled.blocks]
@@ -68,6 +70,13 @@ def resting_texts(answer: Answer, control: str) -> Iterator[str]:
     if by_grade:
         told = (f"{'; '.join(meanings)} ({grade})" for grade, meanings in by_grade.items())
         yield f"rests on: {'; '.join(told)}"
+
+
+def _later_texts(answer: Answer) -> Iterator[str]:
+    """Which elements of a chain only a later block determines, in one line, if there are any."""
+    later = resolved_later(answer.profile) if answer.claim.form.is_general else {}
+    if later:
+        yield f"determined by a later block: {', '.join(f'{name} by {other}' for name, other in later.items())}"
 
 
 def _convention_text(convention: Convention, control: str) -> str:
@@ -127,7 +136,8 @@ def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[
             places = (f"{point} {coordinates(at[point], answer.plane, answer.unit)}" for point in differing)
             where = "  ".join((*places, *(_asked_text(asked, answer) for asked in each.asked)))
         label = "" if each.contour else "no contour:"
-        row = (each.name or "only solution", label, where, " ".join(each.selects), str(each.certificate))
+        selects = (", " if answer.claim.form.picking else " ").join(each.selects)
+        row = (each.name or "only solution", label, where, selects, str(each.certificate))
         rows.append((each, row))
     return rows
 

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.spelling import Meanings
-from contoursolve.gcode import SKIP, Block, Syntax, parse_block
+from contoursolve.gcode import Block, Syntax, parse_block
 from contoursolve.postprocess.block_numbers import LONG, Directory, Line, Replacement, dialect_of, read_lines
 from contoursolve.postprocess.numbering import Numbers
 from contoursolve.reading.dialect import Dialect
@@ -17,6 +17,8 @@ LARGEST_STEP = 1_000
 """From one block number to the next."""
 
 _BLANKS = " \t"
+_NAMED = re.compile(r"[A-Za-z]{2,}[ \t]+[-+\dA-Za-z]")
+"""A word of Klartext whose name and number stand apart, as in `RX 13`."""
 _BLANK = re.compile(r"[ \t]+")
 _LABEL = re.compile(r"[A-Za-z_]\w+:|:\d+", re.ASCII)
 """What is no word, and no blank either, in a syntax that has labels."""
@@ -109,7 +111,7 @@ def _meanings(block: Block) -> list[tuple[object, ...]]:
 
 def _join(block: Block) -> str | None:
     """The pieces of a block with the blanks between them; None if it has any that is not known."""
-    text, here, skip = block.text, 0, SKIP.match(block.text)
+    text, here, skip = block.text, 0, block.syntax.skip.match(block.text)
     joined = text[: len(text) - len(text.lstrip(_BLANKS))]
     if skip:
         joined, here = joined + skip[0].strip(_BLANKS), skip.end()
@@ -131,7 +133,7 @@ def _join(block: Block) -> str | None:
 def _without_blanks(word: str, syntax: Syntax) -> str:
     """A word without blanks inside it, if it is a number's and reads the same."""
     bare = _BLANK.sub("", word)
-    if bare == word:
+    if bare == word or _NAMED.match(word):
         return word
     was, now = parse_block(word, 1, syntax), parse_block(bare, 1, syntax)
     is_number = all(each.number is not None or each.is_asked for each in was.words)
@@ -183,7 +185,7 @@ def _takes_number(block: Block) -> bool:
 
 def _with_number(block: Block, digits: str) -> Block:
     """A block with a number before all that it says."""
-    skip = SKIP.match(block.text)
+    skip = block.syntax.skip.match(block.text)
     begin = skip.end() if skip else len(block.text) - len(block.text.lstrip(_BLANKS))
     return _retyped(block, f"{block.text[:begin]}N{digits} {block.text[begin:]}")
 

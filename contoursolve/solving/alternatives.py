@@ -1,6 +1,7 @@
 """Every contour that satisfies a profile, named and certified, and which one the control takes."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from functools import lru_cache
 from itertools import pairwise
 from math import inf
 from typing import Any
@@ -99,6 +100,30 @@ class Alternatives(Struct, frozen=True):
 
 def find_alternatives(profile: Profile) -> Alternatives:
     """Every solution of a profile whose system is determined and whose start is known."""
+    return _find(_Question(profile))
+
+
+class _Question:
+    """A profile, equal to others with the same equations and values: what chooses among their solutions may differ."""
+
+    def __init__(self, profile: Profile) -> None:
+        self.profile = profile
+        picked = {each.given for each in profile.picks}
+        stated = (each for name, each in profile.givens.items() if name not in picked)
+        givens = tuple((each.name, each.value, each.unit, each.word is None) for each in stated)
+        self._key = assemble(profile), profile.plane, profile.unit, profile.start, profile.choices, givens
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Question) and self._key == other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+
+@lru_cache(maxsize=16)
+def _find(question: _Question) -> Alternatives:
+    """The solutions; repairs ask again and again for the same drawing, with other words that choose."""
+    profile = question.profile
     system = assemble(profile)
     enumeration = enumerate_solutions(profile, system)
     basis = tuple(system.facts[index] for index in analyse(system).basis)

@@ -21,7 +21,7 @@ def pick(paths: Sequence[Alternative], profile: Profile) -> tuple[list[Alternati
     long ones the smaller turn to the left from the direction before.
     """
     left, events = list(paths), list[Refusal | Note]()
-    for each in sorted(profile.picks, key=lambda each: each.element):
+    for each in sorted(profile.picks, key=lambda each: each.element) if left else ():
         groups = _groups(left, each.element, profile)
         givens = (each.given,) if each.given else ()
         values = {"actual": float(each.number), "limit": float(len(groups))}

@@ -292,6 +292,10 @@ def _check_selects(case: Case, solution: ClaimedSolution, others: Sequence[Claim
     for text in solution.selects:
         if any(each.word == text for each in case.claim.selectors):
             continue
+        picking = case.claim.form.picking
+        if picking and text.startswith(picking):
+            ledger.omit(text, "the order in which solutions are counted")
+            continue
         block, truths = gcode.parse_block(text, 1, case.claim.blocks[0].syntax), list[bool]()
         for word in block.words:
             answers = [each for each in solution.asked if each.word[: len(word.address)] == word.address]

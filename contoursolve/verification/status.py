@@ -363,6 +363,8 @@ def expected(case: Case, found: Sequence[Candidate]) -> tuple[str | None, str]:
     eligible = [each for each in found if each.is_chosen]
     paths, fits = [each for each in eligible if each.is_path], [each for each in eligible if not each.conflicts]
     selecting = {fact for each in found for fact in each.conflicts}
+    if len(paths) > 1 and case.claim.picks:
+        return None, "which solution a number chooses was not worked out"
     if len(paths) > 1:
         statuses["ambiguous"] = f"{len(paths)} paths agree with the words"
     elif not paths:

@@ -1,8 +1,8 @@
 """Chains of lines and arcs that begin in the direction of each other, drawn forwards, and written in FK words."""
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from math import atan2, cos, degrees, hypot, pi, radians, sin
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import cos, degrees, dist, pi, radians, sin
 from random import Random
 
 import numpy
@@ -12,7 +12,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class Step:
-    """One element by what makes it: the length of a line, or the radius, the sweep (radians) and the sense of an arc."""
+    """One element by what makes it: the length of a line; or the radius, sweep (radians) and sense of an arc."""
 
     length: float = 0.0
     radius: float = 0.0
@@ -32,13 +32,17 @@ class Drawn:
     center: Point
 
 
+Datum = Callable[[Sequence[Drawn]], float]
+"""What a word, or the words of a point, measure on a chain."""
+
+
 @dataclass(frozen=True)
 class FreeChain:
-    """A drawn chain, and a program with just so many data that they determine it; how well they do so."""
+    """A drawn chain, a program with just so many data that they determine it, and these data with their values."""
 
     drawn: tuple[Drawn, ...]
     text: str
-    least: float
+    data: tuple[tuple[Datum, float], ...]
 
 
 def draw(start: Point, direction: float, steps: list[Step]) -> list[Drawn]:
@@ -63,137 +67,109 @@ def draw(start: Point, direction: float, steps: list[Step]) -> list[Drawn]:
     return found
 
 
-Datum = Callable[[list[Drawn]], tuple[float, ...]]
-
-
 def _data(chain: list[Drawn], random: Random) -> Iterator[tuple[int, str, Datum]]:
-    """What may be stated: the number of the element, the words with `{}` for their values, and what they measure."""
+    """What may be stated: the number of the element, the words with `{}` for their value, and what they measure."""
     for number, each in enumerate(chain):
-        at = lambda found, n=number: found[n]  # noqa: E731 - the element in any chain
-        yield number, "X{}", lambda found, at=at: (at(found).head[0],)
-        yield number, "Y{}", lambda found, at=at: (at(found).head[1],)
+
+        def of(measure: Callable[[Drawn], float], n: int = number) -> Datum:
+            return lambda found: measure(found[n])
+
+        yield number, "X{}", of(lambda at: at.head[0])
+        yield number, "Y{}", of(lambda at: at.head[1])
         if random.random() < 0.3:
-            yield number, "IX{}", lambda found, at=at: (at(found).head[0] - at(found).tail[0],)
+            yield number, "IX{}", of(lambda at: at.head[0] - at.tail[0])
         if each.step.sense:
-            yield number, "R{}", lambda found, at=at: (at(found).step.radius,)
-            yield number, "CCX{}", lambda found, at=at: (at(found).center[0],)
-            yield number, "CCY{}", lambda found, at=at: (at(found).center[1],)
-            yield number, "CCA{}", lambda found, at=at: (degrees(at(found).end - at(found).step.sense * pi / 2),)
-            yield number, "LEN{}", lambda found, at=at: (hypot(*_way(at(found))),)
-        else:
-            yield number, "AN{}", lambda found, at=at: (degrees(at(found).begin),)
-            yield number, "LEN{}", lambda found, at=at: (at(found).step.length,)
-            share, aside = random.uniform(0.2, 0.8), random.choice((-1, 1)) * random.uniform(1, 9)
+            yield number, "R{}", of(lambda at: dist(at.tail, at.center))
+            yield number, "CCX{}", of(lambda at: at.center[0])
+            yield number, "CCY{}", of(lambda at: at.center[1])
+            yield number, "CCA{}", of(lambda at: degrees(at.end - at.step.sense * pi / 2))
+            yield number, "LEN{}", of(lambda at: dist(at.tail, at.head))
+            continue
+        yield number, "AN{}", of(lambda at: degrees(at.begin))
+        yield number, "LEN{}", of(lambda at: dist(at.tail, at.head))
+        for words, aside in (("P1X{:+.9f} P1Y{:+.9f}", 0.0), ("PDX{:+.9f} PDY{:+.9f} D", random.uniform(1, 9))):
             if random.random() < 0.3:
-                yield number, _point(each, share, 0.0, "P1X{:+.9f} P1Y{:+.9f}"), _passed(number, each, share, 0.0)
-            if random.random() < 0.3:
-                text = _point(each, share, aside, "PDX{:+.9f} PDY{:+.9f} D") + f"{abs(aside):.9f}"
-                yield number, text, _passed(number, each, share, aside)
-
-
-def _way(each: Drawn) -> Point:
-    return each.head[0] - each.tail[0], each.head[1] - each.tail[1]
+                place = _beside(each, random.uniform(0.2, 0.8), random.choice((-1, 1)) * aside)
+                text = words.format(*place) + (f"{aside:.9f}" if aside else "")
+                yield number, text, of(lambda at, place=place: _left(at, place))
 
 
 def _beside(each: Drawn, share: float, aside: float) -> Point:
-    way = _way(each)
-    length = hypot(*way)
-    return (
-        each.tail[0] + share * way[0] - aside * way[1] / length,
-        each.tail[1] + share * way[1] + aside * way[0] / length,
-    )
+    """A point at a share of a line's length, so far to its left."""
+    way = cos(each.begin), sin(each.begin)
+    along = share * dist(each.tail, each.head)
+    return each.tail[0] + along * way[0] - aside * way[1], each.tail[1] + along * way[1] + aside * way[0]
 
 
-def _point(each: Drawn, share: float, aside: float, words: str) -> str:
-    return words.format(*_beside(each, share, aside))
-
-
-def _passed(number: int, drawn: Drawn, share: float, aside: float) -> Datum:
-    place = _beside(drawn, share, aside)
-
-    def measure(found: list[Drawn]) -> tuple[float, ...]:
-        each = found[number]
-        off = place[0] - each.tail[0], place[1] - each.tail[1]
-        return (cos(each.begin) * off[1] - sin(each.begin) * off[0],)
-
-    return measure
+def _left(each: Drawn, place: Point) -> float:
+    """How far to the left of a line a point lies."""
+    return cos(each.begin) * (place[1] - each.tail[1]) - sin(each.begin) * (place[0] - each.tail[0])
 
 
 def random_chain(random: Random, least: int = 3, most: int = 15) -> FreeChain:
     """A random chain, whose data determine it well enough for their nine decimals."""
     while True:
-        count, steps, was_line = random.randint(least, most), list[Step](), random.random() < 0.5
-        for _ in range(count):
-            if was_line or random.random() < 0.3:
-                sweep = radians(random.uniform(20, 200))
-                steps.append(Step(0.0, round(random.uniform(3, 40), 3), sweep, random.choice((-1, 1))))
-                was_line = False
+        steps, was_line = list[Step](), random.random() < 0.5
+        for _ in range(random.randint(least, most)):
+            was_line = not was_line and random.random() < 0.7
+            if was_line:
+                steps.append(Step(length=round(random.uniform(5, 60), 3)))
             else:
-                steps.append(Step(round(random.uniform(5, 60), 3)))
-                was_line = True
+                radius, sweep = round(random.uniform(3, 40), 3), radians(random.uniform(20, 200))
+                steps.append(Step(radius=radius, sweep=sweep, sense=random.choice((-1, 1))))
         start = round(random.uniform(-50, 50), 3), round(random.uniform(-50, 50), 3)
-        found = _write(random, start, radians(random.uniform(-180, 180)), steps)
-        if found is not None:
-            return found
+        drawn = draw(start, radians(random.uniform(-180, 180)), steps)
+        data = list(_data(drawn, random))
+        random.shuffle(data)
+        kept = _enough(drawn, [datum for _, _, datum in data])
+        if kept:
+            chosen = [data[index] for index in kept]
+            return FreeChain(tuple(drawn), _program(drawn, chosen), tuple((each, each(drawn)) for _, _, each in chosen))
 
 
-def _write(random: Random, start: Point, direction: float, steps: list[Step]) -> FreeChain | None:
-    drawn = draw(start, direction, steps)
-    data = list(_data(drawn, random))
-    random.shuffle(data)
-    values = [direction]
-    for step in steps:
-        values += [step.radius, step.sweep] if step.sense else [step.length]
+def _enough(drawn: list[Drawn], data: Sequence[Datum]) -> list[int]:
+    """The indices of the first data that determine a chain, in order; none if they do not do so well enough."""
+    values = [drawn[0].begin, *(value for each in drawn for value in _sizes(each.step))]
 
-    def rebuilt(numbers: list[float]) -> list[Drawn]:
-        rest, again = iter(numbers), []
-        way = next(rest)
-        for step in steps:
-            if step.sense:
-                again.append(Step(0.0, next(rest), next(rest), step.sense))
-            else:
-                again.append(Step(next(rest)))
-        return draw(start, way, again)
+    def measured(index: int, by: float) -> list[float]:
+        numbers = iter([value + by * (place == index) for place, value in enumerate(values)])
+        way = next(numbers)
+        steps = [replace(each.step, **{name: next(numbers) for name in _names(each.step)}) for each in drawn]
+        again = draw(drawn[0].tail, way, steps)
+        return [datum(again) for datum in data]
 
-    scale = [1.0 if index == 0 else 1.0 for index in range(len(values))]
-    columns = []
-    for index in range(len(values)):
-        moved = [[*values], [*values]]
-        for sign, each in zip((1, -1), moved, strict=True):
-            each[index] += sign * 1e-6 * scale[index]
-        sides = [[datum(rebuilt(each)) for _, _, datum in data] for each in moved]
-        columns.append([(one[0] - other[0]) / 2e-6 for one, other in zip(*sides, strict=True)])
+    step = 1e-6
+    columns = [numpy.subtract(measured(n, step), measured(n, -step)) / (2 * step) for n in range(len(values))]
     rows = numpy.array(columns).T
     rows /= numpy.maximum(numpy.linalg.norm(rows, axis=1, keepdims=True), 1e-12)
-    kept: list[int] = []
-    basis: list[numpy.ndarray] = []
+    kept, basis = list[int](), numpy.zeros((0, len(values)))
     for index, row in enumerate(rows):
-        rest = row.copy()
-        for each in basis:
-            rest -= (rest @ each) * each
-        if numpy.linalg.norm(rest) > 1e-3:
-            basis.append(rest / numpy.linalg.norm(rest))
+        rest = row - basis.T @ (basis @ row)
+        if numpy.linalg.norm(rest) > LEAST and len(kept) < len(values):
+            basis = numpy.vstack([basis, rest / numpy.linalg.norm(rest)])
             kept.append(index)
-        if len(kept) == len(values):
-            break
-    if len(kept) < len(values):
-        return None
-    least = float(numpy.linalg.svd(rows[kept], compute_uv=False)[-1])
-    if least < 1e-3:
-        return None
-    words: dict[int, list[str]] = {number: [] for number in range(len(steps))}
-    for index in sorted(kept):
-        number, text, datum = data[index]
-        words[number].append(text.format(*(f"{value:+.9f}" for value in datum(drawn))) if "{" in text else text)
+    is_enough = len(kept) == len(values) and numpy.linalg.svd(rows[kept], compute_uv=False)[-1] > LEAST
+    return sorted(kept) if is_enough else []
+
+
+LEAST = 1e-3
+"""The least share by which data must tell chains apart."""
+
+
+def _names(step: Step) -> tuple[str, ...]:
+    return ("radius", "sweep") if step.sense else ("length",)
+
+
+def _sizes(step: Step) -> tuple[float, ...]:
+    return tuple(getattr(step, name) for name in _names(step))
+
+
+def _program(drawn: list[Drawn], data: Sequence[tuple[int, str, Datum]]) -> str:
+    start = drawn[0].tail
     lines = ["0 BEGIN PGM CHAIN MM", f"1 L X{start[0]:+} Y{start[1]:+}"]
-    for number, step in enumerate(steps):
-        function = ("FC" if step.sense else "FL") + ("T" if number else "")
-        sense = [f"DR{'+' if step.sense > 0 else '-'}"] if step.sense else []
-        lines.append(" ".join([str(number + 2), function, *sense, *words[number]]))
-    lines.append(f"{len(steps) + 2} END PGM CHAIN MM")
-    return FreeChain(tuple(drawn), "\n".join(lines) + "\n", least)
-
-
-def bearing(point: Point, center: Point) -> float:
-    """The direction from a centre to a point, degrees."""
-    return degrees(atan2(point[1] - center[1], point[0] - center[0]))
+    for number, each in enumerate(drawn):
+        function = ("FC" if each.step.sense else "FL") + ("T" if number else "")
+        sense = [f"DR{'+' if each.step.sense > 0 else '-'}"] if each.step.sense else []
+        words = [text.format(f"{datum(drawn):+.9f}") if "{" in text else text for n, text, datum in data if n == number]
+        lines.append(" ".join([str(number + 2), function, *sense, *words]))
+    return "\n".join([*lines, f"{len(drawn) + 2} END PGM CHAIN MM", ""])

@@ -238,7 +238,8 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
         elements.append(element)
         words |= {prefix + name: word for name, word in own.items()}
         circumstances |= {prefix + each for each in lacking}
-        given = _givens(member, own, modes)
+        is_behind_line = number > 1 and elements[-2].is_line
+        given = _givens(member, own, modes, is_behind_line=is_behind_line)
         ended = givens.get(f"{number - 1}:CCA")
         if ended is not None and element.is_line and member.function in TANGENT:
             # The line goes on where CCA of the arc before ends, a quarter of a turn from that direction.
@@ -406,15 +407,18 @@ def _element(
     ), lacking
 
 
-def _givens(member: _Member, own: Mapping[str, Word], modes: Modes) -> dict[str, Given]:
+def _givens(member: _Member, own: Mapping[str, Word], modes: Modes, *, is_behind_line: bool) -> dict[str, Given]:
     """The values of the words of a block, with those that its function supplies."""
     lexicon = modes.words(member.here)
     found = {name: lexicon.given(name, word, member.here.unit) for name, word in own.items()}
     stated = {name: given for name, given in found.items() if given is not None and name != TANGENCY}
-    if "R" in stated:
+    if "R" in stated and member.function not in FREE:
+        # The sign of CR chooses the arc.
         stated["R"] = replace(stated["R"], value=abs(stated["R"].value))
     if member.function in TANGENT:
-        stated[TANGENCY] = Given(TANGENCY, Decimal(0), Unit.DEGREE, own[TANGENCY])
+        # Only two lines in a row state an angle with it: none.
+        unit = Unit.DEGREE if is_behind_line and member.function in STRAIGHT else Unit.SIGN
+        stated[TANGENCY] = Given(TANGENCY, Decimal(0), unit, own[TANGENCY])
     if member.function in FREE:
         return stated
     if member.function in ("L", "C", "CR", "CT"):

@@ -164,7 +164,7 @@ def _statement(state: State, block: Block, modes: Modes) -> State:
 
 def _forget(state: State, block: Block) -> State:
     """The state without parameters, where blocks run that are not followed."""
-    if not re.match(_STATEMENT + r"(?:CALL|FN|CYCL[ \t]+CALL)\b", block.text, re.IGNORECASE):
+    if not re.match(_STATEMENT + r"(?:CALL|FN)\b", block.text, re.IGNORECASE):
         return state
     memory = {name: word for name, word in state.memory.items() if not name.startswith("Q")}
     return replace(state, memory=memory)

@@ -112,6 +112,7 @@ SYNTAX = Syntax(
     remark=";{}",
     codes=_NAMES,
     parts=_parts,
+    skip=re.compile(r"[ \t]*+/"),
 )
 """Words of letters and a number without an equals sign, comments behind a semicolon, a number before each block."""
 

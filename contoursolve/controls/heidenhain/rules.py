@@ -10,6 +10,7 @@ from contoursolve.controls.heidenhain.find import CLOSES_NOTHING, CUT, NO_BEFORE
 from contoursolve.controls.heidenhain.lexicon import BOOK
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.reading import ReadIssue
 from contoursolve.reading.rules import Condition, Rule, Value, all_of, some
 from contoursolve.solving import NoteKind, RefusalKind
 
@@ -97,8 +98,8 @@ _ROWS = (
     _row("closes-nothing", "CLSD- ends a contour that CLSD+ in an earlier block begins, and there is none",
          "write CLSD+ into the first block of the contour", BOOK.printed("closed contour"), some(CLOSES_NOTHING), _FK,
          _CLOSED, (" CLSD+", "")),
-    _row("polar-size", "{words}: a distance from the pole is larger than 0", "write the direction by PA",
-         BOOK.assumed("polar coordinates"), Value(("PR", "CCPR"), least=_LEAST), _FK, _POLAR,
+    _row("size", "{words}: a radius, and a distance from the pole, is larger than 0", "write a positive number",
+         BOOK.assumed("polar coordinates"), Value(("PR", "CCPR", "R", "LEN"), least=_LEAST), _FK, _POLAR,
          ("PR+20", "PR-20")),
     _row("tool-axis", "free contours are solved in X and Y, and the tool axis is another one",
          "check TOOL CALL: contoursolve reads free contours with the tool axis Z", BOOK.assumed("planes"), some(TOOL),
@@ -131,8 +132,15 @@ def _agreeing() -> Rule:
     row = next(rule for rule in COMMON_RULES if rule.about is NoteKind.WORDS_AGREE)
     return replace(
         row, code="heidenhain-redundant", severity=Severity.INFO, accepted=(_LINES,),
+        help="nothing has to be changed: the control accepts data that agree",
         rejected=(_LINES.replace("AN+60", "AN+60 LEN57.321"),),
     )  # fmt: skip
 
 
-RULES = (*_OWN, _agreeing(), *COMMON_RULES, *_ROWS, *GEOMETRY_RULES)
+_PARAMETER = Rule(
+    "heidenhain-parameter", "{words}: the value of the parameter is not known here",
+    "set it by a formula of numbers before this block; what a label, a jump or a cycle sets is not followed",
+    BOOK.assumed("Q parameters"), (START + "2 Q1 = ( 40 + 20 ) / 2\n3 FL X+Q1 Y+5\n4 END PGM A MM",),
+    (START + "2 Q1 = Q2 + 5\n3 FL X+Q1 Y+5\n4 END PGM A MM",), about=ReadIssue.VARIABLE,
+)  # fmt: skip
+RULES = (*_OWN, _agreeing(), _PARAMETER, *COMMON_RULES, *_ROWS, *GEOMETRY_RULES)

@@ -1,0 +1,257 @@
+"""Free contours in Klartext: the programs of the manuals, and chains that are drawn forwards and told backwards."""
+
+from dataclasses import replace
+from itertools import pairwise
+from math import atan2, dist, pi, tau
+from random import Random
+
+import pytest
+from free_chains import random_chain
+
+import contoursolve
+from contoursolve import ArcSegment
+from contoursolve.diagnosis.solutions import list_solutions
+
+# Programs of the manuals: printed there, results derived by hand. -------------------------------------------------
+
+FKEXAMP1 = """0 BEGIN PGM FKEXAMP1 MM
+1 L X-20 Y-20 R0 FMAX
+8 L X+0 Y+0 RL F250
+10 FPOL X+50 Y+20
+11 FL LEN64.5 CLSD+ P1X+15 P1Y+35
+12 FSELECT 1
+13 FL PR+67 AN+21
+14 FL IX+15 IY+0
+15 FL LEN 40 PAR 11
+16 FSELECT 2
+17 FL X+75 Y+20
+18 FL CLSD-
+19 END PGM FKEXAMP1 MM
+"""
+POLAR = """0 BEGIN PGM G2 MM
+11 L X+10 Y+10
+12 FPOL X+10 Y+10
+13 FL PR+20 PA+20
+14 FL AN+45
+15 FCT IX+20 DR- R20 CCA+90 RX 13
+16 FL IPR+35 PA+0 RPR 13
+17 END PGM G2 MM
+"""
+CAM = """0 BEGIN PGM CAM MM
+1 BLK FORM 0.1 Z X-10 Y-10 Z-20
+2 BLK FORM 0.2 X+110 Y+80 Z+0
+3 TOOL CALL 4 Z S3200
+4 L Z+100 R0 FMAX M3
+5 L X-20 Y-20 R0 FMAX
+6 L Z-8 R0 F500
+7 L X+0 Y+0 RL F300 ; START OF THE CONTOUR
+8 FL AN+80 LEN50 CLSD+
+9 FCT DR- R15
+10 FLT X+90 Y+40
+11 RND R8
+12 FL X+90 Y+0
+13 CHF 5
+14 FL X+0 Y+0 CLSD-
+15 L X-20 Y-20 R0 FMAX
+16 L Z+100 R0 FMAX M30
+17 END PGM CAM MM
+"""
+
+
+def chain(*blocks, before="L X+0 Y+0"):
+    numbered = [before, *blocks]
+    return "0 BEGIN PGM T MM\n" + "".join(f"{n} {block}\n" for n, block in enumerate(numbered, 1)) + "99 END PGM T MM\n"
+
+
+def solved(program):
+    result = contoursolve.solve(program)
+    assert result.control == "heidenhain"
+    (answer,) = result.answers
+    return answer
+
+
+def ends(answer):
+    return {each.name: each.end for each in answer.contour.elements}
+
+
+@pytest.mark.parametrize(
+    ("program", "printed"),
+    [
+        (
+            FKEXAMP1,
+            {
+                "line 11": (25.4078, 59.2849),
+                "line 13": (79.6224, 80.0959),
+                "line 14": (94.6224, 80.0959),
+                "line 15": (78.8656, 43.3301),
+                "line 17": (75, 20),
+                "line 18": (0, 0),
+            },
+        ),
+        (
+            POLAR,
+            {
+                "line 13": (28.7939, 16.8404),
+                "line 14": (34.6517, 22.6983),
+                "arc 15": (48.7939, 28.5561),
+                "line 16": (65, 10),
+            },
+        ),
+        (chain("FL AN+60", "FL X+80 Y+20 AN-30"), {"line 2": (28.6603, 49.6410), "line 3": (80, 20)}),
+        (
+            chain("FC DR- R20 CCX+20 CCY+30", "FLT", "FCT DR- R12 CCX+90 CCY+45 CCA+0", before="L X+0 Y+30"),
+            {"arc 2": (18.0210, 49.9019), "line 3": (88.8126, 56.9411)},
+        ),
+        (
+            chain("FC DR- R20 CCX+20 CCY+30", "FLT", "FCT DR+ R12 CCX+90 CCY+45 CCA+0", before="L X+0 Y+30"),
+            {"arc 2": (24.9928, 49.3668), "line 3": (87.0043, 33.3799)},
+        ),
+        (
+            CAM,
+            {
+                "line 8": (8.6824, 49.2404),
+                "arc 9": (28.2528, 60.8475),
+                "line 10": (84.5591, 41.8370),
+                "corner 10": (90, 34.2573),
+                "line 12": (90, 5),
+                "corner 12": (85, 0),
+                "line 14": (0, 0),
+            },
+        ),
+    ],
+    ids=["FKEXAMP1", "polar", "vertex", "belt", "crossed belt", "cam"],
+)
+def test_a_program_of_a_manual_comes_out_as_it_does(program, printed):
+    found = ends(solved(program))
+    for name, at in printed.items():
+        assert found[name] == pytest.approx(at, abs=6e-5), name
+
+
+def test_both_choices_of_fkexamp1_are_listed_and_chosen_by_their_numbers():
+    def at(name, first, second):
+        text = FKEXAMP1.replace("FSELECT 1", f"FSELECT {first}").replace("FSELECT 2", f"FSELECT {second}")
+        return ends(solved(text))[name]
+
+    assert at("line 15", 1, 1) == pytest.approx((110.3791, 116.8617), abs=6e-5)
+    assert at("line 15", 1, 2) == pytest.approx((78.8656, 43.3301), abs=6e-5)
+    listing = list_solutions(solved(FKEXAMP1))
+    paths = [each for each in listing.solutions if each.contour]
+    assert listing.is_complete
+    assert len(paths) == 6
+    (chosen,) = (each for each in paths if each.is_chosen)
+    assert chosen.selects == ("FSELECT 1 behind line 11", "FSELECT 2 behind line 15")
+    opposite = [each.contour.points["P11"] for each in paths if each.selects[0] == "FSELECT 2 behind line 11"]
+    assert opposite
+    assert all(each == pytest.approx((-25.4078, -59.2849), abs=6e-5) for each in opposite)
+
+
+def test_a_line_meets_a_circle_in_two_points_and_both_are_listed():
+    answer = solved(chain("FL AN+15", "FC DR- R25 CCX+50 CCY+20 CCA+0", before="L X+0 Y+10"))
+    assert answer.status.value == "ambiguous"
+    places = sorted(each.contour.points["P2"] for each in list_solutions(answer).solutions)
+    assert places[0] == pytest.approx((25.2114, 16.7554), abs=6e-5)
+    assert places[1] == pytest.approx((73.0898, 29.5844), abs=6e-5)
+    (finding,) = answer.diagnostics
+    assert [fix.replacement.split("\n")[1] for fix in finding.fixes] == ["FSELECT 1", "FSELECT 2"]
+
+
+@pytest.mark.parametrize(
+    ("blocks", "alarm"),
+    [
+        (["FL P1X+20"], "402-0008"),
+        (["FC R10 CCX+5 CCY+5"], "402-0008"),
+        (["FL X+20 Y+5 DP 5"], "402-0008"),
+        (["FL PDX+20 PDY+5 X+3 Y+4"], "402-0008"),
+        (["FL AN+30 D5 LEN10"], "402-0008"),
+        (["FL X+5 Y+0", "FPOL X+3", "FL PR+5 PA+20"], "402-0008"),
+        (["FL AN+60", "L X+50 Y+0"], "402-0009"),
+    ],
+)
+def test_the_numbers_of_the_control_come_with_their_causes(blocks, alarm):
+    found = [str(each.alarm) for each in solved(chain(*blocks)).diagnostics if each.alarm]
+    assert any(alarm in text for text in found), found
+
+
+def test_a_circle_that_may_slide_lacks_one_word():
+    text = chain(
+        "FL X+5 Y+15",
+        "FC CCX+20 CCY+15 DR+ R15",
+        "FPOL X+20 Y+15",
+        "FL AN+40",
+        "FC DR+ R15 CCPR+35 CCPA+40 CCA+180",
+    )
+    answer = solved(text)
+    assert answer.status.value == "underdetermined"
+    (finding,) = answer.diagnostics
+    assert finding.message.startswith("one word is missing, so arc 3 and line 5 are open")
+
+
+def test_data_that_agree_are_accepted_with_a_note_and_others_are_told_by_how_much():
+    agreeing = solved(chain("FL AN+60 LEN57.321", "FL X+80 Y+20 AN-30"))
+    assert agreeing.contour is not None
+    assert [each.severity.value for each in agreeing.diagnostics] == ["info"]
+    against = solved(chain("FL AN+60 LEN50", "FL X+80 Y+20 AN-30"))
+    assert against.status.value == "conflicting"
+    assert against.diagnostics[0].values["off_by_mm"] == pytest.approx(7.321, abs=1e-3)
+    apart = solved(chain("FC DR+ R20 CCX+0 CCY+20", "FCT DR- R15 CCX+35.917 CCY+20 CCA+90"))
+    assert apart.diagnostics[0].values["off_by_mm"] == pytest.approx(0.917, abs=1e-3)
+    parallel = solved(chain("FL AN+60", "FL X+80 Y+20 AN-120"))
+    assert parallel.status.value == "no-solution"
+
+
+# Chains drawn forwards ------------------------------------------------------------------------------------------
+
+CHAINS, FAST = 1_000, 15
+WITHIN = 1e-3
+"""mm. Their data are written with nine decimals."""
+
+
+def rebuilt(contour, chain):
+    """The elements of a contour as they were drawn: by their ends and centres alone."""
+    found = []
+    for segment, each in zip(contour.elements, chain.drawn, strict=True):
+        sense = each.step.sense
+        if isinstance(segment, ArcSegment):
+            tail, head, center = segment.start, segment.end, segment.center
+            ways = [atan2(at[1] - center[1], at[0] - center[0]) + sense * pi / 2 for at in (tail, head)]
+            found.append(replace(each, tail=tail, head=head, begin=ways[0], end=ways[1], center=center))
+        else:
+            way = atan2(segment.end[1] - segment.start[1], segment.end[0] - segment.start[0])
+            found.append(replace(each, tail=segment.start, head=segment.end, begin=way, end=way))
+    return found
+
+
+def turn(one, other):
+    """The angle between two directions, radians."""
+    return abs((one - other + pi) % tau - pi)
+
+
+def solutions(answer):
+    """Every contour that satisfies a chain, with how well it is known."""
+    listing = list_solutions(answer)
+    return [each for each in listing.solutions if each.contour] if listing else []
+
+
+def is_true(contour, chain):
+    """Whether a contour is smooth and measures what the words of the chain say."""
+    found = rebuilt(contour, chain)
+    smooth = all(turn(one.end, other.begin) < 1e-6 for one, other in pairwise(found))
+    # A point beside a line may lie on either side, and angles are the same after a turn.
+    off = [(abs(datum(found)) - abs(value)) for datum, value in chain.data]
+    turned = [abs(datum(found) - value) % 360 for datum, value in chain.data]
+    return smooth and all(abs(a) < 1e-6 or min(b, 360 - b) < 1e-6 for a, b in zip(off, turned, strict=True))
+
+
+@pytest.mark.parametrize("count", [FAST, pytest.param(CHAINS, marks=pytest.mark.slow)])
+def test_a_chain_that_its_data_just_determine_is_among_the_solutions_and_none_is_wrong(count):
+    missed = []
+    for seed in range(count):
+        chain = random_chain(Random(seed))
+        found = solutions(solved(chain.text))
+        for each in found:
+            assert is_true(each.contour, chain), chain.text
+        drawn = [each.head for each in chain.drawn]
+        ends = [[segment.end for segment in each.contour.elements] for each in found]
+        if not any(max(map(dist, points, drawn)) <= WITHIN for points in ends):
+            missed.append(chain.text)
+    assert len(missed) <= count // 100, missed[:3]
