@@ -41,7 +41,7 @@ def list_auxiliary(subject: Subject) -> Iterator[Part]:
     yield from (ring for ring in _rings(subject) if (ring.center, ring.radius) not in broken)
     yield from faults
     yield from _places(subject)
-    yield from _spokes(subject)
+    yield from _led(subject) if subject.is_chain else ()
     if subject.is_chain and subject.answer.contour is None:
         yield from _open_elements(subject)
     yield from _slides(subject)
@@ -92,10 +92,13 @@ def _rings(subject: Subject) -> Iterator[Ring]:
             yield Ring(center, subject.value(each.radius), Role.GIVEN)
 
 
-def _spokes(subject: Subject) -> Iterator[Thin]:
-    """The radius of an arc to where a word states its direction."""
-    for fact in subject.profile.facts if subject.is_chain else ():
-        if isinstance(fact, Spoke) and not fact.quarters and fact.axis == FIRST and subject.word(fact.given):
+def _led(subject: Subject) -> Iterator[Thin]:
+    """The radius of an arc to where a word states its direction, and lines as far as the points on them."""
+    for fact in subject.profile.facts:
+        if isinstance(fact, Through):
+            at, ends = subject.at(fact.point), subject.ends(fact)
+            yield from _extension(ends, at) if at is not None and ends is not None else ()
+        elif isinstance(fact, Spoke) and not fact.quarters and fact.axis == FIRST and subject.word(fact.given):
             center, at = subject.at(fact.center), subject.at(fact.point)
             if center is not None and at is not None:
                 yield Thin(center, at, Role.MUTED)

@@ -246,7 +246,7 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
             quarter = 90 * elements[-2].turn.sign if elements[-2].turn else 0
             given[ALONG] = replace(ended, value=ended.value + quarter)
         givens |= {prefix + name: replace(each, name=prefix + name) for name, each in given.items()}
-        lasting |= {prefix + name for name in own if name in _NO_FACTS}
+        lasting |= {prefix + name for name in own if name in _NO_FACTS or name in element.touching}
         vocabulary |= {prefix + name: (name, member.index) for name in _may_state(member)}
         vocabulary |= {prefix + name: (word.address, member.index) for name, word in own.items()}
         if member.corner is not None:
@@ -294,8 +294,8 @@ def _conventions(is_picked: bool, modes: Modes) -> Iterator[Convention]:
         yield modes.convention(SELECTION)
 
 
-_NO_FACTS = frozenset({"DR", "CLSD+", "FSELECT", "Z", "IZ", *(f"R{name}" for name in REFERRED)})
-"""Words that state no equation: they say which one it is."""
+_NO_FACTS = frozenset({TANGENCY, "DR", "CLSD+", "FSELECT", "Z", "IZ", *(f"R{name}" for name in REFERRED)})
+"""Words that state no equation, or not always: they say which one it is."""
 
 
 def _sign_of(block: Block, address: str) -> int:
