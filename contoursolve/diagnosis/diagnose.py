@@ -53,7 +53,8 @@ def diagnose(
         # What is unknown to this contour may be known to that one.
         first = "; ".join(map(str, repairs.repairs[0].edits))
         findings = [replace(each, help=first) if each.about is ReadIssue.UNKNOWN_ADDRESS else each for each in findings]
-    main = _main(findings, is_extended=profile.is_extended)
+    # The rules of a control whose words are facts of all kinds are meant as they are.
+    main = _main(findings, is_extended=profile.is_extended and not answer.claim.form.is_general)
     if main is not None:
         fixes = tuple(_fix(answer, repair) for repair in repairs.repairs)
         for number in (main, *_both(findings)):

@@ -17,6 +17,7 @@ from contoursolve.gcode import FACT, Word, number_of, spell
 from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Length, Offset, Profile, Unit, assemble, scalar
 from contoursolve.reading import Lexicon, ReadIssue, read
 from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import check
 from contoursolve.solving import NoteKind, RefusalKind, Status
 from contoursolve.solving.alternatives import choose
 from contoursolve.solving.ambiguity import tied_with
@@ -49,6 +50,8 @@ _VALUE = re.compile(r"=\s*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))\s*+$")
 
 def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator[Iterable[tuple[Edit, ...]]]:
     """The stages of drafts, simplest first."""
+    if answer.claim.form.is_general and answer.status is Status.REJECTED:
+        yield _lawful(answer, dialect, before)
     findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO and each.about is not None]
     if not findings:
         return
@@ -65,6 +68,7 @@ def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator
     drops = [[(drop(word),) for word in _blamed(answer, each)] for each in twice]
     yield [tuple(dict.fromkeys(sum(choice, ()))) for choice in product(*drops, missing) if any(choice)]
     yield _corrected(answer, dialect, twice, before)
+    yield _swapped(answer, findings)
     yield _slips(answer, findings)
     yield from _without_corners(answer, [each for each in findings if each.about is ReadIssue.CORNER_NOWHERE])
     yield _exchanged(answer, [each for each in findings if each.about in _NOT_TOGETHER])
@@ -245,6 +249,44 @@ def _number(value: float, unit: Unit, length: Length, lexicon: Lexicon) -> str:
     number = (number if unit is Unit.DEGREE else number / length.in_mm).quantize(step, ROUND_HALF_EVEN)
     text = f"{number + 0:f}"
     return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def _lawful(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tuple[Edit, ...]]:
+    """A word that the rules ask for in a line that they refuse, or one that they refuse taken out."""
+    claim = answer.claim
+    offences = check(dialect.rules, claim.form.roles, claim.stated())
+    lines = {claim.blocks[claim.vocabulary[name][1]].line for name in claim.vocabulary for each in offences
+             if name.startswith(each.role.prefixes)}  # fmt: skip
+    for name, (address, index) in claim.vocabulary.items():
+        line, row = claim.blocks[index].line, claim.lexicon.addresses.get(address)
+        if name in claim.words or line not in lines or row is None:
+            continue
+        numbers = ("+1", "-1") if row.unit is Unit.SIGN else (PLACEHOLDER,)
+        edits = (Edit(EditKind.ADD, address, text=spell(address, number), line=line) for number in numbers)
+        yield from ((edit,) for edit in edits if _is_lawful(answer, dialect, (edit,), before))
+    for each in offences:
+        edits = (drop(claim.words[name]) for name in each.names if name in claim.words)
+        yield from ((edit,) for edit in edits if _is_lawful(answer, dialect, (edit,), before))
+
+
+def _is_lawful(answer: Answer, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> bool:
+    """Whether no rule refuses the edited blocks."""
+    found = find_edited(answer.claim, dialect, sampled(edits), before)
+    return found is not None and not found.unknown and not check(dialect.rules, found.form.roles, found.stated())
+
+
+def _swapped(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
+    """One word for another that is often mistaken for it, in the lines that findings are about and beside them."""
+    claim, blamed = answer.claim, {label.span.line for each in findings for label in each.labels}
+    lines = [block.line for block in claim.blocks]
+    near = {line for place, at in enumerate(lines) if at in blamed for line in lines[max(0, place - 1) : place + 2]}
+    for word in claim.words.values() if answer.status in _NO_CONTOUR else ():
+        other = claim.form.swaps.get(word.text.strip().upper())
+        if other and word.span.line in near:
+            yield (change(word, other),)
+
+
+_NO_CONTOUR = (Status.CONFLICTING, Status.NO_SOLUTION)
 
 
 def _slips(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:

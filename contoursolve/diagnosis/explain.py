@@ -48,6 +48,7 @@ from contoursolve.solving import (
 )
 from contoursolve.solving.compare import allowance, increments_of
 from contoursolve.solving.contour import Contour, LineSegment, against_angles, dropped_corners
+from contoursolve.tolerance import AGREEMENT
 
 if TYPE_CHECKING:
     from contoursolve.solving.alternatives import Alternatives
@@ -328,7 +329,9 @@ def explain_result(
     fields |= zip(compared, tell_apart([values[name] for name in compared], write), strict=True)
     fields |= {name: length_text(values[name], context.unit) for name in ("radius", "distance") if name in values}
     if "off_by_mm" in values:
-        is_angle = is_word and givens[0].unit is Unit.DEGREE and words and words[0].address == FACT
+        # Of an opposite direction, millimetres tell nothing.
+        is_turned = bool(words) and (words[0].address == FACT or values["off_by_mm"] <= AGREEMENT)
+        is_angle = is_word and givens[0].unit is Unit.DEGREE and is_turned
         turned = abs(values["expected"] - values["actual"]) if is_angle and "expected" in values else None
         fields["off"] = _off(event, turned, context.unit, profile)
     if is_word and "expected" in values:

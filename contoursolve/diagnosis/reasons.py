@@ -23,7 +23,7 @@ from contoursolve.geometry import FIRST, SECOND, Arc, Fact, Heading, Line, Profi
 from contoursolve.solving import RefusalKind, lookup
 from contoursolve.solving.affine import AffineFacts, Circuit
 from contoursolve.solving.compare import is_conflict
-from contoursolve.tolerance import REGULAR
+from contoursolve.tolerance import AGREEMENT, REGULAR
 
 
 def identity(profile: Profile, facts: Iterable[Fact]) -> str:
@@ -62,7 +62,8 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
     point = getattr(single, "point", "")
     known = {name: value for name, value in fixed.items() if name.partition(".")[0] == point}
     disagrees = is_conflict(circuit, profile, affine)
-    if known and single.given:
+    # Of a direction that is only opposite, no place tells.
+    if known and single.given and not (disagrees and max(circuit.off) <= AGREEMENT):
         given = profile.givens[single.given]
         row = affine.facts.index(single)
         axis = next(axis for axis in (FIRST, SECOND) if scalar(point, axis) in single.reads())

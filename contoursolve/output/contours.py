@@ -76,7 +76,7 @@ def _later_texts(answer: Answer) -> Iterator[str]:
     """Which elements of a chain only a later block determines, in one line, if there are any."""
     later = resolved_later(answer.profile) if answer.claim.form.is_general else {}
     if later:
-        yield f"determined by a later block: {', '.join(f'{name} by {other}' for name, other in later.items())}"
+        yield f"known by a later block: {', '.join(f'{name} by {other}' for name, other in later.items())}"
 
 
 def _convention_text(convention: Convention, control: str) -> str:

@@ -184,6 +184,8 @@ class ContourForm:
     """Whether its facts may be of any kind, and no rule tells which of them make a contour."""
     usual: tuple[str, ...] = ()
     """Of such a form, the words that a block may get, those first that a drawing usually has."""
+    swaps: Mapping[str, str] = field(default_factory=dict)
+    """Of such a form, the words that are often mistaken for each other, as they are written."""
     picking: str = ""
     """The word that chooses one of several solutions by its number, in a block of its own behind that of its element;
     empty if there is none."""

@@ -155,6 +155,15 @@ def test_a_line_meets_a_circle_in_two_points_and_both_are_listed():
     assert [fix.replacement.split("\n")[1] for fix in finding.fixes] == ["FSELECT 1", "FSELECT 2"]
 
 
+def test_settings_tell_what_numbers_choose_and_what_comes_without_them():
+    ignoring = contoursolve.solve(FKEXAMP1, settings={"heidenhain.fselect": "ignore"}).answers[0]
+    assert ignoring.status.value == "ambiguous"
+    without = FKEXAMP1.replace("12 FSELECT 1\n", "").replace("16 FSELECT 2\n", "")
+    first = contoursolve.solve(without, settings={"heidenhain.ambiguous": "first"}).answers[0]
+    assert {each.code for each in first.diagnostics} == {"heidenhain-first-taken"}
+    assert ends(first)["line 15"] == pytest.approx((110.3791, 116.8617), abs=6e-5)
+
+
 @pytest.mark.parametrize(
     ("blocks", "alarm"),
     [

@@ -9,6 +9,7 @@ from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 
 WITHOUT_REJECTED_EXAMPLE = {
     "not-verified": "an answer that fails its own equations is an error of contoursolve; no block is known to cause it",
+    "heidenhain-first-taken": "a setting asks for it; test_free_contours.py sets it",
     "fanuc-angle-redundant": "a setting forbids it; test_fanuc.py sets it",
     "fanuc-corner-straight": "a setting refuses it; test_fanuc.py sets it",
     "haas-corner-straight": "the same",
@@ -43,6 +44,7 @@ ALARMS = {
     "mitsubishi": {"P33", "P392", "P393", "P394", "P395", "P396", "P397"},
     "siemens-840d": {"10790", "10791", "10792", "10793", "10794", "10795", "14040"},
     "siemens-808d": {"10790", "10791", "10792", "10793", "10794", "10795", "14040"},
+    "heidenhain": {"402-0008", "402-0009"},
     "isg": {"21892", "21895", "21904", "21910", "20012", "20351"},
 }
 """The alarm numbers on the pages that we have; no other may be invented."""

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from msgspec import Struct
 
-from contoursolve.controls.heidenhain.lexicon import CHAMFER, FREE, REFERRED, ROUNDING, STRAIGHT, TANGENT
+from contoursolve.controls.heidenhain.lexicon import BOOK, CHAMFER, FREE, REFERRED, ROUNDING, STRAIGHT, TANGENT
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -38,6 +38,7 @@ from contoursolve.geometry import (
     TurnBetween,
 )
 from contoursolve.reading import Assumption, ContourForm, CornerRow, FactRow
+from contoursolve.reading.rules import some
 
 START = "S"
 TANGENCY = "tangent"
@@ -391,6 +392,27 @@ def _heading(chain: Chain, place: Place) -> str | None:
     return place.prefix + ALONG if _is_aimed(chain, place) else None
 
 
+ASSUMPTIONS = tuple(
+    Assumption(name, meaning, source, roles, some(*words))
+    for name, meaning, source, roles, words in (
+        ("chord", "LEN of an arc is its chord", BOOK.assumed("LEN"), (ARC,), ("LEN",)),
+        ("end-angle", "CCA counts from +X, counter-clockwise", BOOK.assumed("CCA"), (ARC,), ("CCA",)),
+        ("turn", "IAN counts counter-clockwise", BOOK.assumed("IAN"), (LINE, ARC), ("IAN",)),
+        (
+            "tangency",
+            "FLT and FCT begin in the direction of travel of the element before",
+            BOOK.assumed("tangential connection"),
+            (LINE, ARC),
+            (TANGENCY,),
+        ),
+        ("angle", "AN counts from +X, counter-clockwise", BOOK.derived("the printed programs"), (LINE, ARC), ("AN",)),
+        ("sense", "DR+ is counter-clockwise", BOOK.derived("the printed programs"), (ARC,), ("DR",)),
+        ("centre", "ICCX and ICCY count from where the arc begins", BOOK.assumed("centres"), (ARC,), ("ICCX", "ICCY")),
+        ("parallel", "PAR says nothing of the direction of travel", BOOK.derived("FKEXAMP1"), (LINE,), ("PAR",)),
+    )
+)
+"""What the control is taken to mean, although no page that we have says so."""
+
 _USUAL = (
     *("R", "AN", "X", "Y", "LEN", "CCX", "CCY", "PR", "PA", "CCA", "IX", "IY", "IAN"),
     *("CCPR", "CCPA", "ICCX", "ICCY", "IPR", "IPA", "ICCPR", "ICCPA"),
@@ -399,9 +421,7 @@ _USUAL = (
 
 
 @lru_cache(maxsize=2048)
-def compose(
-    elements: tuple[Element, ...], labels: tuple[str, ...], assumptions: tuple[Assumption, ...] = ()
-) -> ContourForm:
+def compose(elements: tuple[Element, ...], labels: tuple[str, ...]) -> ContourForm:
     """The form of a chain: everything that its words may state; `labels` are the numbers of its blocks."""
     points = [START, *(f"P{label}" for label in labels)]
     named = zip(labels, elements, points, points[1:], strict=False)
@@ -443,9 +463,10 @@ def compose(
         intersections=tuple(points[1:-1]),
         allowed=frozenset(),
         combinations=tuple(((),) for _ in places),
-        assumptions=assumptions,
+        assumptions=ASSUMPTIONS,
         is_general=True,
         usual=tuple(f"{each.prefix}{word}" for word in _USUAL for each in places if each.element.function in FREE),
+        swaps={"DR+": "DR-", "DR-": "DR+", "FLT": "FL", "FCT": "FC"},
         picking="FSELECT",
         companions=dict(_companions(places)),
         poles=poles,

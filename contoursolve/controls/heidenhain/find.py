@@ -3,7 +3,7 @@
 A chain goes through free elements in a row, and through conventional moves that a corner or a tangency joins to them.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import replace as replace_fields
 from decimal import Decimal
 from itertools import count
@@ -27,6 +27,7 @@ from contoursolve.controls.heidenhain.follow import CENTER, PLANE, POLE, TOOL_AX
 from contoursolve.controls.heidenhain.lexicon import (
     CHAMFER,
     FREE,
+    LEXICON,
     MOVES,
     REFERRED,
     ROUNDING,
@@ -34,7 +35,7 @@ from contoursolve.controls.heidenhain.lexicon import (
     TANGENT,
     function_of,
 )
-from contoursolve.controls.heidenhain.settings import SELECTION
+from contoursolve.controls.heidenhain.settings import AMBIGUOUS, SELECTION
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Choice, Given, Pick, Side, Turn, Unit, assemble
 from contoursolve.reading import Convention, Modes, ParsedContour, State, apply_modes, read
@@ -244,11 +245,13 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
         if ended is not None and element.is_line and member.function in TANGENT:
             # The line goes on where CCA of the arc before ends, a quarter of a turn from that direction.
             quarter = 90 * elements[-2].turn.sign if elements[-2].turn else 0
-            given[ALONG] = replace(ended, value=ended.value + quarter)
+            given[ALONG] = replace(ended, value=ended.value + quarter, word=None)
         givens |= {prefix + name: replace(each, name=prefix + name) for name, each in given.items()}
         lasting |= {prefix + name for name in own if name in _NO_FACTS or name in element.touching}
-        vocabulary |= {prefix + name: (name, member.index) for name in _may_state(member)}
+        vocabulary |= {prefix + name: (name, member.index) for name in _may_state(member, own.keys())}
         vocabulary |= {prefix + name: (word.address, member.index) for name, word in own.items()}
+        if number == 1 and member.function in FREE:
+            vocabulary.setdefault(f"{prefix}CLSD+", ("CLSD", member.index))
         if member.corner is not None:
             vocabulary |= {prefix + name: (name, member.corner_index) for name in (ROUNDING, CHAMFER)}
         if member.picked is not None and member.picked.number is not None:
@@ -281,7 +284,7 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
         choices=tuple(choices),
         makes=tuple(_makes(chain, labels)),
         lasting=frozenset(lasting),
-        picks=tuple(picks),
+        picks=tuple(_picks(picks, len(members), modes)),
         conventions=tuple(_conventions(bool(picks), modes)),
     )
     if chain.is_cut and not analyse(assemble(read(claim, frozenset()))).is_determined:
@@ -289,9 +292,22 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
     return claim
 
 
+def _picks(stated: Sequence[Pick], count: int, modes: Modes) -> Iterator[Pick]:
+    """What FSELECT chooses, and where settings say so, the first solution elsewhere."""
+    if modes.convention(SELECTION).value == "ignore":
+        stated = ()
+    yield from stated
+    if modes.convention(AMBIGUOUS).value == "first":
+        told = {each.element for each in stated}
+        yield from (Pick(number, 1, "") for number in range(1, count + 1) if number not in told)
+
+
 def _conventions(is_picked: bool, modes: Modes) -> Iterator[Convention]:
+    """The settings on which the reading rests."""
     if is_picked:
         yield modes.convention(SELECTION)
+    if modes.convention(AMBIGUOUS).value == "first":
+        yield modes.convention(AMBIGUOUS)
 
 
 _NO_FACTS = frozenset({TANGENCY, "DR", "CLSD+", "FSELECT", "Z", "IZ", *(f"R{name}" for name in REFERRED)})
@@ -309,7 +325,7 @@ def _own_words(member: _Member, repeated: list[Word]) -> dict[str, Word]:
     own: dict[str, Word] = {}
     for block in (member.block, member.corner):
         for word in block.words if block else ():
-            if word.address in _BESIDE_ANY:
+            if word.address in _BESIDE_ANY or word.address not in LEXICON.addresses:
                 continue
             name = word.address
             if name == "CLSD":
@@ -435,11 +451,18 @@ def _givens(member: _Member, own: Mapping[str, Word], modes: Modes, *, is_behind
     return stated
 
 
-def _may_state(member: _Member) -> Iterator[str]:
-    """The words that a free element may have, of those that stand alone."""
+def _may_state(member: _Member, own: Set[str]) -> Iterator[str]:
+    """The words that a free element may have: those that stand alone, and those that the others need."""
     if member.function in FREE:
-        words = OF_LINES if member.function in STRAIGHT else OF_ARCS
+        is_line = member.function in STRAIGHT
+        words = OF_LINES if is_line else (*OF_ARCS, "DR")
         yield from (word for word in words if member.pole or word not in POLAR)
+        for together in _TOGETHER:
+            yield from together if not own.isdisjoint(together) else ()
+
+
+_TOGETHER = (*((f"{point}X", f"{point}Y") for point in POINTS), (f"{BESIDE}X", f"{BESIDE}Y", "D"))
+"""The words of a point, all or none."""
 
 
 def _pole_words(pole: Pole) -> dict[str, Word]:

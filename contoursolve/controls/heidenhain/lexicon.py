@@ -83,26 +83,27 @@ def _parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
     return address, number and number.replace(",", "."), found[f"{kind}_asked"] is not None
 
 
+_WORDS = (
+    r"(?P<label>(?:\A|(?<=/))[ \t]*+N?+\d++(?![.,\w]))",
+    r"(?P<sense>DR(?=[ \t]*+[+-])|CLSD(?!\w))[ \t]*+(?P<sign>[+-]?+)",
+    rf"(?P<feed>F[ \t]*+(?:AUTO|MAX)\b|F[UZ][ \t]*+{_NUMBER}|M[BT][ \t]*+(?:MAX|{_NUMBER}))",
+    rf"(?P<long>{_LONG})[ \t]*+{_value('long')}",
+    rf"(?P<corner>RND|CHF)(?![A-Z])[ \t]*+(?>(?:R[ \t]*+)?){_value('corner')}",
+    # R0 is no radius: it ends the compensation.
+    rf"(?!R0(?!\w))(?P<letter>{_AXIS}|[A-Z])(?![A-Z])[ \t]*+{_value('letter')}",
+)
+_TOKENS = (
+    f"(?P<word>{'|'.join(_WORDS)})",
+    r"(?P<blank>[ \t\f\v\x1a\ufeff~]++)",
+    r"(?P<comment>;.*+)",
+    rf"(?P<name>(?:APPR|DEP)[ \t]++[A-Z]++|(?:{_BY_LENGTH})(?!\w))",
+    rf"(?P<malformed>(?:{_LONG}|RND[ \t]*+R?+|CHF|{_AXIS}|[A-Z](?![A-Z]))[ \t]*+(?=[\d.,+-])[\w.,+-]++)",
+    r"(?P<bare>[A-Z]++[+-]?+)",
+    r"(?P<stray>[^ \tA-Z;]++)",
+)
 SYNTAX = Syntax(
     "klartext",
-    token=re.compile(
-        rf"""
-    (?P<word>
-        (?P<label>(?:\A|(?<=/))[ \t]*+N?+\d++(?![.,\w]))
-      | (?P<sense>DR(?=[ \t]*+[+-])|CLSD(?!\w))[ \t]*+(?P<sign>[+-]?+)
-      | (?P<feed>F[ \t]*+(?:AUTO|MAX)\b|F[UZ][ \t]*+{_NUMBER}|M[BT][ \t]*+(?:MAX|{_NUMBER}))
-      | (?P<long>{_LONG})[ \t]*+{_value("long")}
-      | (?P<corner>RND|CHF)(?![A-Z])[ \t]*+(?>(?:R[ \t]*+)?){_value("corner")}
-      | (?P<letter>{_AXIS}|[A-Z])(?![A-Z])[ \t]*+(?!0\b(?<=R0)){_value("letter")})
-  | (?P<blank>[ \t\f\v\x1a\ufeff~]++)
-  | (?P<comment>;.*+)
-  | (?P<name>(?:APPR|DEP)[ \t]++[A-Z]++|(?:{_BY_LENGTH})(?!\w))
-  | (?P<malformed>(?:{_LONG}|RND[ \t]*+R?+|CHF|{_AXIS}|[A-Z](?![A-Z]))[ \t]*+(?=[\d.,+-])[\w.,+-]++)
-  | (?P<bare>[A-Z]++[+-]?+)
-  | (?P<stray>[^ \tA-Z;]++)
-    """,
-        re.VERBOSE | re.ASCII | re.IGNORECASE,
-    ),
+    token=re.compile("|".join(_TOKENS), re.ASCII | re.IGNORECASE),
     statement=re.compile(
         r"[ \t/]*+(?>(?:N?\d++(?![.,\w])[ \t]*+)?)"
         rf"(?!{_MOVING}|;|~?+[ \t]*+$)(?:(?P<flow>CALL\b|FN[ \t]*+(?:9|10|11|12)[ \t]*+:)|(?P<assignment>\S))",

@@ -24,14 +24,14 @@ _LINES = START + "2 FL AN+60\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM"
 _POINT = START + "2 FL P1X+20 P1Y+20\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM"
 _BESIDE = START + "2 FL PDX+20 PDY+20 D0\n3 FL X+80 Y+20 AN-30\n4 END PGM A MM"
 _ARC = START + "2 FC DR+ R20 CCX+0 CCY+20 X+20 Y+20\n3 END PGM A MM"
-_PARALLEL = START + "2 FL X+50 Y+0\n3 FL AN+90\n4 FL PAR 2 DP 30 AN+180\n5 FL X+0 Y+0 AN-90\n6 END PGM A MM"
+_PARALLEL = START + "2 FL X+50 Y+0\n3 FL AN+90\n" + "4 FL PAR 2 DP 30 AN+180\n5 FL X+0 Y+0 AN-90"
 _POLAR = START + "2 FPOL X+10 Y+0\n3 FL PR+20 PA+45\n4 END PGM A MM"
 _POLE = START + "2 FL X+5 Y+0\n3 FPOL X+10 Y+0\n4 FL PR+20 PA+45\n5 END PGM A MM"
 _CLOSED = START + "2 FL X+30 Y+0 CLSD+\n3 FL X+30 Y+20\n4 FL CLSD-\n5 END PGM A MM"
 _TANGENT = START + "2 FL X+30 Y+0\n3 FCT DR+ R10 CCA+0\n4 END PGM A MM"
 _NUMBERED = START + "2 FL X+30 Y+0\n3 FL IX+5 IY+20 RX 2\n4 END PGM A MM"
-_CHOSEN = START + "2 FL LEN40 P1X+30 P1Y+10\n3 FSELECT 1\n4 FL X+80 Y+20\n5 END PGM A MM"
-_TOOL = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S100\n2 L X+0 Y+0\n3 FL AN+60\n4 FL X+80 Y+20 AN-30\n5 END PGM A MM"
+_CHOSEN = START + "2 FL LEN40 P1X+30 P1Y+10\n3 FSELECT 1\n4 FL X+80 Y+20"
+_TOOL = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S100\n2 L X+0 Y+0\n" + "3 FL AN+60\n4 FL X+80 Y+20 AN-30"
 
 
 def _row(  # noqa: PLR0913 - a row has these columns
@@ -96,7 +96,8 @@ _ROWS = (
          BOOK.derived("tangential connection"), some(NO_BEFORE) & some("IAN", TANGENCY), (LINE, ARC, PLAIN), _TANGENT,
          ("1 L X+0 Y+0\n2 FL X+30 Y+0\n", "1 CC X+0\n2 APPR LCT X+30 Y+0 R5\n")),
     _row("closes-nothing", "CLSD- ends a contour that CLSD+ in an earlier block begins, and there is none",
-         "write CLSD+ into the first block of the contour", BOOK.printed("closed contour"), some(CLOSES_NOTHING), _FK,
+         "write CLSD+ into the first block of the contour", BOOK.printed("closed contour"),
+         some(CLOSES_NOTHING) & some("CLSD-"), _FK,
          _CLOSED, (" CLSD+", "")),
     _row("size", "{words}: a radius, and a distance from the pole, is larger than 0", "write a positive number",
          BOOK.assumed("polar coordinates"), Value(("PR", "CCPR", "R", "LEN"), least=_LEAST), _FK, _POLAR,
@@ -106,17 +107,18 @@ _ROWS = (
          _FK, _TOOL, ("1 Z S", "1 X S")),
 )  # fmt: skip
 
+
 _OWN = (
     Rule(
         "heidenhain-selection", "{words}: {subject} has {limit_count} alone", "write {numbers}",
-        BOOK.assumed("how FSELECT counts"), (_CHOSEN,),
-        (_CHOSEN.replace("SELECT 1", "SELECT 3"),), about=RefusalKind.PICK_NONE,
+        BOOK.assumed("how FSELECT counts"), (_CHOSEN,), (_CHOSEN.replace("SELECT 1", "SELECT 3"),),
+        about=RefusalKind.PICK_NONE,
     ),
     Rule(
         "heidenhain-selection-open",
-        "{words} cannot be counted here: the blocks behind it leave one solution at {subject} alone",
-        "nothing is wrong; the solution that is taken is the one that fits all blocks",
-        BOOK.assumed("how FSELECT counts"), (_CHOSEN,), (_LINES.replace("60\n3", "60\n9 FSELECT 2\n3"),),
+        "{words} cannot be counted here: the other blocks leave one solution at {subject} alone",
+        "nothing is wrong: the solution that is taken fits all blocks", BOOK.assumed("how FSELECT counts"),
+        (_CHOSEN,), (_CHOSEN.replace("LEN40", "X+30 Y+10").replace("SELECT 1", "SELECT 2"),),
         about=NoteKind.PICK_OPEN, severity=Severity.INFO,
     ),
     Rule(
