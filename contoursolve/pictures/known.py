@@ -3,7 +3,7 @@
 A contour whose words leave something free is completed: that is put somewhere, and the rest solved as any other block.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from decimal import Decimal
 from itertools import product
 from math import hypot, isfinite
@@ -14,6 +14,7 @@ from msgspec.structs import replace
 
 from contoursolve.analysis import analyse
 from contoursolve.analysis.identities import is_affine
+from contoursolve.gcode import Word
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -186,17 +187,20 @@ def _derive(fact: Fact, profile: Profile, stated: Mapping[str, float], values: d
             values[fact.radius] = hypot(*steps)
 
 
-def in_chain(profile: Profile, items: Sequence["Alternative"] = ()) -> Known:
-    """What is determined of a chain without a contour: `items` are the solutions that it has; of one that lacks data,
-    those of the part that its data fix are worked out."""
+def in_chain(profile: Profile, items: Sequence["Alternative"] = (), blamed: Set[Word] = frozenset()) -> Known:
+    """What is determined of a chain without a contour: `items` are the solutions that it has. Of one that lacks data,
+    those of the part that its data fix are worked out; of one without a solution, what comes before the words that
+    are `blamed`."""
     from contoursolve.solving.alternatives import find_alternatives  # noqa: PLC0415 - few contours are such chains
-    from contoursolve.solving.ambiguity import restrict  # noqa: PLC0415 - as above
+    from contoursolve.solving.ambiguity import before, restrict  # noqa: PLC0415 - as above
 
     system = assemble(profile)
     fixed = frozenset(system.unknowns).difference(analyse(system).free)
     if not items and fixed:
-        part = restrict(profile, fixed)
-        items = find_alternatives(part).items if analyse(assemble(part)).is_determined else ()
+        part = restrict(profile, fixed) if len(fixed) < len(system.unknowns) else before(profile, blamed)
+        if part is None or not analyse(assemble(part)).is_determined:
+            return in_part(profile)
+        items, fixed = find_alternatives(part).items, fixed.intersection(assemble(part).unknowns)
     ways = [_known_at(profile, item, fixed) for item in items]
     if not ways:
         return in_part(profile)

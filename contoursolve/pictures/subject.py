@@ -91,8 +91,8 @@ class Traced(Struct, frozen=True):
 
     @property
     def elements(self) -> dict[str, Segment]:
-        """What is drawn of the path, by name."""
-        return {segment.name: segment for trail in self.trails for segment in trail.segments}
+        """What is drawn of the path, by name; of an element that is drawn in several ways, the first."""
+        return {segment.name: segment for trail in self.trails[::-1] for segment in trail.segments[::-1]}
 
     def at(self, point: str) -> Point | None:
         """Where a point is."""
@@ -133,10 +133,14 @@ def fitting(answer: Answer) -> list["Alternative"]:
     if answer.alternatives is None:
         return []
     from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
-    from contoursolve.solving.picks import pick  # noqa: PLC0415 - as above
+    from contoursolve.solving.picks import numbers_of, pick  # noqa: PLC0415 - as above
 
     paths = [each for each in choose(answer.alternatives, answer.profile.choices) if each.is_path]
-    return pick(paths, answer.profile)[0]
+    left = pick(paths, answer.profile)[0]
+    if len(left) > 1 and answer.claim.form.picking:
+        # As the control counts them.
+        left.sort(key=lambda item: [each.number for each in numbers_of(item, paths, answer.profile)])
+    return left
 
 
 def has_several(answer: Answer) -> bool:
@@ -283,7 +287,9 @@ def find_known(answer: Answer) -> Known:
         if solution is not None and solution.points:
             return known_of(solution)
     if answer.claim.form.is_general:
-        return in_chain(profile, fitting(answer) or items)
+        spans = {*_blamed(answer, is_slip=False)}
+        words = (given.word for given in profile.givens.values() if given.word is not None)
+        return in_chain(profile, fitting(answer) or items, {word for word in words if word.span in spans})
     verdict = analyse(system)
     if profile.is_extended:
         # Of several solutions, among which nothing chooses, the first.

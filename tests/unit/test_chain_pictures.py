@@ -148,3 +148,16 @@ def test_the_legend_tells_what_the_colours_mean():
     assert "one of several solutions" in texts[1]
     thick = [item for item in sheets[0].around if isinstance(item, Stroke) and item.role is Role.OPEN]
     assert thick
+
+
+def test_of_a_chain_without_a_solution_what_comes_before_is_drawn():
+    answer = only(
+        "2 FL AN+20\n3 FCT DR+ R10\n4 FLT AN+90 X+50 Y+60\n5 FC DR- R20 CCX+70 CCY+60\n6 FL LEN10 X+150 Y+10"
+    )
+    assert answer.status is Status.NO_SOLUTION
+    assert trails(answer) == {Role.DETERMINED: ["line 2", "arc 3", "line 4"]}
+
+
+def test_where_nothing_chooses_words_measure_the_first_solution():
+    (length,) = [each for each in compose(only(PARTED.format(""))).dimensions if each.text == "LEN40"]
+    assert length.end == pytest.approx((37.947, 12.649), abs=1e-3)
