@@ -15,7 +15,7 @@ from contoursolve.diagnostics.choices import choice_of
 from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.gcode import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 from contoursolve.geometry import Length
-from contoursolve.postprocess.numbering import Numbers
+from contoursolve.postprocess.numbering import numbers_of
 from contoursolve.program.pipeline import Result, Run, run
 from contoursolve.program.project import configure, find_settings, restate_control, stated_settings
 from contoursolve.program.recognise import choose, find_dialect
@@ -259,6 +259,9 @@ def expand(
 ) -> Expansion:
     """A program with every contour written as plain G00, G01, G02 and G03, and everything else as it was.
 
+    A control that is not programmed in G codes gets its own lines and arcs; for another target, all of its program is
+    written in G codes.
+
     Args:
         text: the program, with its line ends.
         post: the target: `same` (the control that the program is for), `linuxcnc` or `fanuc`, or one of your own.
@@ -305,7 +308,7 @@ def expand(
             unit=unit,
             policy=policy,
             start=beginning,
-            numbers=Numbers(gcode.split_lines(text)) if numbering is Numbering.ALL else None,
+            numbers=numbers_of(gcode.split_lines(text), dialect) if numbering is Numbering.ALL else None,
         )
     )
     opening = opening_of(options, dialect, unit, summary)
@@ -347,7 +350,7 @@ def convert(
     G01 X100. ,A120.
     """
     # Only this function needs them.
-    from contoursolve.comparison import compare, follow  # noqa: PLC0415
+    from contoursolve.comparison import compare, follow, whole  # noqa: PLC0415
     from contoursolve.postprocess.expansion_report import Conversion  # noqa: PLC0415
     from contoursolve.postprocess.post_processors import machine_of, post_of  # noqa: PLC0415
     from contoursolve.postprocess.translate import language_of  # noqa: PLC0415
@@ -369,7 +372,7 @@ def convert(
     unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
     axes = tuple(sorted({*dialect.modes.axes, *target.modes.axes}))
     old, new = (
-        follow(run(gcode.parse(program, name), each, unit, policy), each, unit, axes)
+        follow(run(gcode.parse(program, name), whole(each), unit, policy), each, unit, axes)
         for program, each in ((text, dialect), (found.text, target))
     )
     comparison = compare(old, new, _CONVERTED_WITHIN)

@@ -83,7 +83,7 @@ def diff(
     contoursolve diff shaft.nc shaft_by_hand.nc
     contoursolve diff shaft.nc shaft.ngc --new-control linuxcnc --tolerance 0.002
     """
-    from contoursolve.comparison import compare, follow  # noqa: PLC0415 - only here
+    from contoursolve.comparison import compare, follow, whole  # noqa: PLC0415 - only here
     from contoursolve.output import differences  # noqa: PLC0415 - only here
 
     if old == new == "-":
@@ -94,7 +94,7 @@ def diff(
         before = sides[0][1] if sides else None
         is_kept = control is not None and before is not None and _reads_what_shows_others(before, program)
         dialect = _dialect_of(program, own or (before if is_kept else None), before, assignments)
-        result = run(program, dialect, Length(unit), Policy(rules))
+        result = run(program, whole(dialect), Length(unit), Policy(rules))
         sides.append((result, dialect, Length(unit)))
     results = [result for result, _, _ in sides]
     if any(map(_has_no_path, results)):

@@ -155,7 +155,7 @@ def expand(
             context.exit(FOUND_ERRORS)
         if target is None:
             print_bytes(rewritten.pieces())
-        elif summary.replaced or not is_in_place:
+        elif summary.replaced or summary.restated or not is_in_place:
             try:
                 backup = write_whole(target, rewritten.pieces(), keeps_backup=is_in_place)
             except CannotWriteError as error:
@@ -330,4 +330,9 @@ def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
     if summary.warnings:
         them = "it" if summary.warnings == 1 else "them"
         done += f"; {count(summary.warnings, 'warning')}: contoursolve check says more about {them}"
-    say(done if summary.replaced or summary.left else "no contour block: nothing to expand", err=True)
+    if summary.restated:
+        done += f"; {count(summary.restated, 'other block')} read for {post.title}"
+    say(
+        done if summary.replaced or summary.left or summary.restated else "no contour block: nothing to expand",
+        err=True,
+    )

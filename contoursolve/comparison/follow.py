@@ -2,8 +2,9 @@
 
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace as replace_fields
 from decimal import Decimal
-from math import atan2, hypot, sqrt, tau
+from math import atan2, ceil, cos, dist, hypot, radians, sin, sqrt, tau
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -18,8 +19,9 @@ from contoursolve.reading import Code, Effect, Lexicon, State, WithoutPoint, adv
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import ContourBlock, blocks_of
 from contoursolve.reading.modal_dependence import MOTIONS, Reliance, reliance
+from contoursolve.reading.writer import Around, Plain
 from contoursolve.solving.contour import ArcSegment, Segment
-from contoursolve.tolerance import LENGTH
+from contoursolve.tolerance import LENGTH, REGULAR
 
 _TURNS = {2: Turn.CW, 3: Turn.CCW}
 _LINES = {0: Motion.RAPID, 1: Motion.FEED}
@@ -50,6 +52,11 @@ def follow(result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...]
     return Path(result.program.name, dialect.name, axes, tuple(follower.walk(result.program, result.answers)))
 
 
+def whole(dialect: Dialect) -> Dialect:
+    """A control that finds as contours all that must be solved where a whole program is followed."""
+    return dialect if dialect.writing is None else replace_fields(dialect, find=dialect.writing.find)
+
+
 class _Follower:
     """The state as it goes, and how words are read."""
 
@@ -59,6 +66,7 @@ class _Follower:
         self.centers = Centers.START
         self.state = dialect.initial_state(unit)
         self.axes = axes
+        self.plain = dialect.writing.plain() if dialect.writing is not None else None
 
     def walk(self, program: Program, answers: Sequence[Answer]) -> Iterator[Step]:
         """Every element of the path in order."""
@@ -70,7 +78,7 @@ class _Follower:
                 inside = answer.lines[-1]
                 yield from self._contour(answer)
             elif block.line > inside and (block.words or block.macro or block.faults):
-                yield from self._block(self._switch(block))
+                yield from self._restated(self.plain, block) if self.plain else self._block(self._switch(block))
 
     def _contour(self, answer: Answer) -> Iterator[Step]:
         """The elements of a contour, each with the block that makes it: a form has one block, or one an element."""
@@ -102,8 +110,29 @@ class _Follower:
         bend = None
         if isinstance(segment, ArcSegment):
             bend = _bend((first, second), segment.center, segment.start, segment.end, segment.turn)
-        motion = Motion.RAPID if part.is_rapid else Motion.FEED
+        is_rapid = self.plain.is_rapid(part.block) if self.plain else part.is_rapid
+        motion = Motion.RAPID if is_rapid else Motion.FEED
         return self._travel(part.block, part.state, motion, (places[0], places[1]), bend)
+
+    def _restated(self, plain: Plain, block: Block) -> Iterator[Step]:
+        """What a block adds to the path that is not programmed in G codes."""
+        before, here = self.state, apply_modes(self.state, block, self.modes)
+        self.state = advance(before, block, self.modes)
+        said = plain.restate(block, before, self.state)
+        others = [text for text in said.says.words if text[0] not in _BESIDE]
+        if others or (said.reason and not said.ends):
+            yield self._unfollowed(block, f"{others[0]} in a move" if others else said.reason)
+            return
+        start = self._place(before)
+        end = tuple(said.ends.get(axis, at) for axis, at in zip(self.axes, start, strict=True))
+        motion = Motion.RAPID if said.is_rapid else Motion.FEED
+        ways = zip(start, end, strict=True)
+        if said.around is not None:
+            indices = self.axes.index(here.plane.axes[0]), self.axes.index(here.plane.axes[1])
+            for begin, finish, bend in _turns(indices, said.around, start, end):
+                yield self._travel(block, here, motion, (begin, finish), bend)
+        elif any(new is not None and (old is None or abs(new - old) > LENGTH) for old, new in ways):
+            yield self._travel(block, here, motion, (start, end), None)
 
     def _switch(self, block: Block) -> Block:
         """A block without the codes that change how its words are read, which are in force now."""
@@ -295,6 +324,26 @@ def _bend(
     is_full = hypot(end[0] - start[0], end[1] - start[1]) <= LENGTH
     sweep = tau if is_full else ((finish - begin) * turn.sign) % tau
     return Bend(axes, center, begin, sweep * turn.sign, (one, other))
+
+
+def _turns(axes: tuple[int, int], around: Around, start: Place, end: Place) -> Iterator[tuple[Place, Place, Bend]]:
+    """An arc, each turn by itself if it has several: where it begins and ends, and what makes it one."""
+    (first, second), (center, sweep) = axes, around
+    radii = [dist(center, (at[first] or 0.0, at[second] or 0.0)) for at in (start, end)]
+    begin = atan2((start[second] or 0.0) - center[1], (start[first] or 0.0) - center[0])
+    parts = max(1, ceil(abs(sweep) / 360.0 - REGULAR))
+    for number in range(parts):
+        share = radians(sweep) / parts
+        angles = begin + share * number, begin + share * (number + 1)
+        places = [start, end]
+        for side, at in enumerate(angles):
+            way = (number + side) / parts
+            if 0 < way < 1:
+                radius = radii[0] + (radii[1] - radii[0]) * way
+                place = [None if a is None or b is None else a + (b - a) * way for a, b in zip(start, end, strict=True)]
+                place[first], place[second] = center[0] + radius * cos(at), center[1] + radius * sin(at)
+                places[side] = tuple(place)
+        yield places[0], places[1], Bend(axes, center, angles[0], share, (radii[0], radii[1]))
 
 
 def _center_of(

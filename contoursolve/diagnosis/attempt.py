@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from contoursolve.analysis import analyse, order
 from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts
-from contoursolve.diagnosis.examine import Answer, Policy, examine
+from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
 from contoursolve.diagnosis.examples import ends, propose, sampled
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnosis.typo_fixes import (
@@ -442,7 +442,7 @@ def examine_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ..
     found = find_edited(claim, dialect, edits, before)
     if found is None or _largest_step(found, before) > LARGEST_STEP:
         return None
-    return examine(found, dialect.rules, Policy.ENFORCE, lambda: before.next_place)
+    return examine(found, dialect.rules, Policy.ENFORCE, lambda: before.next_place, Depth.TRIAL)
 
 
 def _extra(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> int:

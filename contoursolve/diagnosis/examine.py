@@ -83,6 +83,8 @@ class Depth(Enum):
     """Also why they are so, and every repair; but nothing is proven of a contour without a finding."""
     FULL = "full"
     """Also why they are so, and every repair; some milliseconds a contour."""
+    TRIAL = "trial"
+    """Whether there is a contour without a finding; of one with findings, not every word that is to blame."""
 
 
 class AskedValue(Struct, frozen=True):
@@ -396,7 +398,7 @@ def _solve(
     # Unusual combinations, open choices, and lines that touch as far as floats can tell.
     from contoursolve.solving.ambiguity import settle  # noqa: PLC0415
 
-    settlement = settle(profile)
+    settlement = settle(profile, is_blaming=depth is not Depth.TRIAL)
     if settlement.singular and Status.REJECTED not in notebook.statuses:
         finding = explain_singular(context, settlement.singular, settlement.loose, profile)
         notebook.add(finding, Status.UNDERDETERMINED)

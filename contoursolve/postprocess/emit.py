@@ -35,6 +35,8 @@ class Format:
     arc_decimals: int = 0
     radius: str = "R"
     """The address of an arc's radius."""
+    is_center_absolute: bool = False
+    """Whether centres are coordinates, and not counted from where the arc begins."""
     mm: float = field(init=False)
     """Millimetres of one unit."""
     step: float = field(init=False)
@@ -81,13 +83,17 @@ class Move(NamedTuple):
     deviation: float
 
 
+def longest(form: Format) -> float:
+    """The longest arc that is written as one, degrees."""
+    return LONGEST_BY_RADIUS if form.arcs is Arcs.RADIUS else LONGEST_BY_CENTER
+
+
 def emit(segment: Segment, here: Point, form: Format, *, is_rapid: bool = False) -> Iterator[Move]:
     """The moves that make an element, from where the tool really is; none if it rounds to nothing.
 
     A last move without words tells how far off that is.
     """
-    limit = LONGEST_BY_RADIUS if form.arcs is Arcs.RADIUS else LONGEST_BY_CENTER
-    parts = ceil(segment.sweep / limit) if isinstance(segment, ArcSegment) else 1
+    parts = ceil(segment.sweep / longest(form)) if isinstance(segment, ArcSegment) else 1
     for part in (segment,) if parts <= 1 else _split(segment, parts):
         move = _Writer(part, here, form).move(is_rapid)
         here = move.end
@@ -153,13 +159,16 @@ class _Writer:
         along = (chord[0] / 2 - exact[0]) * chord[0] + (chord[1] / 2 - exact[1]) * chord[1]
         along /= chord[0] ** 2 + chord[1] ** 2
         step, (across, rise), (to_first, to_second) = self.form.arc_step, chord, exact
+        # Where centres are coordinates, those have the decimals.
+        origin = start if self.form.is_center_absolute else (0.0, 0.0)
         best = (inf, inf, 0.0, 0.0)
         for share in (0.0, along):
-            first, second = (to_first + share * across) / step, (to_second + share * rise) / step
+            first = (origin[0] + to_first + share * across) / step
+            second = (origin[1] + to_second + share * rise) / step
             for one in {floor(first), ceil(first)}:
-                i = one * step
+                i = one * step - origin[0]
                 for two in {floor(second), ceil(second)}:
-                    j = two * step
+                    j = two * step - origin[1]
                     mismatch = abs(hypot(i, j) - hypot(across - i, rise - j))
                     key = (max(mismatch, step), hypot(i - to_first, j - to_second), i, j)
                     if key < best:
@@ -167,10 +176,11 @@ class _Writer:
         if best[0] == inf:
             raise ValueError("an arc without a center")
         spec = self.form.arc_spec
-        texts = [self.form.number(best[2], spec), self.form.number(best[3], spec)]
-        center = start[0] + float(texts[0]), start[1] + float(texts[1])
+        texts = [self.form.number(value + base, spec) for value, base in zip(best[2:], origin, strict=True)]
+        i, j = (float(text) - base for text, base in zip(texts, origin, strict=True))
+        center = start[0] + i, start[1] + j
         words = [address + text for address, text in zip(self.form.plane.centers, texts, strict=True)]
-        return words, center, hypot(float(texts[0]), float(texts[1]))
+        return words, center, hypot(i, j)
 
     def _by_radius(self, end: Point) -> tuple[list[str], Point, float]:
         """R, large enough to reach both ends."""

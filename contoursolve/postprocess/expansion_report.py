@@ -7,6 +7,7 @@ from msgspec import Struct, field
 
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.gcode import Block, FaultKind
+from contoursolve.geometry import Length
 from contoursolve.postprocess.post_processors import SAME, Arcs, Numbering, Post, Risk
 from contoursolve.postprocess.untranslatable import Unfamiliar
 
@@ -50,6 +51,10 @@ class Summary(Struct):
     deviation: float = 0.0
     left: list[Left] = field(default_factory=list)
     unfamiliar: list[Unfamiliar] = field(default_factory=list)
+    restated: int = 0
+    """Blocks outside contours that were written in G codes, where the program is in other words."""
+    unit: Length | None = None
+    """The unit at its begin, where it says so itself."""
     counts_diameters: bool | None = None
     """Whether X counted diameters in contours of a program that does not say it; None: there were none."""
     line_end: str = "\n"

@@ -10,19 +10,25 @@ from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
 from contoursolve.postprocess.block_numbers import LONG, PROFILE_CYCLES, SHORT
 from contoursolve.reading import Code, Effect, Modes, State, apply_modes, codes_of
+from contoursolve.reading.dialect import Dialect
 from contoursolve.tolerance import ARC_START
 
 _NUMBER = re.compile(r"(?:[NPQ]|GOTO)[ \t]*([0-9]{1,5})(?![0-9])", re.IGNORECASE)
 """What is a block number or may be the number of a block that is jumped to, in comments, too."""
 
 
+def numbers_of(lines: Iterable[str], dialect: Dialect) -> "Numbers":
+    """Which block numbers a program has, as its control writes them."""
+    return Numbers(lines, dialect.writing.number if dialect.writing is not None else _NUMBER)
+
+
 class Numbers:
     """Which block numbers of a program are taken."""
 
-    def __init__(self, lines: Iterable[str]) -> None:
+    def __init__(self, lines: Iterable[str], number: re.Pattern[str] = _NUMBER) -> None:
         self._taken = bytearray(LONG + 1)
         for line in lines:
-            for digits in _NUMBER.findall(line):
+            for digits in number.findall(line):
                 self._taken[int(digits)] = 1
         self.highest = LONG if 1 in self._taken[SHORT + 1 :] else SHORT
 
@@ -42,6 +48,8 @@ class Numberer:
 
     def __init__(self, modes: Modes, numbers: Numbers | None) -> None:
         """`numbers` are those of the program, where all lines are to have one."""
+        self.prefix = "N"
+        """What stands before a number."""
         self._modes = modes
         self._numbers = numbers
         self._ends: set[Decimal] = set()
@@ -73,12 +81,12 @@ class Numberer:
             self._divided[word.number] = block.line
         if self._numbers is None or word.number % 1:
             return ""
-        number, width = int(word.number), len(word.text.strip()) - 1
+        number, width = int(word.number), len(word.text.strip().lstrip("Nn"))
         for text in (text for at, text in enumerate(texts) if at != place):
             free = self._numbers.take_after(number)
             if free is None:
                 return f"no block number up to {self._numbers.highest} is free for it: number its first line only"
-            text.insert(0, f"N{free:0{width}}")
+            text.insert(0, f"{self.prefix}{free:0{width}}")
             number = free
         return ""
 

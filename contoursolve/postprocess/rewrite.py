@@ -13,7 +13,7 @@ from contoursolve.gcode.files import Tape
 from contoursolve.geometry import Length
 from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_facts, opening_of
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
-from contoursolve.postprocess.numbering import Numbers
+from contoursolve.postprocess.numbering import numbers_of
 from contoursolve.postprocess.post_processors import Numbering
 from contoursolve.program.lines import Lines
 from contoursolve.program.project import configure
@@ -84,7 +84,7 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
             unit=unit,
             policy=policy,
             start=start,
-            numbers=Numbers(tape.lines()) if options.numbering is Numbering.ALL else None,
+            numbers=numbers_of(tape.lines(), dialect) if options.numbering is Numbering.ALL else None,
         )
     held: list[str] = []
     size, place, told = 0, len(tape.mark), 0.0

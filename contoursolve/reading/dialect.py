@@ -11,6 +11,7 @@ from contoursolve.reading.follow import Finder
 from contoursolve.reading.lexicon import Diameter
 from contoursolve.reading.modal_state import Modes, Position, State, with_diameters
 from contoursolve.reading.rules import Rule
+from contoursolve.reading.writer import Writing
 
 
 def _unchanged(dialect: "Dialect") -> "Dialect":
@@ -69,6 +70,8 @@ class Dialect:
     """Whether a contour may be several blocks in a row."""
     follow: Follower | None = None
     """What is wrong with the block behind a contour, though it is no part of it."""
+    writing: Writing | None = None
+    """How its programs are written, where it is not programmed in G codes."""
 
     @property
     def assumptions(self) -> tuple[Assumption, ...]:

@@ -32,6 +32,7 @@ from contoursolve.solving.alternatives import Alternative, Alternatives, decide,
 from contoursolve.solving.compare import compare_affine
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import enumerate_solutions
+from contoursolve.solving.plan import is_closed
 from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind, Solution, Status
 from contoursolve.solving.solve import solve
 
@@ -119,10 +120,11 @@ class Settlement(Struct, frozen=True):
     loose: tuple[str, ...] = ()
 
 
-def settle(profile: Profile) -> Settlement:
+def settle(profile: Profile, *, is_blaming: bool = True) -> Settlement:
     """The contour that the control makes of a determined profile, or the only one that there is.
 
-    Where the first facts are singular at their values, those that were not needed are tried instead of them.
+    Where the first facts are singular at their values, those that were not needed are tried instead of them. Which
+    facts are to blame where there is no contour takes searches of its own.
     """
     alternatives = find_alternatives(profile)
     if not alternatives.items and _singular(alternatives):
@@ -131,7 +133,7 @@ def settle(profile: Profile) -> Settlement:
     nearest = tuple(sorted(alternatives.items, key=_disagreement))
     solution = decide(replace(alternatives, items=nearest), profile)
     kinds = {refusal.kind for refusal in solution.refusals}
-    if not kinds & {RefusalKind.NO_POINT, RefusalKind.SEARCH_UNFINISHED}:
+    if not is_blaming or not kinds & {RefusalKind.NO_POINT, RefusalKind.SEARCH_UNFINISHED}:
         return Settlement(solution, alternatives)
     system = assemble(profile)
     groups = _groups(system)
@@ -241,7 +243,7 @@ def _affine(profile: Profile, groups: tuple[Group, ...], doubtful: list[Group]) 
     """What the solver of ordinary words says of a group, where it and all before it are about such words."""
     part = _first(profile, groups[: groups.index(doubtful[0]) + 1])
     system = assemble(part)
-    if not is_affine(part.facts) or not analyse(system).is_determined:
+    if not is_affine(part.facts) or not analyse(system).is_determined or not is_closed(system):
         return None
     refusals = [each for each in solve(part).refusals if isinstance(each, Refusal)]
     return Solution(refusals[0].kind.status, refusals=tuple(refusals)) if refusals else None

@@ -8,6 +8,7 @@ from contoursolve.controls.heidenhain.follow import follow
 from contoursolve.controls.heidenhain.lexicon import CODES, LEXICON, SYNTAX, shown_by
 from contoursolve.controls.heidenhain.rules import RULES
 from contoursolve.controls.heidenhain.settings import SETTINGS
+from contoursolve.controls.heidenhain.writer import WRITING
 from contoursolve.controls.plain import PLANES
 from contoursolve.reading import Modes
 from contoursolve.reading.dialect import Dialect
@@ -23,4 +24,5 @@ HEIDENHAIN = Dialect(
     signs=shown_by,
     contours="free contours: FL, FLT, FC, FCT",
     settings=SETTINGS,
+    writing=WRITING,
 )

@@ -6,6 +6,7 @@ A chain goes through free elements in a row, and through conventional moves that
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import replace as replace_fields
 from decimal import Decimal
+from functools import partial
 from itertools import count
 
 from msgspec import Struct
@@ -36,6 +37,7 @@ from contoursolve.controls.heidenhain.lexicon import (
     function_of,
 )
 from contoursolve.controls.heidenhain.settings import AMBIGUOUS, SELECTION
+from contoursolve.controls.heidenhain.tangents import senses
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Choice, Given, Pick, Side, Turn, Unit, assemble
 from contoursolve.reading import Convention, Modes, ParsedContour, State, apply_modes, read
@@ -89,6 +91,8 @@ class _Member(Struct):
     corner: Block | None = None
     corner_index: int = 0
     picked: Word | None = None
+    sense: int = 0
+    """Of a conventional arc that has no DR, where it is known: 1 is counter-clockwise."""
 
 
 class _Chain:
@@ -184,8 +188,10 @@ def _is_in_plane(block: Block) -> bool:
 _MOVING = frozenset({"X", "Y", "IX", "IY", "PR", "PA", "IPR", "IPA", "DR", "R"})
 
 
-def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> ParsedContour | None:
-    """The chain that begins at a block, if any."""
+def find(
+    blocks: Sequence[Block], index: int, state: State, modes: Modes, *, is_joined: bool = False
+) -> ParsedContour | None:
+    """The chain that begins at a block, if any; also one of conventional moves alone that are joined (`is_joined`)."""
     block = blocks[index]
     if block.macro is not None or not block.words:
         return None
@@ -199,9 +205,12 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Par
     if function not in FREE and not _leads_on(blocks, index):
         return None
     chain = _Chain(state, modes)
-    if not chain.read(blocks, index):
+    if not chain.read(blocks, index) and not (is_joined and len(chain.members) > 1):
         return None
     return _claim(chain, state, modes)
+
+
+find_joined = partial(find, is_joined=True)
 
 
 def _leads_on(blocks: Sequence[Block], index: int) -> bool:
@@ -222,6 +231,9 @@ def _leads_on(blocks: Sequence[Block], index: int) -> bool:
 def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
     """What the blocks of a chain state."""
     members, numbers, labels = chain.members, _numbers(chain), _labels(chain)
+    tangents = dict(senses(chain.blocks, before, modes))
+    for member in members:
+        member.sense = tangents.get(member.block.line, 0)
     opening = next((n for n, each in enumerate(members, 1) if _sign_of(each.block, "CLSD") > 0), 0)
     elements: list[Element] = []
     words: dict[str, Word] = {}
@@ -406,7 +418,7 @@ def _element(
     tool = member.here.memory.get(TOOL_AXIS)
     if tool is not None and tool.text != "Z":
         lacking.append(TOOL)
-    turn = None if is_line else Turn.CW if sense < 0 else Turn.CCW
+    turn = None if is_line else Turn.CW if (sense or member.sense) < 0 else Turn.CCW
     touching = frozenset(name for name in ("D", "DP") if name in own and own[name].number == 0)
     closes = opening if "CLSD-" in own and opening < number else 0
     stated = [name in own and own[name].number is not None for name in ("AN", "CCA")]
