@@ -151,9 +151,7 @@ def test_the_legend_tells_what_the_colours_mean():
 
 
 def test_of_a_chain_without_a_solution_what_comes_before_is_drawn():
-    answer = only(
-        "2 FL AN+20\n3 FCT DR+ R10\n4 FLT AN+90 X+50 Y+60\n5 FC DR- R20 CCX+70 CCY+60\n6 FL LEN10 X+150 Y+10"
-    )
+    answer = only("2 FL AN+20\n3 FCT DR+ R10\n4 FLT AN+90 X+50 Y+60\n5 FC DR- R20 CCX+70 CCY+60\n6 FL LEN10 X+150 Y+10")
     assert answer.status is Status.NO_SOLUTION
     assert trails(answer) == {Role.DETERMINED: ["line 2", "arc 3", "line 4"]}
 
