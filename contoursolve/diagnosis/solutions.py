@@ -132,7 +132,7 @@ def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alt
     """The words, or else the fact, that would select a solution."""
     if len(alternatives.items) == 1:
         return []
-    if answer.claim.form.picking and item.is_path:
+    if answer.claim.form.picking:
         word, path = answer.claim.form.picking, answer.profile.figure.path
         picks = _picks_of(item, alternatives, answer)
         return [f"{spell(word, str(each.number))} behind {path[each.element - 1].name}" for each in picks]

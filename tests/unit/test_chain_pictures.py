@@ -5,7 +5,7 @@ import pytest
 import contoursolve
 from contoursolve import Status
 from contoursolve.diagnostics.finding import Severity
-from contoursolve.pictures import Theme, draw_answer
+from contoursolve.pictures import Theme, draw_answer, draw_result
 from contoursolve.pictures.compose import compose
 from contoursolve.pictures.page import Stroke, Text
 from contoursolve.pictures.scene import Mark, Ring, Thin, Trail, Weight
@@ -159,3 +159,11 @@ def test_of_a_chain_without_a_solution_what_comes_before_is_drawn():
 def test_where_nothing_chooses_words_measure_the_first_solution():
     (length,) = [each for each in compose(only(PARTED.format(""))).dimensions if each.text == "LEN40"]
     assert length.end == pytest.approx((37.947, 12.649), abs=1e-3)
+
+
+def test_several_chains_of_a_program_have_their_colours_as_well():
+    text = FRAME.format("2 FL X+30 Y+0\n3 L X+0 Y+0 R0 FMAX\n4 FL LEN40 P1X+30 P1Y+10\n5 FL X+80 Y+20")
+    result = contoursolve.solve(text)
+    assert [answer.status for answer in result.answers] == [Status.SOLVED, Status.AMBIGUOUS]
+    roles = {item.role for item in draw_result(result).sheet.drawing if isinstance(item, Stroke)}
+    assert {Role.DETERMINED, Role.SEVERAL} <= roles
