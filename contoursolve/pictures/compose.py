@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from msgspec.structs import replace
+
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.solutions import list_solutions
 from contoursolve.diagnostics.finding import Diagnostic, Severity
@@ -38,7 +40,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
     subject = subject_of(answer)
     noted = noted_points(subject)
     ghosts, others = _other_ways(subject) if subject.is_chain else _ghosts(subject)
-    return Scene(
+    scene = Scene(
         title=title if title is not None else title_of(answer),
         axes=axis_names(answer.plane, answer.unit),
         parts=(
@@ -55,6 +57,8 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
         is_one_contour=True,
         closeups=tuple(_corners(subject.trails)),
     )
+    # The words of a chain are all there to be found; those for which there is no room stand below.
+    return replace(scene, most_labels=MOST_OF_CHAIN * 5) if subject.is_chain else scene
 
 
 _READABLE = 11.0

@@ -49,9 +49,6 @@ _GAP = 0.5
 _LEAST = 0.4
 """Pixels. Elements that are smaller are drawn with the next one."""
 
-_MOST_LABELS = 40
-"""Labels on one page. Of a larger drawing, the words that are simply given are not drawn: nobody could read them."""
-
 _MOST_NAMES = 6
 """Names of parts that are too small to be read."""
 
@@ -93,10 +90,10 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
 def _thinned(scene: Scene) -> Scene:
     """The scene as far as it can be read: of a crowded one, words that are not simply given, and names."""
     dimensions, marks = scene.dimensions, scene.each(Mark)
-    if len(dimensions) + sum(bool(mark.label) for mark in marks) <= _MOST_LABELS:
+    if len(dimensions) + sum(bool(mark.label) for mark in marks) <= scene.most_labels:
         return scene
-    special = [each for each in dimensions if each.role is not Role.GIVEN][:_MOST_LABELS]
-    left = max(_MOST_LABELS - len(special), 2)
+    special = [each for each in dimensions if each.role is not Role.GIVEN][: scene.most_labels]
+    left = max(scene.most_labels - len(special), 2)
     short = (replace(m, label=m.short if number < left else (), short=()) for number, m in enumerate(marks))
     others = (part for part in scene.parts if not isinstance(part, Dimension | Mark))
     dropped = len(dimensions) - len(special)

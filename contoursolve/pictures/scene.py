@@ -186,6 +186,8 @@ class Scene(Struct, frozen=True):
     is_one_contour: bool = False
     """Whether names of elements mean one thing only."""
     closeups: tuple[Closeup, ...] = ()
+    most_labels: int = 40
+    """Labels on one page. Of a larger drawing, the words that are simply given are not drawn: who could read them?"""
     scale_unit: Length | None = None
     """The unit of the bar that shows how large the drawing is; no bar without one."""
 

@@ -167,3 +167,10 @@ def test_several_chains_of_a_program_have_their_colours_as_well():
     assert [answer.status for answer in result.answers] == [Status.SOLVED, Status.AMBIGUOUS]
     roles = {item.role for item in draw_result(result).sheet.drawing if isinstance(item, Stroke)}
     assert {Role.DETERMINED, Role.SEVERAL} <= roles
+
+
+def test_the_words_of_a_long_chain_are_drawn_as_well():
+    body = "\n".join(f"{n} FL AN{n * 14 + (40 if n % 2 else -40):+d} LEN2{n % 7}" for n in range(2, 24))
+    answer = only(body)
+    texts = drawn_texts(answer)
+    assert all(word.text in texts for word in answer.claim.words.values() if word.address in ("AN", "LEN"))
