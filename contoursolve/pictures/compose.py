@@ -23,6 +23,9 @@ from contoursolve.solving.contour import ArcSegment, Contour, trace
 MOST_LINES, MOST_OF_CHAIN = 6, 24
 """Lines of a program in a picture's head: of any, and of a chain, whose elements are named by their blocks."""
 
+MOST_LABELS = 120
+"""Labels of a chain, whose words are all there to be found; those for which there is no room stand below."""
+
 MOST_REMARKS = 3
 
 _REMARKS = {Severity.ERROR: Role.CONFLICTING, Severity.WARNING: Role.IGNORED, Severity.INFO: Role.MUTED}
@@ -57,8 +60,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
         is_one_contour=True,
         closeups=tuple(_corners(subject.trails)),
     )
-    # The words of a chain are all there to be found; those for which there is no room stand below.
-    return replace(scene, most_labels=MOST_OF_CHAIN * 5) if subject.is_chain else scene
+    return replace(scene, most_labels=MOST_LABELS) if subject.is_chain else scene
 
 
 _READABLE = 11.0
