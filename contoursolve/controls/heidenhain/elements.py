@@ -6,7 +6,16 @@ from itertools import pairwise
 
 from msgspec import Struct
 
-from contoursolve.controls.heidenhain.lexicon import BOOK, CHAMFER, FREE, REFERRED, ROUNDING, STRAIGHT, TANGENT
+from contoursolve.controls.heidenhain.lexicon import (
+    BOOK,
+    CHAMFER,
+    FREE,
+    LEXICON,
+    REFERRED,
+    ROUNDING,
+    STRAIGHT,
+    TANGENT,
+)
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -238,8 +247,9 @@ def _touches_before(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
     arcs = [each for each in (before, place) if not each.element.is_line]
     if len(arcs) == 1:
         line = place if place.element.is_line else before
-        yield TangentLine(line.name, arcs[0].center, arcs[0].radius, arcs[0].turn.sign, given)
+        # Where the point is known besides, the tangency comes last, and is what does not agree.
         yield Foot(line.name, place.tail, arcs[0].center)
+        yield TangentLine(line.name, arcs[0].center, arcs[0].radius, arcs[0].turn.sign, given)
     elif arcs:
         side = 1 if before.turn is not place.turn else -1
         yield Contact(place.tail, before.center, place.center, side, given)
@@ -369,20 +379,22 @@ def _rows(chain: Chain) -> Iterator[FactRow]:
         if place.element.is_line:
             continue
         after = places[place.number] if place.number < len(places) else None
-        # Where a line touches the arc, or its radius has a direction, that it passes the point follows.
-        is_smooth = place.element.function in TANGENT and place.number > 1
-        met = [
-            place.element.is_entered
-            or (is_smooth and (places[place.number - 2].element.is_line or _is_aimed(chain, place)))
-        ]
-        is_smooth = after is not None and after.element.function in TANGENT
-        met.append(
-            place.element.is_ended
-            or (after is not None and is_smooth and (after.element.is_line or _is_aimed(chain, after)))
-        )
-        for point, is_met in zip((place.tail, place.head), met, strict=True):
+        for point, is_met in ((place.tail, _is_met(chain, place, place)), (place.head, _is_met(chain, place, after))):
             if not is_met:
                 yield FactRow(OnCircle(point, place.center, place.radius), ())
+
+
+def _is_met(chain: Chain, arc: Place, second: Place | None) -> bool:
+    """Whether that an arc passes its begin (`second` is itself) or its end follows from other facts: where a line
+    touches it, or where its radius has a direction. Of an arc by its centre or radius and its end, all is known."""
+    if arc.element.function not in (*FREE, *TANGENT):
+        return False
+    if arc.element.is_entered if second is arc else arc.element.is_ended:
+        return True
+    if second is None or second.number == 1 or second.element.function not in TANGENT:
+        return False
+    other = chain.places[second.number - 2] if second is arc else second
+    return other.element.is_line or _is_aimed(chain, second)
 
 
 def _heading(chain: Chain, place: Place) -> str | None:
@@ -461,7 +473,7 @@ def compose(elements: tuple[Element, ...], labels: tuple[str, ...]) -> ContourFo
             for first, second in pairwise(places)
         ),
         intersections=tuple(points[1:-1]),
-        allowed=frozenset(),
+        allowed=frozenset(LEXICON.addresses),
         combinations=tuple(((),) for _ in places),
         assumptions=ASSUMPTIONS,
         is_general=True,

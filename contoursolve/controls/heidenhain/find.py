@@ -45,6 +45,8 @@ from contoursolve.reading import Convention, Modes, ParsedContour, State, apply_
 NO_SENSE, NO_BLOCK, NO_POLE, NO_BEFORE = "@no-sense", "@no-block", "@no-pole", "@no-before"
 """An arc without DR; a block that data refer to and that is not there, or no line; polar data without a pole; a tangent
 element behind none."""
+NO_TURN = "@no-turn"
+"""CT behind what is still to be found: to which side it turns is not known before."""
 CUT, TOOL, CLOSES_NOTHING = "@cut", "@tool-axis", "@closes-nothing"
 """A conventional move behind a chain that is still open; a tool axis that is not Z; CLSD- without CLSD+, or alone."""
 
@@ -121,6 +123,7 @@ class _Chain:
                 break
         while self.blocks and self.blocks[-1] is not self._last_block():
             self.blocks.pop()
+        self.poles = {name: pole for name, pole in self.poles.items() if not _is_behind(pole, self.blocks)}
         return any(member.function in FREE for member in self.members)
 
     def _last_block(self) -> Block:
@@ -159,7 +162,7 @@ class _Chain:
             self.poles[f"pole {len(self.poles) + 1}"] = len(self.blocks), block
         elif function == CENTER:
             self.state = set_pole(self.state, block, CENTER, self.modes)
-        elif function:
+        elif function not in ("", "STOP"):
             self.is_cut = not function.startswith(("APPR", "DEP"))
             return False
         return self._pass(block)
@@ -179,6 +182,11 @@ class _Chain:
         index = len(self.blocks)
         self._pass(block)
         self.members.append(_Member(block, function, self.state, index, pole, center))
+
+
+def _is_behind(pole: Pole, blocks: Sequence[Block]) -> bool:
+    """Whether the block of a pole stands behind the last one of a chain."""
+    return isinstance(pole[1], Block) and pole[1] not in blocks
 
 
 def _is_in_plane(block: Block) -> bool:
@@ -409,6 +417,8 @@ def _element(
     sense = _sign_of(member.block, "DR")
     if not is_line and member.function not in TANGENT[2:] and not sense:
         lacking.append(NO_SENSE)
+    if member.function in TANGENT[2:] and not member.sense:
+        lacking.append(NO_TURN)
     if own.keys() & POLAR and not member.pole:
         lacking.append(NO_POLE)
     if number == 1 and (member.function in TANGENT or ("IAN" in own and "RAN" not in own)):

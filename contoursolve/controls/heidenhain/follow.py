@@ -63,12 +63,13 @@ def follow(state: State, block: Block, modes: Modes) -> State:
         moved = _polar(state, block, modes)
     else:
         moved = state.move(positions(state, axis_words(block, modes), modes, block.is_skippable))
-    if any(word.address == "M" and word.number in _ENDS for word in block.words):
-        return moved.lose(modes.axes, "the program ends there", block.span)
+    for numbers, reason in _LOSING_M.items():
+        if any(word.address == "M" and word.number in numbers for word in block.words):
+            return moved.lose(modes.axes, reason, block.span)
     return moved
 
 
-_ENDS = (2, 30)
+_LOSING_M = {(2, 30): "the program ends there", (91, 92): "its coordinates are those of the machine"}
 
 
 def set_pole(state: State, block: Block, function: str, modes: Modes) -> State:

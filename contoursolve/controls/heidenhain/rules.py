@@ -6,7 +6,16 @@ from decimal import Decimal
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.controls.heidenhain.elements import ARC, LINE, PLAIN, POLE, TANGENCY
-from contoursolve.controls.heidenhain.find import CLOSES_NOTHING, CUT, NO_BEFORE, NO_BLOCK, NO_POLE, NO_SENSE, TOOL
+from contoursolve.controls.heidenhain.find import (
+    CLOSES_NOTHING,
+    CUT,
+    NO_BEFORE,
+    NO_BLOCK,
+    NO_POLE,
+    NO_SENSE,
+    NO_TURN,
+    TOOL,
+)
 from contoursolve.controls.heidenhain.lexicon import BOOK
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
@@ -29,6 +38,7 @@ _POLAR = START + "2 FPOL X+10 Y+0\n3 FL PR+20 PA+45\n4 END PGM A MM"
 _POLE = START + "2 FL X+5 Y+0\n3 FPOL X+10 Y+0\n4 FL PR+20 PA+45\n5 END PGM A MM"
 _CLOSED = START + "2 FL X+30 Y+0 CLSD+\n3 FL X+30 Y+20\n4 FL CLSD-\n5 END PGM A MM"
 _TANGENT = START + "2 FL X+30 Y+0\n3 FCT DR+ R10 CCA+0\n4 END PGM A MM"
+_TURNING = START + "2 FL AN+0\n3 FCT DR+ R10 CCA+0\n4 FLT X+40 Y+30"
 _NUMBERED = START + "2 FL X+30 Y+0\n3 FL IX+5 IY+20 RX 2\n4 END PGM A MM"
 _CHOSEN = START + "2 FL LEN40 P1X+30 P1Y+10\n3 FSELECT 1\n4 FL X+80 Y+20"
 _TOOL = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S100\n2 L X+0 Y+0\n" + "3 FL AN+60\n4 FL X+80 Y+20 AN-30"
@@ -102,6 +112,9 @@ _ROWS = (
     _row("size", "{words}: a radius, and a distance from the pole, is larger than 0", "write a positive number",
          BOOK.assumed("polar coordinates"), Value(("PR", "CCPR", "R", "LEN"), least=_LEAST), _FK, _POLAR,
          ("PR+20", "PR-20")),
+    _row("tangent-arc", "to which side CT turns is not known before the blocks before it are solved",
+         "write FCT with DR+ or DR-", BOOK.assumed("CT behind a free contour"), some(NO_TURN), (PLAIN,), _TURNING,
+         ("FCT DR+ R10 CCA+0", "CT X+40 Y+10")),
     _row("tool-axis", "free contours are solved in X and Y, and the tool axis is another one",
          "check TOOL CALL: contoursolve reads free contours with the tool axis Z", BOOK.assumed("planes"), some(TOOL),
          _FK, _TOOL, ("1 Z S", "1 X S")),
@@ -145,4 +158,8 @@ _PARAMETER = Rule(
     BOOK.assumed("Q parameters"), (START + "2 Q1 = ( 40 + 20 ) / 2\n3 FL X+Q1 Y+5\n4 END PGM A MM",),
     (START + "2 Q1 = Q2 + 5\n3 FL X+Q1 Y+5\n4 END PGM A MM",), about=ReadIssue.VARIABLE,
 )  # fmt: skip
-RULES = (*_OWN, _agreeing(), _PARAMETER, *COMMON_RULES, *_ROWS, *GEOMETRY_RULES)
+_UNKNOWN = Rule(
+    "heidenhain-word-unknown", "{words} has no meaning in this block", "{advice}", BOOK.printed("free contours FK"),
+    (_LINES,), (_LINES.replace("AN+60", "AN+60 R5"),), about=ReadIssue.UNKNOWN_ADDRESS,
+)  # fmt: skip
+RULES = (_UNKNOWN, *_OWN, _agreeing(), _PARAMETER, *COMMON_RULES, *_ROWS, *GEOMETRY_RULES)
