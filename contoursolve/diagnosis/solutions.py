@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from math import floor, inf, log10
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,7 @@ from contoursolve.diagnosis.examine import (
     list_alternatives,
 )
 from contoursolve.gcode import FACT, spell
-from contoursolve.geometry import Length
+from contoursolve.geometry import Length, Pick
 from contoursolve.solving.contour import Contour, trace
 from contoursolve.solving.solution import Certificate, Proof, up_to_one_digit
 from contoursolve.tolerance import LENGTH
@@ -40,6 +40,8 @@ class Listed(Struct, frozen=True):
     selects: tuple[str, ...]
     is_chosen: bool
     certificate: Certificate
+    picks: tuple[Pick, ...] = ()
+    """The numbers that choose it, where the control has a word for these."""
 
 
 class Listing(Struct, frozen=True):
@@ -122,6 +124,7 @@ def _listed(item: Alternative, is_chosen: bool, alternatives: Alternatives, answ
         selects=tuple(_selecting(item, asked, alternatives, answer)),
         is_chosen=is_chosen,
         certificate=item.certificate,
+        picks=tuple(_picks_of(item, alternatives, answer)),
     )
 
 
@@ -129,8 +132,10 @@ def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alt
     """The words, or else the fact, that would select a solution."""
     if len(alternatives.items) == 1:
         return []
-    if answer.claim.form.picking and item.is_path:
-        return list(_picking(item, alternatives, answer))
+    if answer.claim.form.picking:
+        word, path = answer.claim.form.picking, answer.profile.figure.path
+        picks = _picks_of(item, alternatives, answer)
+        return [f"{spell(word, str(each.number))} behind {path[each.element - 1].name}" for each in picks]
     words = [
         selector.word
         for selector in answer.claim.selectors
@@ -155,14 +160,13 @@ def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alt
     return []
 
 
-def _picking(item: Alternative, alternatives: Alternatives, answer: Answer) -> Iterator[str]:
-    """The words that choose a solution by its number, each with its element."""
+def _picks_of(item: Alternative, alternatives: Alternatives, answer: Answer) -> list[Pick]:
+    """The numbers that choose a solution, each with its element; none where the control has no word for them."""
+    if not answer.claim.form.picking or not item.is_path:
+        return []
     from contoursolve.solving.picks import numbers_of  # noqa: PLC0415 - few controls have such words
 
-    profile, word = answer.profile, answer.claim.form.picking
-    paths = [each for each in alternatives.items if each.is_path]
-    for each in numbers_of(item, paths, profile):
-        yield f"{spell(word, str(each.number))} behind {profile.figure.path[each.element - 1].name}"
+    return numbers_of(item, alternatives.paths, answer.profile)
 
 
 def _written(asked: AskedValue, answer: Answer) -> str:

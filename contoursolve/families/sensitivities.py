@@ -11,6 +11,7 @@ from typing import Unpack
 
 import numpy
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.analysis import analyse
 from contoursolve.diagnosis.examine import Answer
@@ -114,13 +115,14 @@ def sensitivity(block: str, **options: Unpack[BlockOptions]) -> Sensitivity:
     return slopes_of(template.solve({}))
 
 
-def slopes_of(answer: Answer) -> Sensitivity:
-    """The derivatives of a contour that was solved; errors as for `sensitivity`."""
+def slopes_of(answer: Answer, *, is_twice_fine: bool = False) -> Sensitivity:
+    """The derivatives of a contour that was solved; errors as for `sensitivity`. Where it may say something twice,
+    words that do have none (NaN): one of them alone cannot move."""
     words = stated_words(answer)
     values = {name: float(word.number or 0) for name, word in words.items()}
     case = case_in(answer, words, values)
     if not case.is_closed or case.profile.is_extended:
-        return Sensitivity(_implicit(answer, words), answer.plane)
+        return Sensitivity(_implicit(answer, words, is_twice_fine=is_twice_fine), answer.plane)
     _check(case.solve(values) if case.status is None else None, answer)
     inputs = {name: value for name, value in case.numbers().items() if name in case.machine.tape.inputs}
     outputs, singular = results_of(case), _singular(case, inputs)
@@ -179,15 +181,17 @@ def stated_words(answer: Answer) -> dict[str, Word]:
     return {call(word, typed): word for word in typed if word in stating}
 
 
-def _implicit(answer: Answer, words: Mapping[str, Word]) -> dict[str, dict[str, float]]:
+def _implicit(answer: Answer, words: Mapping[str, Word], *, is_twice_fine: bool) -> dict[str, dict[str, float]]:
     """The derivatives where there is no closed form, or more is stated than words."""
     from contoursolve.solving.ambiguity import settle  # noqa: PLC0415 - few blocks need it
 
     solution = settle(answer.profile).solution if answer.contour is not None else None
-    _check(solution, answer)
+    is_twice = is_twice_fine and solution is not None and solution.status is Status.OVERDETERMINED
+    _check(replace(solution, status=Status.SOLVED) if solution is not None and is_twice else solution, answer)
     if solution is None:
         raise FamilyError("the block is not solved")
     profile = answer.profile
+    tied = _tied(assemble(profile)) if is_twice else frozenset[str]()
     results = results_of(CaseClass(profile, None, {}, is_closed=False))
     outputs = {name: output for name, (output, _) in results.items() if not name.endswith(".room")}
     rates = _implicit_rates(profile, solution, outputs.values())
@@ -196,12 +200,20 @@ def _implicit(answer: Answer, words: Mapping[str, Word]) -> dict[str, dict[str, 
         (
             given,
             names.get(id(given.word)) or _fact_name(given, given.word, profile),
-            float(factor_of(answer, given.word, given, given.word.number or Decimal(0))),
+            nan if given.name in tied else float(factor_of(answer, given.word, given, given.word.number or Decimal(0))),
         )
         for given in profile.givens.values()
         if given.word is not None and given.unit is not Unit.SIGN
     ]
     return {name: _by_word(rates[output], stated, ()) for name, output in outputs.items()}
+
+
+def _tied(system: System) -> frozenset[str]:
+    """The givens of facts of which each follows from others."""
+    from contoursolve.solving.ambiguity import headings_of  # noqa: PLC0415 - few blocks need it
+
+    facts = [system.facts[index] for index in analyse(system).tied]
+    return frozenset(name for fact in facts for name in (fact.given, *headings_of(fact, system)) if name)
 
 
 def _fact_name(given: Given, word: Word, profile: Profile) -> str:

@@ -16,8 +16,8 @@ from contoursolve.diagnosis.fill import FARTHEST
 from contoursolve.diagnosis.solutions import Listed, list_solutions
 from contoursolve.diagnosis.wording import word_keys
 from contoursolve.diagnostics.finding import Diagnostic, Fix
-from contoursolve.gcode import FACT, Program, Word, parse, spell
-from contoursolve.geometry import Unit
+from contoursolve.gcode import FACT, Program, Word, number_of, parse, spell
+from contoursolve.geometry import Pick, Unit
 from contoursolve.program.pipeline import Result
 from contoursolve.program.recognise import UnknownControlError
 from contoursolve.solving import Status
@@ -135,6 +135,13 @@ def set_words(exploration: Exploration, values: Mapping[str, float | str]) -> Ex
     return write(exploration, _text(exploration, edits))
 
 
+def is_movable(answer: Answer, word: Word) -> bool:
+    """Whether a word has a value that can be moved, or a sign that can be turned; not one that says which facts a chain
+    has, by its sign or by the number of a block."""
+    row = answer.claim.lexicon.addresses.get(word.address)
+    return row is not None and not (answer.claim.form.is_general and row.unit is Unit.SIGN)
+
+
 def free(exploration: Exploration, key: str) -> Exploration:
     """The contour with `?` for a word; a word that was freed gets back the value that the others give it, or the one
     that it had."""
@@ -146,6 +153,7 @@ def free(exploration: Exploration, key: str) -> Exploration:
     text = exploration.last.get(key, spell(word.address, "0."))
     if found is not None and found.value is not None:
         text = write_word(word.address, found.value, answer.claim.lexicon, answer.unit)
+        text = _signed(text, word.address, exploration.last.get(key, ""))
     return _change(exploration, word, text)
 
 
@@ -183,6 +191,8 @@ def select(exploration: Exploration, number: int) -> Exploration:
     if answer is None or listing is None or not 0 <= number < len(listing.solutions):
         raise ValueError(f"there is no solution {number}")
     wanted = listing.solutions[number]
+    if wanted.picks:
+        return write(exploration, _text(exploration, _picking(answer, wanted.picks)))
     first = None
     for text in islice(_selecting(exploration, answer, wanted), MOST_TRIED):
         tried = write(exploration, text)
@@ -197,6 +207,21 @@ def select(exploration: Exploration, number: int) -> Exploration:
     if first is None:
         raise ValueError(f"no word selects {wanted.name}")
     return first
+
+
+def _picking(answer: Answer, picks: Sequence[Pick]) -> Iterator[Edit]:
+    """The words that choose a solution by its numbers: those that are there changed, the others behind their elements.
+    One that has nothing to choose any more chooses the first."""
+    claim, word = answer.claim, answer.claim.form.picking
+    lines = {name: block.line for block, names in zip(claim.blocks, claim.makes, strict=True) for name in names}
+    wanted = {each.element: each.number for each in picks}
+    present = {each.element: claim.words[each.given] for each in answer.profile.picks if each.given}
+    for element, old in present.items():
+        text = spell(word, str(wanted.get(element, 1)))
+        yield Edit(EditKind.CHANGE, word, old.span, old.text, text)
+    for element in wanted.keys() - present.keys():
+        line = lines[answer.profile.figure.path[element - 1].name]
+        yield Edit(EditKind.ADD, word, text="\n" + spell(word, str(wanted[element])), line=line)
 
 
 def _selecting(exploration: Exploration, answer: Answer, wanted: Listed) -> Iterator[str]:
@@ -229,6 +254,8 @@ def _find(exploration: Exploration, key: str) -> tuple[Answer, Word]:
     words = words_of(answer) if answer else {}
     if answer is None or key not in words:
         raise ValueError(f"the contour has no word {key}; there are {', '.join(words) or 'none'}")
+    if not is_movable(answer, words[key]):
+        raise ValueError(f"{key} has no value to move")
     return answer, words[key]
 
 
@@ -246,7 +273,17 @@ def _written(answer: Answer, word: Word, value: float | str) -> str:
     if lexicon.addresses[word.address].unit is Unit.SIGN:
         return spell(word.address, "-1" if number < 0 else "1")
     meant = lexicon.value(replace(word, number=number, has_point=True, is_asked=False), answer.unit)
-    return write_word(word.address, float(meant or 0), lexicon, answer.unit)
+    text = write_word(word.address, float(meant or 0), lexicon, answer.unit)
+    is_signed = any("+" in each.text for each in answer.claim.words.values())
+    return _signed(
+        text, word.address, "+" if is_signed and number_of(word.text, word.address)[:1] == "-" else word.text
+    )
+
+
+def _signed(text: str, address: str, like: str) -> str:
+    """A word whose number has a plus as another one's has, unless it is negative."""
+    number = number_of(text, address)
+    return spell(address, f"+{number}") if "+" in like and number[:1] not in ("-", "+") else text
 
 
 def _without_echoes(exploration: Exploration, wanted: Listed) -> Exploration:

@@ -15,7 +15,7 @@ from contoursolve.diagnostics.finding import Applicability
 from contoursolve.families import End, FamilyError, Feasible, Interval, Way, feasible
 from contoursolve.gcode import Word
 from contoursolve.geometry import Coordinate, Heading, Offset, Question, Unit
-from contoursolve.notebook.exploration import Exploration, free, words_of
+from contoursolve.notebook.exploration import Exploration, free, is_movable, words_of
 from contoursolve.notebook.handles import Handle, HandleKind, handles_of, motion_of, moving_of
 from contoursolve.output.contours import count_text, path_table, solution_rows
 from contoursolve.output.findings import effect_of, finding_pieces
@@ -110,7 +110,7 @@ def _fields(answer: Answer, pinned: Collection[str]) -> Iterator[Data]:
     found = {each.question.word.span: each for each in answer.answers}
     for key, word in words_of(answer).items():
         row = claim.lexicon.addresses.get(word.address)
-        if row is None or (word.number is None and not word.is_asked):
+        if row is None or not is_movable(answer, word) or (word.number is None and not word.is_asked):
             continue  # a variable has no value to move
         value, unit = stated_value(word, answer)
         asked = found_value(found[word.span], answer)[0] if word.span in found else None

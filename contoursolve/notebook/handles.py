@@ -100,7 +100,7 @@ def motion_of(answer: Answer) -> Motion | None:
     if answer.contour is None:
         return None
     try:
-        return Motion(answer, slopes_of(answer).slopes)
+        return Motion(answer, slopes_of(answer, is_twice_fine=answer.claim.form.is_general).slopes)
     except FamilyError:
         return None
 

@@ -23,7 +23,7 @@ from contoursolve.output.contours import (
 from contoursolve.output.findings import Piece, finding_pieces
 from contoursolve.output.plain_text import NAMELESS, Name, Table, printable
 from contoursolve.pictures import Drawable, Theme, draw
-from contoursolve.pictures.theme import DARK_COLORS, LIGHT_COLORS, Role
+from contoursolve.pictures.theme import CHAINS, DARK_COLORS, LIGHT_COLORS, Role
 
 WIDEST, LONGEST = 200, 400
 """Characters of a cell, and of a line."""
@@ -291,9 +291,13 @@ def notebook_style() -> str:
 
 
 @lru_cache
-def page_style() -> str:
+def page_style(*, has_chains: bool = True) -> str:
     """The style sheet for a page of its own: as the reader prefers, and light on paper."""
-    light, dark = _declarations(LIGHT), _declarations(DARK)
+    left_out = () if has_chains else [role.value for role in CHAINS]
+    light, dark = (
+        _declarations({name: color for name, color in colors.items() if name not in left_out})
+        for colors in (LIGHT, DARK)
+    )
     return (
         f":root {{ color-scheme: light dark; {light} }}\n"
         f"@media screen and (prefers-color-scheme: dark) {{ :root {{ {dark} }} }}\n{style_rules()}"

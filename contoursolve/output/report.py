@@ -101,6 +101,7 @@ def report_page(result: Result, version: str, progress: Progress = lambda: None)
 def _page(result: Result, version: str, progress: Progress) -> h.Element:
     places = _find_places(result)
     lighting = _lighting(result)
+    has_chains = any(answer.claim.form.is_general for answer in result.answers)
     name = short(PurePath(result.program.name).name)
     return h.html(lang="en")[
         h.head[
@@ -110,7 +111,8 @@ def _page(result: Result, version: str, progress: Progress) -> h.Element:
             h.meta(name="color-scheme", content="light dark"),
             h.meta(name="generator", content=f"contoursolve {version}"),
             h.title[f"{name}: contours"],
-            h.style[Markup(page_style() + style_rules("report.css") + lighting)],  # our own files and names
+            # Our own files and names.
+            h.style[Markup(page_style(has_chains=has_chains) + style_rules("report.css") + lighting)],
         ],
         h.body(".contoursolve")[
             h.header[h.h1[name], h.p(".lead")[summary_line(result, is_explained=True)], _conditions(result)],

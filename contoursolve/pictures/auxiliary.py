@@ -4,6 +4,7 @@ facts lead it, what can slide, and what is wrong."""
 from collections.abc import Callable, Iterator, Mapping
 
 from contoursolve.geometry import (
+    FIRST,
     Arc,
     Collinear,
     Coordinate,
@@ -12,17 +13,20 @@ from contoursolve.geometry import (
     Line,
     Offset,
     OnCircle,
+    Spoke,
     TangentLine,
     Through,
     Unit,
+    line_scalars,
 )
 from contoursolve.pictures.known import place_beside, place_of
-from contoursolve.pictures.scene import Aligned, Leader, Mark, MarkKind, Part, Ring, Slide, Thin, number
+from contoursolve.pictures.scene import Aligned, Leader, Mark, MarkKind, Part, Ring, Slide, Thin, Trail, number
 from contoursolve.pictures.subject import Subject
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import ALONG_AXIS, SAME, along, direction, distance, foot, toward, with_coordinate
-from contoursolve.solving import Point, Refusal, RefusalKind
+from contoursolve.solving import Point, Refusal, RefusalKind, Status
 from contoursolve.solving.affine import affine_facts
+from contoursolve.solving.contour import LineSegment
 
 Ray = tuple[Point, Point]
 """A place on a line and its unit direction."""
@@ -37,6 +41,9 @@ def list_auxiliary(subject: Subject) -> Iterator[Part]:
     yield from (ring for ring in _rings(subject) if (ring.center, ring.radius) not in broken)
     yield from faults
     yield from _places(subject)
+    yield from _led(subject) if subject.is_chain else ()
+    if subject.is_chain and subject.answer.contour is None:
+        yield from _open_elements(subject)
     yield from _slides(subject)
 
 
@@ -76,11 +83,72 @@ def _rings(subject: Subject) -> Iterator[Ring]:
     for element in profile.figure.path:
         circle = subject.circle(element.center, element.radius) if isinstance(element, Arc) else None
         if circle is not None and (chosen & {element.tail, element.head} or subject.answer.contour is None):
-            yield Ring(*circle, Role.MUTED)
+            is_open = subject.is_chain and subject.answer.status is Status.UNDERDETERMINED
+            is_open = is_open and element.name not in subject.elements
+            yield Ring(*circle, Role.OPEN if is_open else Role.MUTED)
     for each in profile.figure.circles:
         center = place_of(profile, each.center)
         if center is not None and each.radius in profile.givens:
             yield Ring(center, subject.value(each.radius), Role.GIVEN)
+
+
+def _led(subject: Subject) -> Iterator[Thin]:
+    """The radius of an arc to where a word states its direction, and lines as far as the points on them."""
+    for fact in subject.profile.facts:
+        if isinstance(fact, Through):
+            at, ends = subject.at(fact.point), subject.ends(fact)
+            yield from _extension(ends, at) if at is not None and ends is not None else ()
+        elif isinstance(fact, Spoke) and not fact.quarters and fact.axis == FIRST and subject.word(fact.given):
+            center, at = subject.at(fact.center), subject.at(fact.point)
+            if center is not None and at is not None:
+                yield Thin(center, at, Role.MUTED)
+
+
+def _open_elements(subject: Subject) -> Iterator[Part]:
+    """What is known of the elements of a chain for which there are too few data: the line of one of known direction
+    through a known point, the chord of an arc. The circles of arcs are drawn as circles."""
+    reach = _reach(subject)
+    role = Role.OPEN if subject.answer.status is Status.UNDERDETERMINED else Role.CONFLICTING
+    for element in subject.profile.figure.path:
+        if element.name in subject.elements:
+            continue
+        tail, head = subject.at(element.tail), subject.at(element.head)
+        if isinstance(element, Arc):
+            if tail is not None and head is not None:
+                yield Thin(tail, head, role)
+            continue
+        way = _way_of(subject, element)
+        if way is None:
+            continue
+        if tail is not None or head is not None:
+            begin = tail if tail is not None else along(head or (0.0, 0.0), way, -reach)
+            yield Trail((LineSegment(element.name, begin, along(begin, way, reach)),), role)
+        elif line_scalars(element.name)[2] in subject.known.scalars:
+            offset = subject.known.scalars[line_scalars(element.name)[2]]
+            on = -way[1] * offset, way[0] * offset
+            yield _endless(on, way, role)
+
+
+def _way_of(subject: Subject, line: Line) -> Point | None:
+    """The direction of a line, if it is stated or known."""
+    if line.heading is not None:
+        return toward(subject.value(line.heading)) if line.heading in subject.profile.givens else None
+    cosine, sine = (subject.known.scalars.get(name) for name in line_scalars(line.name)[:2])
+    return (cosine, sine) if cosine is not None and sine is not None else None
+
+
+def _reach(subject: Subject) -> float:
+    """How far open lines are drawn: half as far as what is known reaches, mm."""
+    known = [*subject.known.points.values()]
+    for each in subject.profile.figure.path:
+        circle = subject.circle(each.center, each.radius) if isinstance(each, Arc) else None
+        known += [along(circle[0], way, circle[1]) for way in ALONG_AXIS] if circle is not None else []
+    spans = [max(values) - min(values) for values in zip(*known, strict=True)]
+    return max(spans, default=0.0) / 2 or _ALONE
+
+
+_ALONE = 10.0
+"""mm of an open line where nothing else is known."""
 
 
 def _slides(subject: Subject) -> Iterator[Slide]:

@@ -85,20 +85,21 @@ def draw_callouts(canvas: Canvas, scene: Scene) -> None:
 def _draw_angle(canvas: Canvas, angle: Angle, at: Spot, number: int) -> tuple[Spot, Spot]:
     """The arc from the reference line to the direction; where its label belongs, and to which side."""
     radius = _RADIUS + number * _STEP
-    turn = fmod(angle.degrees, 360.0)
-    reference = at[0] + radius + 14.0, at[1]
-    canvas.draw(line((at[0] + 5.0, at[1]), reference, Role.MUTED, 0.8), FAINT_WEIGHT)
+    turn, base = fmod(angle.degrees, 360.0), -radians(angle.base)
+    way = cos(base), sin(base)
+    canvas.draw(line(along(at, way, 5.0), along(at, way, radius + 14.0), Role.MUTED, 0.8), FAINT_WEIGHT)
     sweep = -radians(turn)
-    canvas.grips.append(Grip(angle.about.word, along(at, (cos(sweep), sin(sweep)), radius), at))
+    end = base + sweep
+    canvas.grips.append(Grip(angle.about.word, along(at, (cos(end), sin(end)), radius), at))
     if abs(turn) < _SMALL:
-        return _draw_straight(canvas, angle, at, (cos(sweep), sin(sweep)), number)
-    canvas.draw(arc(at, radius, sweep, angle.role))
+        return _draw_straight(canvas, angle, at, (cos(end), sin(end)), number)
+    canvas.draw(arc(at, radius, sweep, angle.role, base))
     sign = 1.0 if sweep > 0 else -1.0
     # The head is a chord of the arc, so that it does not stand off it.
-    lean = sweep - sign * 4.0 / radius
-    tip = along(at, (cos(sweep), sin(sweep)), radius)
+    lean = end - sign * 4.0 / radius
+    tip = along(at, (cos(end), sin(end)), radius)
     canvas.fill(head(tip, (-sin(lean) * sign, cos(lean) * sign), angle.role))
-    middle = cos(sweep / 2), sin(sweep / 2)
+    middle = cos(base + sweep / 2), sin(base + sweep / 2)
     return along(at, middle, radius), middle
 
 

@@ -1,25 +1,30 @@
 """From the answer about a contour to the scene that a picture shows, and to the same in words."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.solutions import list_solutions
 from contoursolve.diagnostics.finding import Diagnostic, Severity
-from contoursolve.gcode import FACT
+from contoursolve.gcode import FACT, spell
 from contoursolve.geometry import SECOND, Turn
 from contoursolve.pictures.auxiliary import list_auxiliary
 from contoursolve.pictures.dimensions import Others, list_dimensions, list_marks, noted_points
 from contoursolve.pictures.page import About, TextRun, visible
 from contoursolve.pictures.scene import Closeup, Scene, Trail, Weight, axis_names, coordinates, number
-from contoursolve.pictures.subject import Subject, subject_of, trace_known
+from contoursolve.pictures.subject import Subject, fitting, subject_of, trace_known
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import Point
 from contoursolve.solving.contour import ArcSegment, Contour, trace
 
-MOST_LINES = 6
-"""Lines of a program in a picture's head."""
+MOST_LINES, MOST_OF_CHAIN = 6, 24
+"""Lines of a program in a picture's head: of any, and of a chain, whose elements are named by their blocks."""
+
+MOST_LABELS = 120
+"""Labels of a chain, whose words are all there to be found; those for which there is no room stand below."""
 
 MOST_REMARKS = 3
 
@@ -37,8 +42,8 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
     """The scene of one contour, whatever its status."""
     subject = subject_of(answer)
     noted = noted_points(subject)
-    ghosts, others = _ghosts(subject)
-    return Scene(
+    ghosts, others = _other_ways(subject) if subject.is_chain else _ghosts(subject)
+    scene = Scene(
         title=title if title is not None else title_of(answer),
         axes=axis_names(answer.plane, answer.unit),
         parts=(
@@ -50,11 +55,12 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
         ),
         lines=tuple(_lines(subject)),
         remarks=tuple(remarks_of(answer.diagnostics)),
-        meanings={Role.GHOST: "other values"} if subject.known.others else {},
+        meanings=_meanings(subject),
         has_turning_axis=answer.plane.diameters[SECOND],
         is_one_contour=True,
         closeups=tuple(_corners(subject.trails)),
     )
+    return replace(scene, most_labels=MOST_LABELS) if subject.is_chain else scene
 
 
 _READABLE = 11.0
@@ -64,7 +70,8 @@ _READABLE = 11.0
 def _corners(trails: Sequence[Trail]) -> Iterator[Closeup]:
     """The corners of a path, in its order."""
     segments = [segment for trail in trails if trail.weight is Weight.MAIN for segment in trail.segments]
-    yield from (Closeup(each.name, (each,), _READABLE) for each in segments if each.name.startswith("corner"))
+    corners = {each.name: each for each in segments[::-1] if each.name.startswith("corner")}
+    yield from (Closeup(each.name, (each,), _READABLE) for each in segments if corners.get(each.name) is each)
 
 
 def title_of(answer: Answer) -> str:
@@ -97,6 +104,40 @@ def _ghosts(subject: Subject) -> tuple[list[Trail], Others]:
     return trails, places
 
 
+def _meanings(subject: Subject) -> Mapping[Role, str]:
+    """What the legend says of other contours."""
+    if subject.known.others:
+        return {Role.GHOST: "other values"}
+    form = subject.answer.claim.form
+    return {Role.GHOST: f"another solution, by its {form.picking}"} if form.picking else {}
+
+
+def _other_ways(subject: Subject) -> tuple[list[Trail], Others]:
+    """The solutions of a chain that it does not take, thin, each with the numbers that choose it where it parts from
+    the rest; where nothing chooses, all of them have their numbers there."""
+    answer, profile = subject.answer, subject.profile
+    trails, places = list[Trail](), dict[str, list[tuple[Point, str]]]()
+    if answer.alternatives is None:
+        return trails, places
+    from contoursolve.solving.picks import numbers_of  # noqa: PLC0415 - few controls have such words
+
+    paths, left = answer.alternatives.paths, fitting(answer)
+    is_solved, stated = answer.contour is not None, {each.element for each in profile.picks}
+    for item in [each for each in paths if (each in left) is not is_solved][:MOST_SOLUTIONS]:
+        picks = numbers_of(item, paths, profile)
+        if is_solved:
+            elements = trace(profile, item.solution).elements
+            trails += [Trail(elements, Role.GHOST, Weight.GHOST)] if elements else []
+        else:
+            picks = [each for each in picks if each.element not in stated]
+        if picks and answer.claim.form.picking:
+            numbers = "-".join(str(each.number) for each in picks)
+            told = numbers if is_solved else spell(answer.claim.form.picking, numbers)
+            name = profile.figure.path[picks[-1].element - 1].head
+            places.setdefault(name, []).append((item.solution.points[name], told))
+    return trails, places
+
+
 def _lines(subject: Subject) -> Iterator[tuple[TextRun, ...]]:
     """The program's lines, each word in its role."""
     answer, roles = subject.answer, subject.roles
@@ -108,8 +149,8 @@ def _lines(subject: Subject) -> Iterator[tuple[TextRun, ...]]:
     questions = [asked.question for asked in answer.answers if asked.question.word.address != FACT]
     by_span |= {question.word.span: roles.get(question.name, Role.FREE) for question in questions}
     by_span |= {span: Role.CONFLICTING for span in subject.blamed if span not in by_span}
-    blocks = answer.claim.blocks
-    for block in blocks[:MOST_LINES]:
+    blocks, most = answer.claim.blocks, MOST_OF_CHAIN if subject.is_chain else MOST_LINES
+    for block in blocks[:most]:
         runs, place, text = [], 0, visible(block.text)
         for span in sorted((span for span in by_span if span.line == block.line), key=lambda span: span.column):
             if span.column - 1 < place:
@@ -120,8 +161,8 @@ def _lines(subject: Subject) -> Iterator[tuple[TextRun, ...]]:
             place = span.end_column - 1
         runs.append(TextRun(text[place:], Role.MUTED))
         yield tuple(run for run in runs if run.text)
-    if len(blocks) > MOST_LINES:
-        yield (TextRun(f"... and {len(blocks) - MOST_LINES} more blocks", Role.MUTED),)
+    if len(blocks) > most:
+        yield (TextRun(f"... and {len(blocks) - most} more blocks", Role.MUTED),)
     for directive in answer.claim.directives:
         if directive.span.line < 0:
             role = by_span.get(directive.span, Role.GIVEN)

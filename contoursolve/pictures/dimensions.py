@@ -1,24 +1,34 @@
 """The words of a contour where they belong on its drawing: as dimensions, and beside the points that they state."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from math import inf
+from math import atan2, degrees, inf
 
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.wording import length_limit
 from contoursolve.diagnostics.source import Span
 from contoursolve.geometry import (
+    Along,
     Arc,
+    Chord,
     Coordinate,
     CornerShape,
     Directed,
     Extent,
     Fact,
     Heading,
+    Level,
+    Line,
     Offset,
+    OnCircle,
+    ParallelLines,
     PointBeside,
     Radius,
+    RadiusStep,
+    Spoke,
+    Tangent,
     TangentLine,
+    TurnBetween,
     Unit,
 )
 from contoursolve.pictures.known import place_of
@@ -74,8 +84,12 @@ def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
         given = profile.givens.get(fact.given)
         if given is None or given.word is None or fact.given in beside or (fact.given, type(fact)) in done:
             continue
+        if subject.is_chain and (given.word.span in measured or fact.given not in subject.answer.claim.words):
+            continue  # what follows from a word that is drawn already
         text = (subject.word(fact.given) or "") + (" dia" if given.is_diameter else "")
-        drawn = dimension_of(subject, fact, text, subject.role(fact.given), float(given.value))
+        told = text, subject.role(fact.given), float(given.value)
+        drawn = dimension_of(subject, fact, *told)
+        drawn = in_chain(subject, fact, *told) if drawn is None and subject.is_chain else drawn
         if drawn is not None:
             done.add((fact.given, type(fact)))
             measured.add(given.word.span)
@@ -126,6 +140,70 @@ def dimension_of(subject: Traced, fact: Fact, text: str, role: Role, value: floa
     return _apart(subject, fact, text, role) if isinstance(fact, TangentLine | PointBeside) else None
 
 
+def in_chain(subject: Traced, fact: Fact, text: str, role: Role, value: float) -> Dimension | None:
+    """The same of facts that words state of chains of lines and arcs alone."""
+    if isinstance(fact, Spoke):
+        # The direction of a radius is that of the arc a quarter of a turn from it, where it begins.
+        at = subject.at(fact.point if fact.quarters else fact.center)
+        return Angle(at, value, text, role) if at is not None else None
+    if isinstance(fact, TurnBetween):
+        base, at = _way(subject, fact.first), _begin(subject, fact.second)
+        is_angle = subject.profile.givens[fact.given].unit is Unit.DEGREE
+        return Angle(at, value, text, role, base=base) if is_angle and at is not None and base is not None else None
+    if isinstance(fact, RadiusStep):
+        facts = [each for each in subject.profile.facts if isinstance(each, OnCircle) and each.radius == fact.radius]
+        pole, at, size = subject.at(facts[0].center), subject.at(facts[0].point), subject.known.radii.get(fact.origin)
+        if size is None or pole is None or at is None:
+            return None
+        return Aligned(along(pole, direction(pole, at), size), at, text, role)
+    if isinstance(fact, Radius):
+        # The distance of what a line or an arc passes.
+        for each in subject.profile.facts:
+            if isinstance(each, TangentLine | PointBeside) and fact.radius in each.reads():
+                return _beside(subject, each, text, role)
+    if isinstance(fact, ParallelLines):
+        line = subject.elements.get(fact.second)
+        if line is None:
+            return None
+        way = direction(line.start, line.end)
+        # Off the arrow in its middle.
+        return Leader(along(line.start, way, line.length * _BESIDE_ARROW[0]), (-way[1], way[0]), text, role)
+    if isinstance(fact, Level):
+        at = subject.at(fact.origin)
+        return Leader(at, (-1.0, 1.0), text, role) if at is not None else None
+    return None
+
+
+def _way(subject: Traced, of: Along | Tangent | Chord) -> float | None:
+    """The direction of an element or of a chord where it ends, degrees."""
+    if isinstance(of, Chord):
+        tail, head = subject.at(of.tail), subject.at(of.head)
+        return None if tail is None or head is None else _degrees(direction(tail, head))
+    if isinstance(of, Tangent):
+        center, at = subject.at(of.center), subject.at(of.point)
+        if center is None or at is None:
+            return None
+        return _degrees(direction(center, at)) + 90.0 * of.turn.sign
+    line = next((each for each in subject.profile.figure.path if each.name == of.line), None)
+    if not isinstance(line, Line):
+        return None
+    if line.heading is not None:
+        return subject.value(line.heading)
+    ends = subject.at(line.tail), subject.at(line.head)
+    return _degrees(direction(ends[0], ends[1])) if ends[0] is not None and ends[1] is not None else None
+
+
+def _begin(subject: Traced, of: Along | Tangent | Chord) -> Point | None:
+    """Where an element or a chord begins to run in its direction."""
+    if isinstance(of, Along):
+        return next((subject.at(each.tail) for each in subject.profile.figure.path if each.name == of.line), None)
+    return subject.at(of.tail if isinstance(of, Chord) else of.point)
+
+
+def _degrees(way: Point) -> float:
+    return degrees(atan2(way[1], way[0]))
+
+
 def _apart(subject: Traced, fact: TangentLine | PointBeside, text: str, role: Role) -> Dimension | None:
     """How far a point is from a line or a circle, which a circle about the point touches that is not drawn."""
     center, radius = (fact.center, fact.radius) if isinstance(fact, TangentLine) else fact.first
@@ -135,6 +213,15 @@ def _apart(subject: Traced, fact: TangentLine | PointBeside, text: str, role: Ro
         return None
     # Of a fact that is too long to stand on a drawing, the distance counts.
     text = number(subject.value(radius), subject.profile.unit) if text.endswith("…") else text
+    return _beside(subject, fact, text, role)
+
+
+def _beside(subject: Traced, fact: TangentLine | PointBeside, text: str, role: Role) -> Dimension | None:
+    """The distance of a place from a line or a circle."""
+    center = fact.center if isinstance(fact, TangentLine) else fact.first[0]
+    at = subject.known.points.get(center, place_of(subject.profile, center))
+    if at is None:
+        return None
     if isinstance(fact, TangentLine):
         ray = subject.ray(fact)
         return Aligned(at, foot(at, *ray), text, role) if ray is not None else None
@@ -249,8 +336,9 @@ def list_marks(subject: Subject, noted: Noted, others: Others) -> Iterator[Mark]
     for name, places in others.items():
         for at, selects in places:
             if all(distance(at, there) > SAME for there, _ in spots):
-                runs = [TextRun(each, subject.other) for each in (name, selects) if each]
-                label = _joined([*runs, _computed(subject, at)])
+                told = (name, selects) if not subject.is_chain else (selects,)
+                runs = [TextRun(each, subject.other) for each in told if each]
+                label = _joined([*runs, *([] if subject.is_chain else [_computed(subject, at)])])
                 yield Mark(at, MarkKind.PLACE, label, _joined(runs), subject.other, About(point=name))
 
 
@@ -288,7 +376,8 @@ def _mark(subject: Subject, noted: Noted, others: Others, at: Point, spot: Seque
     is_center = not centers.isdisjoint(spot) and not shown
     givens = [given for name in spot for given in noted.get(name, ())]
     words = [TextRun(subject.word(given) or "", subject.role(given), subject.about_given(given)) for given in givens]
-    if not (rank or shown or words):
+    is_pole = not set(subject.answer.claim.form.poles).isdisjoint(spot)
+    if not (rank or shown or words or is_pole):
         if is_center:
             yield Mark(at, MarkKind.CENTER, about=About(point=" ".join(spot)))
         return
@@ -298,16 +387,21 @@ def _mark(subject: Subject, noted: Noted, others: Others, at: Point, spot: Seque
     names = [*([rank] if rank else []), *(name for name in shown if not rank or not name.startswith("V"))]
     if is_free and rank == "end":
         names[0] = "end (free)"
-    is_candidate = subject.other is Role.CANDIDATE and any(name in others for name in spot)
-    role = Role.FREE if is_free else Role.CANDIDATE if is_candidate else Role.INK
+    if is_pole:
+        names.append("pole")
+    is_several = not known.several.isdisjoint(spot)
+    is_candidate = is_several or (subject.other is not Role.GHOST and any(name in others for name in spot))
+    several = Role.SEVERAL if subject.is_chain else Role.CANDIDATE
+    role = Role.FREE if is_free else several if is_candidate else Role.INK
     short = [TextRun(name, role) for name in names]
     short += _choosing(subject, others, at, spot)
     about = words
-    if rank == "start" and not words:
+    if not words and (rank == "start" or is_pole):
         about = [TextRun(coordinates(at, subject.answer.plane, subject.answer.unit), Role.MUTED)]
-    elif names and not words and not is_free:
+    elif names and not words and not is_free and not (is_candidate and subject.is_chain):
         about = [_computed(subject, at)]
     is_cut = not {corner.at for corner in profile.figure.corners}.isdisjoint(spot)
+    is_center = is_center or is_pole
     kind = MarkKind(rank) if rank else MarkKind.CENTER if is_center else MarkKind.VIRTUAL if is_cut else MarkKind.PLACE
     named = About(point=" ".join(dict.fromkeys([*([rank] if rank else []), *spot])))
     yield Mark(at, kind, _joined([*short, *about]), _joined(short), role, named)

@@ -3,16 +3,18 @@
 A contour whose words leave something free is completed: that is put somewhere, and the rest solved as any other block.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from decimal import Decimal
 from itertools import product
 from math import hypot, isfinite
+from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.analysis import analyse
 from contoursolve.analysis.identities import is_affine
+from contoursolve.gcode import Word
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -29,13 +31,17 @@ from contoursolve.geometry import (
     TangentLine,
     Unit,
     assemble,
+    line_scalars,
     scalar,
 )
-from contoursolve.pictures.vectors import distance
+from contoursolve.pictures.vectors import SAME, distance
 from contoursolve.solving import Point, Refusal, Solution, Status, is_closed, points_with_two_solutions, solve
 from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.solution import CornerSolution
 from contoursolve.tolerance import LARGEST
+
+if TYPE_CHECKING:
+    from contoursolve.solving.alternatives import Alternative
 
 MOST_FREE = 6
 """Free coordinates that are put somewhere; of a contour with more, only what is known is drawn."""
@@ -65,6 +71,11 @@ class Known(Struct, frozen=True):
     others: tuple[Solution, ...] = ()
     scalars: Mapping[str, float] = field(default_factory=dict)
     """Coordinates of which the other one is not known."""
+
+    several: frozenset[str] = frozenset()
+    """The points that lie elsewhere in `variants`."""
+    variants: tuple["Known", ...] = ()
+    """The other ways in which what is determined can be."""
 
     def coordinate(self, point: str, axis: int) -> float | None:
         """One coordinate of a point, mm."""
@@ -174,6 +185,39 @@ def _derive(fact: Fact, profile: Profile, stated: Mapping[str, float], values: d
         steps = [at - center for at, center in pairs if at is not None and center is not None]
         if len(steps) == len(pairs) and hypot(*steps) > 0:
             values[fact.radius] = hypot(*steps)
+
+
+def in_chain(profile: Profile, items: Sequence["Alternative"] = (), blamed: Set[Word] = frozenset()) -> Known:
+    """What is determined of a chain without a contour: `items` are the solutions that it has. Of one that lacks data,
+    those of the part that its data fix are worked out; of one without a solution, what comes before the words that
+    are `blamed`."""
+    from contoursolve.solving.alternatives import find_alternatives  # noqa: PLC0415 - few contours are such chains
+    from contoursolve.solving.ambiguity import before, restrict  # noqa: PLC0415 - as above
+
+    system = assemble(profile)
+    fixed = frozenset(system.unknowns).difference(analyse(system).free)
+    if not items and fixed:
+        part = restrict(profile, fixed) if len(fixed) < len(system.unknowns) else before(profile, blamed)
+        if part is None or not analyse(assemble(part)).is_determined:
+            return in_part(profile)
+        items, fixed = find_alternatives(part).items, fixed.intersection(assemble(part).unknowns)
+    ways = [_known_at(profile, item, fixed) for item in items]
+    if not ways:
+        return in_part(profile)
+    first, *others = ways
+    moved = {n for n, at in first.points.items() for other in others if distance(at, other.points[n]) > SAME}
+    return replace(first, several=frozenset(moved), variants=tuple(others))
+
+
+def _known_at(profile: Profile, item: "Alternative", fixed: frozenset[str]) -> Known:
+    """The part of a solution of which everything is determined."""
+    figure, solution = profile.figure, item.solution
+    values = {name: value for name, value in item.scalars.items() if name in fixed and is_usable(value)}
+    values |= {scalar(figure.start, axis): value for axis, value in enumerate(start_of(profile))}
+    points, rest = by_point((figure.start, *figure.points), values)
+    radii = {name: values[name] for name in figure.radii if name in values}
+    lines = {name: values[name] for line in figure.carriers for name in line_scalars(line) if name in values}
+    return Known(points, radii, known_of(solution).corners, solution.refusals, scalars={**rest, **lines})
 
 
 # Completions -------------------------------------------------------------------------------------------------

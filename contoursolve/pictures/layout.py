@@ -38,7 +38,7 @@ from contoursolve.pictures.page import (
 )
 from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thin, Trail, Viewport, Weight
 from contoursolve.pictures.svg import steps_text
-from contoursolve.pictures.theme import DASHES, MEANINGS, Role
+from contoursolve.pictures.theme import CHAINS, DASHES, MEANINGS, Role
 from contoursolve.pictures.vectors import along, direction, distance, middle, sweep_of
 from contoursolve.solving.contour import ArcSegment, Segment
 
@@ -48,9 +48,6 @@ _ARROWED = 34.0
 _GAP = 0.5
 _LEAST = 0.4
 """Pixels. Elements that are smaller are drawn with the next one."""
-
-_MOST_LABELS = 40
-"""Labels on one page. Of a larger drawing, the words that are simply given are not drawn: nobody could read them."""
 
 _MOST_NAMES = 6
 """Names of parts that are too small to be read."""
@@ -93,10 +90,10 @@ def lay_out(scene: Scene, held: Placement | None = None) -> Sheet:
 def _thinned(scene: Scene) -> Scene:
     """The scene as far as it can be read: of a crowded one, words that are not simply given, and names."""
     dimensions, marks = scene.dimensions, scene.each(Mark)
-    if len(dimensions) + sum(bool(mark.label) for mark in marks) <= _MOST_LABELS:
+    if len(dimensions) + sum(bool(mark.label) for mark in marks) <= scene.most_labels:
         return scene
-    special = [each for each in dimensions if each.role is not Role.GIVEN][:_MOST_LABELS]
-    left = max(_MOST_LABELS - len(special), 2)
+    special = [each for each in dimensions if each.role is not Role.GIVEN][: scene.most_labels]
+    left = max(scene.most_labels - len(special), 2)
     short = (replace(m, label=m.short if number < left else (), short=()) for number, m in enumerate(marks))
     others = (part for part in scene.parts if not isinstance(part, Dimension | Mark))
     dropped = len(dimensions) - len(special)
@@ -155,7 +152,7 @@ def _ends_of(canvas: Canvas, thin: Thin) -> tuple[Spot, Spot] | None:
 
 def _strokes(view: Viewport, trail: Trail) -> Iterator[Stroke]:
     """A path as strokes; one where it has no gap."""
-    is_ink = trail.role is Role.INK
+    is_ink = trail.role in (Role.INK, Role.DETERMINED)
     width = (THICK if is_ink else THICK - 0.4) if trail.weight is Weight.MAIN else 1.4
     dash = () if is_ink or trail.weight is Weight.MIRRORED else DASHES.get(trail.role, ())
     steps: list[Spot | Sweep] = []
@@ -265,7 +262,7 @@ def _foot_of(scene: Scene, homeless: Sequence[str], small: Sequence[str], top: f
         wide = 34.0 + width_of(text, _SMALL) + 18.0
         if x + wide > right and x > begin:
             x, y = begin, y + 16.0
-        yield line((x, y - 4.0), (x + 28.0, y - 4.0), role, 1.6)
+        yield line((x, y - 4.0), (x + 28.0, y - 4.0), role, THICK if role in CHAINS else 1.6)
         yield Text((x + 34.0, y), (TextRun(text, role),), _SMALL)
         x += wide
     y += 20.0
@@ -294,6 +291,7 @@ def _bar(unit: Length, scale: float, y: float) -> Iterator[Item]:
 
 _STATES = (
     Role.INK,
+    *CHAINS,
     Role.RAPID,
     Role.GIVEN,
     Role.DERIVED,

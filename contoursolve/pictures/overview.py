@@ -146,7 +146,8 @@ def _contour_parts(drawn: Sequence[Drawn]) -> Iterator[Part]:
     for each in named:
         begun.setdefault(each.start, []).append(each)
     for each in drawn:
-        yield from (replace(trail, role=_role(each.answer)) for trail in each.trails)
+        is_chain = each.answer.claim.form.is_general  # whose elements have colours of their own
+        yield from each.trails if is_chain else (replace(trail, role=_role(each.answer)) for trail in each.trails)
     for each in named:
         here = begun.pop(each.start, None)
         if here:

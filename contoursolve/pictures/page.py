@@ -232,11 +232,10 @@ def line(a: Spot, b: Spot, role: Role, width: float = THIN, *, is_dashed: bool =
     return Stroke(a, (b,), role, width, DASHES.get(role, ()) if is_dashed else ())
 
 
-def arc(center: Spot, radius: float, sweep: float, role: Role) -> Stroke:
-    """An arc from the right of its centre (radians, clockwise on the page)."""
-    end = center[0] + radius * cos(sweep), center[1] + radius * sin(sweep)
-    steps = (Sweep(center, radius, end, sweep),)
-    return Stroke((center[0] + radius, center[1]), steps, role, THIN, DASHES.get(role, ()))
+def arc(center: Spot, radius: float, sweep: float, role: Role, base: float = 0.0) -> Stroke:
+    """An arc from the right of its centre, or from another direction (radians, clockwise on the page)."""
+    begin, end = (along(center, (cos(angle), sin(angle)), radius) for angle in (base, base + sweep))
+    return Stroke(begin, (Sweep(center, radius, end, sweep),), role, THIN, DASHES.get(role, ()))
 
 
 def head(tip: Spot, way: Spot, role: Role, length: float = 8.0, half: float = 2.5) -> Shape:

@@ -121,13 +121,14 @@ class Ordinate(Struct, frozen=True):
 
 
 class Angle(Struct, frozen=True):
-    """A direction at a point, as written, in degrees from the plane's first axis."""
+    """A direction at a point, as written, in degrees from the direction `base`, which is that of the first axis."""
 
     at: Point
     degrees: float
     text: str
     role: Role
     about: About = ANYTHING
+    base: float = 0.0
 
 
 class Leader(Struct, frozen=True):
@@ -185,6 +186,8 @@ class Scene(Struct, frozen=True):
     is_one_contour: bool = False
     """Whether names of elements mean one thing only."""
     closeups: tuple[Closeup, ...] = ()
+    most_labels: int = 40
+    """Labels on one page. Of a larger drawing, the words that are simply given are not drawn: who could read them?"""
     scale_unit: Length | None = None
     """The unit of the bar that shows how large the drawing is; no bar without one."""
 
@@ -256,7 +259,7 @@ def bounds_of(scene: Scene) -> Rectangle:
             (more if part.kind in (MarkKind.CENTER, MarkKind.OTHER) else must).append(part.at)
         elif isinstance(part, Ring):
             ends = (along(part.center, way, sign * part.radius) for way in ALONG_AXIS for sign in (1, -1))
-            (wrong if part.role is Role.CONFLICTING else more).extend(ends)
+            {Role.CONFLICTING: wrong, Role.OPEN: must}.get(part.role, more).extend(ends)
         elif isinstance(part, Thin | LinearDimension | Aligned):
             more += [part.start] if isinstance(part, Thin) and part.is_endless else [part.start, part.end]
             if isinstance(part, Aligned) and part.role is Role.CONFLICTING:

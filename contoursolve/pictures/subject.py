@@ -6,6 +6,7 @@ corner that does not fit has a place as well. What words leave free is put somew
 
 from collections.abc import Iterator, Mapping
 from math import inf, isfinite
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -35,6 +36,7 @@ from contoursolve.pictures.known import (
     Known,
     by_point,
     complete,
+    in_chain,
     in_part,
     is_chosen,
     is_usable,
@@ -65,6 +67,9 @@ from contoursolve.solving.numbers import corner_of, inputs_of
 from contoursolve.solving.solution import CornerSolution
 from contoursolve.tolerance import LENGTH
 
+if TYPE_CHECKING:
+    from contoursolve.solving.alternatives import Alternative
+
 _CORNERS = (
     RefusalKind.CORNER_TOO_LARGE,
     RefusalKind.CORNERS_OVERLAP,
@@ -86,8 +91,8 @@ class Traced(Struct, frozen=True):
 
     @property
     def elements(self) -> dict[str, Segment]:
-        """What is drawn of the path, by name."""
-        return {segment.name: segment for trail in self.trails for segment in trail.segments}
+        """What is drawn of the path, by name; of an element that is drawn in several ways, the first."""
+        return {segment.name: segment for trail in self.trails[::-1] for segment in trail.segments[::-1]}
 
     def at(self, point: str) -> Point | None:
         """Where a point is."""
@@ -123,14 +128,25 @@ class Traced(Struct, frozen=True):
         return list(dict.fromkeys(circle for circle in found if circle is not None))
 
 
+def fitting(answer: Answer) -> list["Alternative"]:
+    """The solutions of a contour that were listed and that its words leave."""
+    if answer.alternatives is None:
+        return []
+    from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
+    from contoursolve.solving.picks import numbers_of, pick  # noqa: PLC0415 - as above
+
+    paths = [each for each in choose(answer.alternatives, answer.profile.choices) if each.is_path]
+    left = pick(paths, answer.profile)[0]
+    if len(left) > 1 and answer.claim.form.picking:
+        # As the control counts them.
+        left.sort(key=lambda item: [each.number for each in numbers_of(item, paths, answer.profile)])
+    return left
+
+
 def has_several(answer: Answer) -> bool:
     """Whether several contours fit a block and nothing chooses, whatever else keeps it from having one."""
-    if answer.contour is not None or answer.alternatives is None:
-        return answer.status is Status.AMBIGUOUS
-    from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
-
-    fitting = [each for each in choose(answer.alternatives, answer.profile.choices) if each.is_path]
-    return answer.status is Status.AMBIGUOUS or len(fitting) > 1
+    is_refused = answer.contour is None
+    return answer.status is Status.AMBIGUOUS or (is_refused and len(fitting(answer)) > 1)
 
 
 class Subject(Traced, frozen=True):
@@ -152,7 +168,14 @@ class Subject(Traced, frozen=True):
     @property
     def other(self) -> Role:
         """What other solutions are drawn as: as good as the one that is drawn, where nothing chooses."""
-        return Role.CANDIDATE if has_several(self.answer) else Role.GHOST
+        if not has_several(self.answer):
+            return Role.GHOST
+        return Role.SEVERAL if self.is_chain else Role.CANDIDATE
+
+    @property
+    def is_chain(self) -> bool:
+        """Whether it is drawn in the colours of a control that shows the elements of a chain by what is known."""
+        return self.answer.claim.form.is_general
 
     def about(self, span: Span) -> About:
         """What shows the word or the fact at a place is about."""
@@ -169,6 +192,9 @@ class Subject(Traced, frozen=True):
         if found is None or found.word is None:
             return None
         told, value = word_text(found.word.text), self.counted.get(found.word.span)
+        claim = self.answer.claim
+        with_it = claim.words.get(claim.form.companions.get(given, ""))
+        told += f" {word_text(with_it.text)}" if with_it is not None else ""
         return told if value is None else f"{told} = {value}"
 
 
@@ -255,13 +281,15 @@ def find_known(answer: Answer) -> Known:
     items = answer.alternatives.items if answer.alternatives is not None else ()
     if answer.contour is not None:
         if answer.alternatives is not None:
-            from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
-
-            solution = next((i.solution for i in choose(answer.alternatives, profile.choices) if i.is_path), None)
+            solution = next((each.solution for each in fitting(answer)), None)
         else:
             solution = solve(profile, is_proven=False) if is_closed(system) else None
         if solution is not None and solution.points:
             return known_of(solution)
+    if answer.claim.form.is_general:
+        spans = {*_blamed(answer, is_slip=False)}
+        words = (given.word for given in profile.givens.values() if given.word is not None)
+        return in_chain(profile, fitting(answer) or items, {word for word in words if word.span in spans})
     verdict = analyse(system)
     if profile.is_extended:
         # Of several solutions, among which nothing chooses, the first.
@@ -326,19 +354,46 @@ def _worked_out(profile: Profile) -> Known:
 
 def list_trails(answer: Answer, known: Known) -> Iterator[Trail]:
     """The path; in several roles where a part of it is refused or free."""
+    is_chain = answer.claim.form.is_general
     if answer.contour is not None:
-        yield from [Trail(answer.contour.elements, Role.INK)] if answer.contour.elements else []
+        # A solved chain is blue as well: that is what its programmer waits for, on whose control colours are states.
+        role = Role.DETERMINED if is_chain else Role.INK
+        yield from [Trail(answer.contour.elements, role)] if answer.contour.elements else []
         return
     trail: Trail | None = None
-    stated = Role.CANDIDATE if has_several(answer) else Role.INK
-    for segment, state in trace_known(answer.profile, known):
-        role = stated if state is Role.INK else state
+    for segment, role in _chain_traced(answer, known) if is_chain else _traced(answer, known):
         if trail is not None and trail.role is role and trail.segments[-1].end == segment.start:
             trail = replace(trail, segments=(*trail.segments, segment))
             continue
         yield from [trail] if trail is not None else []
         trail = Trail((segment,), role)
     yield from [trail] if trail is not None else []
+
+
+def _traced(answer: Answer, known: Known) -> Iterator[tuple[Segment, Role]]:
+    """The elements of a contour that is not solved, each with what it is."""
+    stated = Role.CANDIDATE if has_several(answer) else Role.INK
+    yield from ((s, stated if state is Role.INK else state) for s, state in trace_known(answer.profile, known))
+
+
+def _chain_traced(answer: Answer, known: Known) -> Iterator[tuple[Segment, Role]]:
+    """The same of a chain, first as it is in one way, then what differs in the others."""
+    ways = [list(trace_known(answer.profile, each)) for each in (known, *known.variants)]
+    shared = [segment for segment, _ in ways[0] if all(any(_is_same(segment, s) for s, _ in way) for way in ways[1:])]
+    for number, way in enumerate(ways):
+        for segment, state in way:
+            is_shared = any(_is_same(segment, each) for each in shared)
+            if not (is_shared and number):
+                role = Role.DETERMINED if is_shared else Role.SEVERAL
+                yield segment, role if state is Role.INK else state
+
+
+def _is_same(one: Segment, other: Segment) -> bool:
+    """Whether two elements run alike."""
+    places = [
+        (each.start, each.end, each.center if isinstance(each, ArcSegment) else each.end) for each in (one, other)
+    ]
+    return one.name == other.name and all(distance(*pair) <= LENGTH for pair in zip(*places, strict=True))
 
 
 def trace_known(profile: Profile, known: Known) -> Iterator[tuple[Segment, Role]]:

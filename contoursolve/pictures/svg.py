@@ -29,7 +29,7 @@ from contoursolve.pictures.page import (
     Text,
     TextRun,
 )
-from contoursolve.pictures.theme import DARK_COLORS, LIGHT_COLORS, Role, Theme
+from contoursolve.pictures.theme import CHAINS, DARK_COLORS, LIGHT_COLORS, Role, Theme
 
 SANS = "'DejaVu Sans', Verdana, 'Liberation Sans', Arial, sans-serif"
 MONO = "'DejaVu Sans Mono', Menlo, Consolas, 'Liberation Mono', monospace"
@@ -121,7 +121,7 @@ def write_svg(sheet: Sheet, theme: Theme, description: str) -> str:
         f'<clipPath id="{name}-frame"><rect x="{_number(frame.left)}" y="{_number(frame.top)}" '
         f'width="{_number(frame.right - frame.left)}" height="{_number(frame.bottom - frame.top)}"/></clipPath>'
     )
-    style = _style(name) if theme is Theme.PAGE else ""
+    style = _style(name, body) if theme is Theme.PAGE else ""
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" id="{name}" role="img" aria-labelledby="{name}-title {name}-text" '
         f'width="{wide}" height="{high}" viewBox="0 0 {wide} {high}" font-family="{SANS}" fill="none">'
@@ -132,10 +132,11 @@ def write_svg(sheet: Sheet, theme: Theme, description: str) -> str:
     )
 
 
-def _style(name: str) -> str:
+def _style(name: str, body: str) -> str:
     """Rules that colour one picture as the page or its reader wants it."""
-    light = "".join(_rule(f"#{name}", role, LIGHT_COLORS[role]) for role in Role)
-    dark = "".join(_rule(f"#{name}", role, DARK_COLORS[role]) for role in Role)
+    roles = [role for role in Role if role not in CHAINS or f'-{role.value}"' in body]
+    light = "".join(_rule(f"#{name}", role, LIGHT_COLORS[role]) for role in roles)
+    dark = "".join(_rule(f"#{name}", role, DARK_COLORS[role]) for role in roles)
     return f"<style>{light}@media (prefers-color-scheme:dark){{{dark}}}</style>"
 
 

@@ -23,11 +23,20 @@ class Role(Enum):
     IGNORED = "ignored"
     CONFLICTING = "conflicting"
     FREE = "free"
+    DETERMINED = "determined"
+    """An element of a chain that its data fix, in the blue in which a control with free contours shows it."""
+    SEVERAL = "several"
+    """One of several solutions for an element of a chain, in the green of such a control."""
+    OPEN = "open"
+    """An element of a chain for which there are too few data, in the red of such a control."""
     SOLVED_FIELD = "solved-field"
     REFUSED_FIELD = "refused-field"
     OTHER_FIELD = "other-field"
     """Fields of a map."""
 
+
+CHAINS = (Role.DETERMINED, Role.SEVERAL, Role.OPEN)
+"""What only elements of chains are."""
 
 MEANINGS: Mapping[Role, str] = {
     Role.GIVEN: "given",
@@ -35,6 +44,9 @@ MEANINGS: Mapping[Role, str] = {
     Role.IGNORED: "ignored",
     Role.CONFLICTING: "conflicting or refused",
     Role.FREE: "still free",
+    Role.DETERMINED: "determined",
+    Role.SEVERAL: "one of several solutions",
+    Role.OPEN: "too few data",
     Role.CANDIDATE: "one of several solutions",
     Role.RAPID: "rapid move",
     Role.GHOST: "another solution",
@@ -51,6 +63,8 @@ DASHES: Mapping[Role, tuple[float, ...]] = {
     Role.IGNORED: (1.5, 3.0),
     Role.CONFLICTING: (10.0, 3.0, 2.0, 3.0, 2.0, 3.0),
     Role.FREE: (4.0, 3.0),
+    Role.SEVERAL: (14.0, 4.0),
+    Role.OPEN: (3.0, 5.0),
 }
 """Pixels on and off of a role's thin lines; solid without. They tell the states apart without colour."""
 
@@ -66,6 +80,9 @@ _COLORS: Mapping[Role, tuple[str, str]] = {
     Role.IGNORED: ("#8a4b00", "#fcd34d"),
     Role.CONFLICTING: ("#b91c1c", "#fca5a5"),
     Role.FREE: ("#7e22ce", "#d8b4fe"),
+    Role.DETERMINED: ("#0b3fb3", "#5ea3ff"),
+    Role.SEVERAL: ("#3d7a00", "#9be31c"),
+    Role.OPEN: ("#c8102e", "#ff7a85"),
     Role.SOLVED_FIELD: ("#eaf1fd", "#1b3050"),
     Role.REFUSED_FIELD: ("#f0cdc8", "#5a2a27"),
     Role.OTHER_FIELD: ("#dccfee", "#3a2a55"),

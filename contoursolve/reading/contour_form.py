@@ -189,6 +189,10 @@ class ContourForm:
     picking: str = ""
     """The word that chooses one of several solutions by its number, in a block of its own behind that of its element;
     empty if there is none."""
+    companions: Mapping[str, str] = field(default_factory=dict)
+    """Givens whose words are read together with the word of another one, which states nothing by itself."""
+    poles: tuple[str, ...] = ()
+    """The points from which polar data count."""
 
     def __hash__(self) -> int:
         return hash(self.name)

@@ -1,7 +1,7 @@
 """Contours with open choices, further facts or asked values: all solutions, or the facts that are to blame."""
 
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Set
 from decimal import Decimal
 
 from msgspec import Struct
@@ -10,6 +10,7 @@ from msgspec.structs import replace
 from contoursolve.analysis import Group, analyse, order
 from contoursolve.analysis.determinacy import survey
 from contoursolve.analysis.identities import is_affine
+from contoursolve.gcode import Word
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -176,6 +177,18 @@ def orders_of(profile: Profile) -> Iterator[Profile]:
 def _disagreement(item: Alternative) -> float:
     """By how much facts that were not needed disagree with a solution, mm."""
     return sum(refusal.values.get("off_by_mm", 0.0) for refusal in item.solution.refusals)
+
+
+def before(profile: Profile, words: Set[Word]) -> Profile | None:
+    """The part of a profile that is solved before the group whose facts these words state, all of them and no others;
+    None where no group is stated so, or none is before it."""
+    system = assemble(profile)
+    groups = _groups(system)
+    for number, group in enumerate(groups):
+        stated = (profile.givens[name].word for name in _givens([group], groups, system))
+        if number and {word for word in stated if word is not None} == words:
+            return _first(profile, groups[:number])
+    return None
 
 
 def _groups(system: System) -> tuple[Group, ...]:

@@ -6,7 +6,16 @@ from itertools import pairwise
 
 from msgspec import Struct
 
-from contoursolve.controls.heidenhain.lexicon import BOOK, CHAMFER, FREE, LEXICON, ROUNDING, STRAIGHT, TANGENT
+from contoursolve.controls.heidenhain.lexicon import (
+    BOOK,
+    CHAMFER,
+    FREE,
+    LEXICON,
+    REFERRED,
+    ROUNDING,
+    STRAIGHT,
+    TANGENT,
+)
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -474,4 +483,20 @@ def compose(elements: tuple[Element, ...], labels: tuple[str, ...]) -> ContourFo
         usual=tuple(f"{each.prefix}{word}" for word in _USUAL for each in places if each.element.function in FREE),
         swaps={"DR+": "DR-", "DR-": "DR+", "FLT": "FL", "FCT": "FC"},
         picking="FSELECT",
+        companions=dict(_companions(places)),
+        poles=poles,
     )
+
+
+def _companions(places: tuple[Place, ...]) -> Iterator[tuple[str, str]]:
+    """Words that say from where another one counts, or that repeat what its fact says already."""
+    for place in places:
+        q = place.prefix
+        yield from ((f"{q}I{name}", f"{q}R{name}") for name in REFERRED)
+        yield from ((q + PARTNERS[name], q + name) for name in place.element.touching)
+        if place.element.closes:
+            yield f"{q}CLSD-", f"{place.element.closes}:CLSD+"
+
+
+PARTNERS = {"D": f"{BESIDE}Y", "DP": "PAR"}
+"""Words that tell of what a distance of 0 is."""

@@ -267,7 +267,7 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
             quarter = 90 * elements[-2].turn.sign if elements[-2].turn else 0
             given[ALONG] = replace(ended, value=ended.value + quarter, word=None)
         givens |= {prefix + name: replace(each, name=prefix + name) for name, each in given.items()}
-        lasting |= {prefix + name for name in own if name in _NO_FACTS}
+        lasting |= {prefix + name for name in own if name in _NO_FACTS or name in element.touching}
         vocabulary |= {prefix + name: (name, member.index) for name in _may_state(member, own.keys())}
         vocabulary |= {prefix + name: (word.address, member.index) for name, word in own.items()}
         if number == 1 and member.function in FREE:
@@ -331,7 +331,7 @@ def _conventions(is_picked: bool, modes: Modes) -> Iterator[Convention]:
 
 
 _NO_FACTS = frozenset({TANGENCY, "DR", "CLSD+", "FSELECT", "Z", "IZ", *(f"R{name}" for name in REFERRED)})
-"""Words that state no equation: they say which one it is."""
+"""Words that state no equation, or not always: they say which one it is."""
 
 
 def _sign_of(block: Block, address: str) -> int:
