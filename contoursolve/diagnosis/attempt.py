@@ -191,6 +191,7 @@ def _order(repair: Repair) -> tuple[object, ...]:
         sum(_change(edit) for edit in repair.edits) if is_of_digits else 0,
         repair.warnings,
         is_other,
+        [edit.text for edit in repair.edits if edit.text.startswith("\n")],
         repair.deviation,
         len(repair.edits),
         round(size, 6) if NEIGHBOUR not in repair.slips else 0,

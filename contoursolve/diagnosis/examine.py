@@ -205,7 +205,9 @@ def examine(
     unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))
     notebook.findings += (*explain_skippable(context, claim), *unmarked)
     explained = {label.span for finding in notebook.findings for label in finding.labels}
-    for word in unused_words(claim, profile) if is_whole else ():
+    # What rules refuse of a chain is not solved without a word either.
+    is_refused = claim.form.is_general and Status.REJECTED in notebook.statuses
+    for word in unused_words(claim, profile) if is_whole and not is_refused else ():
         # Whatever the rules say of it: nothing is dropped without a word.
         if word.span not in explained:
             notebook.add(report(context, context.row(ReadIssue.WORD_UNUSED), Basis.RULE, [word], form=claim.form.name))

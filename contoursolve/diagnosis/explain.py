@@ -245,7 +245,9 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
         ways += [f"give {' or '.join(open_sizes)} a value"] if open_sizes else []
     told = open_text(shown, profile)
     if claim.form.is_general:
-        told = _open_elements(free, open_count, profile)
+        told, first = _open_elements(free, open_count, profile)
+        blocks = zip(claim.blocks, claim.makes, strict=True)
+        context = replace(context, place=next((block.span for block, names in blocks if first in names), context.place))
         usual = [claim.vocabulary[name] for name in claim.form.usual if name in able and name in claim.vocabulary]
         ways = [_adding_by_line(usual[:_MOST_NAMED], open_count, claim)] if usual else []
     completions = "; or ".join(ways) or f"state a fact about {'them' if told.endswith('are still open') else 'it'}"
@@ -263,8 +265,8 @@ _MOST_NAMED = 8
 """Words that a message names as missing."""
 
 
-def _open_elements(free: set[str], number: int, profile: Profile) -> str:
-    """How many words are missing, and which elements they leave open: `one word is missing: arc 3 and line 4 are`."""
+def _open_elements(free: set[str], number: int, profile: Profile) -> tuple[str, str]:
+    """How many words are missing, and which elements they leave open; and the first of these."""
     things = {name.rpartition(".")[0] or name for name in free}
     open_ = [
         each.name
@@ -272,7 +274,7 @@ def _open_elements(free: set[str], number: int, profile: Profile) -> str:
         if things & {each.name, each.head, *((each.center, each.radius) if isinstance(each, Arc) else ())}
     ]
     missing = f"{_NUMBERS.get(number, number)} word{' is' if number == 1 else 's are'} missing"
-    return f"{missing}, so {join(open_)} {'is' if len(open_) == 1 else 'are'} open"
+    return f"{missing}, so {join(open_)} {'is' if len(open_) == 1 else 'are'} open", next(iter(open_), "")
 
 
 def _adding_by_line(words: Sequence[tuple[str, int]], number: int, claim: ParsedContour) -> str:

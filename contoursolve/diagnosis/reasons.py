@@ -174,29 +174,3 @@ def _known(profile: Profile, fixed: dict[str, float], point: str) -> dict[str, f
 
 def _words(profile: Profile, facts: Sequence[Fact]) -> str:
     return join([word.text for word in profile.words_of(facts)])
-
-
-def resolved_later(profile: Profile) -> dict[str, str]:
-    """The elements of a chain that only a later block determines, each with the element of that block."""
-    system, path = assemble(profile), profile.figure.path
-    verdict = analyse(system)
-    if not verdict.is_determined:
-        return {}
-    latest: dict[str, int] = {}
-    for group in order(system, [system.facts[index] for index in verdict.basis]):
-        numbers = [_block_of(fact.given) for fact in group.facts]
-        used = (name for fact in group.facts for name in system.unknowns_of(fact) if name in latest)
-        latest |= dict.fromkeys(group.unknowns, max([*numbers, *(latest[name] for name in used)], default=0))
-    found = {}
-    for number, element in enumerate(path, 1):
-        things = {element.name, element.head, *((element.center, element.radius) if isinstance(element, Arc) else ())}
-        last = max((at for name, at in latest.items() if {name, name.rpartition(".")[0]} & things), default=0)
-        if last > number:
-            found[element.name] = path[last - 1].name
-    return found
-
-
-def _block_of(given: str) -> int:
-    """The number of the element whose block states a given; 0 for what none states."""
-    number = given.partition(":")[0]
-    return int(number) if number.isdigit() else 0

@@ -90,6 +90,25 @@ class Foot(Equation, Struct, frozen=True):
         return *self.reads(), *(both(self.corner) if self.corner else ())
 
 
+class Leaving(Equation, Struct, frozen=True):
+    """The line begins at `point`, which lies on a circle, in the direction in which the circle is travelled there."""
+
+    line: str
+    point: str
+    center: str
+    turn: Turn
+    given: str = ""
+
+    def reads(self) -> tuple[str, ...]:
+        return *line_scalars(self.line)[:2], *both(self.point, self.center)
+
+    def residual(self, at: Lookup) -> Any:
+        return dot(at.bearing(self.line), step(at, self.center, self.point))
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (self.turn.sign * cross(step(at, self.center, self.point), at.bearing(self.line)),)
+
+
 class Parallel(Equation, Struct, frozen=True):
     """The line is parallel to `axis` and runs the way that a path advances along it: the first in `advance` that moves
     along the axis tells, each of these a line whose direction is stated, or a pair of points."""

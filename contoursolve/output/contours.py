@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer, AskedValue, list_alternatives
-from contoursolve.diagnosis.reasons import resolved_later
 from contoursolve.diagnosis.solutions import Listed, Listing, list_solutions, printed_certificate
 from contoursolve.diagnosis.wording import (
     axis_labels,
@@ -24,6 +23,7 @@ from contoursolve.output.words import form_text, found_value, meaning_of, stated
 from contoursolve.program.pipeline import Result
 from contoursolve.reading import Convention
 from contoursolve.solving.contour import ArcSegment, Contour
+from contoursolve.solving.picks import resolved_later
 
 _VERDICT = {Verdict.PASSED: "passed", Verdict.FOUND: "see finding", Verdict.NOT_RUN: "not run"}
 

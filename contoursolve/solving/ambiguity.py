@@ -1,7 +1,7 @@
 """Contours with open choices, further facts or asked values: all solutions, or the facts that are to blame."""
 
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Set
+from collections.abc import Iterable, Iterator, Sequence, Set
 from decimal import Decimal
 
 from msgspec import Struct
@@ -128,7 +128,7 @@ def settle(profile: Profile, *, is_blaming: bool = True) -> Settlement:
     """
     alternatives = find_alternatives(profile)
     if not alternatives.items and _singular(alternatives):
-        tried = (find_alternatives(other) for other in orders_of(profile))
+        tried = (find_alternatives(other) for other in (*orders_of(profile), *_last(profile, _singular(alternatives))))
         alternatives = next((found for found in tried if not _singular(found)), alternatives)
     nearest = tuple(sorted(alternatives.items, key=_disagreement))
     solution = decide(replace(alternatives, items=nearest), profile)
@@ -172,6 +172,18 @@ def orders_of(profile: Profile) -> Iterator[Profile]:
         if index not in basis:
             rest = (each for each in profile.facts if each is not fact)
             yield replace(profile, layout=Layout(profile.figure, (fact, *rest)))
+
+
+def _last(profile: Profile, unknowns: Sequence[str]) -> Iterator[Profile]:
+    """The profile with one of the facts that do not fix some unknowns at their values put last, so that another one is
+    needed instead, where something is said twice."""
+    system = assemble(profile)
+    if len(system.facts) <= len(system.unknowns):
+        return
+    for group in _groups(system):
+        for fact in group.facts if not set(unknowns).isdisjoint(group.unknowns) else ():
+            rest = (each for each in profile.facts if each is not fact)
+            yield replace(profile, layout=Layout(profile.figure, (*rest, fact)))
 
 
 def _disagreement(item: Alternative) -> float:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from math import atan2, dist, pi, tau
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from math import atan2, cos, dist, pi, sin, tau
 from typing import TYPE_CHECKING
 
-from contoursolve.geometry import Line, Pick, Profile
+from contoursolve.analysis import analyse, order
+from contoursolve.geometry import Arc, Line, Pick, Profile, System, assemble
 from contoursolve.solving.solution import Note, NoteKind, Point, Refusal, RefusalKind
 from contoursolve.tolerance import LENGTH
 
@@ -17,8 +19,8 @@ if TYPE_CHECKING:
 def pick(paths: Sequence[Alternative], profile: Profile) -> tuple[list[Alternative], list[Refusal | Note]]:
     """The contours that the picks of a profile leave, and what there is to say of these.
 
-    At each element contours are parted by how they run there, and counted: the shorter element first, of equally
-    long ones the smaller turn to the left from the direction before.
+    At each element contours are parted by how they run there, and counted: the nearer end along the element first, of
+    equally near ones the smaller turn to the left from the direction before.
     """
     left, events = list(paths), list[Refusal | Note]()
     for each in sorted(profile.picks, key=lambda each: each.element) if left else ():
@@ -72,15 +74,18 @@ def _run(path: Alternative, element: int, profile: Profile) -> tuple[list[Point]
     points, own = path.solution.points, profile.figure.path[element - 1]
     tail, head = points[own.tail], points[own.head]
     begin, _ = _directions(path, element, profile)
+    # An end that a later block determines is not there yet when this block is chosen.
+    ends = [] if own.name in resolved_later(profile) else [head]
+    way = (tail[0] + cos(begin), tail[1] + sin(begin))
     before = _directions(path, element - 1, profile)[1] if element > 1 else 0.0
     turn = (begin - before) % tau
     turn = 0.0 if tau - turn < LENGTH else turn
     if isinstance(own, Line):
-        return [tail, head], (dist(tail, head), turn)
+        return [tail, way, *ends], (dist(tail, head) if ends else 0.0, turn)
     center = points[own.center]
     angles = [atan2(at[1] - center[1], at[0] - center[0]) for at in (tail, head)]
     sweep = (own.turn.sign * (angles[1] - angles[0])) % tau
-    return [tail, head, center], (dist(tail, center) * sweep, turn)
+    return [tail, way, center, *ends], (dist(tail, center) * sweep if ends else 0.0, turn)
 
 
 def _directions(path: Alternative, element: int, profile: Profile) -> tuple[float, float]:
@@ -93,3 +98,33 @@ def _directions(path: Alternative, element: int, profile: Profile) -> tuple[floa
     center = points[own.center]
     first, second = (atan2(at[1] - center[1], at[0] - center[0]) + own.turn.sign * pi / 2 for at in (tail, head))
     return first, second
+
+
+def resolved_later(profile: Profile) -> Mapping[str, str]:
+    """The elements of a chain that only a later block determines, each with the element of that block."""
+    return _resolved_later(assemble(profile))
+
+
+@lru_cache(maxsize=256)
+def _resolved_later(system: System) -> Mapping[str, str]:
+    path, verdict = system.figure.path, analyse(system)
+    if not verdict.is_determined:
+        return {}
+    latest: dict[str, int] = {}
+    for group in order(system, [system.facts[index] for index in verdict.basis]):
+        numbers = [_block_of(fact.given) for fact in group.facts]
+        used = (name for fact in group.facts for name in system.unknowns_of(fact) if name in latest)
+        latest |= dict.fromkeys(group.unknowns, max([*numbers, *(latest[name] for name in used)], default=0))
+    found = {}
+    for number, element in enumerate(path, 1):
+        things = {element.name, element.head, *((element.center, element.radius) if isinstance(element, Arc) else ())}
+        last = max((at for name, at in latest.items() if {name, name.rpartition(".")[0]} & things), default=0)
+        if last > number:
+            found[element.name] = path[last - 1].name
+    return found
+
+
+def _block_of(given: str) -> int:
+    """The number of the element whose block states a given; 0 for what none states."""
+    number = given.partition(":")[0]
+    return int(number) if number.isdigit() else 0

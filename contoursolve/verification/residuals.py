@@ -300,6 +300,11 @@ MEANINGS: Mapping[type, Meaning] = {
         lambda own, at: dot(at.along(own.line), at.way(own.center, own.point)),
         lambda own, at: (own.way * dot(at.along(own.line), at.way(own.point, own.corner)),) if own.corner else (),
     ),
+    kinds.Leaving: Meaning(
+        "{line} leaves the circle about {center} in {point}",
+        lambda own, at: dot(at.along(own.line), at.way(own.center, own.point)),
+        lambda own, at: (own.turn.sign * cross(at.way(own.center, own.point), at.along(own.line)),),
+    ),
     kinds.Parallel: Meaning(
         "{line} is parallel to {axis}",
         lambda own, at: at.along(own.line)[1 - own.axis],

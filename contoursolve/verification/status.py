@@ -351,6 +351,8 @@ def agrees(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> b
 
 def expected(case: Case, found: Sequence[Candidate]) -> tuple[str | None, str]:
     """The status that words and solutions give a contour, and why; None where it was not worked out."""
+    if case.claim.form.is_general:
+        return None, "the status of a free contour was not worked out"
     statuses, is_linear = dict(case.statuses), rank.is_linear(case.system)
     if not case.is_readable or "rejected" in statuses:
         return _first(statuses)
@@ -363,8 +365,6 @@ def expected(case: Case, found: Sequence[Candidate]) -> tuple[str | None, str]:
     eligible = [each for each in found if each.is_chosen]
     paths, fits = [each for each in eligible if each.is_path], [each for each in eligible if not each.conflicts]
     selecting = {fact for each in found for fact in each.conflicts}
-    if len(paths) > 1 and case.claim.picks:
-        return None, "which solution a number chooses was not worked out"
     if len(paths) > 1:
         statuses["ambiguous"] = f"{len(paths)} paths agree with the words"
     elif not paths:

@@ -54,6 +54,7 @@ from contoursolve.geometry import (
     Foot,
     Functions,
     Heading,
+    Leaving,
     Length,
     Level,
     Offset,
@@ -126,6 +127,7 @@ FACTS: tuple[Any, ...] = (
     OnCircle("P", "C", "r"),
     Radius("length", "r"),
     RadiusStep("length", "r", "s"),
+    *(Leaving("L", "P", "C", turn) for turn in Turn),
     *(Spoke("angle", "C", "P", "r", axis, quarters) for axis in (0, 1) for quarters in (0, 3)),
     EqualRadii("", "r", "s"),
     *(kind(*CIRCLES, side) for kind in (TangentCircles, PointBeside) for side in (1, -1, "side")),
@@ -330,7 +332,7 @@ def mirrored(place: Place, fact: Any) -> tuple[Place, Any]:
     )
     if swaps_side and isinstance(fact.side, int):
         fact = replace(fact, side=-fact.side)
-    if isinstance(fact, ArcLength | TangentArc | ArcContact | ChordSetback):
+    if isinstance(fact, ArcLength | TangentArc | ArcContact | ChordSetback | Leaving):
         fact = replace(fact, turn=CW if fact.turn is CCW else CCW)
     if isinstance(fact, Spoke):
         fact = replace(fact, quarters=-fact.quarters)

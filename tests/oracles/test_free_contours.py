@@ -152,7 +152,7 @@ def test_a_line_meets_a_circle_in_two_points_and_both_are_listed():
     assert places[0] == pytest.approx((25.2114, 16.7554), abs=6e-5)
     assert places[1] == pytest.approx((73.0898, 29.5844), abs=6e-5)
     (finding,) = answer.diagnostics
-    assert [fix.replacement.split("\n")[1] for fix in finding.fixes] == ["FSELECT 1", "FSELECT 2"]
+    assert [fix.replacement.split("\n")[2] for fix in finding.fixes] == ["FSELECT 1", "FSELECT 2"]
 
 
 def test_settings_tell_what_numbers_choose_and_what_comes_without_them():

@@ -29,6 +29,7 @@ from contoursolve.geometry import (
     Extent,
     Fact,
     Foot,
+    Leaving,
     Level,
     Line,
     Offset,
@@ -78,7 +79,9 @@ class Element(Struct, frozen=True):
     is_ended: bool = False
     """Whether CCA states the direction from its centre to its end."""
     is_placed: bool = False
-    """Whether both coordinates of its end are stated."""
+    """Whether its end is stated, though it may say so twice."""
+    goes_round: bool = False
+    """Whether it is on the circle of the arc before it, in the same sense."""
     closes: int = 0
     """The number of the element at whose begin it ends: the one with CLSD+."""
 
@@ -243,16 +246,19 @@ def _touches_before(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
     if place.number == 1:
         return
     before = chain.places[place.number - 2]
+    if place.element.goes_round:
+        return
     if _is_aimed(chain, place):
         yield from _goes_on(before, place)
+        return
+    if place.element.is_line and before.element.is_placed and not before.element.is_line:
+        yield Leaving(place.name, place.tail, before.center, before.turn, given)
         return
     arcs = [each for each in (before, place) if not each.element.is_line]
     if len(arcs) == 1:
         line = place if place.element.is_line else before
-        foot = Foot(line.name, place.tail, arcs[0].center)
-        tangent = TangentLine(line.name, arcs[0].center, arcs[0].radius, arcs[0].turn.sign, given)
-        # Where the point is stated, the tangency comes last, and is what does not agree.
-        yield from (foot, tangent) if before.element.is_placed else (tangent, foot)
+        yield TangentLine(line.name, arcs[0].center, arcs[0].radius, arcs[0].turn.sign, given)
+        yield Foot(line.name, place.tail, arcs[0].center)
     elif arcs:
         side = 1 if before.turn is not place.turn else -1
         yield Contact(place.tail, before.center, place.center, side, given)
@@ -397,6 +403,9 @@ def _is_met(chain: Chain, arc: Place, second: Place | None) -> bool:
     if second is None or second.number == 1 or second.element.function not in TANGENT:
         return False
     other = chain.places[second.number - 2] if second is arc else second
+    if other is second and arc.element.is_placed:
+        # Its end is where it is, and the line leaves it there.
+        return False
     return other.element.is_line or _is_aimed(chain, second)
 
 
@@ -427,6 +436,14 @@ ASSUMPTIONS = tuple(
     )
 )
 """What the control is taken to mean, although no page that we have says so."""
+
+_OF_DIRECTION = ("AN", "IAN")
+
+
+def _has_direction(element: Element) -> bool:
+    """Whether the direction of an arc is that of the element before it, which need not be said again."""
+    return element.function in TANGENT and not element.is_line
+
 
 _USUAL = (
     *("R", "AN", "X", "Y", "LEN", "CCX", "CCY", "PR", "PA", "CCA", "IX", "IY", "IAN"),
@@ -480,7 +497,12 @@ def compose(elements: tuple[Element, ...], labels: tuple[str, ...]) -> ContourFo
         combinations=tuple(((),) for _ in places),
         assumptions=ASSUMPTIONS,
         is_general=True,
-        usual=tuple(f"{each.prefix}{word}" for word in _USUAL for each in places if each.element.function in FREE),
+        usual=tuple(
+            f"{each.prefix}{word}"
+            for word in _USUAL
+            for each in places
+            if each.element.function in FREE and not (word in _OF_DIRECTION and _has_direction(each.element))
+        ),
         swaps={"DR+": "DR-", "DR-": "DR+", "FLT": "FL", "FCT": "FC"},
         picking="FSELECT",
         companions=dict(_companions(places)),

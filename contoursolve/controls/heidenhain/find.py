@@ -3,6 +3,7 @@
 A chain goes through free elements in a row, and through conventional moves that a corner or a tangency joins to them.
 """
 
+import re
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import replace as replace_fields
 from decimal import Decimal
@@ -24,7 +25,16 @@ from contoursolve.controls.heidenhain.elements import (
     Element,
     compose,
 )
-from contoursolve.controls.heidenhain.follow import CENTER, PLANE, POLE, TOOL_AXIS, pole_of, resolved, set_pole
+from contoursolve.controls.heidenhain.follow import (
+    CENTER,
+    PLANE,
+    POLE,
+    TOOL_AXIS,
+    begins_chain,
+    pole_of,
+    resolved,
+    set_pole,
+)
 from contoursolve.controls.heidenhain.lexicon import (
     CHAMFER,
     FREE,
@@ -47,6 +57,8 @@ NO_SENSE, NO_BLOCK, NO_POLE, NO_BEFORE = "@no-sense", "@no-block", "@no-pole", "
 element behind none."""
 NO_TURN = "@no-turn"
 """CT behind what is still to be found: to which side it turns is not known before."""
+TURNS_BACK, CONTINUED, NEVER_CLOSED = "@turns-back", "@continued", "@never-closed"
+"""An arc that goes back on the circle before it; a block that goes on in the next line; CLSD+ without CLSD-."""
 CUT, TOOL, CLOSES_NOTHING = "@cut", "@tool-axis", "@closes-nothing"
 """A conventional move behind a chain that is still open; a tool axis that is not Z; CLSD- without CLSD+, or alone."""
 
@@ -129,8 +141,8 @@ class _Chain:
     def _last_block(self) -> Block:
         """The last block that belongs to an element."""
         last = self.members[-1]
-        behind = [block for block in self.blocks if block.find("FSELECT") or block is last.corner]
-        return max((last.block, *behind), key=lambda block: block.line)
+        own = (last.block, last.corner)
+        return next(block for block in reversed(self.blocks) if block in own or block.find("FSELECT"))
 
     def _keep(self, function: str, name: str) -> None:
         values = pole_of(self.state, function)
@@ -207,7 +219,7 @@ def find(
     is_known = state.start().is_known
     if function not in MOVES or (function not in FREE and not is_known):
         return None
-    if not is_known and function == "FL" and block.find("X") and block.find("Y"):
+    if not is_known and begins_chain(function, block):
         # A chain may begin with where it begins.
         return None
     if function not in FREE and not _leads_on(blocks, index):
@@ -243,6 +255,7 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
     for member in members:
         member.sense = tangents.get(member.block.line, 0)
     opening = next((n for n, each in enumerate(members, 1) if _sign_of(each.block, "CLSD") > 0), 0)
+    is_closed = any(_sign_of(each.block, "CLSD") < 0 for each in members)
     elements: list[Element] = []
     words: dict[str, Word] = {}
     givens: dict[str, Given] = {}
@@ -255,7 +268,10 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
     for number, member in enumerate(members, 1):
         prefix = f"{number}:"
         own = _own_words(member, repeated)
-        element, lacking = _element(member, own, number, numbers, opening)
+        element, lacking = _element(member, own, number, numbers, opening, is_closed=is_closed)
+        if number > 1 and member.function == "FCT" and _is_same_circle(members[number - 2].block, member.block):
+            element = replace(element, goes_round=elements[-1].turn is element.turn)
+            lacking += [TURNS_BACK] * (not element.goes_round)
         elements.append(element)
         words |= {prefix + name: word for name, word in own.items()}
         circumstances |= {prefix + each for each in lacking}
@@ -265,7 +281,8 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
         if ended is not None and element.is_line and member.function in TANGENT:
             # The line goes on where CCA of the arc before ends, a quarter of a turn from that direction.
             quarter = 90 * elements[-2].turn.sign if elements[-2].turn else 0
-            given[ALONG] = replace(ended, value=ended.value + quarter, word=None)
+            tangent = replace(own[TANGENCY], has_point=True)
+            given[ALONG] = replace(ended, value=ended.value + quarter, word=tangent)
         givens |= {prefix + name: replace(each, name=prefix + name) for name, each in given.items()}
         lasting |= {prefix + name for name in own if name in _NO_FACTS or name in element.touching}
         vocabulary |= {prefix + name: (name, member.index) for name in _may_state(member, own.keys())}
@@ -322,6 +339,13 @@ def _picks(stated: Sequence[Pick], count: int, modes: Modes) -> Iterator[Pick]:
         yield from (Pick(number, 1, "") for number in range(1, count + 1) if number not in told)
 
 
+def _is_same_circle(before: Block, block: Block) -> bool:
+    """Whether two arcs have the same stated centre."""
+    pairs = [(each.find("CCX"), each.find("CCY")) for each in (before, block)]
+    places = [tuple(word.number if word else None for word in pair) for pair in pairs]
+    return None not in places[0] and places[0] == places[1]
+
+
 def _conventions(is_picked: bool, modes: Modes) -> Iterator[Convention]:
     """The settings on which the reading rests."""
     if is_picked:
@@ -330,6 +354,13 @@ def _conventions(is_picked: bool, modes: Modes) -> Iterator[Convention]:
         yield modes.convention(AMBIGUOUS)
 
 
+def _is_placed(own: Set[str]) -> bool:
+    """Whether words state where an element ends: both coordinates, or one on a circle of which all is stated."""
+    coordinates = [not own.isdisjoint((axis, f"I{axis}")) for axis in PLANE]
+    return all(coordinates) or (any(coordinates) and own >= {"CCX", "CCY", "R"})
+
+
+_CONTINUES = re.compile(r"~[ \t]*(?:;.*)?$")
 _NO_FACTS = frozenset({TANGENCY, "DR", "CLSD+", "FSELECT", "Z", "IZ", *(f"R{name}" for name in REFERRED)})
 """Words that state no equation, or not always: they say which one it is."""
 
@@ -386,7 +417,8 @@ def _numbers(chain: _Chain) -> dict[Decimal, int]:
     for number, (word, member) in enumerate(zip(stated, chain.members, strict=True), 1):
         own = word.number if word is not None else None if is_numbered else Decimal(member.block.line - 1)
         if own is not None:
-            found.setdefault(own, number)
+            # A number that two blocks have tells of neither.
+            found[own] = number if own not in found else -1
     first, where = chain.members[0].block, [chain.start.axes[axis].span for axis in PLANE]
     if found and where[0] is not None and where[0] == where[1]:
         found.setdefault(next(iter(found)) - (first.line - where[0].line), 0)
@@ -394,7 +426,13 @@ def _numbers(chain: _Chain) -> dict[Decimal, int]:
 
 
 def _element(
-    member: _Member, own: Mapping[str, Word], number: int, numbers: Mapping[Decimal, int], opening: int
+    member: _Member,
+    own: Mapping[str, Word],
+    number: int,
+    numbers: Mapping[Decimal, int],
+    opening: int,
+    *,
+    is_closed: bool,
 ) -> tuple[Element, list[str]]:
     """The element of a block, and what it lacks."""
     lacking: list[str] = []
@@ -404,14 +442,14 @@ def _element(
         word = own.get(f"R{name}")
         if word is not None:
             other = numbers.get(word.number) if word.number is not None else None
-            if other is None or other >= number or (name == "AN" and not other):
+            if other is None or not 0 <= other < number or (name == "AN" and not other):
                 lacking.append(NO_BLOCK)
             else:
                 counted.append((f"I{name}", other))
     parallel, word = 0, own.get("PAR")
     if word is not None:
         parallel = numbers.get(word.number, 0) if word.number is not None else 0
-        if not parallel or parallel >= number:
+        if not 0 < parallel < number:
             lacking.append(NO_BLOCK)
             parallel = 0
     sense = _sign_of(member.block, "DR")
@@ -421,13 +459,15 @@ def _element(
         lacking.append(NO_TURN)
     if own.keys() & POLAR and not member.pole:
         lacking.append(NO_POLE)
-    if number == 1 and (member.function in TANGENT or ("IAN" in own and "RAN" not in own)):
-        lacking.append(NO_BEFORE)
-    if "CLSD-" in own and not 0 < opening < number:
-        lacking.append(CLOSES_NOTHING)
     tool = member.here.memory.get(TOOL_AXIS)
-    if tool is not None and tool.text != "Z":
-        lacking.append(TOOL)
+    holds = {
+        NO_BEFORE: number == 1 and (member.function in TANGENT or ("IAN" in own and "RAN" not in own)),
+        CLOSES_NOTHING: "CLSD-" in own and not 0 < opening < number,
+        CONTINUED: _CONTINUES.search(member.block.text),
+        NEVER_CLOSED: number == opening and not is_closed,
+        TOOL: tool is not None and tool.text != "Z",
+    }
+    lacking += [name for name, is_so in holds.items() if is_so]
     turn = None if is_line else Turn.CW if (sense or member.sense) < 0 else Turn.CCW
     touching = frozenset(name for name in ("D", "DP") if name in own and own[name].number == 0)
     closes = opening if "CLSD-" in own and opening < number else 0
@@ -441,7 +481,7 @@ def _element(
         touching,
         is_entered=stated[0],
         is_ended=stated[1] and not is_line,
-        is_placed=member.function not in FREE or all(own.keys() & {axis, f"I{axis}"} for axis in PLANE),
+        is_placed=member.function not in FREE or _is_placed(own.keys()),
         closes=closes,
     ), lacking
 

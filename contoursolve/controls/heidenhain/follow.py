@@ -57,7 +57,7 @@ def follow(state: State, block: Block, modes: Modes) -> State:
         return set_pole(state, block, function, modes)
     elif function.startswith("DEP"):
         return state.lose(PLANE, "the tool departs from the contour", block.span)
-    elif function in FREE and not all(block.find(axis) for axis in PLANE):
+    elif function in FREE and not begins_chain(function, block):
         return state.lose(PLANE, "a free contour leads there", block.span)
     elif any(block.find(name) for name in ("PR", "PA", "IPR", "IPA")):
         moved = _polar(state, block, modes)
@@ -70,6 +70,11 @@ def follow(state: State, block: Block, modes: Modes) -> State:
 
 
 _LOSING_M = {(2, 30): "the program ends there", (91, 92): "its coordinates are those of the machine"}
+
+
+def begins_chain(function: str, block: Block) -> bool:
+    """Whether a free line is where a chain begins: it states both coordinates of its end."""
+    return function == "FL" and all(block.find(axis) for axis in PLANE)
 
 
 def set_pole(state: State, block: Block, function: str, modes: Modes) -> State:
@@ -139,8 +144,14 @@ _LOSING: tuple[tuple[re.Pattern[str], str], ...] = tuple(
         (r"TOOL[ \t]+CALL\b", "the tool is changed"),
     )
 )
-_TOOL = re.compile(_STATEMENT + r"TOOL[ \t]+CALL\b[^;]*?[ \t](?P<axis>[XYZUVW])(?=[ \t]|$)", re.IGNORECASE)
-_BEGIN = re.compile(_STATEMENT + r"BEGIN[ \t]+PGM\b[^;]*?\b(?P<unit>MM|INCH)[ \t]*$", re.IGNORECASE)
+_TOOL = re.compile(
+    _STATEMENT + r"TOOL[ \t]+CALL[ \t]+(?:\"[^\"]*\"|\S+)[ \t]+(?P<axis>[XYZUVW])(?=[ \t;]|$)", re.IGNORECASE
+)
+_BEGIN = re.compile(_STATEMENT + r"BEGIN[ \t]+PGM\b[^;]*?\b(?P<unit>MM|INCH)[ \t]*(?:;|$)", re.IGNORECASE)
+_HARMLESS = re.compile(
+    _STATEMENT + r"(?:BEGIN|END|BLK|TOOL|CYCL|LBL|FN|Q[LRS]?\d|SEL|STOP|M\d|\*|\(|;|~|$)", re.IGNORECASE
+)
+"""What begins a statement that moves nothing."""
 _OTHER_FORMULA = re.compile(_STATEMENT + r"(?:FN[ \t]*\d+[ \t]*:[^;]*?)(?P<name>Q[LRS]?\d++)", re.IGNORECASE)
 
 
@@ -160,7 +171,11 @@ def _statement(state: State, block: Block, modes: Modes) -> State:
         if pattern.match(block.text):
             return _forget(state.lose(modes.axes, reason, block.span), block)
     other = _OTHER_FORMULA.match(block.text)
-    return _assign(state, block, other["name"].upper(), "") if other else state
+    if other:
+        return _assign(state, block, other["name"].upper(), "")
+    if _HARMLESS.match(block.text):
+        return state
+    return state.lose(modes.axes, f"{block.text.strip()[:40]} is not known to contoursolve", block.span)
 
 
 def _forget(state: State, block: Block) -> State:

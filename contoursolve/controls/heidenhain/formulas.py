@@ -32,7 +32,7 @@ def evaluate(formula: str, values: Mapping[str, Decimal]) -> Decimal | None:
         value = reader.sum()
         if reader.tokens or not isfinite(value):
             return None
-    except (ValueError, LookupError, ArithmeticError):
+    except (ValueError, LookupError, ArithmeticError, TypeError):  # the root of a negative number is complex
         return None
     return Decimal(repr(value))
 

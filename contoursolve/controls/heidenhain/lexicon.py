@@ -62,6 +62,10 @@ _MOVING = (
 """What a block begins with that is read into words."""
 
 
+_MISSPELT = r"F(?!N\b|UNCTION\b)[A-Z]|L(?!BL\b|N\b)[A-Z]"
+"""What begins like a function and is none: it is read into words, and told."""
+
+
 def _value(prefix: str) -> str:
     """A number, a parameter, or a question mark, in groups that begin so."""
     return rf"(?:(?P<{prefix}_number>{_NUMBER})(?![\d.,\w])|[+-]?+Q[LRS]?+\d++|(?P<{prefix}_asked>\?))"
@@ -106,7 +110,8 @@ SYNTAX = Syntax(
     token=re.compile("|".join(_TOKENS), re.ASCII | re.IGNORECASE),
     statement=re.compile(
         r"[ \t/]*+(?>(?:N?\d++(?![.,\w])[ \t]*+)?)"
-        rf"(?!{_MOVING}|;|~?+[ \t]*+$)(?:(?P<flow>CALL\b|FN[ \t]*+(?:9|10|11|12)[ \t]*+:)|(?P<assignment>\S))",
+        rf"(?!{_MOVING}|{_MISSPELT}|;|~?+[ \t]*+$)"
+        r"(?:(?P<flow>CALL\b|FN[ \t]*+(?:9|10|11|12)[ \t]*+:)|(?P<assignment>\S))",
         re.IGNORECASE,
     ),
     comment=re.compile(r";.*+"),

@@ -5,20 +5,24 @@ from decimal import Decimal
 
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
-from contoursolve.controls.heidenhain.elements import ARC, LINE, PLAIN, POLE, TANGENCY
+from contoursolve.controls.heidenhain.elements import ARC, LINE, PLAIN, POLAR, POLE, TANGENCY
 from contoursolve.controls.heidenhain.find import (
     CLOSES_NOTHING,
+    CONTINUED,
     CUT,
+    NEVER_CLOSED,
     NO_BEFORE,
     NO_BLOCK,
     NO_POLE,
     NO_SENSE,
     NO_TURN,
     TOOL,
+    TURNS_BACK,
 )
-from contoursolve.controls.heidenhain.lexicon import BOOK
+from contoursolve.controls.heidenhain.lexicon import BOOK, REFERRED
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.gcode import FaultKind
 from contoursolve.reading import ReadIssue
 from contoursolve.reading.rules import Condition, Rule, Value, all_of, some
 from contoursolve.solving import NoteKind, RefusalKind
@@ -38,6 +42,7 @@ _POLAR = START + "2 FPOL X+10 Y+0\n3 FL PR+20 PA+45\n4 END PGM A MM"
 _POLE = START + "2 FL X+5 Y+0\n3 FPOL X+10 Y+0\n4 FL PR+20 PA+45\n5 END PGM A MM"
 _CLOSED = START + "2 FL X+30 Y+0 CLSD+\n3 FL X+30 Y+20\n4 FL CLSD-\n5 END PGM A MM"
 _TANGENT = START + "2 FL X+30 Y+0\n3 FCT DR+ R10 CCA+0\n4 END PGM A MM"
+_ROUND = START + "2 FC DR- R25 CCX+25 CCY+0 X+25 Y+25\n3 FCT DR- CCX+25 CCY+0 X+50 Y+0"
 _TURNING = START + "2 FL AN+0\n3 FCT DR+ R10 CCA+0\n4 FLT X+40 Y+30"
 _NUMBERED = START + "2 FL X+30 Y+0\n3 FL IX+5 IY+20 RX 2\n4 END PGM A MM"
 _CHOSEN = START + "2 FL LEN40 P1X+30 P1Y+10\n3 FSELECT 1\n4 FL X+80 Y+20"
@@ -64,6 +69,7 @@ def _row(  # noqa: PLR0913 - a row has these columns
     )  # fmt: skip
 
 
+_REFERRING = tuple(f"R{name}" for name in REFERRED)
 _LEAST = Decimal("0.001")
 
 
@@ -97,9 +103,11 @@ _ROWS = (
          ("3 FL X+80 Y+20 AN-30", "3 L X+80 Y+20"), alarm=_ILLEGAL),
     _row("block-missing", "{words}: no block of this number is before it in the chain, or it is none that fits",
          "write the number of a block of this chain that stands before; PAR and RAN name a line",
-         BOOK.printed("data relative to a block"), some(NO_BLOCK), _FK, _NUMBERED, ("RX 2", "RX 7")),
+         BOOK.printed("data relative to a block"), some(NO_BLOCK) & some("PAR", *_REFERRING), _FK, _NUMBERED,
+         ("RX 2", "RX 7")),
     _row("pole-missing", "{words}: polar data need a pole, and no FPOL is in force; CC does not serve here",
-         "write FPOL X Y before the chain or in it", BOOK.printed("pole of FK"), some(NO_POLE), _FK, _POLAR,
+         "write FPOL X Y before the chain or in it", BOOK.printed("pole of FK"),
+         some(NO_POLE) & some(*sorted(POLAR)), _FK, _POLAR,
          ("2 FPOL X+10 Y+0\n", "2 CC X+10 Y+0\n")),
     _row("tangent-first", "it begins in the direction of the element before, which is not known here",
          "write FL or FC with AN, or let the move before it begin at a known point",
@@ -112,6 +120,14 @@ _ROWS = (
     _row("size", "{words}: a radius, and a distance from the pole, is larger than 0", "write a positive number",
          BOOK.assumed("polar coordinates"), Value(("PR", "CCPR", "R", "LEN"), least=_LEAST), _FK, _POLAR,
          ("PR+20", "PR-20")),
+    _row("turns-back", "the arc goes back on the circle of the arc before it: DR says the other way",
+         "write the same DR in both, or FC", BOOK.derived("tangential connection"), some(TURNS_BACK), (ARC,), _ROUND,
+         ("FCT DR-", "FCT DR+")),
+    _row("continued", "~ continues the block in the next line; contoursolve reads a free block on one line",
+         "write the block on one line", BOOK.assumed("~"), some(CONTINUED), _ANY, _LINES, ("AN-30", "AN-30 ~")),
+    _row("never-closed", "{words} begins a closed contour, and no CLSD- ends it",
+         "write CLSD- into its last block, or delete CLSD+", BOOK.printed("closed contour"),
+         some(NEVER_CLOSED) & some("CLSD+"), _FK, _CLOSED, (" CLSD-", " X+0 Y+0"), severity=Severity.WARNING),
     _row("tangent-arc", "to which side CT turns is not known before the blocks before it are solved",
          "write FCT with DR+ or DR-", BOOK.assumed("CT behind a free contour"), some(NO_TURN), (PLAIN,), _TURNING,
          ("FCT DR+ R10 CCA+0", "CT X+40 Y+10")),
@@ -142,6 +158,15 @@ _OWN = (
 )  # fmt: skip
 
 
+def _touching() -> Rule:
+    """An arc often ends at a quadrant, where its end only just fits."""
+    row = next(rule for rule in GEOMETRY_RULES if rule.about is NoteKind.TOUCHES)
+    return replace(
+        row, code="heidenhain-touches", severity=Severity.INFO, accepted=(_LINES,),
+        rejected=(START + "2 FL X+40 Y+0\n3 FC DR- R20 CCX+60 CCY+0 X+80\n4 FLT Y-20",),
+    )  # fmt: skip
+
+
 def _agreeing() -> Rule:
     """What is said twice and agrees is accepted, with a note."""
     row = next(rule for rule in COMMON_RULES if rule.about is NoteKind.WORDS_AGREE)
@@ -162,4 +187,9 @@ _UNKNOWN = Rule(
     "heidenhain-word-unknown", "{words} has no meaning in this block", "{advice}", BOOK.printed("free contours FK"),
     (_LINES,), (_LINES.replace("AN+60", "AN+60 R5"),), about=ReadIssue.UNKNOWN_ADDRESS,
 )  # fmt: skip
-RULES = (_UNKNOWN, *_OWN, _agreeing(), _PARAMETER, *COMMON_RULES, *_ROWS, *GEOMETRY_RULES)
+_SPELLING = Rule(
+    "heidenhain-no-word", "{words} is no function and no word with a number",
+    "check the spelling: moves are L, C, CR, CT, FL, FLT, FC and FCT, with a blank behind them",
+    BOOK.printed("path functions"), (_LINES,), (_LINES.replace("3 FL", "3 FTL"),), about=FaultKind.NUMBER_MISSING,
+)  # fmt: skip
+RULES = (_SPELLING, _UNKNOWN, *_OWN, _agreeing(), _touching(), _PARAMETER, *COMMON_RULES, *_ROWS, *GEOMETRY_RULES)

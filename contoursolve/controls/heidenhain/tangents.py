@@ -20,6 +20,9 @@ def senses(blocks: Sequence[Block], state: State, modes: Modes) -> Iterator[tupl
             continue
         if start is None or end is None or abs(end - start) <= LENGTH:
             direction = None
+        elif function in ("FC", "FCT"):
+            # Where a free arc ends is still to be found.
+            direction = None
         elif function in STRAIGHT:
             direction = (end - start) / abs(end - start)
         elif function in ("CT", "CTP"):

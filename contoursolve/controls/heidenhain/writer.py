@@ -7,7 +7,7 @@ from math import atan2, degrees, sqrt
 from msgspec.structs import replace
 
 from contoursolve.controls.heidenhain.find import find_joined
-from contoursolve.controls.heidenhain.follow import CENTER, PLANE, follow, pole_of, resolved
+from contoursolve.controls.heidenhain.follow import CENTER, PLANE, begins_chain, follow, pole_of, resolved
 from contoursolve.controls.heidenhain.lexicon import CODES, LEXICON, MOVES, SYNTAX, function_of
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
@@ -23,6 +23,9 @@ _UNTRANSLATED = "has no counterpart here: write by hand what it does"
 _FULL = 360.0
 
 
+_TOOL_FEED = re.compile(r"[ \t/]*+N?\d*+[ \t]*+TOOL[ \t]+CALL\b[^;]*[ \t]F[ \t]*[\dQ]", re.IGNORECASE)
+
+
 class _Feed:
     """The feed in force: that of a corner holds for the corner alone."""
 
@@ -32,7 +35,11 @@ class _Feed:
     def take(self, block: Block) -> str:
         """Keep in mind what a block says of it; the word that has to be said again in the block, if any."""
         found = block.find("F")
-        stated = found.text.strip() if found is not None and found.number is not None else ""
+        is_stated = found is not None and (found.number is not None or found.text.strip().upper().endswith("AUTO"))
+        stated = found.text.strip() if found is not None and is_stated else ""
+        if _TOOL_FEED.match(block.text):
+            # FAUTO is the feed of TOOL CALL.
+            self.in_force, self.is_due = "FAUTO", False
         if function_of(block) in _CORNERS:
             self.is_due = bool(stated and self.in_force)
         elif stated:
@@ -188,7 +195,7 @@ class _Plain:
             if isinstance(found, str):
                 return Restated(reason=found)
             around = found
-        elif function not in ("L", "LP", "", "STOP"):
+        elif function not in ("L", "LP", "", "STOP") and not begins_chain(function, block):
             return Restated(reason=f"{function} begins in the direction of what is before it, which is not known")
         ends = {axis: after.axes[axis] for axis in sorted(axes)}
         lost = [end.reason for end in ends.values() if end.value is None]
