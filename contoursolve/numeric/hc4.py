@@ -178,9 +178,10 @@ class Contraction(Struct, frozen=True):
 
 def stacked(columns: Sequence[Intervals], case: NDArray[numpy.intp]) -> Boxes:
     """Boxes from the bounds for each unknown."""
-    low = [numpy.broadcast_to(each.low, len(case)) for each in columns]
-    high = [numpy.broadcast_to(each.high, len(case)) for each in columns]
-    return Boxes(numpy.stack(low, axis=1), numpy.stack(high, axis=1), case)
+    low, high = (numpy.empty((len(case), len(columns))) for _ in range(2))
+    for number, each in enumerate(columns):
+        low[:, number], high[:, number] = each.low, each.high
+    return Boxes(low, high, case)
 
 
 def joined(parts: Sequence[Boxes]) -> Boxes:

@@ -70,8 +70,8 @@ def constant(value: float) -> Intervals:
 
 def rounded(low: Array, high: Array) -> Intervals:
     """The bounds moved outwards by a double each; what is not a number is no bound."""
-    low, high = down(low), up(high)
-    return Intervals(numpy.where(numpy.isnan(low), -numpy.inf, low), numpy.where(numpy.isnan(high), numpy.inf, high))
+    # fmax and fmin pass over what is not a number.
+    return Intervals(numpy.fmax(down(low), -numpy.inf), numpy.fmin(up(high), numpy.inf))
 
 
 def square(value: Intervals) -> Intervals:
