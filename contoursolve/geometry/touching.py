@@ -124,7 +124,11 @@ class Contact(Equation, Struct, frozen=True):
 
     def residual(self, at: Lookup) -> Any:
         between = step(at, self.first, self.second)
-        return self.equation(at) / at.root(dot(between, between))
+        try:
+            return self.equation(at) / at.root(dot(between, between))
+        except ZeroDivisionError:
+            # Both circles are about one point: they touch wherever they meet.
+            return self.equation(at)
 
     def senses(self, at: Lookup) -> tuple[Any, ...]:
         return (self.side * dot(step(at, self.first, self.point), step(at, self.point, self.second)),)

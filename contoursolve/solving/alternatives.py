@@ -17,7 +17,6 @@ from contoursolve.geometry import (
     Choice,
     Contact,
     Coordinate,
-    Fact,
     Foot,
     Line,
     Offset,
@@ -283,7 +282,7 @@ def _compare(
         at.signs,
     )
     for index, fact in enumerate(system.facts):
-        off = _missed_by(fact, at)
+        off = ball.distance(fact.residual(at), 0.0)
         if index in basis:
             if not off <= RESIDUAL:  # true for NaN
                 refusals.append(Refusal(RefusalKind.NOT_VERIFIED, "", (), {"limit": RESIDUAL, "actual": off}))
@@ -294,14 +293,6 @@ def _compare(
         elif event is not None:
             remarks.append(event)
     return refusals, remarks
-
-
-def _missed_by(fact: Fact, at: Values) -> float:
-    """By how much a fact is not true, mm; of a contact of circles about one point, nothing can be said."""
-    try:
-        return ball.distance(fact.residual(at), 0.0)
-    except ZeroDivisionError:
-        return inf
 
 
 def _touching(system: System, found: Found) -> str:
