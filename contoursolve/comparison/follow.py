@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace as replace_fields
 from decimal import Decimal
-from math import atan2, ceil, cos, dist, hypot, radians, sin, sqrt, tau
+from math import atan2, ceil, cos, dist, hypot, radians, sin, tau
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -20,7 +20,7 @@ from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import ContourBlock, blocks_of
 from contoursolve.reading.modal_dependence import MOTIONS, Reliance, reliance
 from contoursolve.reading.writer import Around, Plain
-from contoursolve.solving.contour import ArcSegment, Segment
+from contoursolve.solving.contour import ArcSegment, Segment, center_by_radius
 from contoursolve.tolerance import LENGTH, REGULAR
 
 _TURNS = {2: Turn.CW, 3: Turn.CCW}
@@ -225,7 +225,7 @@ class _Follower:
         if "R" in values and len(values) > 1:
             return self._unfollowed(block, "the arc has a centre and a radius")
         if "R" in values:
-            center = _center_of(start, end, values["R"], turn, self.modes.radius_difference)
+            center = center_by_radius(start, end, values["R"], turn, self.modes.radius_difference)
             if center is None:
                 return self._unfollowed(block, "R is too small for the arc, or the arc ends where it starts")
         else:
@@ -344,16 +344,3 @@ def _turns(axes: tuple[int, int], around: Around, start: Place, end: Place) -> I
                 place[first], place[second] = center[0] + radius * cos(at), center[1] + radius * sin(at)
                 places[side] = tuple(place)
         yield places[0], places[1], Bend(axes, center, angles[0], share, (radii[0], radii[1]))
-
-
-def _center_of(
-    start: tuple[float, float], end: tuple[float, float], radius: float, turn: Turn, slack: float
-) -> tuple[float, float] | None:
-    """The centre of an arc by its radius, negative for more than half a turn, which may be too small by so much (mm);
-    None if there is none."""
-    chord = end[0] - start[0], end[1] - start[1]
-    half = hypot(*chord) / 2
-    if half <= LENGTH or half > abs(radius) + slack:
-        return None
-    height = sqrt(max(radius**2 - half**2, 0.0)) * turn.sign * (1 if radius > 0 else -1) / (2 * half)
-    return (start[0] + end[0]) / 2 - chord[1] * height, (start[1] + end[1]) / 2 + chord[0] * height

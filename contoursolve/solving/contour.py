@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from math import asin, atan2, cos, degrees, hypot, pi, radians, sin, tau
+from math import asin, atan2, cos, degrees, hypot, pi, radians, sin, sqrt, tau
 from typing import NamedTuple
 
 from msgspec import Struct
@@ -216,3 +216,14 @@ def against_angles(profile: Profile, contour: Contour) -> Iterator[tuple[str, Li
         segment = segments.get(line.name) if line is not None and line.heading is None else None
         if segment is not None and cos(radians(segment.angle - float(profile.givens[fact.given].value))) < 0:
             yield fact.given, segment
+
+
+def center_by_radius(start: Point, end: Point, radius: float, turn: Turn, slack: float) -> Point | None:
+    """The centre of an arc by its radius, negative for more than half a turn, which may be too small by so much (mm);
+    None if there is none."""
+    chord = end[0] - start[0], end[1] - start[1]
+    half = hypot(*chord) / 2
+    if half <= LENGTH or half > abs(radius) + slack:
+        return None
+    height = sqrt(max(radius**2 - half**2, 0.0)) * turn.sign * (1 if radius > 0 else -1) / (2 * half)
+    return (start[0] + end[0]) / 2 - chord[1] * height, (start[1] + end[1]) / 2 + chord[0] * height

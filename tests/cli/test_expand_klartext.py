@@ -5,32 +5,14 @@ from random import Random
 
 import pytest
 from click.testing import CliRunner
+from examples_heidenhain import PROGRAMS
 from interpreter import assert_path
 from klartext import random_program, walk
 
 import contoursolve
 from contoursolve.cli import main
 
-CAM = """\
-0 BEGIN PGM CAM MM
-1 BLK FORM 0.1 Z X-10 Y-10 Z-20
-2 BLK FORM 0.2 X+110 Y+80 Z+0
-3 TOOL CALL 4 Z S3200
-4 L Z+100 R0 FMAX M3
-5 L X-20 Y-20 R0 FMAX
-6 L Z-8 R0 F500
-7 L X+0 Y+0 RL F300 ; START OF THE CONTOUR
-8 FL AN+80 LEN50 CLSD+
-9 FCT DR- R15
-10 FLT X+90 Y+40
-11 RND R8
-12 FL X+90 Y+0
-13 CHF 5
-14 FL X+0 Y+0 CLSD-
-15 L X-20 Y-20 R0 FMAX
-16 L Z+100 R0 FMAX M30
-17 END PGM CAM MM
-"""
+CAM = PROGRAMS["g6"]
 WRITTEN = {
     "8": "8 L X+8.682 Y+49.24",
     "9": "9 CC X+23.4546 Y+46.6357\nC X+28.253 Y+60.848 DR-",

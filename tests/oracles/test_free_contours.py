@@ -6,6 +6,7 @@ from math import atan2, dist, pi, tau
 from random import Random
 
 import pytest
+from examples_heidenhain import PROGRAMS
 from free_chains import random_chain
 
 import contoursolve
@@ -28,34 +29,7 @@ FKEXAMP1 = """0 BEGIN PGM FKEXAMP1 MM
 18 FL CLSD-
 19 END PGM FKEXAMP1 MM
 """
-POLAR = """0 BEGIN PGM G2 MM
-11 L X+10 Y+10
-12 FPOL X+10 Y+10
-13 FL PR+20 PA+20
-14 FL AN+45
-15 FCT IX+20 DR- R20 CCA+90 RX 13
-16 FL IPR+35 PA+0 RPR 13
-17 END PGM G2 MM
-"""
-CAM = """0 BEGIN PGM CAM MM
-1 BLK FORM 0.1 Z X-10 Y-10 Z-20
-2 BLK FORM 0.2 X+110 Y+80 Z+0
-3 TOOL CALL 4 Z S3200
-4 L Z+100 R0 FMAX M3
-5 L X-20 Y-20 R0 FMAX
-6 L Z-8 R0 F500
-7 L X+0 Y+0 RL F300 ; START OF THE CONTOUR
-8 FL AN+80 LEN50 CLSD+
-9 FCT DR- R15
-10 FLT X+90 Y+40
-11 RND R8
-12 FL X+90 Y+0
-13 CHF 5
-14 FL X+0 Y+0 CLSD-
-15 L X-20 Y-20 R0 FMAX
-16 L Z+100 R0 FMAX M30
-17 END PGM CAM MM
-"""
+POLAR, CAM = PROGRAMS["g2"], PROGRAMS["g6"]
 
 
 def chain(*blocks, before="L X+0 Y+0"):

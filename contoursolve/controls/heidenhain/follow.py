@@ -8,7 +8,7 @@ from math import atan2, cos, degrees, hypot, radians, sin
 from msgspec.structs import replace
 
 from contoursolve.controls.heidenhain.formulas import evaluate
-from contoursolve.controls.heidenhain.lexicon import FREE, function_of
+from contoursolve.controls.heidenhain.lexicon import BLOCK_NUMBER, FREE, function_of
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
 from contoursolve.reading import Modes, Position, State, apply_modes
@@ -127,12 +127,11 @@ def _polar(state: State, block: Block, modes: Modes) -> State:
     return state.move({**moved, **positions(state, others, modes, block.is_skippable)})
 
 
-_STATEMENT = r"[ \t/]*+(?>(?:N?\d++(?![.,\w])[ \t]*+)?)"
 _ASSIGNED = re.compile(
-    _STATEMENT + r"(?:FN[ \t]*0[ \t]*:[ \t]*)?(?P<name>Q[LRS]?\d++)[ \t]*=(?P<formula>[^;~]*)", re.IGNORECASE
+    BLOCK_NUMBER + r"(?:FN[ \t]*0[ \t]*:[ \t]*)?(?P<name>Q[LRS]?\d++)[ \t]*=(?P<formula>[^;~]*)", re.IGNORECASE
 )
 _LOSING: tuple[tuple[re.Pattern[str], str], ...] = tuple(
-    (re.compile(_STATEMENT + pattern, re.IGNORECASE), reason)
+    (re.compile(BLOCK_NUMBER + pattern, re.IGNORECASE), reason)
     for pattern, reason in (
         (r"LBL[ \t]*(?!0\b)[\w\"]", "a label begins there, which other blocks call"),
         (r"LBL[ \t]*0\b", "the label ends there"),
@@ -145,14 +144,14 @@ _LOSING: tuple[tuple[re.Pattern[str], str], ...] = tuple(
     )
 )
 _TOOL = re.compile(
-    _STATEMENT + r"TOOL[ \t]+CALL[ \t]+(?:\"[^\"]*\"|\S+)[ \t]+(?P<axis>[XYZUVW])(?=[ \t;]|$)", re.IGNORECASE
+    BLOCK_NUMBER + r"TOOL[ \t]+CALL[ \t]+(?:\"[^\"]*\"|\S+)[ \t]+(?P<axis>[XYZUVW])(?=[ \t;]|$)", re.IGNORECASE
 )
-_BEGIN = re.compile(_STATEMENT + r"BEGIN[ \t]+PGM\b[^;]*?\b(?P<unit>MM|INCH)[ \t]*(?:;|$)", re.IGNORECASE)
+_BEGIN = re.compile(BLOCK_NUMBER + r"BEGIN[ \t]+PGM\b[^;]*?\b(?P<unit>MM|INCH)[ \t]*(?:;|$)", re.IGNORECASE)
 _HARMLESS = re.compile(
-    _STATEMENT + r"(?:BEGIN|END|BLK|TOOL|CYCL|LBL|FN|Q[LRS]?\d|SEL|STOP|M\d|\*|\(|;|~|$)", re.IGNORECASE
+    BLOCK_NUMBER + r"(?:BEGIN|END|BLK|TOOL|CYCL|LBL|FN|Q[LRS]?\d|SEL|STOP|M\d|\*|\(|;|~|$)", re.IGNORECASE
 )
 """What begins a statement that moves nothing."""
-_OTHER_FORMULA = re.compile(_STATEMENT + r"(?:FN[ \t]*\d+[ \t]*:[^;]*?)(?P<name>Q[LRS]?\d++)", re.IGNORECASE)
+_OTHER_FORMULA = re.compile(BLOCK_NUMBER + r"(?:FN[ \t]*\d+[ \t]*:[^;]*?)(?P<name>Q[LRS]?\d++)", re.IGNORECASE)
 
 
 def _statement(state: State, block: Block, modes: Modes) -> State:
@@ -180,7 +179,7 @@ def _statement(state: State, block: Block, modes: Modes) -> State:
 
 def _forget(state: State, block: Block) -> State:
     """The state without parameters, where blocks run that are not followed."""
-    if not re.match(_STATEMENT + r"(?:CALL|FN)\b", block.text, re.IGNORECASE):
+    if not re.match(BLOCK_NUMBER + r"(?:CALL|FN)\b", block.text, re.IGNORECASE):
         return state
     memory = {name: word for name, word in state.memory.items() if not name.startswith("Q")}
     return replace(state, memory=memory)

@@ -96,6 +96,9 @@ _WORDS = (
     # R0 is no radius: it ends the compensation.
     rf"(?!R0(?![\w.,]))(?P<letter>{_AXIS}|[A-Z])(?![A-Z])[ \t]*+{_value('letter')}",
 )
+BLOCK_NUMBER = r"[ \t/]*+(?>(?:N?(?P<number>\d++)(?![.,\w])[ \t]*+)?)"
+"""What a statement begins with: its sign to skip it and its number, if any."""
+
 _TOKENS = (
     f"(?P<word>{'|'.join(_WORDS)})",
     r"(?P<blank>[ \t\f\v\x1a\ufeff~]++)",
@@ -109,8 +112,7 @@ SYNTAX = Syntax(
     "klartext",
     token=re.compile("|".join(_TOKENS), re.ASCII | re.IGNORECASE),
     statement=re.compile(
-        r"[ \t/]*+(?>(?:N?\d++(?![.,\w])[ \t]*+)?)"
-        rf"(?!{_MOVING}|{_MISSPELT}|;|~?+[ \t]*+$)"
+        BLOCK_NUMBER + rf"(?!{_MOVING}|{_MISSPELT}|;|~?+[ \t]*+$)"
         r"(?:(?P<flow>CALL\b|FN[ \t]*+(?:9|10|11|12)[ \t]*+:)|(?P<assignment>\S))",
         re.IGNORECASE,
     ),

@@ -2,18 +2,20 @@
 
 import re
 from collections.abc import Iterator, Sequence
-from math import atan2, degrees, sqrt
+from math import atan2, degrees, dist
 
 from msgspec.structs import replace
 
 from contoursolve.controls.heidenhain.find import find_joined
 from contoursolve.controls.heidenhain.follow import CENTER, PLANE, begins_chain, follow, pole_of, resolved
-from contoursolve.controls.heidenhain.lexicon import CODES, LEXICON, MOVES, SYNTAX, function_of
+from contoursolve.controls.heidenhain.lexicon import BLOCK_NUMBER, CODES, LEXICON, MOVES, SYNTAX, function_of
 from contoursolve.gcode import Block, Word
-from contoursolve.geometry import Length
+from contoursolve.geometry import Length, Turn
 from contoursolve.reading import Modes, State, axis_words
 from contoursolve.reading.modal_dependence import Carried, carried
 from contoursolve.reading.writer import Around, Restated, Writing
+from contoursolve.solving.contour import center_by_radius
+from contoursolve.solving.solution import Point
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 
 _MODES = Modes(LEXICON, CODES, ("X", "Y", "Z"), frozenset(), syntax=SYNTAX)
@@ -136,9 +138,8 @@ _OTHER_PLACE_M = frozenset({89, 91, 92, 99, 128, 144})
 """M functions with which a block leads somewhere else than its coordinates say, or runs more."""
 _PROGRAM_ENDS = (2, 30)
 
-_NUMBER = r"[ \t/]*+(?>(?:N?(?P<number>\d++)(?![.,\w])[ \t]*+)?)"
 _STATEMENTS = tuple(
-    (name, re.compile(rf"{_NUMBER}(?:{pattern})", re.IGNORECASE))
+    (name, re.compile(rf"{BLOCK_NUMBER}(?:{pattern})", re.IGNORECASE))
     for name, pattern in (
         ("begin", r"BEGIN[ \t]+PGM\b"),
         ("end", r"END[ \t]+PGM\b"),
@@ -323,46 +324,43 @@ def _arc(block: Block, function: str, before: State, after: State) -> Around | s
     sense = block.find("DR")
     if lost or sense is None or not sense.number:
         return lost[0] if lost else "the arc has no DR"
-    sign = 1 if sense.number > 0 else -1
-    start, end = (complex(*(float(place.value or 0) for place in ends)) for ends in places)
-    if function == "CR":
-        radius = block.find("R")
-        size = LEXICON.value(radius, before.unit) if radius else None
-        return "the radius is not known" if size is None else _by_radius(start, end, float(size), sign)
-    pole = pole_of(before, CENTER)
-    if pole is None:
-        return "the centre is not known"
-    center = complex(float(pole[0]), float(pole[1]))
-    if abs(abs(start - center) - abs(end - center)) > RADIUS_DIFFERENCE:
-        return "its ends are not equally far from the centre"
-    swept = (degrees(atan2(*_parts(end - center)) - atan2(*_parts(start - center))) * sign) % _FULL
-    if abs(end - start) <= LENGTH * 10 or swept < _LEAST or _FULL - swept < _LEAST:
+    turn = Turn.CCW if sense.number > 0 else Turn.CW
+    start, end = ((float(first.value or 0), float(second.value or 0)) for first, second in places)
+    center = _center(block, function, before, start, end, turn)
+    if isinstance(center, str):
+        return center
+    angles = [atan2(point[1] - center[1], point[0] - center[0]) for point in (start, end)]
+    swept = degrees((angles[1] - angles[0]) * turn.sign) % _FULL
+    if dist(start, end) <= LENGTH * 10 or swept < _LEAST or _FULL - swept < _LEAST:
         swept = _FULL
     step = block.find("IPA")
     if function == "CP" and step is not None and step.number:
         # More than one turn, as a helix has them.
         swept += _FULL * max(0, round((abs(float(step.number)) - swept) / _FULL))
-    return Around((center.real, center.imag), sign * swept)
+    return Around(center, turn.sign * swept)
 
 
 _LEAST = 1e-6
 """deg. What is nearer to a full circle is one."""
 
 
-def _parts(vector: complex) -> tuple[float, float]:
-    return vector.imag, vector.real
-
-
-def _by_radius(start: complex, end: complex, size: float, sign: int) -> Around | str:
-    """An arc by its radius: a negative one goes the longer way."""
-    chord = end - start
-    half, radius = abs(chord) / 2, abs(size)
-    if not half or radius + RADIUS_DIFFERENCE < half:
-        return "its ends are farther apart than the radius reaches" if half else "it ends where it begins"
-    height = sqrt(max(radius**2 - half**2, 0.0))
-    center = (start + end) / 2 + (1 if size > 0 else -1) * sign * 1j * chord / abs(chord) * height
-    swept = degrees(2 * atan2(half, height))
-    return Around((center.real, center.imag), sign * (swept if size > 0 else _FULL - swept))
+def _center(block: Block, function: str, before: State, start: Point, end: Point, turn: Turn) -> Point | str:
+    """The centre of an arc, by its radius or by the pole, or why it is not known."""
+    if function == "CR":
+        word = block.find("R")
+        radius = LEXICON.value(word, before.unit) if word else None
+        if radius is None:
+            return "the radius is not known"
+        by_radius = center_by_radius(start, end, float(radius), turn, RADIUS_DIFFERENCE)
+        apart = "its ends are farther apart than the radius reaches"
+        return by_radius or (apart if dist(start, end) > 2 * LENGTH else "it ends where it begins")
+    pole = pole_of(before, CENTER)
+    if pole is None:
+        return "the centre is not known"
+    center = float(pole[0]), float(pole[1])
+    if abs(dist(start, center) - dist(end, center)) > RADIUS_DIFFERENCE:
+        return "its ends are not equally far from the centre"
+    return center
 
 
 WRITING = Writing(
