@@ -15,7 +15,7 @@ import contoursolve
 FLOORS = (
     "tolerance diagnostics",
     "gcode",
-    "geometry",
+    "geometry execution",
     "numeric reading statements",
     "analysis",
     "solving",

@@ -1,0 +1,1 @@
+"""Programs as a control runs them: variables, jumps, loops, subprograms and the profiles of cycles."""

@@ -1,0 +1,252 @@
+"""What the lines of a program say besides words with numbers: variables, jumps, loops and calls, for every control."""
+
+from collections.abc import Callable
+from enum import Enum
+
+from msgspec import Struct
+
+from contoursolve.diagnostics.source import Span
+
+
+class Unknown(Struct, frozen=True):
+    """No value, and why: `#5041 is the machine's position`."""
+
+    reason: str
+
+
+class Constant(Struct, frozen=True, tag=True):
+    """A number as it is written."""
+
+    value: float
+
+
+class Quoted(Struct, frozen=True, tag=True):
+    """A text in quotes."""
+
+    value: str
+
+
+class Variable(Struct, frozen=True, tag=True):
+    """A variable by its name in upper case: `#100`, `R1`, `_ANG`, `V.P.X`, `Q30`."""
+
+    name: str
+
+
+class Indexed(Struct, frozen=True, tag=True):
+    """A variable whose number is computed: `#[#1+2]` has the prefix `#`, `R[R2]` has `R`. A field `A[2]` of SINUMERIK
+    has the prefix `A` and several indices; its elements are variables such as `A[2]`."""
+
+    prefix: str
+    indices: tuple["Term", ...]
+    suffix: str = ""
+
+
+class Apply(Struct, frozen=True, tag=True):
+    """A function or an operation of other expressions; angles are in degrees."""
+
+    function: str
+    """One of the names in `evaluate.FUNCTIONS`: `add`, `sine`, `equal`, ..."""
+    arguments: tuple["Term", ...]
+
+
+Term = Constant | Quoted | Variable | Indexed | Apply
+
+
+class WordFormula(Struct, frozen=True):
+    """A word of a line whose value is an expression: the place of the value in the line, counted from 0, and of the
+    value alone (`#100` in `X#100`, `[#1+2.]` in `X[#1+2.]`, `-_ANG` in `ANG=-_ANG`)."""
+
+    begin: int
+    end: int
+    value: Term
+
+
+class Assign(Struct, frozen=True, tag=True):
+    """A variable gets a value."""
+
+    variable: Variable | Indexed
+    value: Term
+
+
+class Forget(Struct, frozen=True, tag=True):
+    """A variable gets a value that the program does not say: `FN 18`, a result of probing."""
+
+    variable: Variable | Indexed
+    reason: str
+
+
+class JumpWay(Enum):
+    """Where a jump looks for its label."""
+
+    ANYWHERE = "anywhere"
+    FORWARD = "forward"
+    BACKWARD = "backward"
+
+
+class Jump(Struct, frozen=True, tag=True):
+    """Execution goes on at a label or a block number, always or if a condition holds."""
+
+    target: "Term | str"
+    """A label as it is written, or an expression that is the block number."""
+    condition: Term | None = None
+    way: JumpWay = JumpWay.ANYWHERE
+
+
+class CallKind(Enum):
+    """What a call runs."""
+
+    PROGRAM = "program"
+    """A subprogram by its number or name, in the same file or in one of its own: M98 P, `L10`, `NAME`, CALL PGM."""
+    LINES = "lines"
+    """From a block number of the same program to the end of the subprogram: M97 P."""
+    LABEL = "label"
+    """A section from a label to its end: CALL LBL; or from a label to another: REPEAT A B."""
+    PROFILE = "profile"
+    """The profile of a cycle: G71 P Q, CYCLE95, CYCL DEF 14."""
+
+
+class Call(Struct, frozen=True, tag=True):
+    """Other lines run, so many times, and then what is behind the call."""
+
+    kind: CallKind
+    target: "Term | str"
+    """The number, or the name in upper case."""
+    last: "Term | str | None" = None
+    """The last block of a section or of a profile, where it is named."""
+    count: Term = Constant(1.0)
+    arguments: tuple[tuple[str, Term], ...] = ()
+    """Variables of the subprogram that the call sets, by name: G65 P100 A5. sets `#1`."""
+    is_local: bool = False
+    """Whether the subprogram has local variables of its own (G65)."""
+    cycle: str = ""
+    """The cycle that runs a profile: `G71`."""
+
+
+class Return(Struct, frozen=True, tag=True):
+    """The subprogram ends: M99, M17, RET, LBL 0; `to` is the block number behind M99 P. In a main program, M99 begins
+    it again."""
+
+    to: Term | None = None
+
+
+class ProgramEnd(Struct, frozen=True, tag=True):
+    """The program ends: M2, M30."""
+
+
+class If(Struct, frozen=True, tag=True):
+    """What follows up to Else, ElseIf or EndIf runs if a condition holds."""
+
+    condition: Term
+
+
+class ElseIf(Struct, frozen=True, tag=True):
+    """As If, where no condition before it held."""
+
+    condition: Term
+
+
+class Else(Struct, frozen=True, tag=True):
+    """What follows runs where no condition before it held."""
+
+
+class EndIf(Struct, frozen=True, tag=True):
+    """The end of what If began."""
+
+
+class Loop(Struct, frozen=True, tag=True):
+    """What follows up to its EndLoop of the same name runs while a condition holds; without one, for ever."""
+
+    name: str = ""
+    condition: Term | None = None
+
+
+class For(Struct, frozen=True, tag=True):
+    """What follows up to EndLoop runs with a variable that counts from `first` to `last`."""
+
+    variable: Variable | Indexed
+    first: Term
+    last: Term
+    step: Term = Constant(1.0)
+    name: str = ""
+
+
+class EndLoop(Struct, frozen=True, tag=True):
+    """The end of a loop; with a condition (`UNTIL`), it ends where that holds."""
+
+    name: str = ""
+    until: Term | None = None
+
+
+class When(Struct, frozen=True, tag=True):
+    """Other statements of the same line run if a condition holds: `IF [#1 GT 0] THEN #2=5`."""
+
+    condition: Term
+    then: tuple["MacroStatement", ...]
+
+
+class Strange(Struct, frozen=True, tag=True):
+    """A statement that cannot be followed, and why; what it may change is not known behind it."""
+
+    reason: str
+
+
+MacroStatement = (
+    Assign
+    | Forget
+    | Jump
+    | Call
+    | Return
+    | ProgramEnd
+    | If
+    | ElseIf
+    | Else
+    | EndIf
+    | Loop
+    | For
+    | EndLoop
+    | When
+    | Strange
+)
+
+
+class CodeLine(Struct, frozen=True):
+    """What one line says besides its words.
+
+    `rest` is the line with statements blanked out, each character of them a blank, so that columns stay: `G0 X40. M98
+    P100` leaves `G0 X40.`. Values of `words` stand in it still.
+    """
+
+    rest: str
+    number: str = ""
+    """Its block number without leading zeros, by which jumps and cycles name it."""
+    labels: tuple[str, ...] = ()
+    """Names by which it is called, in upper case: `LBL 1` is `1`, `LBL "A"` is `A`, SINUMERIK's `MARK:` is `MARK`."""
+    begins: str | None = None
+    """The program that begins with it: `O0100` is `100`, `%_N_L10_SPF` is `L10`, `BEGIN PGM A` is `A`."""
+    statements: tuple[MacroStatement, ...] = ()
+    words: tuple[WordFormula, ...] = ()
+    parameters: tuple[str, ...] = ()
+    """The variables that a call's arguments set, in order: PROC NAME(REAL A, REAL B)."""
+
+
+class MacroLanguage(Struct, frozen=True, eq=False):
+    """The statements of a control, its variables, calls and jumps."""
+
+    name: str
+    may_say: Callable[[str], bool]
+    """Whether a line may say anything but words with numbers; quick, for every line of every program."""
+    read: Callable[[str], CodeLine]
+    """What a line says. Never raises: what cannot be read is Strange."""
+    files: Callable[[str], tuple[str, ...]]
+    """The names of files in which a subprogram may be, without folder: 100 is in `O0100.nc`, `O100`, `0100.NC`, ..."""
+    unknown: Callable[[str], str]
+    """Why a variable that nothing set has no value: `#5041 is the machine's position`, `#100 is set by nothing
+    before`."""
+
+
+EMPTY = CodeLine("")
+
+
+def span_of(line: int, formula: WordFormula) -> Span:
+    """The place of its value."""
+    return Span(line, formula.begin + 1, formula.end + 1)
