@@ -1,5 +1,9 @@
 """Free contours in Klartext: the programs of the manuals, and chains that are drawn forwards and told backwards."""
 
+import faulthandler
+import signal
+import sys
+from contextlib import contextmanager
 from dataclasses import replace
 from itertools import pairwise
 from math import atan2, dist, pi, tau
@@ -184,7 +188,9 @@ def test_data_that_agree_are_accepted_with_a_note_and_others_are_told_by_how_muc
 
 # Chains drawn forwards ------------------------------------------------------------------------------------------
 
-CHAINS, FAST = 1_000, 15
+CHAINS, SHARE, FAST = 1_000, 50, 15
+PATIENCE = 120
+"""Seconds after which a chain counts as missed; the longest known one takes 15."""
 WITHIN = 1e-3
 """mm. Their data are written with nine decimals."""
 
@@ -225,16 +231,52 @@ def is_true(contour, chain):
     return smooth and all(abs(a) < 1e-6 or min(b, 360 - b) < 1e-6 for a, b in zip(off, turned, strict=True))
 
 
-@pytest.mark.parametrize("count", [FAST, pytest.param(CHAINS, marks=pytest.mark.slow)])
-def test_a_chain_that_its_data_just_determine_is_among_the_solutions_and_none_is_wrong(count):
-    missed = []
-    for seed in range(count):
-        chain = random_chain(Random(seed))
-        found = solutions(solved(chain.text))
-        for each in found:
-            assert is_true(each.contour, chain), chain.text
-        drawn = [each.head for each in chain.drawn]
-        ends = [[segment.end for segment in each.contour.elements] for each in found]
-        if not any(max(map(dist, points, drawn)) <= WITHIN for points in ends):
-            missed.append(chain.text)
-    assert len(missed) <= count // 100, missed[:3]
+class Impatient(BaseException):
+    """A chain took too long; what catches exceptions lets it pass."""
+
+
+@contextmanager
+def patience():
+    """Raise Impatient, and print where it was, if what is inside takes too long; for as long as it takes on Windows."""
+
+    def stop(*_):
+        faulthandler.dump_traceback(sys.__stderr__)
+        raise Impatient
+
+    if not hasattr(signal, "SIGALRM"):
+        yield
+        return
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.alarm(PATIENCE)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def has_drawn(chain):
+    """Whether what was drawn is among the contours of a chain; none of them may be wrong."""
+    try:
+        with patience():
+            found = solutions(solved(chain.text))
+    except Impatient:
+        return False
+    for each in found:
+        assert is_true(each.contour, chain), chain.text
+    drawn = [each.head for each in chain.drawn]
+    ends = [[segment.end for segment in each.contour.elements] for each in found]
+    return any(max(map(dist, points, drawn)) <= WITHIN for points in ends)
+
+
+@pytest.mark.parametrize(
+    "seeds",
+    [
+        range(FAST),
+        *(pytest.param(range(at, at + SHARE), marks=pytest.mark.slow) for at in range(0, CHAINS, SHARE)),
+    ],
+    ids=lambda seeds: f"{seeds.start}-{seeds.stop}",
+)
+def test_a_chain_that_its_data_just_determine_is_among_the_solutions_and_none_is_wrong(seeds):
+    missed = [chain.text for chain in (random_chain(Random(seed)) for seed in seeds) if not has_drawn(chain)]
+    assert len(missed) <= max(1, len(seeds) // 100), missed[:3]
