@@ -1,0 +1,203 @@
+"""Expressions and statements of programs, as each control spells them."""
+
+import math
+import re
+
+import pytest
+from examples import law
+from hypothesis import strategies as st
+
+from contoursolve.execution.evaluate import FUNCTIONS, evaluate, name_of_indexed, variables_of, written
+from contoursolve.execution.language import Apply, Constant, Indexed, Term, Unknown, Variable
+from contoursolve.execution.notation import FANUC, ISG, KLARTEXT, LINUXCNC, SINUMERIK, UnreadableTermError
+from contoursolve.execution.terms import LONGEST_TERM, read_term
+from contoursolve.execution.write import NOTATIONS, UnwritableTermError, write_term
+
+VALUES = (2.5, -3.0, 0.75)
+"""Of the variables of drawn expressions; each language has names of its own for them."""
+NAMES = {
+    "fanuc": ("#1", "#2", "#103"),
+    "haas": ("#1", "#2", "#103"),
+    "linuxcnc": ("#1", "#<_B>", "#3"),
+    "sinumerik": ("R1", "_B", "A[2]"),
+    "isg": ("P1", "V.L.B", "V.P.A[2]"),
+    "klartext": ("Q1", "QL2", "QR30"),
+}
+PYTHON = (
+    (r"\[(?!2\])", "("),
+    (r"(?<!\[2)\]", ")"),
+    (r"\b(SIN|COS|SQRT|ABS|SQ|POT|SQR) ([\w.]+)", r"\1(\2)"),
+    (r"\bB_AND\b|\bAND\b", "and"),
+    (r"\bNE\b|<>", "!="),
+    (r"\bLT\b", "<"),
+)
+"""What makes Python of an expression: its own `eval` says what that is worth."""
+
+
+def in_python(text: str, target: str) -> float:
+    names = sorted(NAMES[target], key=len, reverse=True)
+    for place, name in enumerate(names):
+        text = text.replace(name, f"v{place}v")
+    for pattern, python in PYTHON:
+        text = re.sub(pattern, python, text)
+    known = {f"v{place}v": VALUES[NAMES[target].index(name)] for place, name in enumerate(names)}
+    functions = {name: FUNCTIONS[meaning] for name, meaning in NOTATIONS[target].functions.items()}
+    return float(eval(text, {**functions, **known}))
+
+
+def applied(functions: str, *arguments: st.SearchStrategy[Term]) -> st.SearchStrategy[Term]:
+    names = st.sampled_from(functions.split())
+    return st.builds(lambda name, *given: Apply(name, given), names, *arguments)
+
+
+NUMBERS = st.integers(-4000, 4000).map(lambda eighths: Constant(eighths / 8))
+TERMS = st.recursive(
+    st.one_of(NUMBERS, st.sampled_from("ABC").map(Variable)),
+    lambda inner: st.one_of(
+        applied("add subtract multiply divide", inner, inner),
+        applied("negate sine cosine absolute square square_root", inner),
+    ),
+    max_leaves=12,
+)
+COMPARED = applied("less unequal", TERMS, TERMS)
+CONDITIONS = st.one_of(COMPARED, applied("and", COMPARED, COMPARED))
+
+
+def renamed(term: Term, target: str) -> Term:
+    match term:
+        case Variable(name):
+            return Variable(NAMES[target]["ABC".index(name)])
+        case Apply(function, arguments):
+            return Apply(function, tuple(renamed(each, target) for each in arguments))
+    return term
+
+
+@law(st.one_of(TERMS, CONDITIONS), few=800, many=20_000)
+def test_what_is_written_has_its_value_for_python_and_for_who_reads_it(term):
+    for target, names in NAMES.items():
+        known = dict(zip(names, VALUES, strict=True)).__getitem__
+        own = evaluate(renamed(term, target), known)
+        try:
+            text = write_term(renamed(term, target), target)
+        except UnwritableTermError:
+            assert target == "klartext"
+            continue
+        again, end = read_term(NOTATIONS[target], text)
+        assert end == len(text)
+        assert evaluate(again, known) == own, text
+        try:
+            assert in_python(text, target) == own, text
+        except (ValueError, ArithmeticError):
+            assert isinstance(own, Unknown), text
+
+
+ANGLES = st.sampled_from([0.0, 0.5, 1.0, -1.0, -7.25, 1e-3, 300.0])
+
+
+@law(ANGLES, ANGLES)
+def test_what_a_language_lacks_is_said_otherwise(y, x):
+    for function, expected in (
+        ("arctangent2", math.degrees(math.atan2(y, x))),
+        ("length", math.hypot(y, x)),
+        ("arctangent", math.degrees(math.atan(y))),
+        ("modulo", y - x * math.trunc(y / x) if x else None),
+    ):
+        term = Apply(function, (Constant(y), Constant(x))[: 1 if function == "arctangent" else 2])
+        for target in NAMES:
+            if function == "modulo" and target == "linuxcnc":
+                continue  # its FIX is another one
+            value = evaluate(read_term(NOTATIONS[target], write_term(term, target))[0], str)
+            if expected is None or (function == "arctangent2" and x == y == 0):
+                assert isinstance(value, Unknown) or value == 0
+            else:
+                assert value == pytest.approx(expected, abs=1e-5)
+
+
+def test_every_function_computes_as_python_does():
+    table = {"sine": 0.5, "cosine": math.sqrt(0.75), "tangent": math.sqrt(1 / 3), "square_root": math.sqrt(30)}
+    table |= {"logarithm": math.log(30), "exponential": math.exp(30), "round": 30.0, "fraction": 0.0, "sign": 1.0}
+    for name, expected in table.items():
+        assert evaluate(Apply(name, (Constant(30.0),)), str) == pytest.approx(expected), name
+    halves = {"round": (3, -3), "truncate": (2, -2), "round_away": (3, -3), "floor": (2, -3), "ceiling": (3, -2)}
+    for name, both in halves.items():
+        assert tuple(evaluate(Apply(name, (Constant(each),)), str) for each in (2.5, -2.5)) == both, name
+    assert evaluate(Apply("sine", (Constant(180.0),)), str) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("1/0", "it divides by 0"),
+        ("1 MOD 0", "it divides by 0"),
+        ("SQRT[0-1]", "it takes the root of a negative number"),
+        ("ACOS[2]", "it takes the arccosine of a number beyond 1"),
+        ("TAN[90]", "it takes the tangent of a right angle"),
+        ("EXP[1000]", "its value is too large"),
+        ("[0-8]**.5", "it takes a power of a negative number that is not whole"),
+        ("#1+#2", "#1?"),
+        ("#[1.5]", "1.5 is no number of a variable"),
+        ("#[#1+1]", "#1?"),
+    ],
+)
+def test_what_has_no_value_says_why(text, reason):
+    assert evaluate(read_term(FANUC, text)[0], lambda name: Unknown(f"{name}?")) == Unknown(reason)
+
+
+def test_ten_times_a_tenth_is_one():
+    tenth = Constant(0.1)
+    total = tenth
+    for _ in range(9):
+        total = Apply("add", (total, tenth))
+    assert evaluate(Apply("less", (total, Constant(1.0))), str) == 0
+    assert evaluate(Apply("truncate", (Apply("divide", (Constant(0.3), tenth)),)), str) == 3
+
+
+def test_numbers_are_written_as_a_program_has_them():
+    numbers = (95.0, -0.5, 0.1, 1e-12, -1e-12, 1e22, 1 / 3, -40.0, 123456.789)
+    texts = "95. -0.5 0.1 0. 0. 10000000000000000000000. 0.333333333 -40. 123456.789"
+    assert " ".join(map(written, numbers)) == texts
+
+
+def test_variables_by_number():
+    assert name_of_indexed("#", [101.0]) == "#101"
+    assert name_of_indexed("A", [2.0, 0.0]) == "A[2,0]"
+    assert [*variables_of(read_term(FANUC, "##1+#[#2]")[0])] == [
+        Indexed("#", (Variable("#1"),)),
+        Variable("#1"),
+        Indexed("#", (Variable("#2"),)),
+        Variable("#2"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("notation", "text", "value"),
+    [
+        (FANUC, "2+3*4 EQ 14", 1),
+        (FANUC, "ATAN[1]/[0-1]", 135),
+        (FANUC, "ATAN[4]/2", math.degrees(math.atan(4)) / 2),
+        (FANUC, "13 AND 7 OR 16", 21),
+        (LINUXCNC, "1 LT 2 AND 3 GT 2", 1),
+        (LINUXCNC, "FIX[-2.8]", -3),
+        (SINUMERIK, "1+2*3 DIV 4", 2),
+        (SINUMERIK, "NOT (1==2)", 1),
+        (SINUMERIK, "12EX-1", 1.2),
+        (SINUMERIK, "POT(3)-ATAN2(1,1)", -36),
+        (ISG, "SQR[3]+SQRT[16]**2", 25),
+        (ISG, "11 MOD 3", 2),
+        (KLARTEXT, "( 115 - ( TAN 45 * 10 ) )", 105),
+        (KLARTEXT, "-2^2 + SQ -3", 5),
+        (KLARTEXT, "SQRT 16 * 2", 8),
+        (KLARTEXT, "+3 LEN 4,0", 5),
+    ],
+)
+def test_operators_bind_as_the_language_says(notation, text, value):
+    term, end = read_term(notation, text)
+    assert (evaluate(term, str), end) == (pytest.approx(value), len(text))
+
+
+def test_an_expression_ends_where_it_cannot_go_on():
+    assert read_term(FANUC, "X#100Y#101", 1, is_value=True) == (Variable("#100"), 5)
+    assert read_term(SINUMERIK, "R1=5 ORIWKS", 3) == (Constant(5.0), 4)
+    for text in ("", "SIN[30", "1+", "]", "+" * 10_000, "[" * 10_000, "1+" * LONGEST_TERM + "1"):
+        with pytest.raises(UnreadableTermError):
+            read_term(FANUC, text)
