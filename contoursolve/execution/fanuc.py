@@ -1,0 +1,202 @@
+"""Macro B: Fanuc, and controls that follow it."""
+
+import re
+from collections.abc import Iterable, Iterator
+from functools import cache
+
+from contoursolve.execution.language import (
+    Assign,
+    Call,
+    CallKind,
+    Constant,
+    Else,
+    EndIf,
+    EndLoop,
+    If,
+    Indexed,
+    Jump,
+    Loop,
+    MacroLanguage,
+    MacroStatement,
+    ProgramEnd,
+    Return,
+    Strange,
+    Term,
+    Variable,
+    When,
+)
+from contoursolve.execution.lines import ONE, LineForm, LineReader, number_of, spelling
+from contoursolve.execution.notation import FANUC, UnreadableTermError
+
+_ARGUMENTS = dict(zip("ABCIJKDEFHMQRSTUVWXYZ", (*range(1, 10), 11, 13, *range(17, 27)), strict=True))
+"""The variable that each word of G65 sets; I, J and K may stand several times."""
+_ALARM = "#3000"
+_LONGEST_NUMBER = 4
+"""Digits of a program's number. More of them behind M98 P: those before the last four say how often."""
+_FIRST_OF_MACHINE = 1000
+
+
+def _assign(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    variable = line.term(is_value=True)
+    line.need("=")
+    if not isinstance(variable, Variable | Indexed):
+        raise UnreadableTermError
+    value = line.term()
+    yield ProgramEnd() if variable == Variable(_ALARM) else Assign(variable, value)
+
+
+def _block(line: LineReader) -> Term | str:
+    line.take("N(?=[ \t]*+[0-9#\\[])")
+    return line.target()
+
+
+def _if(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    condition = line.term()
+    if line.take("GOTO"):
+        yield Jump(_block(line), condition)
+        return
+    line.need("THEN")
+    then = line.read_statements(_TABLE, _SKIP)
+    yield When(condition, tuple(then)) if then else If(condition)
+
+
+def _while(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    condition = line.term()
+    yield Loop(number_of(line.need(r"DO[ \t]*+(\d++)")[1]), condition)
+
+
+def _words(line: LineReader, letters: str) -> Iterator[tuple[str, Term | str]]:
+    """The words that stand next."""
+    while found := line.take(rf"([{letters}])(?=[ \t]*+[-+.\d#\[])"):
+        is_name = found[1].upper() == "P"
+        yield found[1].upper(), line.target() if is_name else line.term(is_value=True)
+
+
+def _term(value: Term | str | None) -> Term:
+    if value is None or isinstance(value, str):
+        return ONE if value is None else Constant(float(value))
+    return value
+
+
+def _call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    begin = line.at
+    words = dict(_words(line, "PLKQH"))
+    target, repeated = words.get("P"), words.get("L", words.get("K"))
+    if target is None or words.keys() & set("QH"):
+        yield Strange(f"{found[0].strip()}{line.text[begin : line.at]} cannot be followed")
+        return
+    count = _term(repeated)
+    if repeated is None and isinstance(target, str) and len(target) > _LONGEST_NUMBER:
+        count, target = Constant(float(target[:-_LONGEST_NUMBER])), number_of(target[-_LONGEST_NUMBER:])
+    yield Call(CallKind.PROGRAM if found["kind"] == "8" else CallKind.LINES, target, count=count)
+
+
+def _macro_call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    begin = line.at
+    target: Term | str | None = None
+    count: Term = ONE
+    arguments, given = list[tuple[str, Term]](), list[str]()
+    for letter, value in _words(line, "A-Z"):
+        if letter == "P":
+            target = value
+        elif letter == "L":
+            count = _term(value)
+        elif letter in _ARGUMENTS:
+            place = _ARGUMENTS[letter] + (3 * given.count(letter) if letter in "IJK" else 0)
+            arguments.append((f"#{place}", _term(value)))
+            given.append(letter)
+    # G65 H is macro A: a computation by number.
+    if not isinstance(target, str) and (target is None or "H" in given):
+        yield Strange(f"{found[0].strip()}{line.text[begin : line.at]} cannot be followed")
+        return
+    yield Call(CallKind.PROGRAM, target, count=count, arguments=tuple(arguments), is_local=True)
+
+
+def _return(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    end = line.at
+    if line.take("P(?=[ \t]*+[0-9#\\[])"):
+        yield Return(line.term(is_value=True))
+        line.hide(found.start(), line.at)
+        return
+    line.at = end
+    yield Return()
+
+
+def _profile(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    first, last = (number_of(found[group]) for group in ("first", "last"))
+    yield Call(CallKind.PROFILE, first, last, cycle=f"G{found['cycle']}")
+
+
+def _word(line: LineReader, _: re.Match[str]) -> Iterable[MacroStatement]:
+    line.word()
+    return ()
+
+
+def _printed(line: LineReader, _: re.Match[str]) -> Iterable[MacroStatement]:
+    line.at = len(line.text)
+    return ()
+
+
+_TABLE = (
+    spelling(r"(?=#)", _assign),
+    spelling(r"[BD]PRNT[ \t]*+\[", _printed),
+    spelling(r"IF[ \t]*+(?=[\[#])", _if),
+    spelling(r"WHILE[ \t]*+(?=[\[#])", _while),
+    spelling(r"DO[ \t]*+(\d++)", lambda _, found: [Loop(number_of(found[1]))]),
+    spelling(r"END[ \t]*+(\d++)", lambda _, found: [EndLoop(number_of(found[1]))]),
+    spelling(r"ELSE(?![A-Z])", lambda *_: [Else()]),
+    spelling(r"ENDIF(?![A-Z])", lambda *_: [EndIf()]),
+    spelling(r"GOTO", lambda line, _: [Jump(_block(line))]),
+    spelling(r"M0*+9(?P<kind>[78])(?![\d.])", _call),
+    spelling(r"G0*+65(?![\d.])", _macro_call),
+    spelling(r"G0*+66(?!\d)", lambda *_: [Strange("G66 calls a macro behind each move")], stays=True),
+    spelling(r"M0*+99(?![\d.])", _return, stays=True),
+    spelling(r"M0*+(?:2|30)(?![\d.])", lambda *_: [ProgramEnd()], stays=True),
+    spelling(
+        r"G0*+(?P<cycle>7[0-3])(?![\d.])(?![^\n]*[XYZ][ \t]*+[-+.\d#\[])"
+        r"(?=[^\n]*?P[ \t]*+(?P<first>\d++)(?!\.))(?=[^\n]*?Q[ \t]*+(?P<last>\d++)(?!\.))",
+        _profile,
+        stays=True,
+    ),
+    spelling(r",?+[A-Z][ \t]*+(?=[-+]?+[ \t]*+[#\[])", _word, stays=True),
+)
+_SKIP = re.compile(r"[ \t]++|[\d.+-]++|.")
+_FORM = LineForm(
+    FANUC,
+    head=re.compile(
+        r"[ \t\f\v\x11-\x14\ufeff%]*+(?>(?:[O:][ \t]*+(?P<program>\d++))?)[ \t]*+(?>(?:/[1-9]?+)?)[ \t]*+"
+        r"(?>(?:N[ \t]*+(?P<number>\d++)(?!\.))?)",
+        re.IGNORECASE,
+    ),
+    comment=re.compile(r"\([^)]*+\)?+|;.*+"),
+    table=_TABLE,
+    skip=_SKIP,
+    says=re.compile(
+        r"[#\[]|M0*+(?:2|30|9[789])(?!\d)|G0*+(?:6[56](?!\d)|7[0-3](?!\d).*?[PQ][ \t]*+\d)|GOTO|DO[ \t]*+\d"
+        r"|END[ \t]*+[\dI]|ELSE|\A[ \t\f\v\x11-\x14\ufeff%]*+[O:][ \t]*+\d",
+        re.IGNORECASE,
+    ),
+)
+
+_ENDINGS = ("", ".nc", ".txt", ".cnc", ".tap", ".prg", ".min", ".eia")
+
+
+def program_files(name: str) -> tuple[str, ...]:
+    """The files in which a program may be: 100 in `O0100.nc`, `O100`, `0100.txt`, ..."""
+    stems = (f"O{name:0>4}", f"O{name}", f"{name:0>4}", f"O{name:0>5}", name) if name.isdigit() else (name,)
+    return tuple(dict.fromkeys(f"{stem}{ending}" for stem in stems for ending in _ENDINGS[1:] + _ENDINGS[:1]))
+
+
+def _unknown(name: str) -> str:
+    if name == "#0":
+        return "#0 is always empty"
+    digits = name[1:]
+    if digits.isdigit() and int(digits) >= _FIRST_OF_MACHINE:
+        return f"{name} is the machine's"
+    return f"{name} is set by nothing before"
+
+
+@cache
+def fanuc() -> MacroLanguage:
+    """Macro B, and the calls, jumps and profiles of the controls that follow Fanuc."""
+    return MacroLanguage("fanuc", _FORM.may_say, _FORM.read, program_files, _unknown)

@@ -1,0 +1,180 @@
+"""Reads a line by a table of statements: what each begins with, and who reads the rest of it."""
+
+import re
+from collections.abc import Callable, Iterable, Sequence
+
+from msgspec import Struct
+
+from contoursolve.execution.language import CodeLine, Constant, MacroStatement, Quoted, Strange, Term, WordFormula
+from contoursolve.execution.notation import Notation, UnreadableTermError
+
+LONGEST_LINE = 2_000
+"""Characters; no control reads more."""
+_MOST_SHOWN = 40
+
+
+class LineReader:
+    """One line, read from the left. Comments are blanks in `text`, so that nothing in them counts."""
+
+    def __init__(self, typed: str, notation: Notation, comment: re.Pattern[str], names: frozenset[str]) -> None:
+        self.text = comment.sub(lambda found: " " * len(found[0]), typed)
+        self.notation, self.names = notation, names
+        self.at = 0
+        self.number = ""
+        self.begins: str | None = None
+        self.labels, self.words = list[str](), list[WordFormula]()
+        self.statements, self.parameters = list[MacroStatement](), list[str]()
+        self._typed, self._rest = typed, list(typed)
+
+    def take(self, pattern: str) -> re.Match[str] | None:
+        """What stands next, if it matches a pattern."""
+        found = re.compile(r"[ \t]*+" + pattern, re.IGNORECASE | re.ASCII).match(self.text, self.at)
+        if found is not None:
+            self.at = found.end()
+        return found
+
+    def need(self, pattern: str) -> re.Match[str]:
+        """What stands next, where nothing else may."""
+        found = self.take(pattern)
+        if found is None:
+            raise UnreadableTermError(pattern)
+        return found
+
+    def is_over(self) -> bool:
+        return not self.text[self.at :].strip()
+
+    def term(self, *, is_value: bool = False) -> Term:
+        """The expression that stands next."""
+        # Lark takes a tenth of a second to import, and few programs have expressions.
+        from contoursolve.execution.terms import read_term  # noqa: PLC0415
+
+        found, self.at = read_term(self.notation, self.text, self.at, is_value=is_value)
+        return found
+
+    def target(self) -> Term | str:
+        """The name or the number of what is called, or the expression that is it: a text in quotes is a name."""
+        found = self.take(r"0*+(\d++)(?![.\w])")
+        if found is not None:
+            return found[1] or "0"
+        term = self.term(is_value=True)
+        return term.value.upper() if isinstance(term, Quoted) else term
+
+    def word(self, *, is_value: bool = True) -> None:
+        """The value of a word, if it is an expression; what cannot be read is left to the reader of words."""
+        self.take("")
+        begin = self.at
+        try:
+            term = self.term(is_value=is_value)
+        except UnreadableTermError:
+            self.take(r"[^ \t]++")
+            return
+        if not isinstance(term, Quoted) and not _PLAIN.fullmatch(self.text, begin, self.at):
+            self.words.append(WordFormula(begin, self.at, term))
+
+    def hide(self, begin: int, end: int) -> None:
+        """Blanks in the place of what stands there, comments apart."""
+        for place in range(begin, end):
+            if self.text[place] != " ":
+                self._rest[place] = " "
+
+    def read_statements(self, table: "Sequence[Spelling]", skip: re.Pattern[str]) -> list[MacroStatement]:
+        """The statements up to the end of the line."""
+        found = list[MacroStatement]()
+        while self.at < len(self.text):
+            begin = self.at
+            for spelling in table:
+                match = spelling.pattern.match(self.text, begin)
+                if match is None:
+                    continue
+                self.at = match.end()
+                try:
+                    said = [*spelling.read(self, match)]
+                except UnreadableTermError:
+                    said, self.at = [strange(self.text[begin:])], len(self.text)
+                if said and not spelling.stays:
+                    self.hide(begin, self.at)
+                found += said
+                break
+            if self.at == begin:
+                token = skip.match(self.text, begin)
+                self.at = token.end() if token else begin + 1
+        return found
+
+    def code(self) -> CodeLine:
+        """What the line says."""
+        words = sorted(self.words, key=lambda word: word.begin)
+        return CodeLine(
+            "".join(self._rest),
+            self.number,
+            tuple(self.labels),
+            self.begins,
+            tuple(self.statements),
+            tuple(words),
+            tuple(self.parameters),
+        )
+
+
+_PLAIN = re.compile(r"[ \t]*+[+-]?+[ \t]*+[\d.,]++")
+
+
+def strange(text: str) -> Strange:
+    """What is said of a statement that cannot be read."""
+    shown = " ".join(text.split())
+    return Strange(f"{shown if len(shown) <= _MOST_SHOWN else shown[:_MOST_SHOWN] + '...'} cannot be read")
+
+
+class Spelling(Struct, frozen=True):
+    """A statement: what it begins with, and what reads the rest of it. `stays` if its words stay in the line."""
+
+    pattern: re.Pattern[str]
+    read: Callable[[LineReader, re.Match[str]], Iterable[MacroStatement]]
+    stays: bool = False
+
+
+def spelling(
+    pattern: str, read: Callable[[LineReader, re.Match[str]], Iterable[MacroStatement]], *, stays: bool = False
+) -> Spelling:
+    """A statement by the text of its pattern."""
+    return Spelling(re.compile(pattern, re.IGNORECASE | re.ASCII), read, stays)
+
+
+def number_of(text: str) -> str:
+    """A number as jumps name it."""
+    return text.lstrip("0") or "0"
+
+
+class LineForm(Struct, frozen=True, eq=False):
+    """How the lines of a language begin, what comments are, and its statements."""
+
+    notation: Notation
+    head: re.Pattern[str]
+    """What a line begins with: groups `number` and `program`."""
+    comment: re.Pattern[str]
+    table: tuple[Spelling, ...]
+    skip: re.Pattern[str]
+    """What says nothing here: words, names and signs, one at a time."""
+    says: re.Pattern[str]
+    """What a line has that may say more than words."""
+    names: frozenset[str] = frozenset()
+    """Names that call no subprogram."""
+
+    def may_say(self, line: str) -> bool:
+        return self.says.search(line) is not None
+
+    def read(self, line: str) -> CodeLine:
+        """What a line says. Never raises."""
+        head = self.head.match(line)
+        number = number_of(head["number"]) if head and head["number"] else ""
+        if not self.may_say(line):
+            return CodeLine(line, number)
+        if len(line) > LONGEST_LINE:
+            return CodeLine(line, number, statements=(Strange(f"a line of {len(line):,} characters"),))
+        reader = LineReader(line, self.notation, self.comment, self.names)
+        reader.number, reader.at = number, head.end() if head else 0
+        if head and head["program"]:
+            reader.begins = number_of(head["program"]).upper()
+        reader.statements = reader.read_statements(self.table, self.skip)
+        return reader.code()
+
+
+ONE = Constant(1.0)
