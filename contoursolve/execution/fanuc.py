@@ -25,7 +25,7 @@ from contoursolve.execution.language import (
     Variable,
     When,
 )
-from contoursolve.execution.lines import ONE, LineForm, LineReader, number_of, spelling
+from contoursolve.execution.lines import ONE, LineForm, LineReader, Spelling, number_of
 from contoursolve.execution.notation import FANUC, UnreadableTermError
 
 _ARGUMENTS = dict(zip("ABCIJKDEFHMQRSTUVWXYZ", (*range(1, 10), 11, 13, *range(17, 27)), strict=True))
@@ -56,7 +56,7 @@ def _if(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
         yield Jump(_block(line), condition)
         return
     line.need("THEN")
-    then = line.read_statements(_TABLE, _SKIP)
+    then = line.read_statements()
     yield When(condition, tuple(then)) if then else If(condition)
 
 
@@ -138,44 +138,37 @@ def _printed(line: LineReader, _: re.Match[str]) -> Iterable[MacroStatement]:
 
 
 _TABLE = (
-    spelling(r"(?=#)", _assign),
-    spelling(r"[BD]PRNT[ \t]*+\[", _printed),
-    spelling(r"IF[ \t]*+(?=[\[#])", _if),
-    spelling(r"WHILE[ \t]*+(?=[\[#])", _while),
-    spelling(r"DO[ \t]*+(\d++)", lambda _, found: [Loop(number_of(found[1]))]),
-    spelling(r"END[ \t]*+(\d++)", lambda _, found: [EndLoop(number_of(found[1]))]),
-    spelling(r"ELSE(?![A-Z])", lambda *_: [Else()]),
-    spelling(r"ENDIF(?![A-Z])", lambda *_: [EndIf()]),
-    spelling(r"GOTO", lambda line, _: [Jump(_block(line))]),
-    spelling(r"M0*+9(?P<kind>[78])(?![\d.])", _call),
-    spelling(r"G0*+65(?![\d.])", _macro_call),
-    spelling(r"G0*+66(?!\d)", lambda *_: [Strange("G66 calls a macro behind each move")], stays=True),
-    spelling(r"M0*+99(?![\d.])", _return, stays=True),
-    spelling(r"M0*+(?:2|30)(?![\d.])", lambda *_: [ProgramEnd()], stays=True),
-    spelling(
+    Spelling(r"(?=#)", _assign),
+    Spelling(r"[BD]PRNT[ \t]*+\[", _printed),
+    Spelling(r"IF[ \t]*+(?=[\[#])", _if),
+    Spelling(r"WHILE[ \t]*+(?=[\[#])", _while),
+    Spelling(r"DO[ \t]*+(\d++)", lambda _, found: [Loop(number_of(found[1]))]),
+    Spelling(r"END[ \t]*+(\d++)", lambda _, found: [EndLoop(number_of(found[1]))]),
+    Spelling(r"ELSE(?![A-Z])", lambda *_: [Else()]),
+    Spelling(r"ENDIF(?![A-Z])", lambda *_: [EndIf()]),
+    Spelling(r"GOTO", lambda line, _: [Jump(_block(line))]),
+    Spelling(r"M0*+9(?P<kind>[78])(?![\d.])", _call),
+    Spelling(r"G0*+65(?![\d.])", _macro_call),
+    Spelling(r"G0*+66(?!\d)", lambda *_: [Strange("G66 calls a macro behind each move")], stays=True),
+    Spelling(r"M0*+99(?![\d.])", _return, stays=True),
+    Spelling(r"M0*+(?:2|30)(?![\d.])", lambda *_: [ProgramEnd()], stays=True),
+    Spelling(
         r"G0*+(?P<cycle>7[0-3])(?![\d.])(?![^\n]*[XYZ][ \t]*+[-+.\d#\[])"
         r"(?=[^\n]*?P[ \t]*+(?P<first>\d++)(?!\.))(?=[^\n]*?Q[ \t]*+(?P<last>\d++)(?!\.))",
         _profile,
         stays=True,
     ),
-    spelling(r",?+[A-Z][ \t]*+(?=[-+]?+[ \t]*+[#\[])", _word, stays=True),
+    Spelling(r",?+[A-Z][ \t]*+(?=[-+]?+[ \t]*+[#\[])", _word, stays=True),
 )
-_SKIP = re.compile(r"[ \t]++|[\d.+-]++|.")
 _FORM = LineForm(
     FANUC,
-    head=re.compile(
-        r"[ \t\f\v\x11-\x14\ufeff%]*+(?>(?:[O:][ \t]*+(?P<program>\d++))?)[ \t]*+(?>(?:/[1-9]?+)?)[ \t]*+"
-        r"(?>(?:N[ \t]*+(?P<number>\d++)(?!\.))?)",
-        re.IGNORECASE,
-    ),
-    comment=re.compile(r"\([^)]*+\)?+|;.*+"),
+    head=r"[ \t\f\v\x11-\x14\ufeff%]*+(?>(?:[O:][ \t]*+(?P<program>\d++))?)[ \t]*+(?>(?:/[1-9]?+)?)[ \t]*+"
+    r"(?>(?:N[ \t]*+(?P<number>\d++)(?!\.))?)",
+    comment=r"\([^)]*+\)?+|;.*+",
     table=_TABLE,
-    skip=_SKIP,
-    says=re.compile(
-        r"[#\[]|M0*+(?:2|30|9[789])(?!\d)|G0*+(?:6[56](?!\d)|7[0-3](?!\d).*?[PQ][ \t]*+\d)|GOTO|DO[ \t]*+\d"
-        r"|END[ \t]*+[\dI]|ELSE|\A[ \t\f\v\x11-\x14\ufeff%]*+[O:][ \t]*+\d",
-        re.IGNORECASE,
-    ),
+    skip=r"[ \t]++|[\d.+-]++|.",
+    says=r"[#\[]|M0*+(?:2|30|9[789])(?!\d)|G0*+(?:6[56](?!\d)|7[0-3](?!\d).*?[PQ][ \t]*+\d)|GOTO|DO[ \t]*+\d"
+    r"|END[ \t]*+[\dI]|ELSE|\A[ \t\f\v\x11-\x14\ufeff%]*+[O:][ \t]*+\d",
 )
 
 _ENDINGS = ("", ".nc", ".txt", ".cnc", ".tap", ".prg", ".min", ".eia")

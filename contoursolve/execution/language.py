@@ -101,6 +101,8 @@ class CallKind(Enum):
     """From a block number of the same program to the end of the subprogram: M97 P."""
     LABEL = "label"
     """A section from a label to its end: CALL LBL; or from a label to another: REPEAT A B."""
+    SECTION = "section"
+    """From a label to the block before the call itself: CALL LBL REP, REPEAT A."""
     PROFILE = "profile"
     """The profile of a cycle: G71 P Q, CYCLE95, CYCL DEF 14."""
 
@@ -242,6 +244,8 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     unknown: Callable[[str], str]
     """Why a variable that nothing set has no value: `#5041 is the machine's position`, `#100 is set by nothing
     before`."""
+    passes_return: bool = False
+    """Whether the end of a subprogram does nothing where none was called: LBL 0."""
 
 
 EMPTY = CodeLine("")

@@ -1,7 +1,8 @@
 """Reads a line by a table of statements: what each begins with, and who reads the rest of it."""
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
+from functools import cache
 
 from msgspec import Struct
 
@@ -13,12 +14,18 @@ LONGEST_LINE = 2_000
 _MOST_SHOWN = 40
 
 
+@cache
+def compiled(pattern: str) -> re.Pattern[str]:
+    """A pattern for letters of both cases, compiled when it is first needed."""
+    return re.compile(pattern, re.IGNORECASE | re.ASCII)
+
+
 class LineReader:
     """One line, read from the left. Comments are blanks in `text`, so that nothing in them counts."""
 
-    def __init__(self, typed: str, notation: Notation, comment: re.Pattern[str], names: frozenset[str]) -> None:
-        self.text = comment.sub(lambda found: " " * len(found[0]), typed)
-        self.notation, self.names = notation, names
+    def __init__(self, typed: str, form: "LineForm") -> None:
+        self.text = compiled(form.comment).sub(lambda found: " " * len(found[0]), typed)
+        self.notation, self.names, self._form = form.notation, form.names, form
         self.at = 0
         self.number = ""
         self.begins: str | None = None
@@ -28,7 +35,7 @@ class LineReader:
 
     def take(self, pattern: str) -> re.Match[str] | None:
         """What stands next, if it matches a pattern."""
-        found = re.compile(r"[ \t]*+" + pattern, re.IGNORECASE | re.ASCII).match(self.text, self.at)
+        found = compiled(r"[ \t]*+" + pattern).match(self.text, self.at)
         if found is not None:
             self.at = found.end()
         return found
@@ -77,13 +84,13 @@ class LineReader:
             if self.text[place] != " ":
                 self._rest[place] = " "
 
-    def read_statements(self, table: "Sequence[Spelling]", skip: re.Pattern[str]) -> list[MacroStatement]:
+    def read_statements(self) -> list[MacroStatement]:
         """The statements up to the end of the line."""
-        found = list[MacroStatement]()
+        found, skip = list[MacroStatement](), compiled(self._form.skip)
         while self.at < len(self.text):
             begin = self.at
-            for spelling in table:
-                match = spelling.pattern.match(self.text, begin)
+            for spelling in self._form.table:
+                match = compiled(spelling.pattern).match(self.text, begin)
                 if match is None:
                     continue
                 self.at = match.end()
@@ -126,16 +133,9 @@ def strange(text: str) -> Strange:
 class Spelling(Struct, frozen=True):
     """A statement: what it begins with, and what reads the rest of it. `stays` if its words stay in the line."""
 
-    pattern: re.Pattern[str]
+    pattern: str
     read: Callable[[LineReader, re.Match[str]], Iterable[MacroStatement]]
     stays: bool = False
-
-
-def spelling(
-    pattern: str, read: Callable[[LineReader, re.Match[str]], Iterable[MacroStatement]], *, stays: bool = False
-) -> Spelling:
-    """A statement by the text of its pattern."""
-    return Spelling(re.compile(pattern, re.IGNORECASE | re.ASCII), read, stays)
 
 
 def number_of(text: str) -> str:
@@ -147,33 +147,33 @@ class LineForm(Struct, frozen=True, eq=False):
     """How the lines of a language begin, what comments are, and its statements."""
 
     notation: Notation
-    head: re.Pattern[str]
+    head: str
     """What a line begins with: groups `number` and `program`."""
-    comment: re.Pattern[str]
+    comment: str
     table: tuple[Spelling, ...]
-    skip: re.Pattern[str]
+    skip: str
     """What says nothing here: words, names and signs, one at a time."""
-    says: re.Pattern[str]
+    says: str
     """What a line has that may say more than words."""
     names: frozenset[str] = frozenset()
     """Names that call no subprogram."""
 
     def may_say(self, line: str) -> bool:
-        return self.says.search(line) is not None
+        return compiled(self.says).search(line) is not None
 
     def read(self, line: str) -> CodeLine:
         """What a line says. Never raises."""
-        head = self.head.match(line)
+        head = compiled(self.head).match(line)
         number = number_of(head["number"]) if head and head["number"] else ""
         if not self.may_say(line):
             return CodeLine(line, number)
         if len(line) > LONGEST_LINE:
             return CodeLine(line, number, statements=(Strange(f"a line of {len(line):,} characters"),))
-        reader = LineReader(line, self.notation, self.comment, self.names)
+        reader = LineReader(line, self)
         reader.number, reader.at = number, head.end() if head else 0
         if head and head["program"]:
             reader.begins = number_of(head["program"]).upper()
-        reader.statements = reader.read_statements(self.table, self.skip)
+        reader.statements = reader.read_statements()
         return reader.code()
 
 
