@@ -1,7 +1,7 @@
 """Macro B: Fanuc, and controls that follow it."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cache
 
 from contoursolve.execution.language import (
@@ -13,7 +13,6 @@ from contoursolve.execution.language import (
     EndIf,
     EndLoop,
     If,
-    Indexed,
     Jump,
     Loop,
     MacroLanguage,
@@ -25,8 +24,8 @@ from contoursolve.execution.language import (
     Variable,
     When,
 )
-from contoursolve.execution.lines import ONE, LineForm, LineReader, Spelling, number_of
-from contoursolve.execution.notation import FANUC, UnreadableTermError
+from contoursolve.execution.lines import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, number_of, word
+from contoursolve.execution.notation import FANUC
 
 _ARGUMENTS = dict(zip("ABCIJKDEFHMQRSTUVWXYZ", (*range(1, 10), 11, 13, *range(17, 27)), strict=True))
 """The variable that each word of G65 sets; I, J and K may stand several times."""
@@ -37,12 +36,8 @@ _FIRST_OF_MACHINE = 1000
 
 
 def _assign(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
-    variable = line.term(is_value=True)
-    line.need("=")
-    if not isinstance(variable, Variable | Indexed):
-        raise UnreadableTermError
-    value = line.term()
-    yield ProgramEnd() if variable == Variable(_ALARM) else Assign(variable, value)
+    said = line.assignment()
+    yield ProgramEnd() if isinstance(said, Assign) and said.variable == Variable(_ALARM) else said
 
 
 def _block(line: LineReader) -> Term | str:
@@ -127,19 +122,9 @@ def _profile(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
     yield Call(CallKind.PROFILE, first, last, cycle=f"G{found['cycle']}")
 
 
-def _word(line: LineReader, _: re.Match[str]) -> Iterable[MacroStatement]:
-    line.word()
-    return ()
-
-
-def _printed(line: LineReader, _: re.Match[str]) -> Iterable[MacroStatement]:
-    line.at = len(line.text)
-    return ()
-
-
 _TABLE = (
     Spelling(r"(?=#)", _assign),
-    Spelling(r"[BD]PRNT[ \t]*+\[", _printed),
+    Spelling(r"[BD]PRNT[ \t]*+\[.*+", nothing),
     Spelling(r"IF[ \t]*+(?=[\[#])", _if),
     Spelling(r"WHILE[ \t]*+(?=[\[#])", _while),
     Spelling(r"DO[ \t]*+(\d++)", lambda _, found: [Loop(number_of(found[1]))]),
@@ -151,14 +136,14 @@ _TABLE = (
     Spelling(r"G0*+65(?![\d.])", _macro_call),
     Spelling(r"G0*+66(?!\d)", lambda *_: [Strange("G66 calls a macro behind each move")], stays=True),
     Spelling(r"M0*+99(?![\d.])", _return, stays=True),
-    Spelling(r"M0*+(?:2|30)(?![\d.])", lambda *_: [ProgramEnd()], stays=True),
+    Spelling(PROGRAM_END, lambda *_: [ProgramEnd()], stays=True),
     Spelling(
         r"G0*+(?P<cycle>7[0-3])(?![\d.])(?![^\n]*[XYZ][ \t]*+[-+.\d#\[])"
         r"(?=[^\n]*?P[ \t]*+(?P<first>\d++)(?!\.))(?=[^\n]*?Q[ \t]*+(?P<last>\d++)(?!\.))",
         _profile,
         stays=True,
     ),
-    Spelling(r",?+[A-Z][ \t]*+(?=[-+]?+[ \t]*+[#\[])", _word, stays=True),
+    Spelling(r",?+[A-Z][ \t]*+(?=[-+]?+[ \t]*+[#\[])", word, stays=True),
 )
 _FORM = LineForm(
     FANUC,
@@ -167,6 +152,7 @@ _FORM = LineForm(
     comment=r"\([^)]*+\)?+|;.*+",
     table=_TABLE,
     skip=r"[ \t]++|[\d.+-]++|.",
+    behind_value="[A-Z,#/]",
     says=r"[#\[]|M0*+(?:2|30|9[789])(?!\d)|G0*+(?:6[56](?!\d)|7[0-3](?!\d).*?[PQ][ \t]*+\d)|GOTO|DO[ \t]*+\d"
     r"|END[ \t]*+[\dI]|ELSE|\A[ \t\f\v\x11-\x14\ufeff%]*+[O:][ \t]*+\d",
 )

@@ -6,7 +6,19 @@ from functools import cache
 
 from msgspec import Struct
 
-from contoursolve.execution.language import CodeLine, Constant, MacroStatement, Quoted, Strange, Term, WordFormula
+from contoursolve.execution.language import (
+    Assign,
+    CodeLine,
+    Constant,
+    Forget,
+    Indexed,
+    MacroStatement,
+    Quoted,
+    Strange,
+    Term,
+    Variable,
+    WordFormula,
+)
 from contoursolve.execution.notation import Notation, UnreadableTermError
 
 LONGEST_LINE = 2_000
@@ -47,9 +59,6 @@ class LineReader:
             raise UnreadableTermError(pattern)
         return found
 
-    def is_over(self) -> bool:
-        return not self.text[self.at :].strip()
-
     def term(self, *, is_value: bool = False) -> Term:
         """The expression that stands next."""
         # Lark takes a tenth of a second to import, and few programs have expressions.
@@ -77,6 +86,21 @@ class LineReader:
             return
         if not isinstance(term, Quoted) and not _PLAIN.fullmatch(self.text, begin, self.at):
             self.words.append(WordFormula(begin, self.at, term))
+
+    def assignment(self) -> MacroStatement:
+        """A variable, an equals sign and a value; the variable is not known where the value cannot be read."""
+        self.take("")
+        begin, variable = self.at, self.term(is_value=True)
+        self.need("=")
+        if not isinstance(variable, Variable | Indexed):
+            raise UnreadableTermError
+        try:
+            value = self.term()
+            self.need(f"(?={self._form.behind_value}|$)")
+        except UnreadableTermError:
+            self.at = len(self.text)
+            return Forget(variable, strange(self.text[begin:]).reason)
+        return Assign(variable, value)
 
     def hide(self, begin: int, end: int) -> None:
         """Blanks in the place of what stands there, comments apart."""
@@ -153,13 +177,15 @@ class LineForm(Struct, frozen=True, eq=False):
     table: tuple[Spelling, ...]
     skip: str
     """What says nothing here: words, names and signs, one at a time."""
+    behind_value: str
+    """What else than the end of the line may stand behind the value of a variable."""
     says: str
     """What a line has that may say more than words."""
     names: frozenset[str] = frozenset()
     """Names that call no subprogram."""
 
     def may_say(self, line: str) -> bool:
-        return compiled(self.says).search(line) is not None
+        return compiled(self.says).search(line if ";" not in line else line.partition(";")[0]) is not None
 
     def read(self, line: str) -> CodeLine:
         """What a line says. Never raises."""
@@ -171,10 +197,23 @@ class LineForm(Struct, frozen=True, eq=False):
             return CodeLine(line, number, statements=(Strange(f"a line of {len(line):,} characters"),))
         reader = LineReader(line, self)
         reader.number, reader.at = number, head.end() if head else 0
-        if head and head["program"]:
-            reader.begins = number_of(head["program"]).upper()
+        program = head.groupdict().get("program") if head else None
+        if program:
+            reader.begins = number_of(program).upper()
         reader.statements = reader.read_statements()
         return reader.code()
 
 
+def nothing(_: LineReader, __: re.Match[str]) -> Iterable[MacroStatement]:
+    """What says nothing."""
+    return ()
+
+
 ONE = Constant(1.0)
+PROGRAM_END = r"(?<![A-Z])M0*+(?:2|30)(?![\d.])"
+
+
+def word(line: LineReader, _: re.Match[str]) -> Iterable[MacroStatement]:
+    """The value of a word."""
+    line.word()
+    return ()

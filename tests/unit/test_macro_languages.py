@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from contoursolve.execution.evaluate import FUNCTIONS, evaluate, name_of_indexed, variables_of, written
 from contoursolve.execution.fanuc import fanuc
+from contoursolve.execution.klartext import klartext
 from contoursolve.execution.language import (
     Apply,
     Assign,
@@ -19,6 +20,7 @@ from contoursolve.execution.language import (
     Else,
     EndIf,
     EndLoop,
+    Forget,
     If,
     Indexed,
     Jump,
@@ -273,13 +275,53 @@ FANUC_LINES = [
     ("G71 P10 Q020 U.5 F.2", "G71 P10 Q020 U.5 F.2", [Call(CallKind.PROFILE, "10", "20", cycle="G71")]),
     ("G73 X5 Z-3 R1 Q2 P5", "G73 X5 Z-3 R1 Q2 P5", []),
     ("G71 U2. R1.", "G71 U2. R1.", []),
-    ("#1=", "", [Strange("#1= cannot be read")]),
+    ("#1=", "", [Forget(F("#1"), "#1= cannot be read")]),
+    ("WHILE[#1", "", [Strange("WHILE[#1 cannot be read")]),
     ("#3000=1(ALARM)", "       (ALARM)", [ProgramEnd()]),
     ("G65 H01 P#100 Q#101", "", [Strange("G65 H01 P#100 Q#101 cannot be followed")]),
 ]
 
+K = of(KLARTEXT)
+KLARTEXT_LINES = [
+    ("12 Q30 = ( 115 - ( TAN 72 * 10 ) ) ; x", "12".ljust(35) + "; x", [Assign(K("Q30"), K("115 - TAN 72 * 10"))]),
+    ("FN 0: Q1 = +5", "", [Assign(K("Q1"), K("5"))]),
+    ("FN0:QL1=-5,5", "", [Assign(K("QL1"), K("-5.5"))]),
+    ("3 FN 4: Q4 = +4 DIV +Q2", "3", [Assign(K("Q4"), K("4 / Q2"))]),
+    ("FN 13: Q1 = +5 ANG -Q2", "", [Assign(K("Q1"), Apply("arctangent2", (K("5"), K("-Q2"))))]),
+    ("FN 9: IF +Q1 EQU +Q2 GOTO LBL 5", "", [Jump("5", Apply("equal", (K("Q1"), K("Q2"))))]),
+    ('FN 12: IF +Q1 LT +10 GOTO LBL "Up"', "", [Jump("UP", Apply("less", (K("Q1"), K("10"))))]),
+    ("FN 18: SYSREAD Q25 = ID210 NR4 IDX3", "", [Forget(K("Q25"), "FN 18 reads it from the control")]),
+    ("FN 14: ERROR = 1000", "FN 14: ERROR = 1000", []),
+    ("LBL 0", "", [Return()]),
+    ("CALL LBL 1", "", [Call(CallKind.LABEL, "1")]),
+    ("CALL LBL 1 REP 2/2", "", [Call(CallKind.SECTION, "1", count=K("2"))]),
+    ('CALL LBL "a" REP Q5', "", [Call(CallKind.SECTION, "A", count=K("Q5"))]),
+    ("CALL PGM TNC:\\dir\\name.H", "", [Call(CallKind.PROGRAM, "NAME")]),
+    ("6 CYCL DEF 14.0 KONTUR", "6 CYCL DEF 14.0 KONTUR", []),
+    (
+        "6 CYCL DEF 14.1 KONTURLABEL1 /2",
+        "6",
+        [Call(CallKind.PROFILE, each, cycle="CYCL DEF 14") for each in "12"],
+    ),
+    (
+        'CONTOUR DEF P1 = LBL 1 I2 = "B.H" DEPTH 5',
+        "",
+        [Call(CallKind.PROFILE, each, cycle="CONTOUR DEF") for each in ("1", "B")],
+    ),
+    ("L Z+100 R0 FMAX M30", "L Z+100 R0 FMAX M30", [ProgramEnd()]),
+    (
+        "CYCL DEF 200 A Q200=2 Q201=-20 ~",
+        "CYCL DEF 200 A".ljust(31) + "~",
+        [Assign(K("Q200"), K("2")), Assign(K("Q201"), K("-20"))],
+    ),
+    ("Q206=FAUTO", "", [Forget(K("Q206"), "Q206=FAUTO cannot be read")]),
+    ("* - Q5 = 3", "* - Q5 = 3", []),
+    ('TOOL CALL "SEQ5" Z S100', 'TOOL CALL "SEQ5" Z S100', []),
+]
+LINES = [(fanuc(), *row) for row in FANUC_LINES] + [(klartext(), *row) for row in KLARTEXT_LINES]
 
-@pytest.mark.parametrize(("language", "line", "rest", "statements"), [(fanuc(), *row) for row in FANUC_LINES])
+
+@pytest.mark.parametrize(("language", "line", "rest", "statements"), LINES)
 def test_what_a_line_says(language, line, rest, statements):
     code = language.read(line)
     assert [*code.statements] == statements
@@ -296,9 +338,16 @@ def test_formulas_of_words_have_their_places():
         WordFormula(9, 17, F("-[#1+2]")),
         WordFormula(20, 23, F("-#3")),
     )
+    assert klartext().read("L X+Q1 LENQ31 RQL2").words == (
+        WordFormula(3, 6, K("Q1")),
+        WordFormula(10, 13, K("Q31")),
+        WordFormula(15, 18, K("QL2")),
+    )
 
 
 def test_programs_and_blocks_begin():
+    assert klartext().read("0 BEGIN PGM Cam MM").begins == "CAM"
+    assert [klartext().read(line).labels for line in ("5 LBL 012", 'LBL "Up"')] == [("12",), ("UP",)]
     assert (fanuc().read("O0100 (A)").begins, fanuc().read(":7").begins) == ("100", "7")
     assert [fanuc().read(line).number for line in ("N0020 X5", "/N7#1=2", "X5")] == ["20", "7", ""]
 
