@@ -13,9 +13,11 @@ from contoursolve import gcode
 from contoursolve.diagnosis.examine import Depth, Policy
 from contoursolve.diagnostics.choices import choice_of
 from contoursolve.diagnostics.finding import Diagnostic
+from contoursolve.execution.subprograms import surroundings_of
 from contoursolve.gcode import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 from contoursolve.geometry import Length
 from contoursolve.postprocess.numbering import numbers_of
+from contoursolve.program.calls import runs
 from contoursolve.program.pipeline import Result, Run, run
 from contoursolve.program.project import configure, find_settings, restate_control, stated_settings
 from contoursolve.program.recognise import choose, find_dialect
@@ -63,6 +65,8 @@ def solve(
     depth: str = "full",
     facts: Iterable[str | Statement] = (),
     settings: Mapping[str, str] | None = None,
+    variables: Mapping[str, float] | None = None,
+    folders: Iterable[str | Path] = (),
     name: str = "<program>",
 ) -> Result:
     """Solve every contour of a program, or of a single block.
@@ -77,6 +81,8 @@ def solve(
         depth: `full`, or `verdict` for findings without reasons and repairs (see `Depth`).
         facts: further facts about the only contour, as text (see `contoursolve facts`) or as statements.
         settings: conventions of the controls by `control.name` (see `contoursolve rules`); the default ones without.
+        variables: values of variables by name, such as `{"#100": 95.0}`, whatever the program says of them.
+        folders: where files with subprograms are, besides that of the program.
         name: what findings call the program.
 
     Returns:
@@ -114,6 +120,8 @@ def solve(
         depth=depth,
         facts=facts,
         settings=settings,
+        variables=variables,
+        folders=folders,
     )
 
 
@@ -149,10 +157,13 @@ def solve_file(
     path: str | Path,
     *,
     control: str | Dialect | None = None,
+    start: str | None = None,
     units: str = "mm",
     rules: str = "enforce",
     facts: Iterable[str | Statement] = (),
     settings: Mapping[str, str] | None = None,
+    variables: Mapping[str, float] | None = None,
+    folders: Iterable[str | Path] = (),
 ) -> Result:
     """Solve every contour of a file; `-` is standard input.
 
@@ -162,7 +173,17 @@ def solve_file(
     folder = Path() if str(path) == STANDARD_INPUT else Path(path).parent
     program = read_program(path)
     own = find_settings(folder) | stated_settings(block.text for block in program.blocks) | dict(settings or {})
-    return solve_program(program, control=control, units=units, rules=rules, facts=facts, settings=own)
+    return solve_program(
+        program,
+        control=control,
+        start=start,
+        units=units,
+        rules=rules,
+        facts=facts,
+        settings=own,
+        variables=variables,
+        folders=folders,
+    )
 
 
 def check_file(
@@ -187,6 +208,8 @@ def solve_program(
     depth: str = "full",
     facts: Iterable[str | Statement] = (),
     settings: Mapping[str, str] | None = None,
+    variables: Mapping[str, float] | None = None,
+    folders: Iterable[str | Path] = (),
 ) -> Result:
     """Solve every contour of a program that was parsed or read before; as `solve`."""
     return follow_program(
@@ -198,6 +221,8 @@ def solve_program(
         depth=depth,
         facts=facts,
         settings=settings,
+        variables=variables,
+        folders=folders,
     ).collect()
 
 
@@ -211,6 +236,8 @@ def follow_program(
     depth: str = "full",
     facts: Iterable[str | Statement] = (),
     settings: Mapping[str, str] | None = None,
+    variables: Mapping[str, float] | None = None,
+    folders: Iterable[str | Path] = (),
 ) -> Run:
     """The same as a stream of contours and findings, for a program of any length."""
     dialect = choose(control, program, settings)
@@ -221,7 +248,8 @@ def follow_program(
         from contoursolve.program.batch import Batch  # noqa: PLC0415 - a few blocks are solved before it is imported
 
         together = Batch(dialect, policy, is_proven=deep is not Depth.PATH)
-    return Run(program, dialect, unit, policy, deep, beginning, _facts(facts), together)
+    around = surroundings_of(program.name, variables, folders)
+    return Run(program, dialect, unit, policy, deep, beginning, _facts(facts), together, around)
 
 
 _MANY = 64
@@ -255,6 +283,8 @@ def expand(
     rules: str = "enforce",
     facts: Iterable[str | Statement] = (),
     settings: Mapping[str, str] | None = None,
+    variables: Mapping[str, float] | None = None,
+    folders: Iterable[str | Path] = (),
     name: str = "<program>",
 ) -> Expansion:
     """A program with every contour written as plain G00, G01, G02 and G03, and everything else as it was.
@@ -309,6 +339,7 @@ def expand(
             policy=policy,
             start=beginning,
             numbers=numbers_of(gcode.split_lines(text), dialect) if numbering is Numbering.ALL else None,
+            around=surroundings_of(name, variables, folders) if runs(gcode.split_lines(text), dialect) else None,
         )
     )
     opening = opening_of(options, dialect, unit, summary)

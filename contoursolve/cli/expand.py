@@ -27,6 +27,7 @@ from contoursolve.cli.printing import say, style_of_output
 from contoursolve.diagnosis.examine import Policy
 from contoursolve.diagnosis.wording import count
 from contoursolve.diagnostics.finding import Severity
+from contoursolve.execution.subprograms import surroundings_of
 from contoursolve.gcode import UnreadableProgramError
 from contoursolve.gcode.files import CannotWriteError, Tape, check_target, open_tape, tape_of, write_whole
 from contoursolve.geometry import Length
@@ -138,8 +139,6 @@ def expand(
     """
     if bool(blocks) == bool(program):
         raise click.UsageError("name a program (- for standard input), or give --block")
-    if start is not None and not blocks:
-        raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
     target = program_itself(program, output) if is_in_place else target_of(program, output, is_forced=is_forced)
     wish = _wish(post, options)
     source = tape_of("".join(f"{block}\n" for block in blocks), "<block>") if blocks else open_tape(program or "-")
@@ -254,6 +253,7 @@ def _rewrite(
                 settings=settings_of(tape, options["assignments"]),
                 start=gcode.parse(start, name, first_line=0) if start is not None else None,
                 facts=[gcode.read_directive(text, -number) for number, text in enumerate(options.get("facts", ()), 1)],
+                around=surroundings_of(tape.name, options.get("variables"), options.get("folders", ())),
                 progress=progress,
             )
     except (SettingError, UnreadableProgramError) as error:

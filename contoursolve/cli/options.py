@@ -5,6 +5,7 @@ import sys
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from importlib import import_module
+from math import isfinite, nan
 from pathlib import Path
 from typing import Any
 
@@ -134,10 +135,44 @@ rules_option = click.option(
 )
 
 
+def _read_values(_context: click.Context, _option: click.Parameter, texts: tuple[str, ...]) -> dict[str, float]:
+    """The values of `--let`, by the names of the variables."""
+    values = {}
+    for text in texts:
+        name, _, number = text.partition("=")
+        try:
+            values[name.strip().upper()] = float(number)
+        except ValueError:
+            values[name.strip().upper()] = nan
+        if not isfinite(values[name.strip().upper()]) or not name.strip():
+            raise click.BadParameter(f'{text}: write NAME=NUMBER, such as "#100=95."')
+    return values
+
+
+let_option = click.option(
+    "--let",
+    "variables",
+    multiple=True,
+    metavar="NAME=NUMBER",
+    callback=_read_values,
+    help='The value of a variable, such as "#100=95.", whatever the program says of it; may be repeated.',
+)
+
+path_option = click.option(
+    "--path",
+    "folders",
+    multiple=True,
+    metavar="FOLDER",
+    help="Where subprograms are that are neither in the program nor beside it; may be repeated.",
+)
+
+
 def apart_options(command: Callable[..., None]) -> Callable[..., None]:
     """The options for what is stated apart from a program file."""
     for option in reversed(
         (
+            let_option,
+            path_option,
             click.option(
                 "--block",
                 "blocks",
@@ -148,8 +183,8 @@ def apart_options(command: Callable[..., None]) -> Callable[..., None]:
             click.option(
                 "--start",
                 metavar="WORDS",
-                help='Start point for --block, such as "X40. Z0.", in words as the control reads them, in --units '
-                'unless it says "G20 X2. Z0.".',
+                help='Where the tool is at first, such as "X40. Z0.", in words as the control reads them, in --units '
+                'unless it says "G20 X2. Z0.". Of a program, it also holds for a subprogram that nothing calls.',
             ),
             click.option(
                 "--fact",
@@ -189,6 +224,8 @@ _SHARED = {
     "blocks": "--block",
     "start": "--start",
     "facts": "--fact",
+    "variables": "--let",
+    "folders": "--path",
     "control": "--control",
     "units": "--units",
     "rules": "--rules",
@@ -204,7 +241,8 @@ def explaining(program: str | None = None, **instead: object) -> str:
     for name, option in _SHARED.items():
         if name in instead or context.get_parameter_source(name) is ParameterSource.COMMANDLINE:
             values = instead.get(name, context.params[name])
-            for value in values if isinstance(values, tuple) else (values,):
+            values = [f"{each}={number:g}" for each, number in values.items()] if isinstance(values, dict) else values
+            for value in values if isinstance(values, tuple | list) else (values,):
                 told = context.meta.get(value.name, value.name) if isinstance(value, Dialect) else str(value)
                 words += [option, _quoted(told)]
     return " ".join([*words, *([_quoted(program)] if program and not program.startswith("<") else [])])
@@ -220,12 +258,10 @@ def print_findings(result: Result, program: str | None = None, *, err: bool = Fa
     print_lines(lines_of_findings(result, short_findings(result), style_of_output(), explaining=command), err=err)
 
 
-def load(paths: Sequence[str], blocks: tuple[str, ...], start: str | None) -> list[Callable[[], Program]]:
+def load(paths: Sequence[str], blocks: tuple[str, ...]) -> list[Callable[[], Program]]:
     """How to get each program that is asked for; a file is read when its turn comes."""
     if blocks and paths:
         raise click.UsageError("give either a PROGRAM or --block, not both")
-    if start is not None and not blocks:
-        raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
     if blocks:
         return [lambda: gcode.parse("\n".join(blocks), "<block>")]
     if not paths:

@@ -126,7 +126,7 @@ def plot(
     contoursolve plot shaft.nc --line 71 -o journal.png
     contoursolve plot --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.dxf
     """
-    loader = load([program] if program else [], blocks, start)[0]
+    loader = load([program] if program else [], blocks)[0]
     target = output if output is not None else named_after(program, SVG)
     kind = target.suffix.lower()
     if kind not in (SVG, PNG, _DXF):
@@ -240,7 +240,7 @@ def report(
     contoursolve report shaft.nc
     contoursolve report --block "G111 X100. A180. K-30. B120. P5." --start "X40. Z0." -o block.html --force
     """
-    loader = load([program] if program else [], blocks, start)[0]
+    loader = load([program] if program else [], blocks)[0]
     target = output if output is not None else named_after(program, ".html")
     if target.suffix.lower() not in (".html", ".htm"):
         raise CouldNotRunError(f"{target}: pages end in .html")

@@ -60,7 +60,7 @@ def solve(
     contoursolve solve --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
     contoursolve solve --start "X40. Z0." --fact "length of line 1 = 30" --block "G111 X100. A180. B120. K?"
     """
-    run, tally = follow(load([program] if program else [], blocks, start)[0](), start, assignments, options), Totals()
+    run, tally = follow(load([program] if program else [], blocks)[0](), start, assignments, options), Totals()
     if format_ == "json":
         print_pieces(stream_json(run, tally))
     else:
@@ -119,9 +119,7 @@ def check(
     is_shown = len(programs) > 1 and sys.stderr.isatty() and not (format_ == "text" and sys.stdout.isatty())
     tally, document = Totals(), Findings(context.with_resource(Shelf()))
     results, done, failed = list[Result](), 0, False
-    with click.progressbar(
-        load(programs, blocks, start), label="checking", file=sys.stderr, hidden=not is_shown
-    ) as loaded:
+    with click.progressbar(load(programs, blocks), label="checking", file=sys.stderr, hidden=not is_shown) as loaded:
         for loader in loaded:
             try:
                 run = follow(loader(), start, assignments, options)

@@ -13,6 +13,11 @@ from contoursolve.solving import NoteKind, RefusalKind
 
 _GOOD = "G00 X40. Z0.\nG111 A180. K-30. B120. X100."
 _START = "G00 X40. Z0.\n"
+_PROFILE = (
+    "G00 X140. Z2.\nG71 P10 Q20 U.4 W.1 F.2\nN10 G00 X40.\nG01 Z0.\n"
+    "G111 A180. K-30. B120. X100.\nN20 G01 {}\nG70 P10 Q20"
+)
+_CALLING = "G00 X40. Z0.\nM98 P100\n{}\nM98 P100\nM30\nO0100\nG111 A180. K-30. B120. X100.\nM99"
 
 
 def _own(place: str) -> Source:
@@ -260,6 +265,46 @@ READING_RULES = (
         severity=Severity.INFO,
         accepted=(_GOOD,),
         rejected=(_START + "G111 A180. B120. X100.\nG111 A180. K-10. B120. X120.",),
+    ),
+    Rule(
+        code="calls-differ",
+        message="what is called here differs from call to call: {results}",
+        help="check each call; expand --inline writes each of them out",
+        source=_READING,
+        about=ReadIssue.CALLS_DIFFER,
+        severity=Severity.INFO,
+        accepted=(_CALLING.format("G00 X40. Z0."),),
+        rejected=(_CALLING.format("G00 X42. Z0."),),
+    ),
+    Rule(
+        code="subprogram-refused",
+        message="the contour in line {line} of {file}, which is called here, is refused: {finding}",
+        help="check {file} by itself, with --start for where the tool is then",
+        source=_READING,
+        about=ReadIssue.SUBPROGRAM_REFUSED,
+        accepted=(_GOOD,),
+        rejected=(),
+    ),
+    Rule(
+        code="not-followed",
+        message="{reason}",
+        help="contours behind this block are examined from an unknown point",
+        source=_READING,
+        about=ReadIssue.NOT_FOLLOWED,
+        severity=Severity.WARNING,
+        accepted=(_CALLING.format("G00 X40. Z0."),),
+        rejected=("G00 X40. Z0.\nGOTO 20\nG111 A180. K-30. B120. X100.",),
+    ),
+    Rule(
+        code="profile-turns-back",
+        message="the profile of {cycle} turns back along {axis} on its way to {place} (program line {line}); {cycle} "
+        "cuts profiles that go one way along {axis}",
+        help="part the profile, cut it with G73, or give both axes in its first block if the control then admits it",
+        source=_own("roughing cycles of lathes; controls stop with a number of their own"),
+        about=ReadIssue.PROFILE_TURNS_BACK,
+        severity=Severity.WARNING,
+        accepted=(_PROFILE.format("X120."),),
+        rejected=(_PROFILE.format("X90."),),
     ),
     Rule(
         code="start-skippable",

@@ -1,6 +1,7 @@
 """Controls that are read as plain G-code, without contour forms of their own, to compare programs with theirs."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from decimal import Decimal
 from enum import Enum
 
@@ -71,7 +72,13 @@ def code_rows(
     codes = [Code(number, effect, meaning, source) for effect, row in rows.items() for number, meaning in row.items()]
     codes += [Code(number, Effect.UNITS, _UNITS[unit], source, unit=unit) for number, unit in units.items()]
     codes += [Code(number, Effect.PLANE, "plane", source, plane=plane) for number, plane in planes.items()]
-    return {code.number: code for code in codes}
+    return {code.number: coming_back(code) for code in codes}
+
+
+def coming_back(code: Code) -> Code:
+    """The row of a code; G70 to G76 of lathes end where the tool was before them."""
+    is_cycle = code.effect is Effect.SINGLE and ("cycle" in code.meaning or "roughing" in code.meaning)
+    return replace(code, comes_back=True) if is_cycle else code
 
 
 MOTIONS = {0: "positioning", 1: "line", 2: "arc clockwise", 3: "arc counter-clockwise"}

@@ -130,6 +130,8 @@ class Answer(Shown, Struct, frozen=True):
     """Every solution, where more than the control's own was looked for; see `list_alternatives`."""
     filled: Filled | None = None
     """The block with them filled in, where it then stands alone."""
+    calls: tuple[int, ...] = ()
+    """The lines of the blocks that call it, if it belongs to a subprogram."""
 
     @property
     def assumptions(self) -> tuple[Assumption, ...]:

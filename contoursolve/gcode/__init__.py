@@ -36,6 +36,7 @@ from contoursolve.gcode.text import (
 from contoursolve.gcode.word import (
     FACT,
     Block,
+    Caller,
     Directive,
     Fault,
     FaultKind,
@@ -55,6 +56,7 @@ __all__ = [
     "LONGEST_BLOCK",
     "STANDARD_INPUT",
     "Block",
+    "Caller",
     "Directive",
     "Fault",
     "FaultKind",

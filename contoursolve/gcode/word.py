@@ -131,8 +131,16 @@ class Macro(Enum):
     """`IF`, `WHILE`, `GOTO`, ...: which block runs next is not known."""
 
 
+class Caller(Struct, frozen=True):
+    """The block from which a line was called: its line, and what it says. `cycle` is the cycle whose profile it is."""
+
+    line: int
+    text: str
+    cycle: str = ""
+
+
 class Block(Shown, Struct, frozen=True):
-    """One line of a program; `text` is the line without its end."""
+    """One line of a program; `text` is the line without its end, with numbers in the place of known variables."""
 
     line: int
     text: str
@@ -145,6 +153,10 @@ class Block(Shown, Struct, frozen=True):
     is_skippable: bool = False
     """The block begins with `/`: a switch at the machine decides whether it runs."""
     syntax: Syntax = ISO
+    callers: tuple[Caller, ...] = ()
+    """From where it was called, the main program first."""
+    file: str = ""
+    """The file of the subprogram that it belongs to, if that is another file."""
 
     def find(self, address: str) -> Word | None:
         """The first word with this address, or None."""

@@ -1,9 +1,10 @@
 """A program with its contours written as plain G-code, or in plain words of its control."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from contoursolve.diagnosis.examine import Depth, Policy
+from contoursolve.execution.subprograms import Surroundings
 from contoursolve.gcode import Directive, Program
 from contoursolve.geometry import Length
 from contoursolve.postprocess.expander import OPENING, Expander
@@ -12,14 +13,16 @@ from contoursolve.postprocess.numbering import Numbers
 from contoursolve.postprocess.post_processors import SAME, machine_of
 from contoursolve.postprocess.restating import UNITS, InGCodes, InOwnWords
 from contoursolve.program.batch import Batch
+from contoursolve.program.calls import machine_for
 from contoursolve.program.lines import Lines
 from contoursolve.program.pipeline import attach, walk
+from contoursolve.program.stream import Line, each_block
 from contoursolve.reading.dialect import Dialect
 
 __all__ = ["OPENING", "expand_lines", "lines_of_facts", "opening_of"]
 
 
-def expand_lines(
+def expand_lines(  # noqa: PLR0913 - takes what `rewrite` takes
     lines: Lines,
     dialect: Dialect,
     options: Options,
@@ -29,11 +32,13 @@ def expand_lines(
     policy: Policy = Policy.ENFORCE,
     start: Program | None = None,
     numbers: Numbers | None = None,
+    around: Surroundings | None = None,
 ) -> Iterator[str | object]:
     """The lines of a program (each with its end) with every contour replaced, and `OPENING` once.
 
-    `numbers` are those of the whole program, where every line is to have one. Unless the control of the lines is
-    certain, raises UnknownControlError if some block is for another one.
+    `numbers` are those of the whole program, where every line is to have one. `around` is for a program that calls or
+    computes, which is read as a whole. Unless the control of the lines is certain, raises UnknownControlError if some
+    block is for another one.
     """
     writing, kind = dialect.writing, Expander
     if writing is not None and options.post is SAME:
@@ -41,7 +46,12 @@ def expand_lines(
     elif writing is not None:
         kind, dialect = InGCodes, replace(dialect, find=writing.find)
     together = Batch(dialect, policy, is_proven=False)
-    steps = walk(lines.blocks(), dialect, unit, policy, Depth.PATH, start, together)
+    blocks: Iterable[Line] = lines.blocks()
+    machine = None
+    if around is not None:
+        whole = tuple(each_block([*blocks], 0))
+        blocks, machine = whole, machine_for(Program("", "", whole, dialect.modes.syntax), dialect, around)
+    steps = walk(blocks, dialect, unit, policy, Depth.PATH, start, together, machine)
     yield from kind(dialect, options, summary, lines, numbers).expand(steps)
 
 

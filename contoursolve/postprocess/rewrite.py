@@ -8,6 +8,7 @@ from typing import IO
 from msgspec import Struct
 
 from contoursolve.diagnosis.examine import Policy
+from contoursolve.execution.subprograms import ALONE, Surroundings
 from contoursolve.gcode import Block, Directive, Program, parse, parse_block
 from contoursolve.gcode.files import Tape
 from contoursolve.geometry import Length
@@ -15,6 +16,7 @@ from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_f
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
 from contoursolve.postprocess.numbering import numbers_of
 from contoursolve.postprocess.post_processors import Numbering
+from contoursolve.program.calls import runs
 from contoursolve.program.lines import Lines
 from contoursolve.program.project import configure
 from contoursolve.program.recognise import Recogniser, named_control
@@ -57,6 +59,7 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
     settings: Mapping[str, str] | None = None,
     start: Program | None = None,
     facts: Sequence[Directive] = (),
+    around: Surroundings = ALONE,
     progress: Callable[[float], None] = lambda _: None,
 ) -> Rewritten:
     """Expand a program into `body`; `progress` is told which share of it has been read.
@@ -85,6 +88,7 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
             policy=policy,
             start=start,
             numbers=numbers_of(tape.lines(), dialect) if options.numbering is Numbering.ALL else None,
+            around=around if runs(tape.lines(), dialect) else None,
         )
     held: list[str] = []
     size, place, told = 0, len(tape.mark), 0.0

@@ -24,9 +24,11 @@ from contoursolve.diagnosis.examine import Answer, Depth, Policy, rank
 from contoursolve.diagnostics.choices import choice_of
 from contoursolve.diagnostics.finding import Diagnostic, Fix, Severity
 from contoursolve.diagnostics.source import Span
+from contoursolve.execution.subprograms import surroundings_of
 from contoursolve.gcode import ISO, Block, Program, Syntax, parse, parse_block, split_lines
 from contoursolve.gcode.lexer import Blocks
 from contoursolve.geometry import Length, Plane
+from contoursolve.program.calls import runs
 from contoursolve.program.pipeline import Checkpoint, Examiner, Result, run
 from contoursolve.program.project import CONTROL, FIRST_LINES, SettingError, stated_settings
 from contoursolve.program.recognise import PLANE, Recogniser, UnknownControlError, choose, shown_by
@@ -246,7 +248,8 @@ class OpenProgram:
         is_shown = self._shows_something_else(gone, new)
         if first < FIRST_LINES or self.trouble or is_shown:
             self._choose()
-        if old is None or self.dialect is None or not _alike(old, self.dialect):
+        is_run = self.dialect is not None and (self._examiner is None or runs(new, self.dialect))
+        if old is None or self.dialect is None or is_run or not _alike(old, self.dialect):
             self._begin()
         else:
             self.dialect = old
@@ -292,6 +295,8 @@ class OpenProgram:
         self._diagnostics, self._walk, self._parts, self._moves, self._examiner = None, None, [], [], None
         if self.dialect is not None:
             self._lines.spell(self.dialect.modes.syntax)
+        # A program that calls or computes is examined as a whole.
+        if self.dialect is not None and not runs(self._lines.texts, self.dialect):
             self._examiner = Examiner(self.dialect, self._unit, self._policy, Depth.FULL, goes_on=True)
             known = self._examiner.begin(None)
             self._parts = [_Part(known, len(self._lines), is_stale=True), _Part(known, 0)]
@@ -393,9 +398,8 @@ class OpenProgram:
     def found(self) -> Iterator[tuple[Diagnostic, tuple[int, ...]]]:
         """Each finding, with the lines that its fixes replace."""
         if self._examiner is None:
-            if self._unread is None:
-                self._unread = run(parse(self.text, self.name), None, self._unit, self._policy)
-            yield from ((finding, self._unread.lines_of(finding)) for finding in self._unread.diagnostics)
+            whole = self._whole()
+            yield from ((finding, whole.lines_of(finding)) for finding in whole.diagnostics)
             return
         is_told, start = any(part.answer is not None for part in self._parts), 0
         for part in self._parts:
@@ -418,9 +422,19 @@ class OpenProgram:
             finding = self._examiner.nothing_to_solve(self._lines)
             yield finding, (finding.span.line,)
 
+    def _whole(self) -> Result:
+        """All that is known of a program that is not examined in parts."""
+        if self._unread is None:
+            program, around = parse(self.text, self.name), surroundings_of(self.name)
+            self._unread = run(program, self.dialect, self._unit, self._policy, around=around)
+        return self._unread
+
     @property
     def contours(self) -> Iterator[OpenContour]:
         """The contours, in the order of the program."""
+        if self._examiner is None and self.dialect is not None:
+            yield from (OpenContour(each.lines[0], each.lines[-1], each) for each in self._whole().answers)
+            return
         start = 0
         for part in self._parts:
             if part.answer is not None:
@@ -429,10 +443,12 @@ class OpenProgram:
 
     def contour_at(self, line: int) -> Answer | None:
         """The contour on a line, with its words where they are now; None where there is none."""
+        if self._examiner is None:
+            return next((each.answer for each in self.contours if each.first <= line <= each.last), None)
         start = 0
         for part in self._parts:
             if start < line <= start + part.count:
-                if self._examiner is None or part.answer is None or part.is_stale:
+                if part.answer is None or part.is_stale:
                     return None
                 if part.answer_age != len(self._moves):
                     self._bring_up(part)

@@ -25,6 +25,8 @@ from contoursolve.diagnosis.wording import either
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
+from contoursolve.execution.machine import Event, Machine, Turn
+from contoursolve.execution.subprograms import ALONE, Surroundings
 from contoursolve.gcode import (
     ISO,
     Block,
@@ -39,13 +41,15 @@ from contoursolve.gcode import (
     spelled,
 )
 from contoursolve.geometry import Length, Plane
+from contoursolve.program.calls import in_text_order, machine_for
+from contoursolve.program.profiles import CycleProfile
 from contoursolve.program.recognise import what_shows
 from contoursolve.program.solve_queue import Pending, Previous, Queue, Step, Together
 from contoursolve.program.stream import Line, View, go_on, pass_plainly
 from contoursolve.program.tape_markers import Marks
 from contoursolve.reading import ParsedContour, ReadIssue, State, advance, advance_plainly, is_plain, next_place
 from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import contours_of, state_facts
+from contoursolve.reading.follow import contours_of, reach_of, state_facts
 from contoursolve.reading.lexicon import TURNED
 
 if TYPE_CHECKING:
@@ -66,6 +70,8 @@ class Result(Shown, Struct, frozen=True):
     settings: Mapping[str, str] = field(default_factory=dict)
     """The settings of the control that are not the default ones, by name."""
     policy: Policy = Policy.ENFORCE
+    profiles: tuple[CycleProfile, ...] = ()
+    """The profiles of cycles."""
 
     @property
     def has_errors(self) -> bool:
@@ -121,7 +127,7 @@ def _in_words(fact: Directive, plane: Plane, unit: Length) -> Directive:
     return replace(fact, text=text, span=Span(fact.span.line, 1, len(text) + 1))
 
 
-def run(
+def run(  # noqa: PLR0913 - all that a program is read by
     program: Program,
     dialect: Dialect | None,
     unit: Length,
@@ -130,21 +136,22 @@ def run(
     start: Program | None = None,
     facts: Sequence[Directive] = (),
     together: Together | None = None,
+    around: Surroundings = ALONE,
 ) -> Result:
     """Examine every block of a program and solve every contour, one by one or `together`.
 
     `start` is a block that states the start point apart from the program, `facts` are further facts about its
     only contour; raises FactPlaceError if it has several. Without a dialect only the characters of the program are
-    examined.
+    examined. `around` tells the values of variables and where subprograms are.
     """
-    return Run(program, dialect, unit, policy, depth, start, facts, together).collect()
+    return Run(program, dialect, unit, policy, depth, start, facts, together, around).collect()
 
 
 class Run:
     """The same as a stream: contours, and findings about other blocks, as they are found. `frame` is the result without
     them. Raises FactPlaceError."""
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - all that a program is read by
         self,
         program: Program,
         dialect: Dialect | None,
@@ -154,6 +161,7 @@ class Run:
         start: Program | None = None,
         facts: Sequence[Directive] = (),
         together: Together | None = None,
+        around: Surroundings = ALONE,
     ) -> None:
         if dialect is not None:
             syntax = dialect.modes.syntax
@@ -164,19 +172,26 @@ class Run:
         self.frame = Result(program, control, (), (), start, tuple(facts), settings, policy)
         goes_on = depth is Depth.FULL
         self._examiner = Examiner(dialect, unit, policy, depth, together, goes_on=goes_on)
+        self._machine = machine_for(program, dialect, around) if dialect is not None else None
 
     def __iter__(self) -> Iterator[Answer | Diagnostic]:
         program, examiner, is_told = self.frame.program, self._examiner, False
-        # Blocks that are not kept are read as they are needed.
-        is_whole = isinstance(program.blocks, tuple) or self.frame.control is None
-        for step in examiner.steps(program.blocks if is_whole else iter(program.blocks), self.frame.start):
+        for step in self._steps():
             is_told = is_told or any(each.severity is Severity.ERROR for each in step.findings)
             yield from step.findings
             if isinstance(step.answer, Answer):
                 is_told = True
-                yield step.answer
+                yield from (step.answer, *step.others)
         if not is_told:
             yield examiner.nothing_to_solve(program.blocks)
+
+    def _steps(self) -> Iterator[Step]:
+        blocks, start = self.frame.program.blocks, self.frame.start
+        if self._machine is not None:
+            return self._examiner.steps_as_run(blocks, self._machine, start)
+        # Blocks that are not kept are read as they are needed.
+        is_whole = isinstance(blocks, tuple) or self.frame.control is None
+        return self._examiner.steps(blocks if is_whole else iter(blocks), start)
 
     def collect(self) -> Result:
         """All of it."""
@@ -184,7 +199,9 @@ class Run:
         answers = [each for each in items if isinstance(each, Answer)]
         everything = [each for each in items if isinstance(each, Diagnostic)]
         everything += [each for answer in answers for each in answer.diagnostics]
-        return replace(self.frame, answers=tuple(answers), diagnostics=tuple(sorted(everything, key=rank)))
+        profiles = tuple(self._examiner.profiles)
+        found = tuple(sorted(everything, key=rank))
+        return replace(self.frame, answers=tuple(answers), diagnostics=found, profiles=profiles)
 
 
 def walk(
@@ -195,11 +212,16 @@ def walk(
     depth: Depth,
     start: Program | None = None,
     together: Together | None = None,
+    machine: Machine | None = None,
 ) -> Iterator[Step]:
     """Every block and every contour of a program in order; blocks that are not a sequence are read as they are needed,
     so that a program of any length takes no more memory than some thousand lines, or its longest contour. Plain lines
-    are read into words only where that matters. Contours are solved one by one, or `together`."""
-    return Examiner(dialect, unit, policy, depth, together).steps(blocks, start)
+    are read into words only where that matters. Contours are solved one by one, or `together`; where a machine runs the
+    program, `blocks` are those that it has."""
+    examiner = Examiner(dialect, unit, policy, depth, together)
+    if machine is not None:
+        return examiner.steps_as_run(cast("Sequence[Block]", blocks), machine, start)
+    return examiner.steps(blocks, start)
 
 
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
@@ -263,6 +285,12 @@ class Examiner:
         """In which a start point that is stated apart counts, until a contour has another unit."""
         self.start_counts: bool | None = None
         """Whether X of a start point that is stated apart counted diameters, where codes switch that."""
+        self.start: Program | None = None
+        """What states the start point apart."""
+        self.profiles: list[CycleProfile] = []
+        """The profiles of cycles that ran, known at the end."""
+        self.entered: list[State] = []
+        """The states to which the program comes back, of a branch or the profile of a cycle."""
         self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine, goes_on=goes_on)
 
     def steps(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step]:
@@ -279,6 +307,14 @@ class Examiner:
                 window, size = [], min(2 * size, most)
         self.queue.settle()
         yield from (other.step if isinstance(other, Pending) else other for other in window)
+
+    def steps_as_run(self, blocks: Sequence[Block], machine: Machine, start: Program | None) -> Iterator[Step]:
+        """The same of a program that calls or computes: as it runs, told in the order in which it is written."""
+        self.marks.is_done = True
+        marks = Marks(self.marks.context)
+        told = [finding for block in blocks for finding in marks.look(block)]
+        steps = self.steps(machine.run(), start)
+        yield from in_text_order(blocks, machine, steps, self.rules, [*told, *marks.finish()], self.profiles)
 
     def checkpoint(self, state: State) -> Checkpoint:
         """What is known before a block, in a state."""
@@ -303,9 +339,35 @@ class Examiner:
         """What is known before a program, behind the block that states its start point apart."""
         return self.checkpoint(self._begin(cast("Dialect", self.dialect), start))
 
+    def _turn(self, dialect: Dialect, turn: Turn, state: State) -> State:
+        """The state behind a turn of the program."""
+        axes, span = dialect.modes.axes, Span(turn.line, 1, 2)
+        self.previous = None
+        match turn.event:
+            case Event.FRESH:
+                self.entered = []
+                if self.start is not None:
+                    return self._begin(dialect, self.start)
+                told = f"{turn.reason}; say with --start where the tool is when it begins"
+                return dialect.initial_state(self.unit).lose(axes, told, span)
+            case Event.ENTER:
+                self.entered.append(state)
+            case Event.LEAVE:
+                return self.entered.pop() if self.entered else state
+            case Event.LOST:
+                return state.lose(axes, turn.reason, span)
+            case Event.STOPPED:
+                context = Context(self.rules, self.unit, place=span)
+                row = context.row(ReadIssue.NOT_FOLLOWED)
+                self.diagnostics.append(report(context, row, Basis.RULE, [], reason=turn.reason))
+                return state.lose(axes, turn.reason, span)
+            case _:
+                pass
+        return state
+
     def _begin(self, dialect: Dialect, start: Program | None) -> State:
         """The modal state before a program, behind the block that states its start point apart."""
-        state = dialect.initial_state(self.unit)
+        state, self.start = dialect.initial_state(self.unit), start
         for block in start.blocks if start else ():
             self._check_block(block)
             state = advance(state, block, dialect.modes)
@@ -350,7 +412,11 @@ class Examiner:
             if index >= len(held):
                 yield from self._end(state)
                 return
-            if isinstance(held[index], Passage):
+            line = held[index]
+            if isinstance(line, Turn):
+                state, index = self._turn(dialect, line, state), index + 1
+                continue
+            if isinstance(line, Passage):
                 passed = pass_plainly(held, index, moves=is_plain(state), joins=dialect.has_runs)
                 if passed:
                     self.diagnostics += self.marks.look(passed)
@@ -378,7 +444,7 @@ class Examiner:
         """What begins at the first of some blocks, read as a contour is, and how many lines it has."""
         dialect = cast("Dialect", self.dialect)
         found = dialect.find(view, 0, state, dialect.modes)
-        return found, found.blocks[-1].line - view[0].line + 1 if isinstance(found, ParsedContour) else 1
+        return found, reach_of(found, view) if isinstance(found, ParsedContour) else 1
 
     def _take(
         self, view: View, found: ParsedContour | None, after: int, state: State, start: Program | None

@@ -33,6 +33,8 @@ class Step(Struct, frozen=True):
     findings: tuple[Diagnostic, ...] = ()
     passage: Passage | None = None
     """In place of blocks: what nobody needed to read into words."""
+    others: tuple[Answer, ...] = ()
+    """The answers to the contour where other calls lead to other ones."""
 
 
 class Together(Protocol):

@@ -35,12 +35,22 @@ def contours_of(
     while index < len(blocks):
         found = find(blocks, index, state, modes)
         if found is not None and found.form.is_contour:
-            index += found.blocks[-1].line - blocks[index].line + 1
+            index += reach_of(found, blocks, index)
             yield found, index
             state = leave(found, end_of(found), modes, "the contour before has no path")
         else:
             state = advance(state, blocks[index], modes)
             index += 1
+
+
+def reach_of(contour: ParsedContour, blocks: Sequence[Block], index: int = 0) -> int:
+    """The number of blocks from an index on up to the last one of a contour that begins there."""
+    last = contour.blocks[-1].line
+    count = last - blocks[index].line + 1
+    if blocks[index + count - 1 : index + count] and blocks[index + count - 1].line == last:
+        return count
+    # Jumps have left lines out.
+    return next(count for count in range(1, count + 1) if blocks[index + count - 1].line == last)
 
 
 def state_facts(program: Program, contour: Sequence[Block], facts: Sequence[Directive]) -> Program:

@@ -64,6 +64,8 @@ class Code:
     unit: Length | None = None
     diameter: Diameter | None = None
     name: str = ""
+    comes_back: bool = False
+    """Whether it is a cycle that ends where the tool was before it."""
 
     @property
     def text(self) -> str:

@@ -10,6 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Span
+from contoursolve.execution.language import MacroLanguage
 from contoursolve.gcode import (
     ISO,
     Block,
@@ -179,6 +180,8 @@ class Modes:
     """Addresses with several letters of words that change no path where no contour is."""
     separate: frozenset[int] = field(default=frozenset(), kw_only=True)
     """G codes of blocks that belong to a contour and move nothing."""
+    language: MacroLanguage | None = field(default=None, kw_only=True)
+    """Its variables, jumps and calls."""
     follow: Callable[[State, Block, "Modes"], State] | None = field(default=None, kw_only=True)
     """From the state before a block that is no contour to the one behind it, where the control is not programmed in G
     codes."""
@@ -365,6 +368,8 @@ def _effect(state: State, codes: Sequence[Code | Word], modes: Modes) -> tuple[E
     for code in codes:
         if isinstance(code, Word):
             continue
+        if code.comes_back:
+            return Effect.NO_MOTION, ""
         if code.effect is Effect.SINGLE:
             return Effect.SINGLE, f"contoursolve does not know where {code.text} ({code.meaning}) ends"
         if code.effect in (Effect.NO_MOTION, Effect.FRAME, Effect.CORNER):

@@ -2,6 +2,7 @@
 
 from decimal import Decimal
 
+from contoursolve.controls.plain import coming_back
 from contoursolve.diagnostics.finding import Alarm
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.geometry import Length, Plane, Unit
@@ -62,7 +63,7 @@ LATHE = Plane("G18", ("Z", "X"), ("K", "I"), (False, True))
 
 
 def _codes(effect: Effect, meanings: dict[int, str], evidence: Source = LATHE_CODES) -> tuple[Code, ...]:
-    return tuple(Code(number, effect, meaning, evidence) for number, meaning in meanings.items())
+    return tuple(coming_back(Code(number, effect, meaning, evidence)) for number, meaning in meanings.items())
 
 
 CODES = (

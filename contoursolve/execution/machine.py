@@ -1,0 +1,662 @@
+"""Runs a program as a control does: assignments, jumps, loops, calls and profiles, from block to block."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from enum import Enum
+
+from msgspec import Struct, field
+from msgspec.structs import replace
+
+from contoursolve.execution.evaluate import evaluate, is_true, name_of_indexed, written
+from contoursolve.execution.language import (
+    Assign,
+    Call,
+    CallKind,
+    CodeLine,
+    Else,
+    ElseIf,
+    EndIf,
+    EndLoop,
+    For,
+    Forget,
+    If,
+    Indexed,
+    Jump,
+    JumpWay,
+    Loop,
+    MacroLanguage,
+    MacroStatement,
+    ProgramEnd,
+    Return,
+    Strange,
+    Term,
+    Unknown,
+    Variable,
+    When,
+)
+from contoursolve.execution.subprograms import Library, Source
+from contoursolve.gcode import Block, Caller, Program, parse_block
+
+MOST_STEPS = 100_000
+"""Blocks after which a program is not followed any further."""
+
+DEEPEST = 50
+"""Calls in one another; controls admit ten at most."""
+
+MOST_LOGGED = 10_000
+"""Assignments that are kept in mind while it is not known whether a jump took place."""
+
+
+class Event(Enum):
+    """What happens to what is known between two blocks."""
+
+    FRESH = "fresh"
+    """What follows is called by nothing: where the tool stands is not known."""
+    LOST = "lost"
+    """Where the tool stands is not known any more."""
+    ENTER = "enter"
+    """What follows begins here, and so does what comes behind it: the profile of a cycle, or one part of a branch."""
+    LEAVE = "leave"
+    """What ENTER began has ended: all is as it was there."""
+    BARRIER = "barrier"
+    """Nothing happens, but no contour goes on beyond this place."""
+    STOPPED = "stopped"
+    """The program is not followed any further."""
+
+
+class Turn(Struct, frozen=True):
+    """What happens between two blocks, on which line, and why."""
+
+    event: Event
+    line: int
+    reason: str = ""
+
+
+class Written(Struct, frozen=True):
+    """What stands in a line for a variable: the columns of the typed value, from 0, and the number; without one, the
+    reason why there is none."""
+
+    begin: int
+    end: int
+    typed: str
+    number: str
+    reason: str = ""
+
+
+Known = float | str | Unknown
+"""What a variable holds."""
+
+
+class _Loop(Struct):
+    """A loop that is open: the index of its first line, and the last value and the step of what it counts."""
+
+    name: str
+    first: int
+    last: float | None = None
+    step: float = 1.0
+    is_certain: bool = True
+
+
+class _Branch(Struct):
+    """An If that is open: whether one of its parts has run; where that is not known, why, and the values before it."""
+
+    has_run: bool
+    reason: str = ""
+    before: Mapping[str, Known] = {}
+
+
+class _Frame(Struct):
+    """A program, a subprogram or a section that runs: the indices of its next, first and last line."""
+
+    source: Source
+    at: int
+    first: int
+    last: int
+    call: Call | None = None
+    callers: tuple[Caller, ...] = ()
+    left: int = 1
+    """How often it runs, this time included."""
+    own: dict[str, Known] | None = None
+    """Its local variables, if it has some of its own."""
+    loops: list[_Loop] = field(default_factory=list)
+    branches: list[_Branch] = field(default_factory=list)
+
+
+class _StopError(Exception):
+    """The program cannot be followed any further; the message says why."""
+
+
+class Machine:
+    """One run of a program. `given` are values of variables that are stated apart from it."""
+
+    def __init__(
+        self, program: Program, language: MacroLanguage, library: Library, given: Mapping[str, float] | None = None
+    ) -> None:
+        self.language, self.library = language, library
+        self.main = Source(program, language, is_other=False)
+        self.given = dict(given or {})
+        self.values: dict[str, Known] = dict(self.given)
+        self.written: dict[int, tuple[Written, ...]] = {}
+        """What stands for the variables of each line of the main file that has some, as it ran first."""
+        self.called: set[str] = set()
+        """The files that were called."""
+        self._frames: list[_Frame] = []
+        self._visited: set[int] = set()
+        self._steps = 0
+        self._assigned: list[str] = []
+        self._joins: dict[tuple[str, int], tuple[str, int]] = {}
+        """By file and index of a line that may be jumped to: why that is not known, and how much was assigned then."""
+        self._went_back: set[tuple[str, int]] = set()
+        self._last: tuple[str, int] = ("", 0)
+        """The file and the line of the last block."""
+
+    def run(self) -> Iterator[Block | Turn]:
+        """Every block in the order in which it runs, with numbers for its variables; behind the end of the program,
+        what nothing calls."""
+        yield from self._run_from(0)
+        for index, block in enumerate(self.main.blocks):
+            if index not in self._visited and self._says_something(index):
+                if self._steps >= MOST_STEPS:
+                    return
+                name = self.main.code(index).begins
+                told = f"program {name}" if name is not None else f"line {block.line}"
+                yield Turn(Event.FRESH, block.line, f"nothing in this file calls {told}")
+                self.values = dict(self.given)
+                yield from self._run_from(index)
+
+    def _run_from(self, index: int) -> Iterator[Block | Turn]:
+        """What runs from a line of the main file on, up to the end of the program or what has run before."""
+        head = next((at for at in range(index, len(self.main)) if self._says_something(at)), index)
+        self._frames = [_Frame(self.main, index, index, self.main.section_end(head))]
+        while self._frames:
+            frame = self._frames[-1]
+            is_known = not frame.callers and index and frame.source is self.main and frame.at in self._visited
+            if frame.at > frame.last or is_known:
+                yield from self._leave(frame)
+                continue
+            if self._steps >= MOST_STEPS:
+                told = f"the program runs more than {MOST_STEPS:,} blocks; it is not followed any further"
+                yield Turn(Event.STOPPED, frame.source.blocks[frame.at].line, told)
+                return
+            self._steps += 1
+            try:
+                yield from self._step(frame)
+            except _StopError as error:
+                line = self._line_of(frame)
+                self._frames = []
+                yield Turn(Event.STOPPED, line, str(error))
+
+    def _says_something(self, index: int) -> bool:
+        """Whether a line of the main file has more than its number, comments and blanks."""
+        block, code = self.main.blocks[index], self.main.code(index)
+        has_words = any(word.address != "N" for word in block.words)
+        return has_words or bool(code.statements or code.labels) or code.begins is not None or block.macro is not None
+
+    # One line
+
+    def _step(self, frame: _Frame) -> Iterator[Block | Turn]:
+        """Run the next line of a frame."""
+        index = frame.at
+        yield from self._join(frame, index)
+        if frame.source is self.main:
+            self._visited.add(index)
+        block, code = frame.source.blocks[index], frame.source.code(index)
+        frame.at += 1
+        rest = iter(code.statements)
+        moving = list[MacroStatement]()
+        for statement in rest:
+            if isinstance(statement, Assign | Forget):
+                self._assign(statement)
+            else:
+                moving = [statement, *rest]
+        if not code.statements or code.rest.strip() or not moving:
+            ran = self._block(frame, block, code)
+            here = (frame.source.name, block.line)
+            if here[0] != self._last[0] or here[1] <= self._last[1]:
+                yield Turn(Event.BARRIER, block.line)
+            self._last = here
+            yield ran
+        for statement in moving:
+            yield from self._do(frame, index, statement)
+
+    def _block(self, frame: _Frame, block: Block, code: CodeLine) -> Block:
+        """A block with numbers in the place of variables."""
+        if not frame.callers and not frame.source.name and not code.statements and not code.words:
+            return block
+        text, changes = code.rest, list[Written]()
+        for word in reversed(code.words):
+            value, typed = self._value(word.value), block.text[word.begin : word.end]
+            if isinstance(value, float):
+                text = text[: word.begin] + written(value) + text[word.end :]
+                changes.append(Written(word.begin, word.end, typed, written(value)))
+            else:
+                reason = value.reason if isinstance(value, Unknown) else f"{value!r} is no number"
+                changes.append(Written(word.begin, word.end, typed, "", reason))
+        if changes and frame.source is self.main:
+            self.written.setdefault(block.line, tuple(reversed(changes)))
+        ran = block if text == block.text else parse_block(text, block.line, block.syntax)
+        return replace(ran, callers=frame.callers, file=frame.source.name, directives=block.directives)
+
+    def _join(self, frame: _Frame, index: int) -> Iterator[Turn]:
+        """What is not known on a line because it may have been jumped to."""
+        joined = self._joins.pop((frame.source.name, index), None)
+        if joined is not None:
+            reason, count = joined
+            self._lose(self._assigned[count:], reason)
+            yield Turn(Event.LOST, frame.source.blocks[index].line, reason)
+
+    # Values
+
+    def _value(self, term: Term) -> Known:
+        return evaluate(term, self._look_up)
+
+    def _look_up(self, name: str) -> Known:
+        for frame in reversed(self._frames):
+            if frame.own is not None:
+                if name in frame.own:
+                    return frame.own[name]
+                if _is_local(name):
+                    return Unknown(f"{name} is not given by the call")
+                break
+        found = self.values.get(name)
+        return found if found is not None else Unknown(self.language.unknown(name))
+
+    def _assign(self, statement: Assign | Forget) -> None:
+        name = self._name(statement.variable)
+        value = Unknown(statement.reason) if isinstance(statement, Forget) else self._value(statement.value)
+        if isinstance(name, Unknown):
+            # Which one it is, is not known: it may be any.
+            self._lose([*self.values], name.reason)
+            return
+        self._set(name, value)
+
+    def _name(self, variable: Variable | Indexed) -> str | Unknown:
+        if isinstance(variable, Variable):
+            return variable.name
+        indices = [self._value(each) for each in variable.indices]
+        unknown = next((each for each in indices if isinstance(each, Unknown)), None)
+        return unknown or name_of_indexed(variable.prefix, indices, variable.suffix)
+
+    def _set(self, name: str, value: Known) -> None:
+        if name in self.given and not any(frame.own is not None and name in frame.own for frame in self._frames):
+            # What is stated apart from the program holds.
+            return
+        own = next((frame.own for frame in reversed(self._frames) if frame.own is not None), None)
+        target = own if own is not None and _is_local(name) else self.values
+        target[name] = value
+        if len(self._assigned) < MOST_LOGGED:
+            self._assigned.append(name)
+
+    def _lose(self, names: Iterable[str], reason: str) -> None:
+        for name in names:
+            if name not in self.given:
+                self.values[name] = Unknown(reason)
+
+    # Statements that move nothing
+
+    def _do(self, frame: _Frame, index: int, statement: MacroStatement) -> Iterator[Turn]:
+        """Carry out a statement of a line."""
+        yield from _DO[type(statement)](self, frame, index, statement)
+
+    def _do_assign(self, _frame: _Frame, _index: int, statement: Assign | Forget) -> Iterator[Turn]:
+        self._assign(statement)
+        yield from ()
+
+    def _do_end(self, _frame: _Frame, _index: int, _statement: ProgramEnd) -> Iterator[Turn]:
+        self._frames = []
+        yield from ()
+
+    def _do_strange(self, frame: _Frame, index: int, statement: Strange) -> Iterator[Turn]:
+        self._lose([*self.values], statement.reason)
+        yield Turn(Event.LOST, self._line(frame, index), statement.reason)
+
+    def _do_when(self, frame: _Frame, index: int, when: When) -> Iterator[Turn]:
+        truth = self._truth(when.condition)
+        for statement in when.then:
+            if isinstance(truth, Unknown) and isinstance(statement, Assign | Forget):
+                name = self._name(statement.variable)
+                self._set(name, truth) if isinstance(name, str) else self._lose([*self.values], truth.reason)
+            elif isinstance(truth, Unknown) and isinstance(statement, Jump):
+                yield from self._jump(frame, index, replace(statement, condition=when.condition))
+            elif isinstance(truth, Unknown):
+                yield Turn(Event.LOST, self._line(frame, index), truth.reason)
+            elif truth:
+                yield from self._do(frame, index, statement)
+
+    def _truth(self, condition: Term) -> bool | Unknown:
+        value = self._value(condition)
+        return value if isinstance(value, Unknown) else is_true(value)
+
+    def _line(self, frame: _Frame, index: int) -> int:
+        """The line of the main file at which something on a line happens."""
+        return frame.callers[0].line if frame.source.name and frame.callers else frame.source.blocks[index].line
+
+    def _line_of(self, frame: _Frame) -> int:
+        return self._line(frame, min(max(frame.at - 1, 0), len(frame.source) - 1))
+
+    def _jump(self, frame: _Frame, index: int, jump: Jump) -> Iterator[Turn]:
+        truth = self._truth(jump.condition) if jump.condition is not None else True
+        if truth is False:
+            return
+        target = self._target(frame, index, jump)
+        if isinstance(truth, Unknown):
+            if target is None:
+                return
+            if target > index:
+                self._joins.setdefault((frame.source.name, target), (truth.reason, len(self._assigned)))
+                return
+            self._lose(self._assigned_in(frame, target, index), truth.reason)
+            yield Turn(Event.LOST, self._line(frame, index), truth.reason)
+            key = (frame.source.name, index)
+            if key in self._went_back:
+                return
+            self._went_back.add(key)
+        if target is None:
+            where = jump.target if isinstance(jump.target, str) else "a block that is not known"
+            raise _StopError(f"line {self._line(frame, index)} jumps to {where}, which is not there")
+        frame.at = target
+        frame.loops = [each for each in frame.loops if each.first <= target]
+        frame.branches = []
+
+    def _target(self, frame: _Frame, index: int, jump: Jump) -> int | None:
+        last = frame.last if frame.call is None or frame.call.kind is not CallKind.PROFILE else len(frame.source) - 1
+        forward, backward = range(index + 1, last + 1), range(index, -1, -1)
+        order = {
+            JumpWay.ANYWHERE: [*forward, *backward],
+            JumpWay.FORWARD: forward,
+            JumpWay.BACKWARD: backward,
+        }[jump.way]
+        if isinstance(jump.target, str):
+            return frame.source.label(jump.target, order)
+        value = self._value(jump.target)
+        if isinstance(value, float):
+            return _first(frame.source.number(f"{value:.0f}", *ends) for ends in ((index + 1, last), (0, index)))
+        return frame.source.label(value.upper(), order) if isinstance(value, str) else None
+
+    def _assigned_in(self, frame: _Frame, first: int, last: int) -> Iterator[str]:
+        """The variables that statements of some lines set."""
+        for index in range(first, last + 1):
+            for statement in frame.source.code(index).statements:
+                within = statement.then if isinstance(statement, When) else (statement,)
+                for each in within:
+                    variable = each.variable if isinstance(each, Assign | Forget | For) else None
+                    name = self._name(variable) if variable is not None else None
+                    if isinstance(name, str):
+                        yield name
+                    elif name is not None:
+                        yield from [*self.values]
+
+    # Branches
+
+    def _begin_branch(self, frame: _Frame, index: int, branch: If | ElseIf) -> Iterator[Turn]:
+        truth = self._truth(branch.condition)
+        if isinstance(truth, Unknown):
+            frame.branches.append(_Branch(True, truth.reason, dict(self.values)))
+            yield Turn(Event.ENTER, self._line(frame, index))
+        elif truth:
+            frame.branches.append(_Branch(True))
+        else:
+            frame.branches.append(_Branch(False))
+            frame.at = self._other_part(frame, index)
+
+    def _other_part(self, frame: _Frame, index: int) -> int:
+        """The index of the line with the next part of a branch, or its end."""
+        depth = 0
+        for other in range(index + 1, frame.last + 1):
+            for statement in frame.source.code(other).statements:
+                if isinstance(statement, If):
+                    depth += 1
+                elif isinstance(statement, EndIf) and depth:
+                    depth -= 1
+                elif isinstance(statement, EndIf | Else | ElseIf) and not depth:
+                    return other
+        raise _StopError(f"the IF of line {self._line(frame, index)} has no end")
+
+    def _next_branch(self, frame: _Frame, index: int, part: ElseIf | Else) -> Iterator[Turn]:
+        branch = frame.branches[-1] if frame.branches else _Branch(True)
+        if branch.reason:
+            # Nobody knows which part runs: this one begins where the first one did.
+            self.values = dict(branch.before)
+            yield Turn(Event.LEAVE, self._line(frame, index))
+            yield Turn(Event.ENTER, self._line(frame, index))
+        elif branch.has_run:
+            frame.at = self._other_part(frame, index)
+        elif isinstance(part, ElseIf):
+            frame.branches.pop()
+            yield from self._begin_branch(frame, index, part)
+        else:
+            branch.has_run = True
+
+    def _end_branch(self, frame: _Frame, index: int, _end: EndIf) -> Iterator[Turn]:
+        branch = frame.branches.pop() if frame.branches else _Branch(True)
+        if branch.reason:
+            # Whatever one of its parts may have set.
+            first = next((each for each in range(index, -1, -1) if _begins_branch(frame.source.code(each))), 0)
+            self._lose(self._assigned_in(frame, first, index), branch.reason)
+            yield Turn(Event.LEAVE, self._line(frame, index))
+            yield Turn(Event.LOST, self._line(frame, index), branch.reason)
+
+    # Loops
+
+    def _begin_loop(self, frame: _Frame, index: int, loop: Loop | For) -> Iterator[Turn]:
+        known = next((each for each in frame.loops if each.first == index), None)
+        if isinstance(loop, For):
+            yield from self._count(frame, index, loop, known)
+            return
+        truth = self._truth(loop.condition) if loop.condition is not None else True
+        if truth is False:
+            frame.loops = [each for each in frame.loops if each.first != index]
+            frame.at = self._loop_end(frame, index, loop.name) + 1
+        elif known is None or not isinstance(truth, Unknown):
+            frame.loops = [*frame.loops, _Loop(loop.name, index)] if known is None else frame.loops
+            if isinstance(truth, Unknown):
+                yield from self._enter_unknown_loop(frame, index, loop.name, truth)
+
+    def _enter_unknown_loop(self, frame: _Frame, index: int, name: str, why: Unknown) -> Iterator[Turn]:
+        """Run a loop once of which nobody knows how often it runs."""
+        frame.loops[-1].is_certain = False
+        self._lose(self._assigned_in(frame, index, self._loop_end(frame, index, name)), why.reason)
+        yield Turn(Event.LOST, self._line(frame, index), why.reason)
+
+    def _count(self, frame: _Frame, index: int, loop: For, known: _Loop | None) -> Iterator[Turn]:
+        name = self._name(loop.variable)
+        first, last, step = (self._value(each) for each in (loop.first, loop.last, loop.step))
+        if known is None:
+            frame.loops.append(_Loop(loop.name, index))
+            if not (isinstance(name, str) and isinstance(first, float) and isinstance(last, float)):
+                why = next(each for each in (name, first, last) if not isinstance(each, float) and each is not None)
+                told = why if isinstance(why, Unknown) else Unknown(f"{why} counts what is not known")
+                yield from self._enter_unknown_loop(frame, index, loop.name, told)
+                return
+            frame.loops[-1].last = last
+            frame.loops[-1].step = step if isinstance(step, float) else 1.0
+            self._set(name, first)
+        current = self._value(loop.variable)
+        state = frame.loops[-1]
+        is_over = isinstance(current, float) and state.last is not None and (current - state.last) * state.step > 0
+        if is_over:
+            frame.loops = [each for each in frame.loops if each.first != index]
+            frame.at = self._loop_end(frame, index, loop.name) + 1
+
+    def _loop_end(self, frame: _Frame, index: int, name: str) -> int:
+        depth = 0
+        for other in range(index + 1, frame.last + 1):
+            for statement in frame.source.code(other).statements:
+                if isinstance(statement, Loop | For) and (not name or statement.name == name):
+                    depth += 1
+                elif isinstance(statement, EndLoop) and (not name or statement.name == name):
+                    if not depth:
+                        return other
+                    depth -= 1
+        raise _StopError(f"the loop of line {self._line(frame, index)} has no end")
+
+    def _end_loop(self, frame: _Frame, index: int, end: EndLoop) -> Iterator[Turn]:
+        loop = next((each for each in reversed(frame.loops) if not end.name or each.name == end.name), None)
+        if loop is None:
+            return
+        until = self._truth(end.until) if end.until is not None else False
+        if not loop.is_certain or isinstance(until, Unknown):
+            reason = until.reason if isinstance(until, Unknown) else "how often the loop runs is not known"
+            self._lose(self._assigned_in(frame, loop.first, index), reason)
+            frame.loops.remove(loop)
+            yield Turn(Event.LOST, self._line(frame, index), reason)
+        elif until:
+            frame.loops.remove(loop)
+        else:
+            counting = next((each for each in frame.source.code(loop.first).statements if isinstance(each, For)), None)
+            if counting is not None:
+                value, name = self._value(counting.variable), self._name(counting.variable)
+                if isinstance(value, float) and isinstance(name, str):
+                    self._set(name, value + loop.step)
+            frame.at = loop.first
+
+    # Calls
+
+    def _call(self, frame: _Frame, index: int, call: Call) -> Iterator[Turn]:
+        line, count = self._line(frame, index), self._value(call.count)
+        text = frame.source.blocks[index].text.strip()
+        found = self._find(frame, index, call)
+        if isinstance(found, Unknown):
+            self._lose([*self.values], found.reason)
+            yield Turn(Event.LOST, line, found.reason)
+            return
+        if len(self._frames) >= DEEPEST:
+            raise _StopError(f"line {line} calls itself again and again: {DEEPEST} calls in one another")
+        if isinstance(count, Unknown):
+            yield Turn(Event.LOST, line, f"how often {text} runs is not known: {count.reason}")
+        times = int(count) if isinstance(count, float) else 1
+        if times < 1:
+            return
+        source, first, last = found
+        own = self._arguments(call, source, first)
+        caller = Caller(line, text, call.cycle)
+        if call.kind is CallKind.PROFILE:
+            yield Turn(Event.ENTER, line, call.cycle)
+            if call.cycle.startswith("G") and source is frame.source and first > index:
+                frame.at = last + 1
+        if source.name:
+            self.called.add(source.name)
+        self._frames.append(_Frame(source, first, first, last, call, (*frame.callers, caller), times, own))
+
+    def _arguments(self, call: Call, source: Source, first: int) -> dict[str, Known] | None:
+        values = {name: self._value(term) for name, term in call.arguments}
+        formal = source.code(first).parameters if source.blocks else ()
+        if formal:
+            given = list(values.values())
+            values = {name: given[place] for place, name in enumerate(formal) if place < len(given)}
+        if call.is_local:
+            return dict(values)
+        for name, value in values.items():
+            self._set(name, value)
+        return None
+
+    def _find(self, frame: _Frame, index: int, call: Call) -> tuple[Source, int, int] | Unknown:
+        """What a call runs: a file, and the indices of its first and last line there."""
+        text, source = frame.source.blocks[index].text.strip(), frame.source
+        first = self._resolve(call.target)
+        last = self._resolve(call.last) if call.last is not None else None
+        for each in (first, last):
+            if isinstance(each, Unknown):
+                return Unknown(f"what {text} calls is not known: {each.reason}")
+        if call.kind is CallKind.LINES or (call.kind is CallKind.PROFILE and call.cycle.startswith("G")):
+            begin = source.number(str(first), 0, len(source) - 1)
+            end = source.number(str(last), begin or 0, len(source) - 1) if last is not None else len(source) - 1
+            if begin is None or end is None:
+                missing = first if begin is None else last
+                return Unknown(f"{text} names block {missing}, which is not there")
+            return source, begin, end
+        if call.kind is CallKind.PROGRAM:
+            return self._find_program(source, str(first), text)
+        return self._find_section(source, index, call, str(first), str(last) if last is not None else None)
+
+    def _resolve(self, target: Term | str) -> str | Unknown:
+        """The name or the number of what is called."""
+        value = target if isinstance(target, str) else self._value(target)
+        return f"{value:.0f}" if isinstance(value, float) else value
+
+    def _find_program(self, source: Source, name: str, text: str) -> tuple[Source, int, int] | Unknown:
+        for each in dict.fromkeys((source, self.main)):
+            if name in each.sections:
+                first = each.sections[name]
+                return each, first, each.section_end(first)
+        found = self.library.find(name)
+        if found is None or not len(found):
+            files = self.language.files(name)
+            where = f"; neither is {files[0]} beside it: name its folder with --path" if files else ""
+            return Unknown(f"{text} calls {name}, which is not in this file{where}")
+        first = found.sections.get(name, 0)
+        return found, first, found.section_end(first) if len(found.sections) > 1 else len(found) - 1
+
+    def _find_section(
+        self, source: Source, index: int, call: Call, name: str, last: str | None
+    ) -> tuple[Source, int, int] | Unknown:
+        text, everywhere = source.blocks[index].text.strip(), range(len(source))
+        first = source.label(name, everywhere)
+        if first is None and call.kind is CallKind.PROFILE:
+            return self._find_program(source, name, text)
+        if first is None:
+            return Unknown(f"{text} names {name}, which is not there")
+        if last is not None:
+            end = source.label(last, everywhere)
+            return (source, first, end) if end is not None else Unknown(f"{text} names {last}, which is not there")
+        return source, first, index - 1 if call.kind is CallKind.SECTION else len(source) - 1
+
+    def _return(self, frame: _Frame, _index: int, end: Return) -> Iterator[Turn]:
+        if frame.call is None:
+            if not self.language.passes_return:
+                self._frames = []
+            return
+        caller = self._frames[-2]
+        yield from self._leave(frame)
+        if end.to is not None:
+            value = self._value(end.to)
+            target = (
+                caller.source.number(f"{value:.0f}", 0, len(caller.source) - 1) if isinstance(value, float) else None
+            )
+            if target is None:
+                raise _StopError("the subprogram returns to a block that is not there")
+            caller.at = target
+
+    def _leave(self, frame: _Frame) -> Iterator[Turn]:
+        """The end of what a frame runs: it runs again, or what called it goes on."""
+        frame.left -= 1
+        if frame.left > 0:
+            frame.at, frame.loops, frame.branches = frame.first, [], []
+            return
+        self._frames.pop()
+        if frame.call is not None and frame.call.kind is CallKind.PROFILE:
+            yield Turn(Event.LEAVE, frame.callers[-1].line, frame.call.cycle)
+
+
+_DO: Mapping[type[MacroStatement], Callable[..., Iterator[Turn]]] = {
+    Assign: Machine._do_assign,
+    Forget: Machine._do_assign,
+    When: Machine._do_when,
+    Jump: Machine._jump,
+    Call: Machine._call,
+    Return: Machine._return,
+    ProgramEnd: Machine._do_end,
+    If: Machine._begin_branch,
+    ElseIf: Machine._next_branch,
+    Else: Machine._next_branch,
+    EndIf: Machine._end_branch,
+    Loop: Machine._begin_loop,
+    For: Machine._begin_loop,
+    EndLoop: Machine._end_loop,
+    Strange: Machine._do_strange,
+}
+
+
+def _first(values: Iterable[int | None]) -> int | None:
+    return next((each for each in values if each is not None), None)
+
+
+def _is_local(name: str) -> bool:
+    """Whether a variable belongs to one subprogram: #1 to #33 of Fanuc."""
+    return name.startswith("#") and name[1:].isdigit() and 1 <= int(name[1:]) <= _LAST_LOCAL
+
+
+_LAST_LOCAL = 33
+
+
+def _begins_branch(code: CodeLine) -> bool:
+    return any(isinstance(each, If) for each in code.statements)

@@ -1,0 +1,127 @@
+"""Where subprograms are: sections of a program, files beside it, and files in other folders."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+
+from msgspec import Struct
+
+from contoursolve.execution.language import CodeLine, MacroLanguage
+from contoursolve.gcode import Block, Program, UnreadableProgramError, decode, parse, read_bytes
+from contoursolve.gcode.syntax import Syntax
+
+
+class Surroundings(Struct, frozen=True):
+    """What is stated apart from a program that runs: the values of variables by name, and the folders in which files
+    with its subprograms are."""
+
+    values: Mapping[str, float] = {}
+    folders: tuple[Path, ...] = ()
+
+
+ALONE = Surroundings()
+
+
+def surroundings_of(
+    name: str, values: Mapping[str, float] | None = None, folders: Iterable[str | Path] = ()
+) -> Surroundings:
+    """Those of a program of some name; its own folder comes first."""
+    own = () if name.startswith("<") else (Path(name).parent,)
+    known = {each.strip().upper(): float(value) for each, value in (values or {}).items()}
+    return Surroundings(known, (*own, *map(Path, folders)))
+
+
+class Source:
+    """One file with programs, and what each of its lines says."""
+
+    def __init__(self, program: Program, language: MacroLanguage, *, is_other: bool) -> None:
+        self.name = program.name if is_other else ""
+        """Its name, if it is another file than the main program."""
+        self.blocks: Sequence[Block] = program.blocks
+        self.language = language
+        self._codes: dict[int, CodeLine] = {}
+
+    def __len__(self) -> int:
+        return len(self.blocks)
+
+    def code(self, index: int) -> CodeLine:
+        """What a line says."""
+        found = self._codes.get(index)
+        if found is None:
+            text = self.blocks[index].text
+            found = self.language.read(text) if self.language.may_say(text) else CodeLine(text)
+            self._codes[index] = found
+        return found
+
+    @cached_property
+    def _read(self) -> list[CodeLine]:
+        return [self.language.read(block.text) for block in self.blocks]
+
+    def number(self, number: str, first: int, last: int) -> int | None:
+        """The index of the line with a block number, between two others."""
+        wanted = number.lstrip("0") or "0"
+        return next((index for index in range(first, last + 1) if self._read[index].number == wanted), None)
+
+    def label(self, name: str, order: Sequence[int]) -> int | None:
+        """The index of the first line of some with a label, or with a block number of that name (`N10`)."""
+        number = name[1:].lstrip("0") if name[:1] == "N" and name[1:].isdigit() else None
+        return next(
+            (
+                index
+                for index in order
+                if name in self._read[index].labels or (number and self._read[index].number == number)
+            ),
+            None,
+        )
+
+    @cached_property
+    def sections(self) -> dict[str, int]:
+        """The programs that it has, each with the index of the line with which it begins."""
+        found: dict[str, int] = {}
+        for index, code in enumerate(self._read):
+            if code.begins is not None:
+                found.setdefault(code.begins.upper(), index)
+        return found
+
+    def section_end(self, first: int) -> int:
+        """The index of the last line of the program to which a line belongs."""
+        later = (index for index in self.sections.values() if index > first)
+        return min(later, default=len(self)) - 1
+
+
+class Library:
+    """The subprograms that may be called from a program, found by their names."""
+
+    def __init__(self, language: MacroLanguage, syntax: Syntax, folders: Sequence[Path]) -> None:
+        self.language, self.syntax, self.folders = language, syntax, folders
+        self._files: dict[str, Source | None] = {}
+
+    @cached_property
+    def _listed(self) -> dict[str, Path]:
+        """The files of all folders by their names in upper case; those of the first folder count."""
+        found: dict[str, Path] = {}
+        for folder in self.folders:
+            try:
+                files = sorted(folder.iterdir())
+            except OSError:
+                continue
+            for file in files:
+                found.setdefault(file.name.upper(), file)
+        return found
+
+    def find(self, name: str) -> Source | None:
+        """The file that holds a subprogram; None if there is none that can be read."""
+        if name not in self._files:
+            names = (each.upper() for each in self.language.files(name))
+            path = next((self._listed[each] for each in names if each in self._listed), None)
+            self._files[name] = self._open(path) if path is not None else None
+        return self._files[name]
+
+    def _open(self, path: Path) -> Source | None:
+        try:
+            text = decode(read_bytes(str(path)), str(path))
+        except UnreadableProgramError:
+            return None
+        return Source(parse(text, path.name, syntax=self.syntax), self.language, is_other=True)

@@ -1,0 +1,221 @@
+"""A program that calls or computes: its contours are solved where they run, and told once where they are written."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from msgspec.structs import replace
+
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.explain import Context, context_of, report
+from contoursolve.diagnosis.wording import join, measured
+from contoursolve.diagnostics.finding import Basis, Diagnostic, Fix, Label, Severity
+from contoursolve.diagnostics.source import Span
+from contoursolve.execution.machine import Machine, Written
+from contoursolve.execution.subprograms import Library, Surroundings
+from contoursolve.gcode import Block, Program
+from contoursolve.program.profiles import CycleProfile, profiles_of, turns_back
+from contoursolve.program.solve_queue import Step
+from contoursolve.reading import ReadIssue, State
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import Rule
+from contoursolve.solving.contour import ArcSegment
+
+MOST_TOLD = 10
+"""Results of one contour that are told; of more, their number."""
+
+_ALIKE = 6
+"""Decimals of mm to which two paths are compared."""
+
+
+def runs(lines: Iterable[str], dialect: Dialect) -> bool:
+    """Whether a program calls, jumps or computes, so that it has to be followed as it runs."""
+    language = dialect.modes.language
+    return language is not None and any(map(language.may_say, lines))
+
+
+def machine_for(program: Program, dialect: Dialect, around: Surroundings) -> Machine | None:
+    """What runs a program; None for one that neither calls, jumps nor computes."""
+    language = dialect.modes.language
+    if language is None or not runs((block.text for block in program.blocks), dialect):
+        return None
+    return Machine(program, language, Library(language, dialect.modes.syntax, around.folders), around.values)
+
+
+def in_text_order(
+    blocks: Sequence[Block],
+    machine: Machine,
+    steps: Iterable[Step],
+    rules: tuple[Rule, ...],
+    told: Sequence[Diagnostic],
+    profiles: list[CycleProfile],
+) -> Iterator[Step]:
+    """The steps of a program as it runs, each contour once, in the order in which the program is written. `told` are
+    findings about the whole text; the profiles of cycles are added to `profiles`."""
+    ran: dict[int, list[Step]] = {}
+    before: dict[int, State] = {}
+    findings = list(told)
+    state, in_cycle = None, list[Step]()
+    for step in steps:
+        in_cycle += [step] if step.blocks else []
+        state = step.before
+        findings += step.findings
+        if step.answer is not None and step.blocks[0].file:
+            findings += _of_other_file(step.answer, step.blocks[0], rules)
+        elif step.answer is not None:
+            ran.setdefault(step.blocks[0].line, []).append(step)
+        for block in step.blocks if not step.blocks or not step.blocks[0].file else ():
+            before.setdefault(block.line, step.before)
+    profiles.extend(profiles_of(in_cycle))
+    findings += (each for profile in profiles for each in turns_back(profile, rules))
+    by_line: dict[int, list[Diagnostic]] = {}
+    for finding in {_key(each): each for each in findings}.values():
+        by_line.setdefault(finding.span.line, []).append(_as_typed(finding, blocks, machine.written))
+    index = 0
+    while index < len(blocks):
+        line, count, answers = blocks[index].line, 1, tuple[Answer, ...]()
+        if line in ran:
+            count = ran[line][0].blocks[-1].line - line + 1
+            answers = tuple(_typed(each, blocks, machine.written) for each in _once(ran[line], rules))
+        own = tuple(blocks[index : index + count])
+        own_findings = tuple(each for block in own for each in by_line.pop(block.line, ()))
+        state = before.get(line, state)
+        if state is not None:
+            yield Step(own, state, next(iter(answers), None), own_findings, others=answers[1:])
+        index += count
+    rest = tuple(each for found in by_line.values() for each in found)
+    if rest and state is not None:
+        yield Step((), state, findings=rest)
+
+
+def _key(finding: Diagnostic) -> tuple[Span, str, str]:
+    return finding.span, finding.code, finding.message
+
+
+def _once(visits: Sequence[Step], rules: tuple[Rule, ...]) -> list[Answer]:
+    """The different answers to one contour that runs several times; the first one says how they differ."""
+    groups: dict[object, list[Answer]] = {}
+    for step in visits:
+        if step.answer is not None:
+            groups.setdefault(_result(step.answer), []).append(step.answer)
+    found = [_with_calls(each) for each in groups.values()]
+    if len({_path(each) for each in found}) > 1:
+        first = found[0]
+        context = context_of(first.claim, rules)
+        several = report(context, context.row(ReadIssue.CALLS_DIFFER), Basis.RULE, [], results=_results(found))
+        found[0] = replace(first, diagnostics=(*first.diagnostics, several))
+    return found[:MOST_TOLD]
+
+
+def _with_calls(answers: Sequence[Answer]) -> Answer:
+    callers = (each.claim.blocks[0].callers for each in answers)
+    return replace(answers[0], calls=tuple(dict.fromkeys(each[-1].line for each in callers if each)))
+
+
+def _result(answer: Answer) -> object:
+    """What makes two results of a contour the same."""
+    return answer.status, tuple(each.message for each in answer.diagnostics), answer.start.is_known, _path(answer)
+
+
+def _path(answer: Answer) -> object:
+    """A path as it is written: its ends, or where increments are in force its steps, and the centres of arcs."""
+    if answer.contour is None:
+        return answer.status
+    is_stepwise = answer.claim.after.is_incremental
+    found = []
+    for each in answer.contour.elements:
+        reference = each.start if is_stepwise else (0.0, 0.0)
+        found.append(tuple(round(end - base, _ALIKE) for end, base in zip(each.end, reference, strict=True)))
+        if isinstance(each, ArcSegment):
+            found.append(tuple(round(to - base, _ALIKE) for to, base in zip(each.center, each.start, strict=True)))
+    return tuple(found)
+
+
+def _results(answers: Sequence[Answer]) -> str:
+    """What becomes of a contour in each of its calls, in words."""
+    told = []
+    for answer in answers[:MOST_TOLD]:
+        values = [None if value is None else float(value) for value in answer.start.values]
+        place = measured(values, answer.plane, answer.unit) if answer.start.is_known else "an unknown point"
+        errors = [each.message for each in answer.diagnostics if each.severity is Severity.ERROR]
+        lines = join([str(line) for line in answer.calls])
+        called = f"line{'s' * (len(answer.calls) > 1)} {lines}: " if answer.calls else "not called: "
+        told.append(f"{called}from {place} {errors[0] if errors else answer.status.value}")
+    more = len(answers) - MOST_TOLD
+    return "; ".join(told) + (f"; and {more} more" if more > 0 else "")
+
+
+def _of_other_file(answer: Answer, block: Block, rules: tuple[Rule, ...]) -> Iterator[Diagnostic]:
+    """What is wrong with a contour of another file, told at the block that calls it."""
+    caller = block.callers[0]
+    context = Context(rules, answer.unit, place=Span(caller.line, 1, len(caller.text) + 1))
+    for each in answer.diagnostics:
+        if each.severity is Severity.ERROR:
+            row = context.row(ReadIssue.SUBPROGRAM_REFUSED)
+            yield report(context, row, Basis.RULE, [], file=block.file, line=each.span.line, finding=each.message)
+
+
+# What was typed in the place of numbers --------------------------------------------------------------------------
+
+
+def _typed(answer: Answer, blocks: Sequence[Block], written: Mapping[int, tuple[Written, ...]]) -> Answer:
+    """An answer whose findings are about what was typed."""
+    if not any(line in written for line in answer.lines):
+        return answer
+    return replace(answer, diagnostics=tuple(_as_typed(each, blocks, written, answer) for each in answer.diagnostics))
+
+
+def _as_typed(
+    finding: Diagnostic,
+    blocks: Sequence[Block],
+    written: Mapping[int, tuple[Written, ...]],
+    answer: Answer | None = None,
+) -> Diagnostic:
+    """A finding about a line with numbers for its variables, about what was typed there: its places, what is to be
+    written instead, and what the variables stand for."""
+    lines = answer.lines if answer is not None else (finding.span.line,)
+    if not any(line in written for line in lines):
+        return finding
+    changes = [(line, each) for line in lines for each in written.get(line, ())]
+    stands = [f"{each.typed} is {each.number} here" for _, each in changes if each.number]
+    why = [f"{each.typed}: {each.reason}" for _, each in changes if each.reason]
+    return replace(
+        finding,
+        span=_place(finding.span, written),
+        labels=tuple(Label(_place(each.span, written), each.text) for each in finding.labels),
+        notes=(*finding.notes, *dict.fromkeys([*stands, *why])),
+        fixes=tuple(_fix(each, [*lines], blocks, written) for each in finding.fixes),
+    )
+
+
+def _place(span: Span, written: Mapping[int, tuple[Written, ...]]) -> Span:
+    """The columns of what was typed."""
+    return Span(span.line, *(_column(at, written.get(span.line, ())) for at in (span.column, span.end_column)))
+
+
+def _column(column: int, written: Sequence[Written]) -> int:
+    shift = 0
+    for each in written:
+        end = each.begin + shift + len(each.number or each.typed)
+        if column - 1 >= end:
+            shift += len(each.number or each.typed) - (each.end - each.begin)
+        elif column - 1 > each.begin + shift:
+            return each.begin + 1 if column - 1 < end else each.end + 1
+    return column - shift
+
+
+def _fix(fix: Fix, lines: Sequence[int], blocks: Sequence[Block], written: Mapping[int, tuple[Written, ...]]) -> Fix:
+    """A fix that keeps the variables that it does not change."""
+    texts = fix.replacement.split("\n")
+    if len(texts) != len(lines) and len(lines) > 1:
+        return fix
+    first = blocks[0].line
+    for place, line in enumerate(lines):
+        typed = blocks[line - first].text
+        for each in written.get(line, ()):
+            if each.number:
+                address = re.search(r"[A-Za-z_,=]*[ \t]*$", typed[: each.begin])
+                before = re.escape(address[0] if address else "")
+                pattern = rf"(?<![A-Za-z_,]){before}{re.escape(each.number)}(?![\d.])"
+                kept = (address[0] if address else "") + each.typed
+                texts[place] = re.sub(pattern, kept.replace("\\", r"\\"), texts[place], count=1)
+    return replace(fix, replacement="\n".join(texts))
