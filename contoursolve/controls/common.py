@@ -268,7 +268,7 @@ READING_RULES = (
     ),
     Rule(
         code="calls-differ",
-        message="what is called here differs from call to call: {results}",
+        message="what runs here is not the same every time; {results}",
         help="check each call; expand --inline writes each of them out",
         source=_READING,
         about=ReadIssue.CALLS_DIFFER,

@@ -244,6 +244,8 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     unknown: Callable[[str], str]
     """Why a variable that nothing set has no value: `#5041 is the machine's position`, `#100 is set by nothing
     before`."""
+    jumps_to_numbers: bool = True
+    """Whether a jump names a block number; Klartext knows labels alone."""
     passes_return: bool = False
     """Whether the end of a subprogram does nothing where none was called: LBL 0."""
 

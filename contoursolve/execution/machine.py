@@ -208,7 +208,7 @@ class Machine:
                 self._assign(statement)
             else:
                 moving = [statement, *rest]
-        if not code.statements or code.rest.strip() or not moving:
+        if code.begins is None and (not code.statements or code.rest.strip() or not moving):
             ran = self._block(frame, block, code)
             here = (frame.source.name, block.line)
             if here[0] != self._last[0] or here[1] <= self._last[1]:
@@ -342,7 +342,8 @@ class Machine:
             if target is None:
                 return
             if target > index:
-                self._joins.setdefault((frame.source.name, target), (truth.reason, len(self._assigned)))
+                why = f"line {self._line(frame, index)} may have jumped here: {truth.reason}"
+                self._joins.setdefault((frame.source.name, target), (why, len(self._assigned)))
                 return
             self._lose(self._assigned_in(frame, target, index), truth.reason)
             yield Turn(Event.LOST, self._line(frame, index), truth.reason)
@@ -365,12 +366,12 @@ class Machine:
             JumpWay.FORWARD: forward,
             JumpWay.BACKWARD: backward,
         }[jump.way]
-        if isinstance(jump.target, str):
-            return frame.source.label(jump.target, order)
-        value = self._value(jump.target)
-        if isinstance(value, float):
-            return _first(frame.source.number(f"{value:.0f}", *ends) for ends in ((index + 1, last), (0, index)))
-        return frame.source.label(value.upper(), order) if isinstance(value, str) else None
+        value = self._resolve(jump.target)
+        if isinstance(value, Unknown):
+            return None
+        if value.isdigit() and self.language.jumps_to_numbers:
+            return _first(frame.source.number(value, *ends) for ends in ((index + 1, last), (0, index)))
+        return frame.source.label(value.upper(), order)
 
     def _assigned_in(self, frame: _Frame, first: int, last: int) -> Iterator[str]:
         """The variables that statements of some lines set."""

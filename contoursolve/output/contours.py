@@ -11,6 +11,7 @@ from contoursolve.diagnosis.wording import (
     coordinate_texts,
     coordinates,
     count,
+    join,
     length_of,
     short_name,
     word_keys,
@@ -31,13 +32,20 @@ SMALLEST = 0.0001
 """mm. What a listing with four decimals can show."""
 
 
+def _called(answer: Answer) -> str:
+    """From where a contour of a subprogram is called."""
+    lines = [str(line) for line in answer.calls]
+    return f", called in line{'s' * (len(lines) > 1)} {join(lines)}" if lines else ""
+
+
 def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False) -> list[str]:
     """The listing of one contour, in the unit and the axes of its program; explained with its construction."""
     alternatives = list_alternatives(answer)
     if alternatives is not answer.alternatives:
         # Found here once, for the construction and for the list.
         answer = replace(answer, alternatives=alternatives)
-    lines = [f"{printable(result.program.name)}:{answer.lines[0]}: {form_text(answer)}: {answer.status.value}"]
+    place = f"{printable(result.program.name)}:{answer.lines[0]}"
+    lines = [f"{place}: {form_text(answer)}{_called(answer)}: {answer.status.value}"]
     lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]
     lines += ["", *columns(given_table(answer).rows, left=(0, 3))]
     if is_explained:

@@ -163,6 +163,7 @@ def _contour(answer: Answer) -> dict[str, Any]:
     return {
         "line": answer.lines[0],
         "lines": list(answer.lines),
+        **({"calls": list(answer.calls)} if answer.calls else {}),
         "form": answer.form,
         "status": answer.status.value,
         "plane": list(answer.plane.axes),

@@ -10,6 +10,7 @@ from contoursolve.diagnosis.explain import Context, context_of, report
 from contoursolve.diagnosis.wording import join, measured
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Fix, Label, Severity
 from contoursolve.diagnostics.source import Span
+from contoursolve.execution.language import ProgramEnd, Return
 from contoursolve.execution.machine import Machine, Written
 from contoursolve.execution.subprograms import Library, Surroundings
 from contoursolve.gcode import Block, Program
@@ -30,7 +31,8 @@ _ALIKE = 6
 def runs(lines: Iterable[str], dialect: Dialect) -> bool:
     """Whether a program calls, jumps or computes, so that it has to be followed as it runs."""
     language = dialect.modes.language
-    return language is not None and any(map(language.may_say, lines))
+    said = (language.read(line.rstrip("\r\n")) for line in lines if language.may_say(line)) if language else ()
+    return any(each.words or any(not isinstance(one, Return | ProgramEnd) for one in each.statements) for each in said)
 
 
 def machine_for(program: Program, dialect: Dialect, around: Surroundings) -> Machine | None:
@@ -56,7 +58,7 @@ def in_text_order(
     findings = list(told)
     state, in_cycle = None, list[Step]()
     for step in steps:
-        in_cycle += [step] if step.blocks else []
+        in_cycle.append(step)
         state = step.before
         findings += step.findings
         if step.answer is not None and step.blocks[0].file:
@@ -138,8 +140,8 @@ def _results(answers: Sequence[Answer]) -> str:
         place = measured(values, answer.plane, answer.unit) if answer.start.is_known else "an unknown point"
         errors = [each.message for each in answer.diagnostics if each.severity is Severity.ERROR]
         lines = join([str(line) for line in answer.calls])
-        called = f"line{'s' * (len(answer.calls) > 1)} {lines}: " if answer.calls else "not called: "
-        told.append(f"{called}from {place} {errors[0] if errors else answer.status.value}")
+        called = f"called in line{'s' * (len(answer.calls) > 1)} {lines}" if answer.calls else f"pass {len(told) + 1}"
+        told.append(f"{called}: from {place} {errors[0] if errors else answer.status.value}")
     more = len(answers) - MOST_TOLD
     return "; ".join(told) + (f"; and {more} more" if more > 0 else "")
 

@@ -414,6 +414,9 @@ class Examiner:
                 return
             line = held[index]
             if isinstance(line, Turn):
+                if line.event is Event.LEAVE:
+                    # Where the profile of a cycle ended.
+                    yield Step((), state, findings=self._findings())
                 state, index = self._turn(dialect, line, state), index + 1
                 continue
             if isinstance(line, Passage):

@@ -54,7 +54,7 @@ def profiles_of(steps: Sequence[Step]) -> Iterator[CycleProfile]:
         begin = steps[first].before
         path = list[tuple[int, Point]]()
         for number, step in inside:
-            path += _path_of(step, steps[number + 1].before if number < last else None)
+            path += _path_of(step, steps[number + 1].before if number + 1 < len(steps) else None)
         plane, block = behind.plane, steps[first].blocks[0]
         axes = {word.address for word in block.words}
         is_free = len(axes & {"X", "Z", "U", "W"}) > 1

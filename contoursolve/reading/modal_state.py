@@ -289,7 +289,9 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
         return state.lose(modes.axes, "a macro statement may jump", block.span)
     state = apply_modes(state, block, modes)
     if block.find("O"):
-        state = state.lose(modes.axes, "a new program begins", block.span)
+        # What is stated apart from the program holds for its beginning.
+        stated = [axis for axis, at in state.axes.items() if at.span is not None and at.span.line > 0]
+        state = state.lose(tuple(stated), "a new program begins", block.span)
     for word in block.words:
         if modes.is_call(word):
             return state.lose(modes.axes, modes.why_lost(word), word.span)

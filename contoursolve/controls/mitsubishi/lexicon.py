@@ -7,6 +7,7 @@ from msgspec.structs import replace as replace_fields
 
 from contoursolve.controls.plain import CALLS, LATHE, MILL_CODES, PLANES, code_rows, lexicon, merge
 from contoursolve.diagnostics.source import Book, Evidence, Source
+from contoursolve.execution.fanuc import fanuc
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Plane, Unit
 from contoursolve.reading import Address, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
@@ -44,7 +45,7 @@ def _words(*, is_diameter: bool) -> Lexicon:
 
 def _modes(words: Lexicon, planes: dict[int, Plane]) -> Modes:
     codes = code_rows(BOOK.assumed("list of G codes"), _CODES, planes)
-    return Modes(words, codes, ("X", "Y", "Z"), CALLS, remember=_remember)
+    return Modes(words, codes, ("X", "Y", "Z"), CALLS, remember=_remember, language=fanuc())
 
 
 HIGH_SPEED = 5

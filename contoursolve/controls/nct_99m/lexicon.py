@@ -16,6 +16,7 @@ from contoursolve.controls.chain.language import (
 )
 from contoursolve.controls.plain import CALLS, MILL_CODES, PLANES, code_rows, merge
 from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.execution.fanuc import fanuc
 from contoursolve.geometry import Unit
 from contoursolve.reading import Address, Assumption, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 from contoursolve.reading.rules import Condition, Value, some
@@ -53,7 +54,7 @@ XY, ZX, YZ = PLANES.values()
 _OWN_NAMES = {Effect.NONE: {64: "continuous cutting", 98: "return", 99: "return"}}
 CODES = code_rows(CHAPTER, {}, PLANES) | code_rows(CODES_SOURCE, merge(MILL_CODES, _OWN_NAMES), {})
 
-MODES = Modes(Lexicon({row.address: row for row in ADDRESSES}, NUMBERS), CODES, AXES, CALLS)
+MODES = Modes(Lexicon({row.address: row for row in ADDRESSES}, NUMBERS), CODES, AXES, CALLS, language=fanuc())
 
 UNCOMPENSATED, UNCOMPENSATED_FREE = "@uncompensated", "@uncompensated-free"
 """Over-defined without compensation where that is required, and where a setting frees it."""

@@ -5,6 +5,7 @@ from decimal import Decimal
 from contoursolve.controls.plain import coming_back
 from contoursolve.diagnostics.finding import Alarm
 from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.execution.fanuc import fanuc
 from contoursolve.geometry import Length, Plane, Unit
 from contoursolve.reading import (
     AT_ITS_LIMIT,
@@ -173,4 +174,5 @@ MODES = Modes(
     codes={code.number: code for code in CODES},
     axes=("Z", "X"),
     calls=frozenset({98, 99}),
+    language=fanuc(),
 )
