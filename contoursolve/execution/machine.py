@@ -60,7 +60,7 @@ class Event(Enum):
     BARRIER = "barrier"
     """Nothing happens, but no contour goes on beyond this place."""
     STOPPED = "stopped"
-    """The program is not followed any further."""
+    """The program stops here, or is not followed any further."""
 
 
 class Turn(Struct, frozen=True):
@@ -121,8 +121,8 @@ class _Frame(Struct):
     branches: list[_Branch] = field(default_factory=list)
 
 
-class _StopError(Exception):
-    """The program cannot be followed any further; the message says why."""
+class _RefusedError(Exception):
+    """The control stops at a block; the message says why."""
 
 
 class Machine:
@@ -180,10 +180,9 @@ class Machine:
             self._steps += 1
             try:
                 yield from self._step(frame)
-            except _StopError as error:
-                line = self._line_of(frame)
-                self._frames = []
-                yield Turn(Event.STOPPED, line, str(error))
+            except _RefusedError as error:
+                # The control stops here; what follows is examined as if it went on.
+                yield Turn(Event.STOPPED, self._line(frame, frame.at - 1), str(error))
 
     def _says_something(self, index: int) -> bool:
         """Whether a line of the main file has more than its number, comments and blanks."""
@@ -330,9 +329,6 @@ class Machine:
         """The line of the main file at which something on a line happens."""
         return frame.callers[0].line if frame.source.name and frame.callers else frame.source.blocks[index].line
 
-    def _line_of(self, frame: _Frame) -> int:
-        return self._line(frame, min(max(frame.at - 1, 0), len(frame.source) - 1))
-
     def _jump(self, frame: _Frame, index: int, jump: Jump) -> Iterator[Turn]:
         truth = self._truth(jump.condition) if jump.condition is not None else True
         if truth is False:
@@ -353,7 +349,7 @@ class Machine:
             self._went_back.add(key)
         if target is None:
             where = jump.target if isinstance(jump.target, str) else "a block that is not known"
-            raise _StopError(f"line {self._line(frame, index)} jumps to {where}, which is not there")
+            raise _RefusedError(f"line {self._line(frame, index)} jumps to {where}, which is not there")
         frame.at = target
         frame.loops = [each for each in frame.loops if each.first <= target]
         frame.branches = []
@@ -410,7 +406,7 @@ class Machine:
                     depth -= 1
                 elif isinstance(statement, EndIf | Else | ElseIf) and not depth:
                     return other
-        raise _StopError(f"the IF of line {self._line(frame, index)} has no end")
+        raise _RefusedError(f"the IF of line {self._line(frame, index)} has no end")
 
     def _next_branch(self, frame: _Frame, index: int, part: ElseIf | Else) -> Iterator[Turn]:
         branch = frame.branches[-1] if frame.branches else _Branch(True)
@@ -488,7 +484,7 @@ class Machine:
                     if not depth:
                         return other
                     depth -= 1
-        raise _StopError(f"the loop of line {self._line(frame, index)} has no end")
+        raise _RefusedError(f"the loop of line {self._line(frame, index)} has no end")
 
     def _end_loop(self, frame: _Frame, index: int, end: EndLoop) -> Iterator[Turn]:
         loop = next((each for each in reversed(frame.loops) if not end.name or each.name == end.name), None)
@@ -521,7 +517,7 @@ class Machine:
             yield Turn(Event.LOST, line, found.reason)
             return
         if len(self._frames) >= DEEPEST:
-            raise _StopError(f"line {line} calls itself again and again: {DEEPEST} calls in one another")
+            raise _RefusedError(f"line {line} calls itself again and again: {DEEPEST} calls in one another")
         if isinstance(count, Unknown):
             yield Turn(Event.LOST, line, f"how often {text} runs is not known: {count.reason}")
         times = int(count) if isinstance(count, float) else 1
@@ -614,7 +610,7 @@ class Machine:
                 caller.source.number(f"{value:.0f}", 0, len(caller.source) - 1) if isinstance(value, float) else None
             )
             if target is None:
-                raise _StopError("the subprogram returns to a block that is not there")
+                raise _RefusedError("the subprogram returns to a block that is not there")
             caller.at = target
 
     def _leave(self, frame: _Frame) -> Iterator[Turn]:

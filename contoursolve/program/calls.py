@@ -134,7 +134,7 @@ def _path(answer: Answer) -> object:
 
 def _results(answers: Sequence[Answer]) -> str:
     """What becomes of a contour in each of its calls, in words."""
-    told = []
+    told = list[str]()
     for answer in answers[:MOST_TOLD]:
         values = [None if value is None else float(value) for value in answer.start.values]
         place = measured(values, answer.plane, answer.unit) if answer.start.is_known else "an unknown point"
