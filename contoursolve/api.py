@@ -13,11 +13,11 @@ from contoursolve import gcode
 from contoursolve.diagnosis.examine import Depth, Policy
 from contoursolve.diagnostics.choices import choice_of
 from contoursolve.diagnostics.finding import Diagnostic
+from contoursolve.execution.machine import needs_running
 from contoursolve.execution.subprograms import surroundings_of
 from contoursolve.gcode import STANDARD_INPUT, Directive, Program, UnreadableProgramError
 from contoursolve.geometry import Length
 from contoursolve.postprocess.numbering import numbers_of
-from contoursolve.program.calls import runs
 from contoursolve.program.pipeline import Result, Run, run
 from contoursolve.program.project import configure, find_settings, restate_control, stated_settings
 from contoursolve.program.recognise import choose, find_dialect
@@ -328,6 +328,7 @@ def expand(
         summary.left += filter(None, map(left_unread, program.blocks))
         return Expansion(text if keep_going or not summary.left else None, None, summary)
     beginning = gcode.parse(start, name, first_line=0) if start is not None else None
+    is_run = needs_running(gcode.split_lines(text), dialect.modes.language)
     further = lines_of_facts(program, dialect, unit, beginning, _facts(facts))
     pieces = list(
         expand_lines(
@@ -339,7 +340,9 @@ def expand(
             policy=policy,
             start=beginning,
             numbers=numbers_of(gcode.split_lines(text), dialect) if numbering is Numbering.ALL else None,
-            around=surroundings_of(name, variables, folders) if runs(gcode.split_lines(text), dialect) else None,
+            around=surroundings_of(name, variables, folders) if is_run else None,
+            if needs_running(gcode.split_lines(text), dialect.modes.language)
+            else None,
         )
     )
     opening = opening_of(options, dialect, unit, summary)

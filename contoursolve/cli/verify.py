@@ -44,7 +44,8 @@ def verify(
     words and further facts, and so each answer to a ? and each listed solution. It does not use the solver: one table
     says what each kind of fact means, for every control, also of your own. The status follows from the words, and a
     search looks for solutions that the result lacks. verify also names what it did not check. It reads the program with
-    the settings that RESULT.json names. Give --block, --start and --fact as you gave them to solve.
+    the settings that RESULT.json names. Give --block, --start, --fact,
+    --let and --path as you gave them to solve.
 
     Exit status: 0 what was checked is right, 1 something is wrong, 2 could not run, or nothing could be checked.
 
@@ -57,8 +58,6 @@ def verify(
 
     if inputs.count("-") > 1:
         raise click.UsageError("only one of PROGRAM and RESULT.json can be standard input")
-    if start is not None and not blocks:
-        raise click.UsageError("--start goes with --block; a PROGRAM states its own positions")
     if blocks and len(inputs) != 1:
         raise click.UsageError("with --block, name RESULT.json and no PROGRAM")
     if not blocks and len(inputs) != 2:  # noqa: PLR2004 - the two that the usage names

@@ -299,7 +299,7 @@ READING_RULES = (
         code="profile-turns-back",
         message="the profile of {cycle} turns back along {axis} on its way to {place} (program line {line}); {cycle} "
         "cuts profiles that go one way along {axis}",
-        help="part the profile, cut it with G73, or give both axes in its first block if the control then admits it",
+        help="part the profile; or give both axes in its first block, if the control then admits pockets",
         source=_own("roughing cycles of lathes; controls stop with a number of their own"),
         about=ReadIssue.PROFILE_TURNS_BACK,
         severity=Severity.WARNING,

@@ -46,6 +46,12 @@ MOST_LOGGED = 10_000
 """Assignments that are kept in mind while it is not known whether a jump took place."""
 
 
+def needs_running(lines: Iterable[str], language: MacroLanguage | None) -> bool:
+    """Whether a program calls, jumps or computes, so that it has to be followed as it runs."""
+    said = (language.read(line.rstrip("\r\n")) for line in lines if language.may_say(line)) if language else ()
+    return any(each.words or any(not isinstance(one, Return | ProgramEnd) for one in each.statements) for each in said)
+
+
 class Event(Enum):
     """What happens to what is known between two blocks."""
 

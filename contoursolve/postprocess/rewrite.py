@@ -8,6 +8,7 @@ from typing import IO
 from msgspec import Struct
 
 from contoursolve.diagnosis.examine import Policy
+from contoursolve.execution.machine import needs_running
 from contoursolve.execution.subprograms import ALONE, Surroundings
 from contoursolve.gcode import Block, Directive, Program, parse, parse_block
 from contoursolve.gcode.files import Tape
@@ -16,7 +17,6 @@ from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_f
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
 from contoursolve.postprocess.numbering import numbers_of
 from contoursolve.postprocess.post_processors import Numbering
-from contoursolve.program.calls import runs
 from contoursolve.program.lines import Lines
 from contoursolve.program.project import configure
 from contoursolve.program.recognise import Recogniser, named_control
@@ -88,7 +88,7 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
             policy=policy,
             start=start,
             numbers=numbers_of(tape.lines(), dialect) if options.numbering is Numbering.ALL else None,
-            around=around if runs(tape.lines(), dialect) else None,
+            around=around if needs_running(tape.lines(), dialect.modes.language) else None,
         )
     held: list[str] = []
     size, place, told = 0, len(tape.mark), 0.0

@@ -10,8 +10,7 @@ from contoursolve.diagnosis.explain import Context, context_of, report
 from contoursolve.diagnosis.wording import join, measured
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Fix, Label, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.execution.language import ProgramEnd, Return
-from contoursolve.execution.machine import Machine, Written
+from contoursolve.execution.machine import Machine, Written, needs_running
 from contoursolve.execution.subprograms import Library, Surroundings
 from contoursolve.gcode import Block, Program
 from contoursolve.program.profiles import CycleProfile, profiles_of, turns_back
@@ -28,17 +27,10 @@ _ALIKE = 6
 """Decimals of mm to which two paths are compared."""
 
 
-def runs(lines: Iterable[str], dialect: Dialect) -> bool:
-    """Whether a program calls, jumps or computes, so that it has to be followed as it runs."""
-    language = dialect.modes.language
-    said = (language.read(line.rstrip("\r\n")) for line in lines if language.may_say(line)) if language else ()
-    return any(each.words or any(not isinstance(one, Return | ProgramEnd) for one in each.statements) for each in said)
-
-
 def machine_for(program: Program, dialect: Dialect, around: Surroundings) -> Machine | None:
     """What runs a program; None for one that neither calls, jumps nor computes."""
     language = dialect.modes.language
-    if language is None or not runs((block.text for block in program.blocks), dialect):
+    if language is None or not needs_running((block.text for block in program.blocks), language):
         return None
     return Machine(program, language, Library(language, dialect.modes.syntax, around.folders), around.values)
 

@@ -24,11 +24,11 @@ from contoursolve.diagnosis.examine import Answer, Depth, Policy, rank
 from contoursolve.diagnostics.choices import choice_of
 from contoursolve.diagnostics.finding import Diagnostic, Fix, Severity
 from contoursolve.diagnostics.source import Span
+from contoursolve.execution.machine import needs_running
 from contoursolve.execution.subprograms import surroundings_of
 from contoursolve.gcode import ISO, Block, Program, Syntax, parse, parse_block, split_lines
 from contoursolve.gcode.lexer import Blocks
 from contoursolve.geometry import Length, Plane
-from contoursolve.program.calls import runs
 from contoursolve.program.pipeline import Checkpoint, Examiner, Result, run
 from contoursolve.program.project import CONTROL, FIRST_LINES, SettingError, stated_settings
 from contoursolve.program.recognise import PLANE, Recogniser, UnknownControlError, choose, shown_by
@@ -248,7 +248,9 @@ class OpenProgram:
         is_shown = self._shows_something_else(gone, new)
         if first < FIRST_LINES or self.trouble or is_shown:
             self._choose()
-        is_run = self.dialect is not None and (self._examiner is None or runs(new, self.dialect))
+        is_run = self.dialect is not None and (
+            self._examiner is None or needs_running(new, self.dialect.modes.language)
+        )
         if old is None or self.dialect is None or is_run or not _alike(old, self.dialect):
             self._begin()
         else:
@@ -296,7 +298,7 @@ class OpenProgram:
         if self.dialect is not None:
             self._lines.spell(self.dialect.modes.syntax)
         # A program that calls or computes is examined as a whole.
-        if self.dialect is not None and not runs(self._lines.texts, self.dialect):
+        if self.dialect is not None and not needs_running(self._lines.texts, self.dialect.modes.language):
             self._examiner = Examiner(self.dialect, self._unit, self._policy, Depth.FULL, goes_on=True)
             known = self._examiner.begin(None)
             self._parts = [_Part(known, len(self._lines), is_stale=True), _Part(known, 0)]

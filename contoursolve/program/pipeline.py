@@ -49,7 +49,7 @@ from contoursolve.program.stream import Line, View, go_on, pass_plainly
 from contoursolve.program.tape_markers import Marks
 from contoursolve.reading import ParsedContour, ReadIssue, State, advance, advance_plainly, is_plain, next_place
 from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import contours_of, reach_of, state_facts
+from contoursolve.reading.follow import behind_turn, contours_of, reach_of, state_facts
 from contoursolve.reading.lexicon import TURNED
 
 if TYPE_CHECKING:
@@ -341,29 +341,12 @@ class Examiner:
 
     def _turn(self, dialect: Dialect, turn: Turn, state: State) -> State:
         """The state behind a turn of the program."""
-        axes, span = dialect.modes.axes, Span(turn.line, 1, 2)
         self.previous = None
-        match turn.event:
-            case Event.FRESH:
-                self.entered = []
-                if self.start is not None:
-                    return self._begin(dialect, self.start)
-                told = f"{turn.reason}; say with --start where the tool is when it begins"
-                return dialect.initial_state(self.unit).lose(axes, told, span)
-            case Event.ENTER:
-                self.entered.append(state)
-            case Event.LEAVE:
-                return self.entered.pop() if self.entered else state
-            case Event.LOST:
-                return state.lose(axes, turn.reason, span)
-            case Event.STOPPED:
-                context = Context(self.rules, self.unit, place=span)
-                row = context.row(ReadIssue.NOT_FOLLOWED)
-                self.diagnostics.append(report(context, row, Basis.RULE, [], reason=turn.reason))
-                return state.lose(axes, turn.reason, span)
-            case _:
-                pass
-        return state
+        if turn.event is Event.STOPPED:
+            context = Context(self.rules, self.unit, place=Span(turn.line, 1, 2))
+            row = context.row(ReadIssue.NOT_FOLLOWED)
+            self.diagnostics.append(report(context, row, Basis.RULE, [], reason=turn.reason))
+        return behind_turn(state, turn, self.entered, partial(self._begin, dialect, self.start), dialect.modes)
 
     def _begin(self, dialect: Dialect, start: Program | None) -> State:
         """The modal state before a program, behind the block that states its start point apart."""

@@ -5,6 +5,8 @@ from collections.abc import Callable, Iterator, Sequence
 from msgspec import Struct
 from msgspec.structs import replace
 
+from contoursolve.diagnostics.source import Span
+from contoursolve.execution.machine import Event, Turn
 from contoursolve.gcode import Block, Directive, Program, Word
 from contoursolve.reading.lexicon import Effect
 from contoursolve.reading.modal_state import Modes, State, advance, apply_modes, codes_of
@@ -24,10 +26,12 @@ def contours_of(
     state: State,
     start: Program | None = None,
     end_of: Callable[[ParsedContour], End] = lambda _: None,
+    left: list[State] | None = None,
 ) -> Iterator[tuple[ParsedContour, int]]:
     """Every contour of a program, with the index of the block behind it; the next one begins where `end_of` says.
 
-    `start` are blocks that state the start point apart from the program.
+    `start` are blocks that state the start point apart from the program. The state behind the last block is added to
+    `left`.
     """
     for block in start.blocks if start else ():
         state = advance(state, block, modes)
@@ -41,6 +45,29 @@ def contours_of(
         else:
             state = advance(state, blocks[index], modes)
             index += 1
+    if left is not None:
+        left.append(state)
+
+
+def behind_turn(state: State, turn: Turn, entered: list[State], fresh: Callable[[], State], modes: Modes) -> State:
+    """The state behind a turn of a program that runs. `entered` are the states to which it comes back, `fresh` gives
+    the one in which nothing has run."""
+    match turn.event:
+        case Event.FRESH:
+            entered.clear()
+            state = fresh()
+            told = f"{turn.reason}; say with --start where the tool is when it begins"
+            unknown = tuple(axis for axis, at in state.axes.items() if at.value is None)
+            return state.lose(unknown, told, Span(turn.line, 1, 2))
+        case Event.ENTER:
+            entered.append(state)
+        case Event.LEAVE:
+            return entered.pop() if entered else state
+        case Event.LOST | Event.STOPPED:
+            return state.lose(modes.axes, turn.reason, Span(turn.line, 1, 2))
+        case _:
+            pass
+    return state
 
 
 def reach_of(contour: ParsedContour, blocks: Sequence[Block], index: int = 0) -> int:

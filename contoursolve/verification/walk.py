@@ -1,19 +1,23 @@
 """The order of a verification: read both inputs, follow the program from contour to contour as the control does, check
 every contour that either of them has; after each, the claimed end is the position."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
 
 from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
+from contoursolve.execution.machine import Machine, Turn, needs_running
+from contoursolve.execution.subprograms import ALONE, Library, Surroundings, surroundings_of
 from contoursolve.gcode import Block, Directive, Program
 from contoursolve.geometry import Length
-from contoursolve.reading import ParsedContour, next_place
+from contoursolve.reading import Modes, ParsedContour, State, advance, next_place
 from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import contours_of, state_facts
+from contoursolve.reading.follow import behind_turn, contours_of, state_facts
 from contoursolve.verification.contour_checks import check_contour
 from contoursolve.verification.decode import (
+    FARTHEST,
     PRINTED,
     CannotVerifyError,
     ClaimedContour,
@@ -37,6 +41,8 @@ def verify(
     units: str = "mm",
     start: str | None = None,
     facts: Sequence[str] = (),
+    variables: Mapping[str, float] | None = None,
+    folders: Iterable[str | Path] = (),
 ) -> Receipt:
     """Check every element of a claimed result against the words of the program.
 
@@ -47,6 +53,8 @@ def verify(
         units: `mm` or `inch`, for numbers before any G20 or G21.
         start: words that give the start point apart from the program, such as `X40. Z0.`.
         facts: further facts about the only contour, as they were given to solve.
+        variables: values of variables, as they were given to solve.
+        folders: where files with subprograms are, besides that of the program.
 
     Raises:
         CannotVerifyError: an input is not what it should be, the control is unknown, or facts are for several
@@ -60,8 +68,11 @@ def verify(
         blocks, beginning = gcode.spelled(blocks, syntax), beginning and gcode.spelled(beginning, syntax)
     if dialect and facts:
         blocks = with_facts(blocks, dialect, unit, beginning, facts)
-    contours, by_line = list[ContourReceipt](), {contour.line: contour for contour in claims.contours}
-    for found in follow(blocks, dialect, unit, by_line, claims.rules, beginning) if dialect else ():
+    contours, around = list[ContourReceipt](), surroundings_of(blocks.name, variables, folders)
+    by_line = dict[int, list[ClaimedContour]]()
+    for contour in claims.contours:
+        by_line.setdefault(contour.line, []).append(contour)
+    for found in follow(blocks, dialect, unit, by_line, claims.rules, beginning, around) if dialect else ():
         lines, claimed = tuple(block.line for block in found.claim.blocks), found.claimed
         ledger, is_checked = check_contour(found, claimed) if claimed else (Ledger(), False)
         if claimed is None:
@@ -114,9 +125,9 @@ def _configured(dialect: Dialect | None, claims: ClaimedResult) -> Dialect | Non
 
 def _surplus(claims: ClaimedResult, lines: set[int]) -> Iterator[ContourReceipt]:
     """Contours of the result where the program has none, or that the result has twice."""
-    own = [contour.line for contour in claims.contours]
-    for contour in {contour.line: contour for contour in claims.contours}.values():
-        ledger, times = Ledger(), own.count(contour.line)
+    own = [(contour.line, contour.start) for contour in claims.contours]
+    for contour in {(contour.line, contour.start): contour for contour in claims.contours}.values():
+        ledger, times = Ledger(), own.count((contour.line, contour.start))
         if contour.line not in lines:
             remark = f"line {contour.line} begins none" if lines else "no line of the program begins one"
             ledger.require("the program has a contour block here", (), False, remark)
@@ -135,15 +146,20 @@ def _receipt(
     return ContourReceipt(line, lines, form, status, verdict, tuple(ledger.checks), tuple(ledger.omissions))
 
 
+Claims = Mapping[int, Sequence[ClaimedContour]]
+"""The contours of a result by their first line; a subprogram may have several on one."""
+
+
 def follow(
     program: Program,
     dialect: Dialect,
     unit: Length,
-    claims: Mapping[int, ClaimedContour],
+    claims: Claims,
     rules: str = "enforce",
     start: Program | None = None,
+    around: Surroundings = ALONE,
 ) -> Iterator[Found]:
-    """Every contour block of a program, in order; `claims` are those of the result by their line.
+    """Every contour block of a program, in the order in which it runs; each once that begins at the same place.
 
     `start` are blocks that state the start point apart from the program. Facts that only the result states are taken
     as stated in the last block of their contour.
@@ -151,15 +167,55 @@ def follow(
     blocks, start_error = _with_claimed_facts(program.blocks, claims), 0.0
     apart = sum(each.span.line < 0 for block in program.blocks for each in block.directives)
 
+    def claimed_for(claim: ParsedContour) -> ClaimedContour | None:
+        there = claims.get(claim.blocks[0].line, ()) if not claim.blocks[0].file else ()
+        here = [None if value is None else float(value) for value in claim.before.start().values]
+        return min(there, key=lambda each: _distance(each.start, here), default=None)
+
     def end_of(claim: ParsedContour) -> tuple[float, float] | None:
-        claimed = claims.get(claim.blocks[0].line)
+        claimed = claimed_for(claim)
         return claimed.end if claimed and claimed.has_path else None
 
-    state, modes = dialect.initial_state(unit), dialect.modes
-    for found, behind in contours_of(blocks, dialect.find, modes, state, start, end_of):
-        claimed = claims.get(found.blocks[0].line)
-        yield Found(found, claimed, start_error, dialect, next_place(blocks[behind:], found, modes), rules, apart)
-        start_error = PRINTED if claimed and claimed.end is not None else start_error
+    modes, seen = dialect.modes, set[object]()
+    first = dialect.initial_state(unit)
+    for block in start.blocks if start else ():
+        first = advance(first, block, modes)
+    state, entered = first, list[State]()
+    for run in _runs(replace(program, blocks=blocks), modes, around):
+        if isinstance(run, Turn):
+            state = behind_turn(state, run, entered, lambda: first, modes)
+            continue
+        left = list[State]()
+        for found, behind in contours_of(run, dialect.find, modes, state, None, end_of, left):
+            claimed, block = claimed_for(found), found.blocks[0]
+            key = block.line, block.text, tuple(found.before.start().values)
+            if not block.file and key not in seen:
+                seen.add(key)
+                yield Found(found, claimed, start_error, dialect, next_place(run[behind:], found, modes), rules, apart)
+            start_error = PRINTED if claimed and claimed.end is not None else start_error
+        state = left[0]
+
+
+def _distance(one: Sequence[float | None], other: Sequence[float | None]) -> float:
+    """How far two starts are from each other, mm; what one of them does not know is far."""
+    pairs = zip(one, other, strict=True)
+    return sum(abs(a - b) if a is not None and b is not None else FARTHEST * (a is not b) for a, b in pairs)
+
+
+def _runs(program: Program, modes: Modes, around: Surroundings) -> Iterator[Sequence[Block] | Turn]:
+    """The blocks of a program between its turns."""
+    language, run = modes.language, list[Block]()
+    if language is None or not needs_running((block.text for block in program.blocks), language):
+        yield program.blocks
+        return
+    for each in Machine(program, language, Library(language, modes.syntax, around.folders), around.values).run():
+        if isinstance(each, Turn):
+            yield run
+            yield each
+            run = []
+        else:
+            run.append(each)
+    yield run
 
 
 def with_facts(
@@ -174,12 +230,12 @@ def with_facts(
     return state_facts(program, found[0] if found else (), directives)
 
 
-def _with_claimed_facts(blocks: Sequence[Block], claims: Mapping[int, ClaimedContour]) -> tuple[Block, ...]:
+def _with_claimed_facts(blocks: Sequence[Block], claims: Claims) -> tuple[Block, ...]:
     """The blocks with the facts that only the result states, on lines below zero as they were given."""
     added: dict[int, list[Directive]] = {}
     own = {block.line: [each.text for each in block.directives] for block in blocks}
     given = sum(each.span.line < 0 for block in blocks for each in block.directives)
-    for claimed in claims.values():
+    for claimed in (each for several in claims.values() for each in several):
         known = [text for line in claimed.lines for text in own.get(line, ())]
         rest: list[Directive] = []
         for text in claimed.facts:

@@ -105,7 +105,9 @@ def alone(monkeypatch):
 
     def switch():
         walk = pipeline.walk
-        monkeypatch.setattr("contoursolve.postprocess.expansion.walk", lambda *arguments: walk(*arguments[:6]))
+        monkeypatch.setattr(
+            "contoursolve.postprocess.expansion.walk", lambda *given: walk(*given[:6], None, *given[7:])
+        )
         monkeypatch.setattr("contoursolve.api._MANY", 10**9)
 
     monkeypatch.setattr("contoursolve.api._MANY", 1)
