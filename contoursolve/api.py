@@ -277,6 +277,7 @@ def expand(
     keep_going: bool = False,
     keep_untranslated: bool = False,
     block_numbers: str = "first",
+    inline: bool = False,
     control: str | Dialect | None = None,
     start: str | None = None,
     units: str = "mm",
@@ -302,6 +303,7 @@ def expand(
         keep_untranslated: whether to write what the target would run along another path (`summary.misread`).
         block_numbers: `first`: of the lines in the place of a block, the first one has its number; `all`: the others
             have numbers, too, which the program does not use.
+        inline: whether to write out each call, jump and loop, with numbers for variables.
         control: and all others as for `solve`, with the same errors.
 
     >>> print(expand("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. C5. F0.2").text)
@@ -322,7 +324,7 @@ def expand(
     if decimals is not None and (isinstance(decimals, bool) or decimals not in range(1, MOST_DECIMALS + 1)):
         raise ValueError(f"decimals cannot be {decimals!r}; choose 1 to {MOST_DECIMALS}, or None for the target's own")
     numbering = choice_of(Numbering, block_numbers, "block_numbers")
-    options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, numbering)
+    options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, numbering, inline)
     summary, unit, policy = Summary(), choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
     if dialect is None:
         summary.left += filter(None, map(left_unread, program.blocks))
@@ -341,8 +343,6 @@ def expand(
             start=beginning,
             numbers=numbers_of(gcode.split_lines(text), dialect) if numbering is Numbering.ALL else None,
             around=surroundings_of(name, variables, folders) if is_run else None,
-            if needs_running(gcode.split_lines(text), dialect.modes.language)
-            else None,
         )
     )
     opening = opening_of(options, dialect, unit, summary)

@@ -94,6 +94,12 @@ def wording_options(command: Callable[..., None]) -> Callable[..., None]:
 )
 @wording_options
 @click.option(
+    "--inline",
+    "is_inline",
+    is_flag=True,
+    help="Write one program without calls, jumps, loops and variables: each call and each pass as it runs.",
+)
+@click.option(
     "--keep-going",
     "keeps_going",
     is_flag=True,
@@ -227,7 +233,9 @@ def target_of(program: str | None, output: str | None, *, is_forced: bool) -> Pa
 def _wish(post: str, options: Mapping[str, Any]) -> Options:
     """How the options ask the contours to be written."""
     arcs, numbering = Arcs(options["arcs"]), Numbering(options["block_numbers"])
-    return Options(POSTS[post], arcs, options["decimals"], not options["no_comments"], numbering)
+    return Options(
+        POSTS[post], arcs, options["decimals"], not options["no_comments"], numbering, options.get("is_inline", False)
+    )
 
 
 def _rewrite(

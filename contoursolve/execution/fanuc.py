@@ -178,4 +178,4 @@ def _unknown(name: str) -> str:
 @cache
 def fanuc() -> MacroLanguage:
     """Macro B, and the calls, jumps and profiles of the controls that follow Fanuc."""
-    return MacroLanguage("fanuc", _FORM.may_say, _FORM.read, program_files, _unknown)
+    return MacroLanguage("fanuc", _FORM.may_say, _FORM.read, program_files, _unknown, made_by=fanuc)

@@ -139,4 +139,13 @@ def _unknown(name: str) -> str:
 @cache
 def klartext() -> MacroLanguage:
     """The statements of HEIDENHAIN's programs."""
-    return MacroLanguage("klartext", _FORM.may_say, _FORM.read, _files, _unknown, passes_return=True)
+    return MacroLanguage(
+        "klartext",
+        _FORM.may_say,
+        _FORM.read,
+        _files,
+        _unknown,
+        jumps_to_numbers=False,
+        passes_return=True,
+        made_by=klartext,
+    )

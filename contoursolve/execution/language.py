@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from enum import Enum
+from typing import Any
 
 from msgspec import Struct
 
@@ -248,6 +249,11 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     """Whether a jump names a block number; Klartext knows labels alone."""
     passes_return: bool = False
     """Whether the end of a subprogram does nothing where none was called: LBL 0."""
+    made_by: Callable[[], "MacroLanguage"] | None = None
+    """What makes it, by whose name it is sent to another process."""
+
+    def __reduce__(self) -> Any:
+        return self.made_by, ()
 
 
 EMPTY = CodeLine("")

@@ -154,6 +154,13 @@ class Machine:
         self._went_back: set[tuple[str, int]] = set()
         self._last: tuple[str, int] = ("", 0)
         """The file and the line of the last block."""
+        self._is_alone = False
+
+    def run_alone(self) -> Iterator[Block | Turn]:
+        """The blocks of the main program and of what it calls, as one program without calls. What is set to a value
+        that is not known stays; the profile of a cycle that is written elsewhere does not run."""
+        self._is_alone = True
+        yield from self._run_from(0)
 
     def run(self) -> Iterator[Block | Turn]:
         """Every block in the order in which it runs, with numbers for its variables; behind the end of the program,
@@ -209,11 +216,12 @@ class Machine:
         rest = iter(code.statements)
         moving = list[MacroStatement]()
         for statement in rest:
-            if isinstance(statement, Assign | Forget):
-                self._assign(statement)
-            else:
+            if not isinstance(statement, Assign | Forget):
                 moving = [statement, *rest]
-        if code.begins is None and (not code.statements or code.rest.strip() or not moving):
+            elif not self._assign(statement) and self._is_alone:
+                code = replace(code, rest=block.text)
+        is_head = code.begins is not None and block.find("O") is not None and bool(frame.callers)
+        if (code.rest.strip() or not code.statements) and not is_head:
             ran = self._block(frame, block, code)
             here = (frame.source.name, block.line)
             if here[0] != self._last[0] or here[1] <= self._last[1]:
@@ -265,14 +273,16 @@ class Machine:
         found = self.values.get(name)
         return found if found is not None else Unknown(self.language.unknown(name))
 
-    def _assign(self, statement: Assign | Forget) -> None:
+    def _assign(self, statement: Assign | Forget) -> bool:
+        """Set a variable; whether its value is known."""
         name = self._name(statement.variable)
         value = Unknown(statement.reason) if isinstance(statement, Forget) else self._value(statement.value)
         if isinstance(name, Unknown):
             # Which one it is, is not known: it may be any.
             self._lose([*self.values], name.reason)
-            return
+            return False
         self._set(name, value)
+        return not isinstance(value, Unknown)
 
     def _name(self, variable: Variable | Indexed) -> str | Unknown:
         if isinstance(variable, Variable):
@@ -530,11 +540,14 @@ class Machine:
         if times < 1:
             return
         source, first, last = found
+        is_behind = call.cycle.startswith("G") and source is frame.source and first > index
+        if self._is_alone and call.kind is CallKind.PROFILE and not is_behind:
+            return
         own = self._arguments(call, source, first)
         caller = Caller(line, text, call.cycle)
         if call.kind is CallKind.PROFILE:
             yield Turn(Event.ENTER, line, call.cycle)
-            if call.cycle.startswith("G") and source is frame.source and first > index:
+            if is_behind:
                 frame.at = last + 1
         if source.name:
             self.called.add(source.name)

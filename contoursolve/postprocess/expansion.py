@@ -4,11 +4,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from contoursolve.diagnosis.examine import Depth, Policy
+from contoursolve.execution.machine import Turn
 from contoursolve.execution.subprograms import Surroundings
 from contoursolve.gcode import Directive, Program
 from contoursolve.geometry import Length
 from contoursolve.postprocess.expander import OPENING, Expander
-from contoursolve.postprocess.expansion_report import Options, Summary
+from contoursolve.postprocess.expansion_report import Left, Options, Summary
 from contoursolve.postprocess.numbering import Numbers
 from contoursolve.postprocess.post_processors import SAME, machine_of
 from contoursolve.postprocess.restating import UNITS, InGCodes, InOwnWords
@@ -51,7 +52,12 @@ def expand_lines(  # noqa: PLR0913 - takes what `rewrite` takes
     if around is not None:
         whole = tuple(each_block([*blocks], 0))
         blocks, machine = whole, machine_for(Program("", "", whole, dialect.modes.syntax), dialect, around)
-    steps = walk(blocks, dialect, unit, policy, Depth.PATH, start, together, machine)
+
+    def leave(turn: Turn) -> None:
+        summary.left.append(Left((turn.line,), turn.reason or "which part of the branch runs is not known", (), {}))
+
+    told = leave if options.is_inline or kind is InGCodes else None
+    steps = walk(blocks, dialect, unit, policy, Depth.PATH, start, together, machine, told)
     yield from kind(dialect, options, summary, lines, numbers).expand(steps)
 
 

@@ -17,13 +17,14 @@ _KEPT_WARNINGS = 20
 
 class Options(Struct, frozen=True):
     """What is asked of an expansion: the target, how it writes arcs, decimals (None: the target's own), whether the
-    original blocks are kept as comments, and block numbers."""
+    original blocks are kept as comments, block numbers, and whether calls are written out."""
 
     post: Post = SAME
     arcs: Arcs = Arcs.CENTER
     decimals: int | None = None
     has_comments: bool = True
     numbering: Numbering = Numbering.FIRST
+    is_inline: bool = False
 
 
 class Left(Struct, frozen=True):

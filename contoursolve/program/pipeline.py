@@ -204,7 +204,7 @@ class Run:
         return replace(self.frame, answers=tuple(answers), diagnostics=found, profiles=profiles)
 
 
-def walk(
+def walk(  # noqa: PLR0913 - all that a program is read by
     blocks: Iterable[Line],
     dialect: Dialect,
     unit: Length,
@@ -213,12 +213,15 @@ def walk(
     start: Program | None = None,
     together: Together | None = None,
     machine: Machine | None = None,
+    told: Callable[[Turn], None] | None = None,
 ) -> Iterator[Step]:
     """Every block and every contour of a program in order; blocks that are not a sequence are read as they are needed,
     so that a program of any length takes no more memory than some thousand lines, or its longest contour. Plain lines
     are read into words only where that matters. Contours are solved one by one, or `together`; where a machine runs the
-    program, `blocks` are those that it has."""
+    program, `blocks` are those that it has; with `told`, its calls are written out."""
     examiner = Examiner(dialect, unit, policy, depth, together)
+    if machine is not None and told is not None:
+        return examiner.steps_alone(machine, start, told)
     if machine is not None:
         return examiner.steps_as_run(cast("Sequence[Block]", blocks), machine, start)
     return examiner.steps(blocks, start)
@@ -315,6 +318,19 @@ class Examiner:
         told = [finding for block in blocks for finding in marks.look(block)]
         steps = self.steps(machine.run(), start)
         yield from in_text_order(blocks, machine, steps, self.rules, [*told, *marks.finish()], self.profiles)
+
+    def steps_alone(self, machine: Machine, start: Program | None, told: Callable[[Turn], None]) -> Iterator[Step]:
+        """The same as one program without calls; `told` is called where it is not known what runs."""
+        self.marks.is_done = True
+
+        def watched() -> Iterator[Line]:
+            for each in machine.run_alone():
+                is_open = isinstance(each, Turn) and each.event in (Event.LOST, Event.STOPPED)
+                if isinstance(each, Turn) and (is_open or (each.event is Event.ENTER and not each.reason)):
+                    told(each)
+                yield each
+
+        yield from self.steps(watched(), start)
 
     def checkpoint(self, state: State) -> Checkpoint:
         """What is known before a block, in a state."""

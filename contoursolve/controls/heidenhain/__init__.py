@@ -10,13 +10,14 @@ from contoursolve.controls.heidenhain.rules import RULES
 from contoursolve.controls.heidenhain.settings import SETTINGS
 from contoursolve.controls.heidenhain.writer import WRITING
 from contoursolve.controls.plain import PLANES
+from contoursolve.execution.klartext import klartext
 from contoursolve.reading import Modes
 from contoursolve.reading.dialect import Dialect
 
 HEIDENHAIN = Dialect(
     name="heidenhain",
     title="HEIDENHAIN TNC, Klartext with free contours FK",
-    modes=Modes(LEXICON, CODES, ("X", "Y", "Z"), frozenset(), syntax=SYNTAX, follow=follow),
+    modes=Modes(LEXICON, CODES, ("X", "Y", "Z"), frozenset(), syntax=SYNTAX, follow=follow, language=klartext()),
     plane=PLANES[17],
     forms=(),
     rules=RULES,

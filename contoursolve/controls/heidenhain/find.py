@@ -32,7 +32,6 @@ from contoursolve.controls.heidenhain.follow import (
     TOOL_AXIS,
     begins_chain,
     pole_of,
-    resolved,
     set_pole,
 )
 from contoursolve.controls.heidenhain.lexicon import (
@@ -152,7 +151,6 @@ class _Chain:
     def _take(self, block: Block) -> bool:
         """Whether a block belongs to the chain; then it is taken."""
         function, last = function_of(block), self.members[-1] if self.members else None
-        block = resolved(block, self.state)
         is_free = function in FREE
         if function in MOVES and not is_free and not _is_in_plane(block):
             # A move of the tool axis alone may stand between.

@@ -1,13 +1,11 @@
-"""Where the tool is behind the blocks of a Klartext program that are no free contour, and what Q parameters are."""
+"""Where the tool is behind the blocks of a Klartext program that are no free contour."""
 
 import re
-from collections.abc import Mapping
 from decimal import Decimal
 from math import atan2, cos, degrees, hypot, radians, sin
 
 from msgspec.structs import replace
 
-from contoursolve.controls.heidenhain.formulas import evaluate
 from contoursolve.controls.heidenhain.lexicon import BLOCK_NUMBER, FREE, function_of
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
@@ -24,30 +22,10 @@ _UNMOVED = ("RND", "CHF", "FSELECT", "STOP")
 _DECIMALS = Decimal("1e-9")
 
 
-def resolved(block: Block, state: State) -> Block:
-    """A block with the numbers of its Q parameters, as far as they are known."""
-    if "Q" not in block.text.upper():
-        return block
-    words = tuple(_resolve(word, state.memory) if word.number is None else word for word in block.words)
-    return replace(block, words=words)
-
-
-_PARAMETER = re.compile(r"(?P<sign>[+-]?)(?P<name>Q[LRS]?\d+)\s*$", re.IGNORECASE)
-
-
-def _resolve(word: Word, memory: Mapping[str, Word]) -> Word:
-    found = _PARAMETER.search(word.text)
-    value = memory.get(found["name"].upper()) if found else None
-    if found is None or value is None or value.number is None:
-        return word
-    return replace(word, number=-value.number if found["sign"] == "-" else value.number, has_point=True)
-
-
 def follow(state: State, block: Block, modes: Modes) -> State:
     """The state behind a block that is no free contour."""
     if block.macro is not None:
         return _statement(state, block, modes)
-    block = resolved(block, apply_modes(state, block, modes))
     state, function = apply_modes(state, block, modes), function_of(block)
     if block.faults:
         return state.lose(modes.axes, "the block has an error", block.span)
@@ -127,16 +105,9 @@ def _polar(state: State, block: Block, modes: Modes) -> State:
     return state.move({**moved, **positions(state, others, modes, block.is_skippable)})
 
 
-_ASSIGNED = re.compile(
-    BLOCK_NUMBER + r"(?:FN[ \t]*0[ \t]*:[ \t]*)?(?P<name>Q[LRS]?\d++)[ \t]*=(?P<formula>[^;~]*)", re.IGNORECASE
-)
 _LOSING: tuple[tuple[re.Pattern[str], str], ...] = tuple(
     (re.compile(BLOCK_NUMBER + pattern, re.IGNORECASE), reason)
     for pattern, reason in (
-        (r"LBL[ \t]*(?!0\b)[\w\"]", "a label begins there, which other blocks call"),
-        (r"LBL[ \t]*0\b", "the label ends there"),
-        (r"CALL\b", "it calls other blocks"),
-        (r"FN[ \t]*(?:9|10|11|12)[ \t]*:", "it may jump"),
         (r"CYCL[ \t]+CALL\b", "a cycle runs"),
         (r"CYCL[ \t]+DEF[ \t]+(?:7|8|10|11|19|26|247)\b", "it changes the coordinate system"),
         (r"PLANE\b|TRANS\b|FUNCTION\b", "it may change the coordinate system"),
@@ -151,7 +122,6 @@ _HARMLESS = re.compile(
     BLOCK_NUMBER + r"(?:BEGIN|END|BLK|TOOL|CYCL|LBL|FN|Q[LRS]?\d|SEL|STOP|M\d|\*|\(|;|~|$)", re.IGNORECASE
 )
 """What begins a statement that moves nothing."""
-_OTHER_FORMULA = re.compile(BLOCK_NUMBER + r"(?:FN[ \t]*\d+[ \t]*:[^;]*?)(?P<name>Q[LRS]?\d++)", re.IGNORECASE)
 
 
 def _statement(state: State, block: Block, modes: Modes) -> State:
@@ -159,40 +129,13 @@ def _statement(state: State, block: Block, modes: Modes) -> State:
     begins = _BEGIN.match(block.text)
     if begins:
         return replace(state, unit=Length.INCH if begins["unit"].upper() == "INCH" else Length.MM)
-    assigned = _ASSIGNED.match(block.text)
-    if assigned:
-        return _assign(state, block, assigned["name"].upper(), assigned["formula"])
     tool = _TOOL.match(block.text)
     if tool:
         word = Word(TOOL_AXIS, None, False, tool["axis"].upper(), block.span)
         state = replace(state, memory={**state.memory, TOOL_AXIS: word})
     for pattern, reason in _LOSING:
         if pattern.match(block.text):
-            return _forget(state.lose(modes.axes, reason, block.span), block)
-    other = _OTHER_FORMULA.match(block.text)
-    if other:
-        return _assign(state, block, other["name"].upper(), "")
+            return state.lose(modes.axes, reason, block.span)
     if _HARMLESS.match(block.text):
         return state
     return state.lose(modes.axes, f"{block.text.strip()[:40]} is not known to contoursolve", block.span)
-
-
-def _forget(state: State, block: Block) -> State:
-    """The state without parameters, where blocks run that are not followed."""
-    if not re.match(BLOCK_NUMBER + r"(?:CALL|FN)\b", block.text, re.IGNORECASE):
-        return state
-    memory = {name: word for name, word in state.memory.items() if not name.startswith("Q")}
-    return replace(state, memory=memory)
-
-
-def _assign(state: State, block: Block, name: str, formula: str) -> State:
-    """The state with a parameter as its formula gives it; not known if that rests on what is not known."""
-    values = {key: word.number for key, word in state.memory.items() if key.startswith("Q") and word.number is not None}
-    # A parameter that counts on is another one in each pass.
-    counts_on = re.search(rf"\b{name}\b", formula, re.IGNORECASE)
-    value = None if counts_on else evaluate(formula, values)
-    memory = dict(state.memory)
-    memory.pop(name, None)
-    if value is not None:
-        memory[name] = Word(name, value, True, formula.strip(), block.span)
-    return replace(state, memory=memory)

@@ -179,7 +179,7 @@ def _agreeing() -> Rule:
 
 _PARAMETER = Rule(
     "heidenhain-parameter", "{words}: the value of the parameter is not known here",
-    "set it by a formula of numbers before this block; what a label, a jump or a cycle sets is not followed",
+    'set it by a formula of numbers before this block, or state it: --let "Q1=5"',
     BOOK.assumed("Q parameters"), (START + "2 Q1 = ( 40 + 20 ) / 2\n3 FL X+Q1 Y+5\n4 END PGM A MM",),
     (START + "2 Q1 = Q2 + 5\n3 FL X+Q1 Y+5\n4 END PGM A MM",), about=ReadIssue.VARIABLE,
 )  # fmt: skip

@@ -7,7 +7,7 @@ from math import atan2, degrees, dist
 from msgspec.structs import replace
 
 from contoursolve.controls.heidenhain.find import find_joined
-from contoursolve.controls.heidenhain.follow import CENTER, PLANE, begins_chain, follow, pole_of, resolved
+from contoursolve.controls.heidenhain.follow import CENTER, PLANE, begins_chain, follow, pole_of
 from contoursolve.controls.heidenhain.lexicon import BLOCK_NUMBER, CODES, LEXICON, MOVES, SYNTAX, function_of
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Turn
@@ -176,7 +176,7 @@ class _Plain:
     def _move(self, block: Block, before: State) -> Restated:
         if block.faults:
             return Restated(reason=f"{block.faults[0].text.strip()} cannot be read")
-        block, function = resolved(block, before), function_of(block)
+        function = function_of(block)
         wrong = _wrong_place(block)
         if wrong:
             return Restated(reason=wrong)
@@ -260,9 +260,8 @@ class _Plain:
         if name == "tool":
             return self._tool(number, found["words"], after.unit)
         if name == "assignment":
-            # Its value stands wherever it is used.
-            is_known = found["name"].upper() in after.memory
-            return Restated(reason="" if is_known else f"the value of {found['name']} is not known")
+            # Where its value is known, that stands wherever it is used.
+            return Restated(reason=f"the value of {found['name']} is not known")
         return Restated(reason=f"{found['what']} {_UNTRANSLATED}" if name == "other" else "")
 
     def _tool(self, number: str | None, text: str, unit: Length) -> Restated:
