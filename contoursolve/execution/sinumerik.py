@@ -274,7 +274,9 @@ _TABLE = (
     Spelling(r"(?P<name>L\d++)(?![\w.])", _call),
     Spelling(r"(?P<name>[A-Z_]{2}\w*+)(?![\[=])", _call),
 )
-_RESERVED = ("TO", "OF", "DEFAULT", "AC", "IC", "DC", "ACP", "ACN", "SAVE", "ENDLABEL")
+_RESERVED = ("TO", "OF", "DEFAULT", "SAVE", "ENDLABEL", "AC", "IC", "DC", "ACP", "ACN")
+_ADDRESSES = ("FRC", "FRCM", "FB", "FZ", "FAD", "AP", "RP", "AR", "TURN", "OVR", "LIMS", "DISR", "DISCL")
+"""Words of every program."""
 _ENDINGS = (".SPF", ".MPF", ".ARC", "", ".txt")
 
 
@@ -288,7 +290,7 @@ def _unknown(name: str) -> str:
 
 def sinumerik(names: Iterable[str]) -> MacroLanguage:
     """The statements of SINUMERIK. The names are those of words and commands: others call subprograms."""
-    known = frozenset(name.upper() for name in (*names, *_RESERVED))
+    known = frozenset(name.upper() for name in (*names, *_RESERVED, *_ADDRESSES))
     long = "|".join(sorted((re.escape(name) for name in known if len(name) > 1), key=len, reverse=True))
     form = LineForm(
         SINUMERIK,
@@ -300,7 +302,7 @@ def sinumerik(names: Iterable[str]) -> MacroLanguage:
         behind_value="[A-Z_$]",
         says=rf"(?<![A-Z_])(?=[A-Z_]{{2}})(?!(?:{long})(?![A-Z_]))"
         r"|=[ \t]*+[-+]?+(?:[^-+.\d \t]|[\d.,]++[ \t]*+[-+*/])"
-        r"|(?<![A-Z_])(?:[RL]\d|M0*+(?:2|17|30)(?!\d))|%_N_|\$",
+        r"|(?<![A-Z_])(?:[RL]\d|M0*+(?:2|17|30)(?!\d|[ \t]*+=))|%_N_|\$",
         names=known,
     )
     return MacroLanguage("sinumerik", form.may_say, form.read, _files, _unknown)
