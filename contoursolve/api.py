@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
@@ -16,6 +16,7 @@ from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.execution.machine import needs_running
 from contoursolve.execution.subprograms import surroundings_of
 from contoursolve.gcode import STANDARD_INPUT, Directive, Program, UnreadableProgramError
+from contoursolve.gcode.contents import decode
 from contoursolve.geometry import Length
 from contoursolve.postprocess.numbering import numbers_of
 from contoursolve.program.pipeline import Result, Run, run
@@ -106,11 +107,7 @@ def solve(
     >>> f"{asked.answers[0].answers[0].value:.3f}"
     '8.038'
     """
-    if not isinstance(text, str):
-        raise TypeError(f"the program is a text (str), not {type(text).__name__}; solve_file reads a file")
-    if _FILE.fullmatch(text):
-        raise ValueError(f"{text} is the name of a file, not its text: call solve_file({text!r})")
-    program = gcode.parse(text, name)
+    program = _read(text, name)
     return solve_program(
         program,
         control=control,
@@ -123,6 +120,15 @@ def solve(
         variables=variables,
         folders=folders,
     )
+
+
+def _read(text: str, name: str) -> Program:
+    """The blocks of a text that is no name of a file."""
+    if not isinstance(text, str):
+        raise TypeError(f"the program is a text (str), not {type(text).__name__}; solve_file reads a file")
+    if _FILE.fullmatch(text):
+        raise ValueError(f"{text} is the name of a file, not its text: call solve_file({text!r})")
+    return gcode.parse(text, name)
 
 
 _FILE = re.compile(r"[^\n]*\.(?:nc|ngc|cnc|tap|txt|mpf|spf|eia|min|h|gcode|iso)", re.IGNORECASE)
@@ -139,18 +145,21 @@ def check(
     facts: Iterable[str | Statement] = (),
     settings: Mapping[str, str] | None = None,
     name: str = "<program>",
+    strict: bool = False,
 ) -> tuple[Diagnostic, ...]:
     """The findings about a program; arguments and errors as for `solve`.
 
-    A program without a contour block gets a warning.
+    Outside contours they are those on which a contour depends; `strict` tells all. A program without a contour block
+    gets a remark.
 
     >>> [each.code for each in check("G00 X40. Z0.\\nG111 X100. A180. B120.")]
     ['g111-line-1', 'words-missing']
     """
-    found = solve(
-        text, control=control, start=start, units=units, rules=rules, facts=facts, settings=settings, name=name
+    program = _read(text, name)
+    found = follow_program(
+        program, control=control, start=start, units=units, rules=rules, facts=facts, settings=settings, strict=strict
     )
-    return found.diagnostics
+    return found.collect().diagnostics
 
 
 def solve_file(
@@ -170,20 +179,17 @@ def solve_file(
     Settings are those of the project file beside it or above it, and `settings` on top of them.
     Raises UnreadableProgramError, SettingError, and as `solve`.
     """
-    folder = Path() if str(path) == STANDARD_INPUT else Path(path).parent
-    program = read_program(path)
-    own = find_settings(folder) | stated_settings(block.text for block in program.blocks) | dict(settings or {})
-    return solve_program(
-        program,
+    return _follow_file(
+        path,
+        settings,
         control=control,
         start=start,
         units=units,
         rules=rules,
         facts=facts,
-        settings=own,
         variables=variables,
         folders=folders,
-    )
+    ).collect()
 
 
 def check_file(
@@ -193,9 +199,17 @@ def check_file(
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,
+    strict: bool = False,
 ) -> tuple[Diagnostic, ...]:
-    """The findings about a file, with arguments and errors as for `solve_file`."""
-    return solve_file(path, control=control, units=units, rules=rules, settings=settings).diagnostics
+    """The findings about a file, with arguments as for `check` and errors as for `solve_file`."""
+    return _follow_file(path, settings, control=control, units=units, rules=rules, strict=strict).collect().diagnostics
+
+
+def _follow_file(path: str | Path, settings: Mapping[str, str] | None, **options: Any) -> Run:
+    folder = Path() if str(path) == STANDARD_INPUT else Path(path).parent
+    program = read_program(path)
+    own = find_settings(folder) | stated_settings(block.text for block in program.blocks) | dict(settings or {})
+    return follow_program(program, settings=own, **options)
 
 
 def solve_program(
@@ -238,8 +252,9 @@ def follow_program(
     settings: Mapping[str, str] | None = None,
     variables: Mapping[str, float] | None = None,
     folders: Iterable[str | Path] = (),
+    strict: bool = False,
 ) -> Run:
-    """The same as a stream of contours and findings, for a program of any length."""
+    """The same as a stream of contours and findings, for a program of any length; `strict` as for `check`."""
     dialect = choose(control, program, settings)
     beginning = gcode.parse(start, program.name, first_line=0) if start is not None else None
     unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
@@ -249,7 +264,7 @@ def follow_program(
 
         together = Batch(dialect, policy, is_proven=deep is not Depth.PATH)
     around = surroundings_of(program.name, variables, folders)
-    return Run(program, dialect, unit, policy, deep, beginning, _facts(facts), together, around)
+    return Run(program, dialect, unit, policy, deep, beginning, _facts(facts), together, around, is_strict=strict)
 
 
 _MANY = 64
@@ -425,5 +440,5 @@ def read_program(path: str | Path) -> Program:
     Raises UnreadableProgramError if there is no such file, or it is not text.
     """
     name = str(path)
-    text = gcode.decode(gcode.read_bytes(name, "a program file"), name)
+    text = decode(gcode.read_bytes(name, "a program file"), name)
     return gcode.parse(text, "<standard input>" if name == STANDARD_INPUT else name)

@@ -233,9 +233,8 @@ def target_of(program: str | None, output: str | None, *, is_forced: bool) -> Pa
 def _wish(post: str, options: Mapping[str, Any]) -> Options:
     """How the options ask the contours to be written."""
     arcs, numbering = Arcs(options["arcs"]), Numbering(options["block_numbers"])
-    return Options(
-        POSTS[post], arcs, options["decimals"], not options["no_comments"], numbering, options.get("is_inline", False)
-    )
+    has_comments, is_inline = not options["no_comments"], options.get("is_inline", False)
+    return Options(POSTS[post], arcs, options["decimals"], has_comments, numbering, is_inline)
 
 
 def _rewrite(

@@ -4,6 +4,7 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
+from glob import glob
 from importlib import import_module
 from math import isfinite, nan
 from pathlib import Path
@@ -267,6 +268,15 @@ def load(paths: Sequence[str], blocks: tuple[str, ...]) -> list[Callable[[], Pro
     if not paths:
         raise click.UsageError("missing PROGRAM: name a file, or - for standard input, or use --block")
     return [partial(read, path) for path in paths]
+
+
+def files_named(path: str) -> list[str]:
+    """The files that a name with wildcards means where no shell has put them in its place, as on Windows."""
+    is_file = path == STANDARD_INPUT or not _WILD.search(path) or Path(path).exists()
+    return ([] if is_file else sorted(glob(path))) or [path]  # noqa: PTH207 - Path.glob takes no whole paths
+
+
+_WILD = re.compile(r"[*?\[]")
 
 
 def read(path: str) -> Program:

@@ -12,13 +12,21 @@ from contoursolve.cli.options import (
     CouldNotRunError,
     common_options,
     explain_option,
+    files_named,
     follow,
     load,
 )
 from contoursolve.cli.printing import print_lines, print_pieces, say, style_of_output
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.output.document import Findings, Shelf, stream_json
-from contoursolve.output.listing import Totals, closing_lines, stream_findings, stream_listing
+from contoursolve.output.listing import (
+    MOST_ALIKE,
+    Totals,
+    closing_lines,
+    stream_findings,
+    stream_listing,
+    table_lines,
+)
 from contoursolve.program.pipeline import Result
 from contoursolve.reading.dialect import Dialect
 
@@ -60,12 +68,14 @@ def solve(
     contoursolve solve --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0."
     contoursolve solve --start "X40. Z0." --fact "length of line 1 = 30" --block "G111 X100. A180. B120. K?"
     """
-    run, tally = follow(load([program] if program else [], blocks)[0](), start, assignments, options), Totals()
+    options["strict"], tally = bool(blocks), Totals()
+    run = follow(load([program] if program else [], blocks)[0](), start, assignments, options)
     if format_ == "json":
         print_pieces(stream_json(run, tally))
     else:
         print_lines(stream_listing(run, tally, style_of_output(), is_explained=is_explained))
-        print_lines(closing_lines(run.frame, tally))
+        if run.is_strict or is_explained or tally.has_something:
+            print_lines(closing_lines(run.frame, tally))
     context.exit(_status(tally, tally.severities[Severity.ERROR]))
 
 
@@ -93,6 +103,8 @@ def _status(tally: Totals, found: int) -> int:
     help="The least finding that makes the exit status 1.",
 )
 @explain_option("every reason and every fix")
+@click.option("--strict", "is_strict", is_flag=True, help="Also report what no contour depends on, in every line.")
+@click.option("--all", "shows_all", is_flag=True, help=f"Show more than {MOST_ALIKE} findings of a kind in a program.")
 @click.pass_context
 def check(
     context: click.Context,
@@ -103,40 +115,52 @@ def check(
     format_: str,
     fail_on: str,
     is_explained: bool,
+    is_strict: bool,
+    shows_all: bool,
     assignments: tuple[str, ...],
     **options: Any,
 ) -> None:
     """Report the findings about each PROGRAM (files, or - for standard input), without the contours.
 
-    Each finding has two reasons and two fixes at most; --explain shows all. Exit status: 0 no error, 1 an error is
-    found (see --fail-on), 2 a program could not be examined.
+    Outside contours, check reports what a contour depends on: the position, the plane, the units, the mode, the value
+    of a word. --strict reports on every line. Each finding has two reasons and two fixes at most; --explain shows all.
+    Several programs end with a table, the worst first. A name may have wildcards: * ? [ ].
+
+    Exit status: 0 no error, 1 an error is found (see --fail-on), 2 a program could not be examined.
 
     \b
     contoursolve check shaft.nc flange.nc
+    contoursolve check *.nc
     contoursolve check --control yasnac-lx3 - < shaft.nc
     """
     # A bar among the lines of a terminal would be torn.
-    is_shown = len(programs) > 1 and sys.stderr.isatty() and not (format_ == "text" and sys.stdout.isatty())
+    names = [name for program in programs for name in files_named(program)]
+    loaders, style, is_alone = load(names, blocks), style_of_output(), len(names) <= 1
+    options["strict"], most = is_strict or bool(blocks), None if shows_all else MOST_ALIKE
+    is_shown = not is_alone and sys.stderr.isatty() and not (format_ == "text" and sys.stdout.isatty())
     tally, document = Totals(), Findings(context.with_resource(Shelf()))
-    results, done, failed = list[Result](), 0, False
-    with click.progressbar(load(programs, blocks), label="checking", file=sys.stderr, hidden=not is_shown) as loaded:
-        for loader in loaded:
+    results, rows = list[Result](), list[tuple[str, Totals | None]]()
+    with click.progressbar(loaders, label="checking", file=sys.stderr, hidden=not is_shown) as loaded:
+        for name, loader in zip(names or [""], loaded, strict=True):
             try:
                 run = follow(loader(), start, assignments, options)
             except CouldNotRunError as error:
                 error.show()
-                failed = True
+                rows.append((name, None))
                 continue
-            done += 1
+            own = Totals()
+            rows.append((name, own))
             if format_ == "text":
-                print_lines(stream_findings(run, tally, style_of_output(), is_explained=is_explained))
+                print_lines(stream_findings(run, own, style, is_explained=is_explained, is_alone=is_alone, most=most))
             elif format_ == "json":
-                document.add(run, tally)
+                document.add(run, own)
             else:
                 results.append(run.collect())
                 for finding in results[-1].diagnostics:
-                    tally.count(finding)
-    if failed and not done:
+                    own.count(finding)
+            tally.add(own)
+    done, failed = sum(each is not None for _, each in rows), any(each is None for _, each in rows)
+    if failed and is_alone:
         context.exit(COULD_NOT_RUN)
     match format_:
         case "json":
@@ -150,7 +174,10 @@ def check(
             from contoursolve.output.exchange import to_github  # noqa: PLC0415 - only here
 
             click.echo(to_github(results))
-        case _:
+        case _ if not is_alone:
+            print_lines(table_lines(rows))
+            say(tally.line(done))
+        case _ if options["strict"] or is_explained or tally.has_something:
             say(tally.line(done))
     failing = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}[fail_on]
     found = sum(tally.severities[each] for each in failing)

@@ -43,11 +43,11 @@ class LineReader:
         self.begins: str | None = None
         self.labels, self.words = list[str](), list[WordFormula]()
         self.statements, self.parameters = list[MacroStatement](), list[str]()
-        self._typed, self._rest = typed, list(typed)
+        self._rest = list(typed)
 
     def take(self, pattern: str) -> re.Match[str] | None:
         """What stands next, if it matches a pattern."""
-        found = compiled(r"[ \t]*+" + pattern).match(self.text, self.at)
+        found = compiled(rf"[ \t]*+(?:{pattern})").match(self.text, self.at)
         if found is not None:
             self.at = found.end()
         return found
@@ -69,9 +69,9 @@ class LineReader:
 
     def target(self) -> Term | str:
         """The name or the number of what is called, or the expression that is it: a text in quotes is a name."""
-        found = self.take(r"0*+(\d++)(?![.\w])")
+        found = self.take(r"(\d++)(?![.\w])")
         if found is not None:
-            return found[1] or "0"
+            return number_of(found[1])
         term = self.term(is_value=True)
         return term.value.upper() if isinstance(term, Quoted) else term
 
@@ -193,9 +193,9 @@ class LineForm(Struct, frozen=True, eq=False):
         number = number_of(head["number"]) if head and head["number"] else ""
         if not self.may_say(line):
             return CodeLine(line, number)
-        if len(line) > LONGEST_LINE:
-            return CodeLine(line, number, statements=(Strange(f"a line of {len(line):,} characters"),))
         reader = LineReader(line, self)
+        if len(reader.text.rstrip()) > LONGEST_LINE:
+            return CodeLine(line, number, statements=(Strange(f"a line of {len(line):,} characters"),))
         reader.number, reader.at = number, head.end() if head else 0
         program = head.groupdict().get("program") if head else None
         if program:
@@ -210,7 +210,7 @@ def nothing(_: LineReader, __: re.Match[str]) -> Iterable[MacroStatement]:
 
 
 ONE = Constant(1.0)
-PROGRAM_END = r"(?<![A-Z])M0*+(?:2|30)(?![\d.])"
+PROGRAM_END = r"(?<![A-Z])M0*+(?:2|30)(?![\d.]|[ \t]*+=)"
 
 
 def word(line: LineReader, _: re.Match[str]) -> Iterable[MacroStatement]:

@@ -144,7 +144,7 @@ SINUMERIK = Notation(
     fields=r"""
     SYSTEM.4: /\$[A-Z_]\w*(\[[^\[\]]*\])?/
     CONSTANT.5: /(TRUE|FALSE|\$PI)\b/
-    NAME: /[A-Z_]\w*/
+    NAME: /[A-Z_]{2}\w*|[A-Z_]\d*/
     LEFT: "["
     RIGHT: "]"
     FUNCTION.3: /@FUNCTIONS@(?=\s*\()/

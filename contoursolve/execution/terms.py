@@ -145,19 +145,22 @@ def read_term(notation: Notation, text: str, begin: int = 0, *, is_value: bool =
 
     Raises UnreadableTermError where none begins, and for one that is too long.
     """
-    reader = _parser(notation).parse_interactive(text[begin:], "value" if is_value else "term")
+    parser, start = _parser(notation), "value" if is_value else "term"
+    reader = parser.parse_interactive(text[begin:], start)
     tokens: Iterator[Token] = reader.lexer_thread.lex(reader.parser_state)  # type: ignore[no-untyped-call]
-    end = 0
+    end, is_refused = 0, False
     try:
         for count, token in enumerate(tokens):
             if count > LONGEST_TERM:
                 raise UnreadableTermError("it is too long")
+            is_refused = True
             reader.feed_token(token)
-            end = token.end_pos or 0
+            end, is_refused = token.end_pos or 0, False
     except UnexpectedInput:
         pass  # what follows belongs to no expression
     try:
-        term: Term = reader.feed_eof()  # type: ignore[no-untyped-call]
+        # A token that is refused may have closed what it cannot follow.
+        term: Term = parser.parse(text[begin : begin + end], start) if is_refused else reader.feed_eof()  # type: ignore
     except UnexpectedInput:
         raise UnreadableTermError(text[begin:]) from None
     return term, begin + end

@@ -24,10 +24,8 @@ from contoursolve.gcode.lookalikes import (
 )
 from contoursolve.gcode.syntax import ISO, Syntax, long_parts
 from contoursolve.gcode.text import (
-    BINARY,
     STANDARD_INPUT,
     UnreadableProgramError,
-    decode,
     is_folder,
     read_bytes,
     reason_of,
@@ -50,7 +48,6 @@ from contoursolve.gcode.word import (
 )
 
 __all__ = [
-    "BINARY",
     "FACT",
     "ISO",
     "LONGEST_BLOCK",

@@ -1,18 +1,18 @@
 """Programs as files: read as a stream whatever their encoding, and written whole or not at all."""
 
-import codecs
 import io
 import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from itertools import count
 from pathlib import Path
 from typing import BinaryIO
 
 from msgspec import Struct
 
+from contoursolve.gcode.contents import encoding_of
 from contoursolve.gcode.text import (
-    BINARY,
     STANDARD_INPUT,
     UnreadableProgramError,
     is_folder,
@@ -21,7 +21,6 @@ from contoursolve.gcode.text import (
     standard_input,
 )
 
-_NOT_TEXT = bytes(sorted(BINARY))
 _CHUNK = 1 << 20
 _IN_MEMORY = 1 << 22
 """Bytes of standard input that are held in memory."""
@@ -77,7 +76,7 @@ class Tape(Struct, frozen=True):
 def open_tape(path: str | Path) -> Iterator[Tape]:
     """Open a file of UTF-8 or Latin-1 text; `-` is standard input.
 
-    Raises UnreadableProgramError if there is no such file, or it is not text.
+    Raises UnreadableProgramError if there is no such file, or it is no program.
     """
     name = str(path)
     try:
@@ -90,7 +89,7 @@ def open_tape(path: str | Path) -> Iterator[Tape]:
         raise UnreadableProgramError(f"{name} cannot be read: {reason_of(error)}") from None
     with data:
         stamp = _stamp_of(data) if name != STANDARD_INPUT else None
-        encoding, mark = _recognise_encoding(data, name)
+        encoding, mark = encoding_of(iter(partial(data.read, _CHUNK), b""), name)
         size = data.seek(0, os.SEEK_END)
         yield Tape("<standard input>" if name == STANDARD_INPUT else name, data, size, encoding, mark, stamp)
 
@@ -112,7 +111,7 @@ def tape_of(text: str, name: str) -> Iterator[Tape]:
     except UnicodeEncodeError:
         raise UnreadableProgramError(f"{name} is not text") from None
     # A terminal's bytes need not be UTF-8.
-    encoding, _ = _recognise_encoding(io.BytesIO(data), name)
+    encoding, _ = encoding_of([data], name)
     yield Tape(name, io.BytesIO(data), len(data), encoding, b"")
 
 
@@ -126,28 +125,6 @@ def _spool() -> BinaryIO:
         copy.write(chunk)
     copy.seek(0)
     return copy  # type: ignore[return-value]
-
-
-def _recognise_encoding(data: BinaryIO, name: str) -> tuple[str, bytes]:
-    """UTF-8 where every byte fits, else Latin-1; and the byte order mark of UTF-8, which Latin-1 has not."""
-    decoder = codecs.getincrementaldecoder("utf-8")()
-    mark = codecs.BOM_UTF8 if data.read(len(codecs.BOM_UTF8)) == codecs.BOM_UTF8 else b""
-    data.seek(0)
-    is_utf8 = True
-    while chunk := data.read(_CHUNK):
-        if len(chunk.translate(None, _NOT_TEXT)) < len(chunk):
-            raise UnreadableProgramError(
-                f"{name} is not a text file (it holds control bytes); save it as UTF-8 or Latin-1 text"
-            )
-        try:
-            is_utf8 = is_utf8 and decoder.decode(chunk) is not None
-        except UnicodeDecodeError:
-            is_utf8 = False
-    try:
-        decoder.decode(b"", is_utf8)
-    except UnicodeDecodeError:
-        is_utf8 = False
-    return ("utf-8", mark) if is_utf8 else ("latin-1", b"")
 
 
 def check_target(target: Path, source: Path | None, *, is_forced: bool) -> None:

@@ -8,15 +8,9 @@ from typing import BinaryIO
 
 STANDARD_INPUT = "-"
 
-_TAPE_CODES = bytes([0x02, 0x03, 0x11, 0x12, 0x13, 0x14, 0x1A])
-"""STX, ETX, DC1 to DC4 and SUB: left in a program by a reader of paper tape or by DOS."""
-
-BINARY = frozenset(range(0x20)) - frozenset(b"\t\n\v\f\r" + _TAPE_CODES)
-"""Bytes that no program holds; a file in UTF-16 holds NUL."""
-
 
 class UnreadableProgramError(ValueError):
-    """A file that is missing, is no file, or is not text; the message says which."""
+    """A file that is missing, is no file, or is no program; the message says which."""
 
 
 def no_such_file(name: str) -> str:
@@ -59,15 +53,3 @@ def is_folder(path: str) -> bool:
         return Path(path).is_dir()
     except ValueError:  # a name with a NUL
         return False
-
-
-def decode(data: bytes, name: str) -> str:
-    """Text in UTF-8 or Latin-1. Raises UnreadableProgramError for bytes that are none."""
-    if not BINARY.isdisjoint(data):
-        raise UnreadableProgramError(
-            f"{name} is not a text file (it holds control bytes); save it as UTF-8 or Latin-1 text"
-        )
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return data.decode("latin-1")

@@ -14,10 +14,14 @@ from contoursolve.diagnosis.wording import count, statuses_text
 from contoursolve.diagnostics.finding import Diagnostic, Fix, Severity
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.findings import EXPLAINING, Style, finding_lines
+from contoursolve.output.plain_text import columns, printable
 from contoursolve.program.pipeline import Result, Run
 from contoursolve.program.recognise import what_shows
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import NoteKind, Status
+
+MOST_ALIKE = 10
+"""Findings of one code in one program that are shown where nobody asks for all."""
 
 
 def listed(result: Result) -> list[Diagnostic | Answer]:
@@ -34,17 +38,30 @@ def listing_lines(result: Result, style: Style, *, is_explained: bool = False) -
 
 
 def stream_listing(run: Run, tally: "Totals", style: Style, *, is_explained: bool = False) -> Iterator[str]:
-    """The same of a stream."""
+    """The same of a stream; that there is nothing to solve is one line."""
 
     def key(item: Answer | Diagnostic) -> Any:
         tally.count(item, is_explained=is_explained)
         return (item.lines[0], True) if isinstance(item, Answer) else (item.span.line, False, rank(item))
 
-    return _listing_lines(_in_order((key(item), item) for item in run), run.frame, style, is_explained=is_explained)
+    items = _in_order((key(item), item) for item in run)
+    is_short = not (run.is_strict or is_explained)
+    return _listing_lines(items, run.frame, style, is_explained=is_explained, is_short=is_short)
 
 
-def stream_findings(run: Run, tally: "Totals", style: Style, *, is_explained: bool = False) -> Iterator[str]:
-    """The findings of a stream, as `check` reports them."""
+def stream_findings(
+    run: Run,
+    tally: "Totals",
+    style: Style,
+    *,
+    is_explained: bool = False,
+    is_alone: bool = True,
+    most: int | None = MOST_ALIKE,
+) -> Iterator[str]:
+    """The findings of a stream, as `check` reports them: of those of one code so many, and then how many more. Only
+    where it `is_alone` that there is nothing to solve is told."""
+    is_short = not (run.is_strict or is_explained)
+    alike = Counter[tuple[Severity, str]]()
 
     def items() -> Iterator[tuple[Any, Diagnostic]]:
         for item in run:
@@ -53,9 +70,32 @@ def stream_findings(run: Run, tally: "Totals", style: Style, *, is_explained: bo
                 if finding.about is ReadIssue.CONTOUR_WAITS and not is_explained:
                     # They are counted in one line.
                     continue
-                yield (rank(finding), isinstance(item, Answer)), finding
+                if is_alone or not is_short or not _is_nothing(finding):
+                    yield (rank(finding), isinstance(item, Answer)), finding
 
-    return lines_of_findings(run.frame, _in_order(items()), style, is_explained=is_explained)
+    def shown() -> Iterator[Diagnostic]:
+        for finding in _in_order(items()):
+            kind = finding.severity, finding.code
+            alike[kind] += 1
+            if most is None or alike[kind] <= most:
+                yield finding
+
+    yield from lines_of_findings(run.frame, shown(), style, is_explained=is_explained, is_short=is_short)
+    for (severity, code), number in alike.items():
+        if most is not None and number > most:
+            role = severity.value
+            yield f"{style(f'{role}[{code}]', role)}: and {number - most:,} more like it; --all shows them"
+            yield ""
+
+
+def nothing_line(result: Result, finding: Diagnostic, style: Style) -> str:
+    """That there is nothing to solve in a program, and for which control it looks; empty for another finding."""
+    if finding.about is not ReadIssue.NO_CONTOUR:
+        return ""
+    name, role = printable(result.program.name), finding.severity.value
+    if finding.severity is Severity.INFO:
+        return f"{name}: no contour block, nothing to solve; --explain says how one begins"
+    return f"{style(role, role)}: {name} has no contour block: {'; '.join(finding.notes)}"
 
 
 def findings_of(item: Answer | Diagnostic, *, is_explained: bool = True) -> tuple[Diagnostic, ...]:
@@ -114,14 +154,13 @@ def _in_order(items: Iterable[tuple[Any, _Item]]) -> Iterator[_Item]:
 
 
 def _listing_lines(
-    items: Iterable[Diagnostic | Answer], result: Result, style: Style, *, is_explained: bool
+    items: Iterable[Diagnostic | Answer], result: Result, style: Style, *, is_explained: bool, is_short: bool = False
 ) -> Iterator[str]:
     for item in items:
         if isinstance(item, Answer):
             yield from contour_lines(item, result, is_explained=is_explained)
-        yield from lines_of_findings(
-            result, findings_of(item, is_explained=is_explained), style, is_explained=is_explained
-        )
+        findings = findings_of(item, is_explained=is_explained)
+        yield from lines_of_findings(result, findings, style, is_explained=is_explained, is_short=is_short)
 
 
 def lines_of_findings(
@@ -130,13 +169,17 @@ def lines_of_findings(
     style: Style,
     *,
     is_explained: bool = False,
+    is_short: bool = False,
     explaining: str = EXPLAINING,
 ) -> Iterator[str]:
     """The lines of findings, each with the program's lines that it marks; `explaining` is the command that explains
-    them."""
+    them. If it `is_short`, that there is nothing to solve is one line."""
     told: tuple[Fix, ...] = ()
     for finding in findings:
         shown = finding
+        if is_short and (line := nothing_line(result, finding, style)):
+            yield line
+            continue
         if told and finding.fixes == told:
             shown = replace(finding, fixes=(), notes=("the fixes above mend this, too", *finding.notes))
         told = finding.fixes or told
@@ -190,11 +233,23 @@ class Totals(Struct, frozen=True):
             self.statuses[item.status] += 1
             is_waiting = any(each.about is ReadIssue.CONTOUR_WAITS for each in item.diagnostics)
             self.waiting.update([item.status] * is_waiting)
-        findings = findings_of(item, is_explained=is_explained)
+        findings = [each for each in findings_of(item, is_explained=is_explained) if not _is_nothing(each)]
         self.severities.update(each.severity for each in findings if each.about is not ReadIssue.CONTOUR_WAITS)
         self.unexamined.update(
             each.code for each in findings if each.about in _UNEXAMINED and each.severity is Severity.ERROR
         )
+
+    def add(self, other: "Totals") -> None:
+        """Count what was counted in another program, too."""
+        self.statuses.update(other.statuses)
+        self.severities.update(other.severities)
+        self.unexamined.update(other.unexamined)
+        self.waiting.update(other.waiting)
+
+    @property
+    def has_something(self) -> bool:
+        """Whether there is a contour or a finding."""
+        return bool(self.statuses or self.severities) and not (self.unexamined and not self.statuses)
 
     def line(self, programs: int) -> str:
         """What was examined in some programs, and what was found."""
@@ -211,8 +266,40 @@ class Totals(Struct, frozen=True):
         return f"{several}{count(total, 'contour')} {statuses.partition(' ')[2]}, {told}"
 
 
+def _is_nothing(finding: Diagnostic) -> bool:
+    """Whether it only remarks that there is nothing to solve."""
+    return finding.about is ReadIssue.NO_CONTOUR and finding.severity is Severity.INFO
+
+
+def table_lines(programs: Sequence[tuple[str, Totals | None]]) -> Iterator[str]:
+    """Several programs by their names, the worst first; None stands for one that could not be read. Those without
+    contours and findings are counted."""
+    shown = [(name, each) for name, each in programs if each is None or each.unexamined or each.has_something]
+    rows = [_row(name, each) for name, each in sorted(shown, key=lambda row: _badness(row[1]))]
+    if rows:
+        yield from columns([("program", "contours", "errors", "warnings"), *rows], indent="")
+    if len(shown) < len(programs):
+        yield f"{count(len(programs) - len(shown), 'program')} without contour blocks"
+    yield ""
+
+
+def _badness(totals: Totals | None) -> tuple[int, ...]:
+    if totals is None or totals.unexamined:
+        return (0,)
+    return (1, -totals.severities[Severity.ERROR], -totals.severities[Severity.WARNING])
+
+
+def _row(name: str, totals: Totals | None) -> tuple[str, ...]:
+    if totals is None or totals.unexamined:
+        return (printable(name), "not examined", "", "")
+    numbers = (totals.statuses.total(), totals.severities[Severity.ERROR], totals.severities[Severity.WARNING])
+    return (printable(name), *map(str, numbers))
+
+
 def _tally(result: Result, *, is_explained: bool) -> Totals:
-    findings = result.diagnostics if is_explained else short_findings(result)
+    findings = [
+        each for each in (result.diagnostics if is_explained else short_findings(result)) if not _is_nothing(each)
+    ]
     return Totals(
         Counter(answer.status for answer in result.answers), Counter(finding.severity for finding in findings)
     )

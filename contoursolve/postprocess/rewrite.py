@@ -80,7 +80,7 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
         dialect = configure(dialect, settings)
         places = lines_of_facts(parse(tape.read(), tape.name), dialect, unit, start, facts) if facts else {}
         lines = expand_lines(
-            Lines(tape.lines(), dialect, places, is_certain=named is not None or not recogniser.is_sure),
+            Lines(tape.lines(), dialect, places, is_certain=bool(named or recogniser.begun) or not recogniser.is_sure),
             dialect,
             options,
             summary,

@@ -13,6 +13,7 @@ from copy import copy
 from dataclasses import dataclass, fields, is_dataclass
 from dataclasses import replace as with_fields
 from enum import Enum
+from functools import partial
 from itertools import accumulate, islice
 from operator import is_
 from typing import Any, overload
@@ -29,6 +30,7 @@ from contoursolve.execution.subprograms import surroundings_of
 from contoursolve.gcode import ISO, Block, Program, Syntax, parse, parse_block, split_lines
 from contoursolve.gcode.lexer import Blocks
 from contoursolve.geometry import Length, Plane
+from contoursolve.program.outside import Outside
 from contoursolve.program.pipeline import Checkpoint, Examiner, Result, run
 from contoursolve.program.project import CONTROL, FIRST_LINES, SettingError, stated_settings
 from contoursolve.program.recognise import PLANE, Recogniser, UnknownControlError, choose, shown_by
@@ -116,6 +118,10 @@ class _Lines(Sequence[Block]):
                 self._read = {}
             block = self._read[index] = parse_block(self.texts[index].rstrip("\r\n"), index + 1, self.syntax)
         return block
+
+    def between(self, first: int, last: int) -> list[Block]:
+        """Those from an index on to before another one."""
+        return self[first:last]
 
     def spell(self, syntax: Syntax) -> None:
         """Read them in this syntax from now on."""
@@ -403,23 +409,25 @@ class OpenProgram:
             whole = self._whole()
             yield from ((finding, whole.lines_of(finding)) for finding in whole.diagnostics)
             return
-        is_told, start = any(part.answer is not None for part in self._parts), 0
+        is_told, start, outside = any(part.answer is not None for part in self._parts), 0, Outside(self.dialect)
         for part in self._parts:
-            if part.beside or part.findings:
+            if part.beside or part.findings or part.answer is not None:
                 self._bring_up(part)
-                for finding in part.beside:
-                    is_told = is_told or finding.severity is Severity.ERROR
-                    yield finding, (finding.span.line,)
-                if part.answer is not None:
-                    lines = part.answer.lines
-                    now = tuple(line - lines[0] + start + 1 for line in lines)
-                    for finding in part.findings:
-                        line = finding.span.line  # a contour tells of the block behind it, too
-                        yield finding, now if line <= start + part.count else (line,)
+            blocks = partial(self._lines.between, start, start + part.count)
+            for finding in outside.take(part.beside, start + 1, blocks, part.answer, part.known.state):
+                is_told = is_told or finding.severity is Severity.ERROR
+                yield finding, (finding.span.line,)
+            if part.findings and part.answer is not None:
+                lines = part.answer.lines
+                now = tuple(line - lines[0] + start + 1 for line in lines)
+                for finding in part.findings:
+                    line = finding.span.line  # a contour tells of the block behind it, too
+                    yield finding, now if line <= start + part.count else (line,)
             start += part.count
         last = self._parts[-1]
         self._bring_up(last)
-        yield from ((finding, (finding.span.line,)) for finding in copy(last.known.marks).finish())
+        beside = outside.take([*copy(last.known.marks).finish()], start, tuple, None, last.known.state)
+        yield from ((finding, (finding.span.line,)) for finding in beside)
         if not is_told:
             finding = self._examiner.nothing_to_solve(self._lines)
             yield finding, (finding.span.line,)
@@ -428,7 +436,7 @@ class OpenProgram:
         """All that is known of a program that is not examined in parts."""
         if self._unread is None:
             program, around = parse(self.text, self.name), surroundings_of(self.name)
-            self._unread = run(program, self.dialect, self._unit, self._policy, around=around)
+            self._unread = run(program, self.dialect, self._unit, self._policy, around=around, is_strict=False)
         return self._unread
 
     @property

@@ -42,12 +42,22 @@ from contoursolve.gcode import (
 )
 from contoursolve.geometry import Length, Plane
 from contoursolve.program.calls import in_text_order, machine_for
+from contoursolve.program.outside import Outside
 from contoursolve.program.profiles import CycleProfile
-from contoursolve.program.recognise import what_shows
+from contoursolve.program.recognise import begins_for_another, first_signs, what_shows
 from contoursolve.program.solve_queue import Pending, Previous, Queue, Step, Together
-from contoursolve.program.stream import Line, View, go_on, pass_plainly
+from contoursolve.program.stream import Line, View, each_block, go_on, pass_plainly
 from contoursolve.program.tape_markers import Marks
-from contoursolve.reading import ParsedContour, ReadIssue, State, advance, advance_plainly, is_plain, next_place
+from contoursolve.reading import (
+    ParsedContour,
+    ReadIssue,
+    State,
+    advance,
+    advance_plainly,
+    apply_modes,
+    is_plain,
+    next_place,
+)
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import behind_turn, contours_of, reach_of, state_facts
 from contoursolve.reading.lexicon import TURNED
@@ -127,7 +137,7 @@ def _in_words(fact: Directive, plane: Plane, unit: Length) -> Directive:
     return replace(fact, text=text, span=Span(fact.span.line, 1, len(text) + 1))
 
 
-def run(  # noqa: PLR0913 - all that a program is read by
+def run(  # noqa: PLR0913 - takes what `solve` takes
     program: Program,
     dialect: Dialect | None,
     unit: Length,
@@ -137,21 +147,24 @@ def run(  # noqa: PLR0913 - all that a program is read by
     facts: Sequence[Directive] = (),
     together: Together | None = None,
     around: Surroundings = ALONE,
+    *,
+    is_strict: bool = True,
 ) -> Result:
     """Examine every block of a program and solve every contour, one by one or `together`.
 
     `start` is a block that states the start point apart from the program, `facts` are further facts about its
     only contour; raises FactPlaceError if it has several. Without a dialect only the characters of the program are
-    examined. `around` tells the values of variables and where subprograms are.
+    examined. If it is strict, it tells of every line, else of what contours depend on. `around` tells the values of
+    variables and where subprograms are.
     """
-    return Run(program, dialect, unit, policy, depth, start, facts, together, around).collect()
+    return Run(program, dialect, unit, policy, depth, start, facts, together, around, is_strict=is_strict).collect()
 
 
 class Run:
     """The same as a stream: contours, and findings about other blocks, as they are found. `frame` is the result without
     them. Raises FactPlaceError."""
 
-    def __init__(  # noqa: PLR0913 - all that a program is read by
+    def __init__(  # noqa: PLR0913 - the same
         self,
         program: Program,
         dialect: Dialect | None,
@@ -162,6 +175,8 @@ class Run:
         facts: Sequence[Directive] = (),
         together: Together | None = None,
         around: Surroundings = ALONE,
+        *,
+        is_strict: bool = False,
     ) -> None:
         if dialect is not None:
             syntax = dialect.modes.syntax
@@ -171,11 +186,15 @@ class Run:
         control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
         self.frame = Result(program, control, (), (), start, tuple(facts), settings, policy)
         goes_on = depth is Depth.FULL
-        self._examiner = Examiner(dialect, unit, policy, depth, together, goes_on=goes_on)
+        self._examiner = Examiner(dialect, unit, policy, depth, together, goes_on=goes_on, is_strict=is_strict)
         self._machine = machine_for(program, dialect, around) if dialect is not None else None
 
     def __iter__(self) -> Iterator[Answer | Diagnostic]:
         program, examiner, is_told = self.frame.program, self._examiner, False
+        own = examiner.dialect
+        if own is not None and not self.is_strict and begins_for_another(program.blocks, own):
+            yield examiner.nothing_to_solve(program.blocks)
+            return
         for step in self._steps():
             is_told = is_told or any(each.severity is Severity.ERROR for each in step.findings)
             yield from step.findings
@@ -192,6 +211,11 @@ class Run:
         # Blocks that are not kept are read as they are needed.
         is_whole = isinstance(blocks, tuple) or self.frame.control is None
         return self._examiner.steps(blocks if is_whole else iter(blocks), start)
+
+    @property
+    def is_strict(self) -> bool:
+        """Whether it tells of every line."""
+        return self._examiner.outside.is_strict
 
     def collect(self) -> Result:
         """All of it."""
@@ -233,6 +257,15 @@ _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
 _LOOKED_AT = 1_000
 """Lines of a program in which the words of a control are looked for."""
 
+_ARCS = (2, 3)
+"""Motions of arcs that end where their words say, whatever else is wrong with them."""
+
+_TRIES = 32
+"""Blocks among them that are tried with a comma."""
+
+_MOVING = frozenset("XYZUVWABCR")
+"""Addresses of axes, and of what a comma makes a part of a contour."""
+
 _NEAR = 8
 """Blocks at a place that are looked at together for what may have been meant there."""
 
@@ -272,8 +305,10 @@ class Examiner:
         together: Together | None = None,
         *,
         goes_on: bool = False,
+        is_strict: bool = False,
     ) -> None:
         self.dialect = dialect
+        self.outside = Outside(dialect, is_strict=is_strict)
         self.unit = unit
         self.policy = policy
         self.depth = depth
@@ -305,19 +340,28 @@ class Examiner:
         for each in self._walk(blocks, start):
             window.append(each)
             if len(window) >= size:
-                self.queue.settle()
-                yield from (other.step if isinstance(other, Pending) else other for other in window)
+                yield from self._told(window)
                 window, size = [], min(2 * size, most)
+        yield from self._told(window)
+
+    def _told(self, window: Sequence[Step | Pending]) -> Iterator[Step]:
+        """Some steps in a row, solved, with those findings outside contours that are told."""
         self.queue.settle()
-        yield from (other.step if isinstance(other, Pending) else other for other in window)
+        for each in window:
+            step = each.step if isinstance(each, Pending) else each
+            held: Sequence[Line] = [step.passage] if step.passage else step.blocks
+            line, blocks = held[0].line if held else 0, partial(each_block, held, 0)
+            told = tuple(self.outside.take(step.findings, line, blocks, step.answer, step.before))
+            yield step if told == step.findings else replace(step, findings=told)
 
     def steps_as_run(self, blocks: Sequence[Block], machine: Machine, start: Program | None) -> Iterator[Step]:
         """The same of a program that calls or computes: as it runs, told in the order in which it is written."""
         self.marks.is_done = True
         marks = Marks(self.marks.context)
-        told = [finding for block in blocks for finding in marks.look(block)]
+        told = [*(finding for block in blocks for finding in marks.look(block)), *marks.finish()]
         steps = self.steps(machine.run(), start)
-        yield from in_text_order(blocks, machine, steps, self.rules, [*told, *marks.finish()], self.profiles)
+        outside = told if self.outside.is_strict else []
+        yield from in_text_order(blocks, machine, steps, self.rules, outside, self.profiles)
 
     def steps_alone(self, machine: Machine, start: Program | None, told: Callable[[Turn], None]) -> Iterator[Step]:
         """The same as one program without calls; `told` is called where it is not known what runs."""
@@ -385,10 +429,13 @@ class Examiner:
         """What is found without a control."""
         is_shown = False
         for index, block in enumerate(blocks):
-            self.diagnostics += self.marks.look(block)
-            self._check_block(block)
+            if self.outside.is_strict:
+                self.diagnostics += self.marks.look(block)
+            is_torn = not is_shown and has_lookalike_code(block)
+            if self.outside.is_strict or block.directives or is_torn:
+                self._check_block(block)
             # One line is enough: with that mended, the control is known.
-            is_shown = is_shown or (has_lookalike_code(block) and self._check_letters_of_any(blocks, index, start))
+            is_shown = is_shown or (is_torn and self._check_letters_of_any(blocks, index, start))
         self.diagnostics += self.marks.finish()
         none = DIALECTS["yasnac-lx3"].initial_state(self.unit)
         return Step((), none, findings=self._findings())
@@ -452,10 +499,12 @@ class Examiner:
         self, view: View, found: ParsedContour | None, after: int, state: State, start: Program | None
     ) -> tuple[Step | Pending, Callable[[], State]]:
         """The step of so many blocks, and what gives the state behind it."""
-        block, modes = view[0], cast("Dialect", self.dialect).modes
+        dialect = cast("Dialect", self.dialect)
+        block, modes = view[0], dialect.modes
         blocks = (block,) if after == 1 else tuple(view[:after])
         self.diagnostics += (finding for each in blocks for finding in self.marks.look(each))
         if isinstance(found, ParsedContour) and found.form.is_contour:
+            self._check_arc_before(view)
             self._check_units(start, found)
             step = Step(blocks, state, findings=self._findings())
             pending = self.queue.add(found, step, view, after, self.previous)
@@ -463,15 +512,32 @@ class Examiner:
             return pending, partial(self.queue.leave, pending)
         behind = advance(state, block, modes)
         if isinstance(found, ParsedContour):
-            # Read as a contour is, but none.
-            answer = self._examine(found, Pending(found, Step((), state), view, after))
-            self.diagnostics += answer.diagnostics if answer.start.is_known else ()
+            if self.outside.is_strict or behind.motion not in _ARCS or dialect.signs(block):
+                self._check_arc(found, Pending(found, Step((), state), view, after))
             self._check_units(start, found)
         else:
             self._check_block(block)
             self._check_slips(view, (state, behind))
         self.previous = ((block,), state) if block.words else self.previous
         return Step(blocks, state, findings=self._findings()), lambda: behind
+
+    def _check_arc(self, found: ParsedContour, pending: Pending) -> None:
+        """What is read as a contour is, but is none."""
+        answer = self._examine(found, pending)
+        self.diagnostics += answer.diagnostics if answer.start.is_known else ()
+
+    def _check_arc_before(self, view: View) -> None:
+        """The arc that leads to a contour; others are looked at only where every line is."""
+        if self.dialect is None or self.previous is None or self.outside.is_strict:
+            return
+        (block, *others), state = self.previous
+        modes = self.dialect.modes
+        if others or apply_modes(state, block, modes).motion not in _ARCS:
+            return
+        both = [block, *view[:_NEAR]]
+        found = self.dialect.find(both, 0, state, modes)
+        if isinstance(found, ParsedContour) and not found.form.is_contour:
+            self._check_arc(found, Pending(found, Step((), state), View(both, 0), 1))
 
     def _check_slips(self, blocks: Sequence[Block], states: tuple[State, State]) -> None:
         """Whether the first of some lines would be a contour without a slip."""
@@ -567,8 +633,9 @@ class Examiner:
         """The finding that a program has no contour block: a warning where nothing in it looks like one."""
         own = self.dialect.name if self.dialect else None
         if self.dialect is None and self.depth is not Depth.VERDICT:
+            looked_at = blocks[:_LOOKED_AT]
             for name, dialect in DIALECTS.items():
-                for slip in self._slips_as(dialect, blocks):
+                for slip in self._slips_as(dialect, looked_at):
                     context = Context(self.rules, self.unit, place=slip.span)
                     row = context.row(ReadIssue.CONTROL_UNKNOWN)
                     return report(context, row, Basis.RULE, [], control=name, finding=slip.message)
@@ -577,35 +644,43 @@ class Examiner:
         shown = (
             what_shows(blocks, self.dialect) if self.dialect and _lacks_motion(self.dialect, blocks, self.unit) else ""
         )
-        elsewhere = {} if shown or own is None else {name: each for name, each in DIALECTS.items() if name != own}
         by_sign: dict[str, list[str]] = {}
-        for name, each in elsewhere.items():
-            by_sign.setdefault(what_shows(blocks, each), []).append(name)
-        signs = [
+        for name, sign in ({} if shown or own is None else first_signs(blocks, own)).items():
+            by_sign.setdefault(sign, []).append(name)
+        notes = [
             f"{sign} is for {either(names)}: try --control {names[0] if len(names) == 1 else 'with one of them'}"
             for sign, names in by_sign.items()
-            if sign
         ]
         if shown:
-            signs.insert(0, f"no G code of a motion is in force at {shown}: write G01")
+            notes.insert(0, f"no G code of a motion is in force at {shown}: write G01")
         context = Context(self.rules, self.unit)
         row = context.row(ReadIssue.NO_CONTOUR)
-        finding = report(context, row, Basis.RULE, [], triggers="; ".join(triggers + signs))
-        return finding if signs else replace(finding, severity=Severity.WARNING)
+        finding = report(context, row, Basis.RULE, [], triggers="; ".join(triggers))
+        slight = Severity.WARNING if self.outside.is_strict else Severity.INFO
+        return replace(finding, notes=tuple(notes)) if notes else replace(finding, severity=slight)
 
     def _slips_as(self, dialect: Dialect, blocks: Sequence[Block]) -> Iterator[Diagnostic]:
         """The words that make a contour for a control with their comma, in the first lines of a program."""
         from contoursolve.diagnosis.other_readings import explain_commas  # noqa: PLC0415 - few programs need it
 
-        state, addresses = dialect.initial_state(self.unit), dialect.modes.lexicon.addresses
-        for index, block in enumerate(blocks[:_LOOKED_AT]):
+        state, tries = dialect.initial_state(self.unit), _TRIES
+        lacking = {each[1:] for each in dialect.modes.lexicon.addresses if each.startswith(",")}
+        for index, block in enumerate(blocks):
             before, state = state, advance(state, block, dialect.modes)
-            if any(f",{word.address}" in addresses for word in block.words):
+            # What moves in rapid traverse, or alone, is an axis that turns.
+            stated = {word.address for word in block.words if word.address in _MOVING}
+            lacking -= stated if len(stated) == 1 or state.motion == 0 else set()
+            if not tries or not lacking:
+                return
+            if lacking & stated:
+                tries -= 1
                 context = Context(dialect.rules, self.unit, place=block.span)
                 found = explain_commas(context, dialect, blocks[index : index + _NEAR], (before, state))
                 yield from (each for each in found if each.fixes)
 
     def _check_block(self, block: Block) -> None:
+        if self.dialect and _is_clean(block, self.dialect):
+            return
         context = Context(self.rules, self.unit, place=block.span)
         for finding in explain_faults(context, block):
             is_slight = finding.about in _FAULTS_OF_NO_CONSEQUENCE
@@ -627,6 +702,19 @@ class Examiner:
                 elif block.syntax is not ISO and (meant := respelled(word, addresses)):
                     row = context.row(ReadIssue.WORD_MISTYPED)
                     self.diagnostics.append(report(context, row, Basis.RULE, [word], meant=meant))
+
+
+_USUAL = 10_000
+"""A number that is no value too large, in inches neither."""
+
+
+def _is_clean(block: Block, dialect: Dialect) -> bool:
+    """Whether a block has words alone, each once, and all as usual: there is nothing to say then."""
+    if block.faults or block.directives or block.unmarked:
+        return False
+    addresses = [word.address for word in block.words]
+    is_known = len({*addresses}) == len(addresses) and dialect.modes.lexicon.addresses.keys() >= {*addresses}
+    return is_known and all(word.number is not None and abs(word.number) <= _USUAL for word in block.words)
 
 
 def _repeated(words: Sequence[Word]) -> list[Word]:

@@ -1,11 +1,12 @@
 """For which control a program is: as its name says, or as its blocks show."""
 
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from itertools import islice
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.wording import either, join
 from contoursolve.gcode import Block, Program, Word
-from contoursolve.program.project import CONTROL, check_settings, configure, stated_settings
+from contoursolve.program.project import CONTROL, FIRST_LINES, check_settings, configure, stated_settings
 from contoursolve.reading import plain_lines, words_of
 from contoursolve.reading.dialect import Dialect
 
@@ -95,6 +96,8 @@ class Recogniser:
     def __init__(self) -> None:
         self.signs: dict[str, str] = {}
         """What first showed each control, by its name."""
+        self.begun: Dialect | None = None
+        """The control whose programs alone begin as this one does."""
         self._own: set[str] = set()
         """The controls that words of their own showed."""
         self._shown: set[str] = set()
@@ -108,6 +111,7 @@ class Recogniser:
         """The same for a block of which it is known what it shows."""
         if shown <= self._shown:
             return
+        self.begun = self.begun or begun_by(block)
         for name, dialect in DIALECTS.items():
             if f"sign {name}" in shown and name not in self.signs:
                 self.signs[name] = _sign(_signs(dialect, block), block)
@@ -123,6 +127,8 @@ class Recogniser:
 
     def find(self) -> Dialect | None:
         """The control; None if no block shows it. Raises UnknownControlError if they show more than one."""
+        if self.begun is not None:
+            return self.begun
         fitting = [name for name in DIALECTS if name in (self._own or self.signs) and self._fits(DIALECTS[name])]
         if len(fitting) == 1 and (fitting == [*self._own] or not self._own):
             return DIALECTS[fitting[0]]
@@ -151,6 +157,7 @@ _SHARED = frozenset({",A", ",C", ",R"})
 _MILLED, PLANE, _CORNER_ON_Z = "milled", "plane", "corner on Z"
 _ANGLE, _TURNED = ",A", {"X": "X", "U": "X", "Z": "Z", "W": "Z"}
 _PLANES, _OF_A_MILL = frozenset({17, 18, 19}), frozenset({17, 19, 91})
+_BEGIN = "PGM"
 _ABSOLUTE, _BESIDE_ABSOLUTE = 90, frozenset({0, 1, 18})
 
 
@@ -162,7 +169,23 @@ def recognise(blocks: Iterable[Block]) -> Dialect | None:
     recogniser = Recogniser()
     for block in blocks:
         recogniser.look(block)
+        if recogniser.begun is not None:
+            break
     return recogniser.find()
+
+
+def begun_by(block: Block) -> Dialect | None:
+    """The control whose programs alone begin with such a line."""
+    return next((each for each in DIALECTS.values() if _begins(each.signs(block))), None)
+
+
+def begins_for_another(blocks: Iterable[Block], dialect: Dialect) -> bool:
+    """Whether blocks begin as a program of another control does."""
+    return any(begun_by(block) and not _begins(dialect.signs(block)) for block in islice(blocks, FIRST_LINES))
+
+
+def _begins(words: Sequence[Word]) -> bool:
+    return bool(words) and words[0].address == _BEGIN
 
 
 def several_controls(signs: Mapping[str, str]) -> UnknownControlError:
@@ -182,6 +205,22 @@ def several_controls(signs: Mapping[str, str]) -> UnknownControlError:
 def what_shows(blocks: Iterable[Block], dialect: Dialect) -> str:
     """What first shows that blocks are for a control; empty if nothing does."""
     return next((sign for block in blocks for sign in [sign_of(block, dialect)] if sign), "")
+
+
+def first_signs(blocks: Iterable[Block], own: str) -> dict[str, str]:
+    """What first shows each control but one, by its name; nothing else is looked for behind the begin of a program."""
+    found, rest = dict[str, str](), dict(DIALECTS)
+    for block in blocks:
+        signs = {name: words for name, each in rest.items() if (words := each.signs(block))}
+        begun = [name for name, words in signs.items() if _begins(words)]
+        found |= {name: _sign(words, block) for name, words in signs.items()}
+        if begun:
+            rest, found = {}, {name: found[name] for name in begun}
+        if signs:
+            rest = {name: each for name, each in rest.items() if name not in found}
+        if not rest:
+            break
+    return {name: found[name] for name in DIALECTS if name in found and name != own}
 
 
 def sign_of(block: Block, dialect: Dialect) -> str:

@@ -11,6 +11,7 @@ from msgspec import Meta, Struct
 
 from contoursolve import gcode
 from contoursolve.gcode import STANDARD_INPUT, Program, UnreadableProgramError
+from contoursolve.gcode.contents import decode
 
 SCHEMA = "contoursolve/solve/1"
 
@@ -224,7 +225,7 @@ def document_of_blocks(blocks: Sequence[str]) -> Document:
 def parse_program(document: Document) -> Program:
     """The blocks of a program in UTF-8 or Latin-1. Raises CannotVerifyError if it is not text."""
     try:
-        return gcode.parse(gcode.decode(document.data, document.name), document.name)
+        return gcode.parse(decode(document.data, document.name), document.name)
     except UnreadableProgramError as error:
         raise CannotVerifyError(str(error)) from None
 

@@ -171,17 +171,29 @@ def test_fail_on_never_still_tells_that_it_could_not_run(save):
 def test_summary_of_several_files_tells_nothing_found_from_nothing_examined(save):
     clean, nothing, broken = save(CLEAN, "1.nc"), save(NOTHING, "2.nc"), save(BROKEN, "3.nc")
     assert check(clean).output == "1 contour solved, no problems\n"
-    assert check(nothing).output.splitlines()[-1] == "no contour examined; 1 warning"
-    assert check(clean, clean).output == "2 programs, 2 contours solved, no problems\n"
+    assert check(nothing).output == f"{nothing}: no contour block, nothing to solve; --explain says how one begins\n"
+    assert check(clean, clean).output.splitlines()[-1] == "2 programs, 2 contours solved, no problems"
     last = check(clean, nothing, broken).output.splitlines()[-1]
-    assert last == "3 programs, 3 contours: 2 solved, 1 without a solution; 1 error, 2 warnings"
+    assert last == "3 programs, 3 contours: 2 solved, 1 without a solution; 1 error, 1 warning"
 
 
-def test_summary_names_the_files_in_which_no_contour_was_examined(save):
-    output = check(save(CLEAN, "1.nc"), save(NOTHING, "2.nc")).output
-    assert "2.nc" in output
-    assert "no-contour" in output
-    assert "nothing found" not in output
+def test_several_programs_end_with_a_table_the_worst_first(save, tmp_path):
+    for name, text in (("1", CLEAN), ("2", NOTHING), ("3", BROKEN), ("4", WARNED), ("5", NOTHING)):
+        save(text, f"{name}.nc")
+    save("int part(void);\n#include <math.h>\n", "6.nc")
+    done = check(f"{tmp_path}/?.nc")
+    assert done.exit_code == 2
+    assert "6.nc is C source, no CNC program" in done.stderr
+    head, *rows, nothing, blank, total = done.stdout.splitlines()[-8:]
+    assert head.split() == ["program", "contours", "errors", "warnings"]
+    assert [row.rpartition("/")[2].rpartition("\\")[2].split() for row in rows] == [
+        ["6.nc", "not", "examined"],
+        ["3.nc", "2", "1", "1"],
+        ["4.nc", "1", "0", "1"],
+        ["1.nc", "1", "0", "0"],
+    ]
+    assert (nothing, blank) == ("2 programs without contour blocks", "")
+    assert total == "5 programs, 4 contours: 3 solved, 1 without a solution; 1 error, 2 warnings"
 
 
 def test_findings_of_several_files_are_each_in_their_own(save):

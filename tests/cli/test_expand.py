@@ -998,7 +998,7 @@ def test_linuxcnc_opens_an_old_program_through_the_filter(tmp_path):
     ("data", "status", "message"),
     [
         (START.encode() + b"G111 A180. B120. X100.\n", 1, "error[g111-line-1]"),
-        pytest.param(b"\x00\x01binary", 2, "is not a text file", marks=pytest.mark.slow),
+        pytest.param(b"\x00\x01binary", 2, "is binary data", marks=pytest.mark.slow),
         *(
             pytest.param(*case, marks=pytest.mark.slow)
             for case in (

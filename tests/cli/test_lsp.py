@@ -561,10 +561,10 @@ def test_hostile_programs_do_not_end_the_server(served, name):
 
 def test_a_program_with_findings_everywhere_does_not_flood_the_editor(served_for):
     async def use(editor: Editor) -> None:
-        editor.open(SHAFT, "X40.5.5\n" * 800)
+        editor.open(SHAFT, "G00 X40. Z0.\nG111 X40.5.5\n" * 800)
         found = await editor.findings(SHAFT)
         assert len(found) == 501
-        assert (found[-1].code, found[-1].range.start.line) == ("more-findings", 500)
+        assert (found[-1].code, found[-1].range.start.line) == ("more-findings", 1001)
         assert found[-1].message.startswith("300 more findings")
 
     served_for("yasnac-lx3")(use)

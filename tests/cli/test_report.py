@@ -228,7 +228,7 @@ def test_of_a_program_without_a_contour_the_command_writes_no_page_and_says_why(
     monkeypatch.chdir(tmp_path)
     for text, said in (
         ("", "[no-contour]: nothing to solve"),
-        ("GX1", "[number-missing]: G has no number"),
+        ("G00 X40. Z0.\nGl11 X100. A180. K-30. B120.", "letter l in Gl11"),
     ):
         code, output = run("-", input=text)
         assert (code, output.splitlines()[-1]) == (1, "contour.html: not written")

@@ -1390,7 +1390,7 @@ def test_inputs_that_cannot_be_read_are_named(desk, tmp_path):
     desk.program.write_bytes(PROGRAM.encode("utf-16"))
     status, _, errors = run("verify", desk.program, desk.result)
     assert status == 2
-    assert "not a text file" in errors
+    assert "is UTF-16 text" in errors
     for arguments in ((), (desk.program,), (desk.program, desk.result, "--control", "fanuc")):
         assert run("verify", *arguments)[0] == 2
 

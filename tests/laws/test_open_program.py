@@ -8,6 +8,7 @@ from editor import random_edit
 
 import contoursolve
 from contoursolve import OpenProgram
+from contoursolve.gcode.contents import decode
 
 ROOT = Path(__file__).parents[2]
 PROGRAMS = sorted([*(ROOT / "notebooks" / "programs").glob("*.nc"), *(ROOT / "docs" / "programs").glob("*.*")])
@@ -57,7 +58,7 @@ def compare(program: OpenProgram, text: str, control: str | None) -> None:
 
 def edit_at_random(path: Path, seed: int, edits: int, *, is_named: bool) -> None:
     draw = random.Random(seed)
-    text = contoursolve.gcode.decode(path.read_bytes(), path.name)
+    text = decode(path.read_bytes(), path.name)
     control = CONTROLS.get(path.name, "yasnac-lx3") if is_named else None
     program = OpenProgram(text, control=control)
     for number in range(edits):

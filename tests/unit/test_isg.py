@@ -152,7 +152,7 @@ def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
     refused(text, "isg-angle-redundant", "21895")
     result = isg(text, first_motion="none")
     assert not any(each.contour for each in result.answers)
-    assert "no G code of a motion is in force" in result.diagnostics[0].help
+    assert "no G code of a motion is in force" in result.diagnostics[0].notes[0]
 
 
 # How it is spelled ------------------------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from contoursolve.execution.evaluate import FUNCTIONS, evaluate, name_of_indexed, variables_of, written
 from contoursolve.execution.fanuc import fanuc
+from contoursolve.execution.isg import isg
 from contoursolve.execution.klartext import klartext
 from contoursolve.execution.language import (
     Apply,
@@ -18,12 +19,15 @@ from contoursolve.execution.language import (
     CallKind,
     Constant,
     Else,
+    ElseIf,
     EndIf,
     EndLoop,
+    For,
     Forget,
     If,
     Indexed,
     Jump,
+    JumpWay,
     Loop,
     ProgramEnd,
     Return,
@@ -35,6 +39,7 @@ from contoursolve.execution.language import (
     WordFormula,
 )
 from contoursolve.execution.notation import FANUC, ISG, KLARTEXT, LINUXCNC, SINUMERIK, Notation, UnreadableTermError
+from contoursolve.execution.sinumerik import sinumerik
 from contoursolve.execution.terms import LONGEST_TERM, read_term
 from contoursolve.execution.write import NOTATIONS, UnwritableTermError, write_term
 
@@ -252,6 +257,7 @@ FANUC_LINES = [
     ("END 1", "", [EndLoop("1")]),
     ("GOTO#5", "", [Jump(F("#5"))]),
     ("GOTON0100", "", [Jump("100")]),
+    ("GOTO 0", "", [Jump("0")]),
     ("G0 X40. M98 P0100 L3", "G0 X40.", [Call(CallKind.PROGRAM, "100", count=F("3"))]),
     ("M98P50100", "", [Call(CallKind.PROGRAM, "100", count=F("5"))]),
     ("M98 P#1", "", [Call(CallKind.PROGRAM, F("#1"))]),
@@ -318,7 +324,76 @@ KLARTEXT_LINES = [
     ("* - Q5 = 3", "* - Q5 = 3", []),
     ('TOOL CALL "SEQ5" Z S100', 'TOOL CALL "SEQ5" Z S100', []),
 ]
-LINES = [(fanuc(), *row) for row in FANUC_LINES] + [(klartext(), *row) for row in KLARTEXT_LINES]
+S = of(SINUMERIK)
+SINUMERIK_LANGUAGE = sinumerik(["MSG", "TRANS", "ANG", "RND", "CHF", "CR", "AC"])
+SINUMERIK_LINES = [
+    (
+        "N10 R[R2]=R1+1 R3=R1*2 ; R5=1",
+        "N10".ljust(23) + "; R5=1",
+        [Assign(S("R[R2]"), S("R1+1")), Assign(S("R3"), S("R1*2"))],
+    ),
+    (
+        "DEF REAL AA=5, BB, CC[2]",
+        "",
+        [Assign(S(name), S(value)) for name, value in (("AA", "5"), ("BB", "0"), ("CC[0]", "0"), ("CC[1]", "0"))],
+    ),
+    ("DEF INT DD[2]=SET(1,2)", "", [Assign(S("DD[0]"), S("1")), Assign(S("DD[1]"), S("2"))]),
+    ("IF R1==5 GOTOF MARK", "", [Jump("MARK", S("R1==5"), JumpWay.FORWARD)]),
+    ("IF (R1>5) AND NOT (R2<3)", "", [If(S("(R1>5) AND NOT (R2<3)"))]),
+    ("WHILE R1<10", "", [Loop("WHILE", S("R1<10"))]),
+    ("ENDWHILE", "", [EndLoop("WHILE")]),
+    ("FOR II=1 TO R2+1", "", [For(S("II"), S("1"), S("R2+1"), name="FOR")]),
+    ("LOOP", "", [Loop("LOOP")]),
+    ("REPEAT", "", [Loop("REPEAT")]),
+    ("UNTIL R1>=5", "", [EndLoop("REPEAT", S("R1>=5"))]),
+    ("GOTOB N100", "", [Jump("N100", way=JumpWay.BACKWARD)]),
+    (
+        "CASE R1 OF 1 GOTOF AA DEFAULT GOTOB BB",
+        "",
+        [Jump("AA", S("R1==1"), JumpWay.FORWARD), Jump("BB", way=JumpWay.BACKWARD)],
+    ),
+    ("REPEAT LAB P=3", "", [Call(CallKind.SECTION, "LAB", count=S("3"))]),
+    ("REPEAT AA BB P=R1", "", [Call(CallKind.LABEL, "AA", "BB", S("R1"))]),
+    ("REPEATB AA P3", "", [Call(CallKind.LABEL, "AA", "AA", S("3"))]),
+    ("L10 P3", "", [Call(CallKind.PROGRAM, "L10", count=S("3"))]),
+    ("Kontur", "", [Call(CallKind.PROGRAM, "KONTUR")]),
+    ("KONTUR(1,,R2)", "", [Call(CallKind.PROGRAM, "KONTUR", arguments=(("1", S("1")), ("2", S("0")), ("3", S("R2"))))]),
+    ('CALL "/_N_WKS_DIR/_N_NAME_SPF"', "", [Call(CallKind.PROGRAM, "NAME")]),
+    ("CALL BLOCK AA TO BB", "", [Call(CallKind.LABEL, "AA", "BB")]),
+    ("G0 X5 M17", "G0 X5 M17", [Return()]),
+    ("S2=1000 M2=3 FRCM= 200", "S2=1000 M2=3 FRCM= 200", []),
+    ("RET", "", [Return()]),
+    ('CYCLE95("NAME",1,2)', "", [Call(CallKind.PROFILE, "NAME", cycle="CYCLE95")]),
+    ('CYCLE95("A:B",1,2)', "", [Call(CallKind.PROFILE, "A", "B", cycle="CYCLE95")]),
+    ('CYCLE62(,2,"L1","L2")', "", [Call(CallKind.PROFILE, "L1", "L2", cycle="CYCLE62")]),
+    ('MSG("X R1=5")', 'MSG("X R1=5")', []),
+    ("R1=FOO(3)", "", [Forget(S("R1"), "R1=FOO(3) cannot be read")]),
+    ("GOTOS", "", [Strange("GOTOS cannot be read")]),
+]
+G = of(ISG)
+ISG_LINES = [
+    ("N10 P[P1]=3*P2 (x (y) P1=4)", "N10".ljust(15) + "(x (y) P1=4)", [Assign(G("P[P1]"), G("3*P2"))]),
+    ("V.P.A[1].B=2", "", [Assign(G("V.P.A[1].B"), G("2"))]),
+    ("$IF P1 > 5", "", [If(G("P1>5"))]),
+    ("$ELSEIF P1==2", "", [ElseIf(G("P1==2"))]),
+    ("$FOR P1 = 0, 10, 2", "", [For(G("P1"), G("0"), G("10"), G("2"), "FOR")]),
+    ("$ENDFOR", "", [EndLoop("FOR")]),
+    ("$DO", "", [Loop("DO")]),
+    ("$ENDDO P1<5", "", [EndLoop("DO", Apply("not", (G("P1<5"),)))]),
+    ("$GOTO N0010", "", [Jump("10")]),
+    ("$GOTO [Lab]", "", [Jump("LAB")]),
+    ("LL Sub1", "", [Call(CallKind.PROGRAM, "SUB1")]),
+    ("M29", "M29", [Return()]),
+    ('#MSG ["P1=5"]', '#MSG ["P1=5"]', []),
+    ("$SWITCH P1", "", [Strange("$SWITCH P1 cannot be read")]),
+]
+LANGUAGES = {
+    fanuc(): FANUC_LINES,
+    klartext(): KLARTEXT_LINES,
+    SINUMERIK_LANGUAGE: SINUMERIK_LINES,
+    isg(): ISG_LINES,
+}
+LINES = [(language, *row) for language, rows in LANGUAGES.items() for row in rows]
 
 
 @pytest.mark.parametrize(("language", "line", "rest", "statements"), LINES)
@@ -338,6 +413,14 @@ def test_formulas_of_words_have_their_places():
         WordFormula(9, 17, F("-[#1+2]")),
         WordFormula(20, 23, F("-#3")),
     )
+    code = SINUMERIK_LANGUAGE.read("G1X=R1Y=AC(R2+1) ANG=-_ANG CR=5")
+    assert code.words == (WordFormula(4, 6, S("R1")), WordFormula(11, 15, S("R2+1")), WordFormula(21, 26, S("-_ANG")))
+    code = isg().read("X100+P10 Y[P1+2] #ANG=V.L.A F1000")
+    assert code.words == (
+        WordFormula(1, 8, G("100+P10")),
+        WordFormula(10, 16, G("P1+2")),
+        WordFormula(22, 27, G("V.L.A")),
+    )
     assert klartext().read("L X+Q1 LENQ31 RQL2").words == (
         WordFormula(3, 6, K("Q1")),
         WordFormula(10, 13, K("Q31")),
@@ -346,6 +429,12 @@ def test_formulas_of_words_have_their_places():
 
 
 def test_programs_and_blocks_begin():
+    assert SINUMERIK_LANGUAGE.read("%_N_L10_SPF").begins == "L10"
+    assert (isg().read("%L Sub1").begins, isg().read("%BRACKET").begins) == ("SUB1", "BRACKET")
+    procedure = SINUMERIK_LANGUAGE.read("PROC Name(REAL AA, VAR INT BB=3, STRING[20] CC) SAVE")
+    assert (procedure.begins, procedure.parameters) == ("NAME", ("AA", "BB", "CC"))
+    assert SINUMERIK_LANGUAGE.read("N5 Mark: G1 X5").labels == ("MARK",)
+    assert isg().read("[Lab]").labels == ("LAB",)
     assert klartext().read("0 BEGIN PGM Cam MM").begins == "CAM"
     assert [klartext().read(line).labels for line in ("5 LBL 012", 'LBL "Up"')] == [("12",), ("UP",)]
     assert (fanuc().read("O0100 (A)").begins, fanuc().read(":7").begins) == ("100", "7")
@@ -362,3 +451,56 @@ def test_programs_and_blocks_begin():
 )
 def test_words_say_nothing_else(language, line):
     assert not language.may_say(line)
+
+
+@pytest.mark.parametrize(
+    ("language", "name", "files"),
+    [
+        (fanuc(), "100", {"O0100.nc", "O100", "0100.txt"}),
+        (klartext(), "POCKET", {"POCKET.H"}),
+        (SINUMERIK_LANGUAGE, "L10", {"L10.SPF", "L10.ARC", "L10.MPF"}),
+        (isg(), "SUB.NC", {"SUB.NC"}),
+    ],
+)
+def test_files_in_which_a_subprogram_may_be(language, name, files):
+    assert files <= {*language.files(name)}
+
+
+@pytest.mark.parametrize(
+    ("language", "name", "reason"),
+    [
+        (fanuc(), "#5041", "#5041 is the machine's"),
+        (fanuc(), "#0", "#0 is always empty"),
+        (fanuc(), "#100", "#100 is set by nothing before"),
+        (klartext(), "Q108", "Q108 is the machine's"),
+        (klartext(), "QL108", "QL108 is set by nothing before"),
+        (SINUMERIK_LANGUAGE, "$AA_IW[X]", "$AA_IW[X] is the machine's"),
+        (isg(), "V.E.A", "V.E.A is the machine's"),
+    ],
+)
+def test_why_a_variable_is_not_known(language, name, reason):
+    assert language.unknown(name) == reason
+
+
+PIECES = sorted({piece for rows in LANGUAGES.values() for row in rows for piece in re.findall(r"\w+|\S| ", row[0])})
+
+
+@law(
+    st.lists(st.sampled_from(PIECES), max_size=40).map("".join) | st.text(max_size=60).filter(str.isprintable), few=400
+)
+def test_nothing_raises_and_columns_stay(line):
+    for language in LANGUAGES:
+        code = language.read(line)
+        assert len(code.rest) == len(line)
+        assert all(new in (old, " ") for old, new in zip(line, code.rest, strict=True))
+        assert all(0 <= word.begin < word.end <= len(line) for word in code.words)
+        assert language.may_say(line) or code.rest == line
+
+
+@pytest.mark.parametrize(
+    "piece", ["[", "X[", "X[ ", "#", "(", "IF[", "-", "1+", "SIN(", "$IF ", "R1=", "Q1=", "LBL ", '("', "A,"]
+)
+def test_a_line_of_one_thing_again_and_again_is_read(piece):
+    for language in LANGUAGES:
+        for times in (100, 1900 // len(piece), 10_000):
+            assert len(language.read(piece * times).rest) == len(piece * times)

@@ -39,7 +39,8 @@ def outside(kinds):
 @pytest.mark.parametrize("control", ["yasnac-lx3", "nct-99m", None])
 def test_the_first_line_outside_is_named_on_either_side(control):
     for kinds, text in programs(200):
-        found = [each for each in contoursolve.solve(text, control=control).diagnostics if each.code == "text-outside"]
+        every = contoursolve.check(text, control=control, strict=True)
+        found = [each for each in every if each.code == "text-outside"]
         told = {each.message.split()[3]: each.span.line for each in found}
         assert told == {side: lines[0] for side, lines in outside(kinds).items() if lines}, text
         assert all(each.severity.value == "warning" for each in found)
@@ -69,6 +70,6 @@ def test_expand_keeps_it_and_says_so():
         named = outside([*kinds, "code", "move", "move"])
         told = [each.span.line for each in expansion.summary.warned if each.code == "text-outside"]
         assert told == sorted(lines[0] for lines in named.values() if lines)
-    done = CliRunner().invoke(main, ["expand", "-"], input=f"%\nG00 X40. Z0.\n{TAPER}\nM30\n%\nG01 X1.\n")
-    assert "line 6: warning[text-outside]" in done.stderr
-    assert done.stdout.endswith("M30\n%\nG01 X1.\n")
+    done = CliRunner().invoke(main, ["expand", "-"], input=f"%\nM30\n%\nG00 X40. Z0.\n{TAPER}\n%\nM5\n")
+    assert "line 4: warning[text-outside]" in done.stderr
+    assert done.stdout.endswith("%\nM5\n")

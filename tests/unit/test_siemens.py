@@ -259,7 +259,7 @@ def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
     assert ends(text) == ends(SI_G1)
     (finding,) = siemens(text, first_motion="none").diagnostics
     assert finding.code == "no-contour"
-    assert "no G code of a motion is in force" in finding.help
+    assert "no G code of a motion is in force" in finding.notes[0]
 
 
 @some_of(

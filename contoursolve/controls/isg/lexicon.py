@@ -5,6 +5,7 @@ from collections.abc import Mapping
 
 from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, lexicon
 from contoursolve.diagnostics.source import Book
+from contoursolve.execution.isg import isg
 from contoursolve.gcode import Block, Syntax, Word
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import COMMENTED, Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
@@ -128,4 +129,5 @@ MODES = Modes(
     call_addresses=frozenset("L"),
     beside=frozenset({"#FRC"}),
     separate=frozenset({CHAMFER, ROUNDING}),
+    language=isg(),
 )

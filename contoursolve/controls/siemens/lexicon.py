@@ -2,9 +2,14 @@
 
 import re
 from collections.abc import Mapping
+from functools import cache
+
+from msgspec import structs
 
 from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, lexicon
 from contoursolve.diagnostics.source import Book
+from contoursolve.execution.language import MacroLanguage
+from contoursolve.execution.sinumerik import sinumerik
 from contoursolve.gcode import Block, Syntax, Word, long_parts
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
@@ -126,9 +131,17 @@ def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
     return {} if word.number == 0 else {"RNDM": word}
 
 
-_ENDS = frozenset({17})
+_ENDS, _LEXICON, _BESIDE = frozenset({17}), _words(), frozenset({"RNDM", "FRC", "FRCM", "LIMS"})
+
+
+@cache
+def statements() -> MacroLanguage:
+    """Variables, jumps and calls: a name that is no word and no command calls a subprogram."""
+    return structs.replace(sinumerik([*SYNTAX.codes, *_LEXICON.addresses, *_BESIDE]), made_by=statements)
+
+
 MODES = Modes(
-    _words(),
+    _LEXICON,
     CODES,
     ("X", "Y", "Z"),
     _ENDS,
@@ -138,5 +151,6 @@ MODES = Modes(
     call_addresses=frozenset("L"),
     moving=re.compile(r"AP|RP|AR|POS[AP]?\[[XYZ]\w*\]|[XYZIJK]\d+(=\w+)?"),
     lasting={"RNDM": "RNDM=0"},
-    beside=frozenset({"RNDM", "FRC", "FRCM", "LIMS"}),
+    beside=_BESIDE,
+    language=statements(),
 )

@@ -1,0 +1,137 @@
+"""ISG kernel: parameters, variables, control blocks and subprograms."""
+
+import re
+from collections.abc import Iterable, Iterator
+from functools import cache
+
+from contoursolve.execution.language import (
+    Apply,
+    Assign,
+    Call,
+    CallKind,
+    Else,
+    ElseIf,
+    EndIf,
+    EndLoop,
+    For,
+    If,
+    Jump,
+    Loop,
+    MacroLanguage,
+    MacroStatement,
+    ProgramEnd,
+    Return,
+    Term,
+)
+from contoursolve.execution.lines import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, number_of, strange
+from contoursolve.execution.notation import ISG, UnreadableTermError
+
+_MACHINES = ("V.A.", "V.E.", "V.G.", "V.SYS.")
+"""What begins the names of variables that belong to the machine, or to programs outside the control."""
+
+
+def _assign(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    yield line.assignment()
+
+
+def _if(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    condition = line.term()
+    jump = line.take(r"\$GOTO")
+    yield Jump(_target(line), condition) if jump else If(condition)
+
+
+def _target(line: LineReader) -> Term | str:
+    found = line.need(r"(?:N[ \t]*+(?P<number>\d++)|\[(?P<label>[^\[\]]++)\])")
+    return number_of(found["number"]) if found["number"] else found["label"].strip().upper()
+
+
+def _jump(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    yield Jump(_target(line))
+
+
+def _while(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    yield Loop("WHILE", line.term())
+
+
+def _until(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    """It runs again while the condition holds; for ever, where there is none."""
+    yield EndLoop("DO", Apply("not", (line.term(),)) if line.take(r"(?=\S)") else None)
+
+
+def _for(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    first = line.assignment()
+    if not isinstance(first, Assign):
+        raise UnreadableTermError
+    line.need(",")
+    last = line.term()
+    yield For(first.variable, first.value, last, line.term() if line.take(",") else ONE, "FOR")
+
+
+def _call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    if found["bare"] and found["bare"].upper() == "CYCLE":
+        line.at = len(line.text)
+        yield strange(line.text[found.start() :])
+        return
+    yield Call(CallKind.PROGRAM, (found["quoted"] or found["bare"]).upper())
+
+
+def _label(line: LineReader, found: re.Match[str]) -> Iterable[MacroStatement]:
+    line.labels.append(found["label"].upper())
+    line.hide(found.start(), found.end())
+    return ()
+
+
+def _word(line: LineReader, _: re.Match[str]) -> Iterable[MacroStatement]:
+    line.word(is_value=False)
+    return ()
+
+
+_OWN = r"\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)(?!\w)"
+_VARIABLE = r"(?:P[ \t]*+\d++|P[ \t]*+\[[^\]]*+\]|V\.[A-Z]++\.[\w.\[\],]++)"
+_TABLE = (
+    Spelling(r"%.*+", nothing),
+    Spelling(rf"\#(?!{_OWN[2:]}).*+", nothing),
+    Spelling(rf"(?={_VARIABLE}[ \t]*+=(?!=))", _assign),
+    Spelling(r"\$IF(?!\w)", _if),
+    Spelling(r"\$ELSEIF(?!\w)", lambda line, _: [ElseIf(line.term())]),
+    Spelling(r"\$ELSE(?!\w)", lambda *_: [Else()]),
+    Spelling(r"\$ENDIF(?!\w)", lambda *_: [EndIf()]),
+    Spelling(r"\$WHILE(?!\w)", _while),
+    Spelling(r"\$ENDWHILE(?!\w)", lambda *_: [EndLoop("WHILE")]),
+    Spelling(r"\$FOR(?!\w)", _for),
+    Spelling(r"\$ENDFOR(?!\w)", lambda *_: [EndLoop("FOR")]),
+    Spelling(r"\$DO(?!\w)", lambda *_: [Loop("DO")]),
+    Spelling(r"\$ENDDO(?!\w)", _until),
+    Spelling(r"\$GOTO(?!\w)", _jump),
+    Spelling(r"\$[A-Z]++.*+", lambda _, found: [strange(found[0])]),
+    Spelling(r"\[[ \t]*+(?P<label>[A-Z_]\w*+)[ \t]*+\]", _label),
+    Spelling(r"LL?+[ \t]++(?:\"(?P<quoted>[^\"]++)\"|(?P<bare>[^\s\[\"();,#$=]++))", _call),
+    Spelling(r"M0*+(?:17|29)(?![\w.])", lambda *_: [Return()], stays=True),
+    Spelling(PROGRAM_END, lambda *_: [ProgramEnd()], stays=True),
+    Spelling(rf"(?:{_OWN}|[A-Z](?![A-Z_]))[ \t]*+=?+(?=[ \t]*+[-+]?+[ \t]*+[\d.PV\[A-Z])", _word, stays=True),
+)
+_FORM = LineForm(
+    ISG,
+    head=r"(?:[ \t\ufeff]*+%(?>(?:L[ \t]++)?)[ \t]*+(?P<program>[\w.]++))?[ \t]*+(?>(?:/\d*+)?)[ \t]*+"
+    r"(?>(?:N[ \t]*+(?P<number>\d++):?+(?!\.))?)",
+    comment=r"\((?>(?:[^()]++|\((?>(?:[^()]++|\([^()]*+\)?+)*)(?:\)|$))*)(?:\)|$)|;.*+",
+    table=_TABLE,
+    skip=r"[ \t]++|\"[^\"]*+\"?+|[A-Z_]{2}\w*+|[\d.]++|.",
+    behind_value=r"[A-Z#$,\\]",
+    says=r"[\[$%]|V\.|P[ \t]*+\d|M0*+(?:2|17|29|30)(?!\d)|(?<![A-Z])LL?+[ \t]++[\"\w]"
+    r"|\d\.?+[ \t]*+(?:[*/]|[-+][ \t]*+[\d.])",
+)
+
+
+def _files(name: str) -> tuple[str, ...]:
+    return tuple(f"{name}{ending}" for ending in ("", ".nc", ".cnc", ".sub", ".txt"))
+
+
+def _unknown(name: str) -> str:
+    return f"{name} is the machine's" if name.startswith(_MACHINES) else f"{name} is set by nothing before"
+
+
+@cache
+def isg() -> MacroLanguage:
+    """The statements of the ISG kernel."""
+    return MacroLanguage("isg", _FORM.may_say, _FORM.read, _files, _unknown, made_by=isg)

@@ -1,0 +1,308 @@
+"""SINUMERIK: R parameters and variables, jumps, loops, calls, and profiles of cycles."""
+
+import itertools
+import re
+from collections.abc import Iterable, Iterator
+
+from contoursolve.execution.language import (
+    Apply,
+    Assign,
+    Call,
+    CallKind,
+    Constant,
+    Else,
+    EndIf,
+    EndLoop,
+    For,
+    Forget,
+    If,
+    Indexed,
+    Jump,
+    JumpWay,
+    Loop,
+    MacroLanguage,
+    MacroStatement,
+    ProgramEnd,
+    Quoted,
+    Return,
+    Strange,
+    Term,
+    Variable,
+)
+from contoursolve.execution.lines import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, strange
+from contoursolve.execution.notation import SINUMERIK, UnreadableTermError
+
+_WAYS = {"": JumpWay.ANYWHERE, "C": JumpWay.ANYWHERE, "F": JumpWay.FORWARD, "B": JumpWay.BACKWARD}
+_BY_AXIS = ("POS", "POSA", "FA", "OVRA", "ACC", "SPOS", "SPOSA", "FL")
+"""Words with an axis in brackets."""
+_MOST_ELEMENTS = 200
+"""Elements of a field that are set one by one."""
+_ARGUMENTS = r"\((?>(?:[^()\"]++|\"[^\"]*+\"|\((?>(?:[^()\"]++|\"[^\"]*+\")*)\))*)\)"
+_LABEL = r"(?:(?!R\d)[A-Z_]\w++|:[ \t]*+\d++)"
+_BEHIND = r"(?![\w$])"
+_NAME_OF_FILE = re.compile(r"(?:.*/)?(?:_N_)?(?P<name>\w+?)(?:_SPF|_MPF|\.\w+)?$", re.IGNORECASE)
+
+
+def _program_name(text: str) -> str:
+    """The name of a program without folder and ending."""
+    found = _NAME_OF_FILE.match(text.strip())
+    return (found["name"] if found else text).upper()
+
+
+def _target(line: LineReader) -> Term | str:
+    found = line.take(_LABEL + r"(?![\w(\[])")
+    if found is not None:
+        return re.sub(r"[ \t]", "", found[0].upper()).replace(":", "N")
+    return line.target()
+
+
+def _jump(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    yield Jump(_target(line), way=_WAYS[found["way"].upper()])
+
+
+def _if(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    condition = line.term()
+    jump = line.take(rf"GOTO(?P<way>[BFC]?){_BEHIND}")
+    yield Jump(_target(line), condition, _WAYS[jump["way"].upper()]) if jump else If(condition)
+
+
+def _while(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    yield Loop("WHILE", line.term())
+
+
+def _until(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    yield EndLoop("REPEAT", line.term())
+
+
+def _for(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    line.take(r"INT(?=[ \t])")
+    first = line.assignment()
+    line.need("TO" + _BEHIND)
+    if not isinstance(first, Assign):
+        raise UnreadableTermError
+    yield For(first.variable, first.value, line.term(), name="FOR")
+
+
+def _case(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+    value = line.term()
+    line.need("OF" + _BEHIND)
+    while line.text[line.at :].strip():
+        condition = None if line.take("DEFAULT" + _BEHIND) else Apply("equal", (value, line.term(is_value=True)))
+        way = line.need(r"GOTO([BFC]?)(?=[ \t\"])")[1].upper()
+        yield Jump(_target(line), condition, _WAYS[way])
+
+
+def _count(line: LineReader) -> Term:
+    return line.term(is_value=True) if line.take(r"P[ \t]*+=?+[ \t]*+(?=\d|R\d|\(|[A-Z_]{2})") else ONE
+
+
+def _repeat(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    names = [
+        each[0].strip().upper() for _ in range(2) if (each := line.take(r"(?!P[ \t]*+[=\d])" + _LABEL + r"(?![\w=])"))
+    ]
+    count = _count(line)
+    if not names:
+        yield Loop("REPEAT")
+    elif found["block"]:
+        yield Call(CallKind.LABEL, names[0], names[0], count)
+    elif len(names) == 1:
+        yield Call(CallKind.SECTION, names[0], count=count)
+    else:
+        yield Call(CallKind.LABEL, names[0], names[1], count)
+
+
+def _given(line: LineReader) -> Iterator[tuple[str, Term]]:
+    """The arguments of a call, by their places; 0 for one that is left out."""
+    if line.take(r"\([ \t]*+\)") or not line.take(r"\("):
+        return
+    for place in itertools.count(1):
+        yield str(place), Constant(0.0) if line.take(r"(?=[,)])") else line.term()
+        if line.need(r"[,)]")[0].strip() == ")":
+            return
+
+
+def _call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    name = found["name"].upper()
+    if name in line.names:
+        line.take(_ARGUMENTS)
+        return
+    arguments = tuple(_given(line))
+    yield Call(CallKind.PROGRAM, name, count=_count(line), arguments=arguments)
+
+
+def _call_by_name(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    begin = line.at
+    name = line.take(r"\(?[ \t]*+(?:\"(?P<text>[^\"]*+)\"|(?P<bare>[\w/]++))[ \t]*+\)?")
+    section = line.take(rf"BLOCK[ \t]++(?P<first>{_LABEL})[ \t]++TO[ \t]++(?P<last>{_LABEL})")
+    if name is None or section or line.take(r"<<"):
+        line.at = len(line.text)
+        yield strange(found[0] + line.text[begin:])
+        return
+    arguments = tuple(_given(line))
+    yield Call(CallKind.PROGRAM, _program_name(name["text"] or name["bare"]), count=_count(line), arguments=arguments)
+
+
+def _between(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    yield Call(CallKind.LABEL, found["first"].upper(), found["last"].upper())
+
+
+def _return(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    yield strange(found[0]) if line.take(_ARGUMENTS) else Return()
+
+
+def _profile(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    """The contour of a cycle: a program, or two labels."""
+    cycle, given = found["cycle"].upper(), found["given"]
+    texts = [each.upper() for each in re.findall(r'"([^"]*)"', given)]
+    name, *labels = texts or [""]
+    if given[1:].lstrip().startswith(","):
+        # CYCLE62(,2,"A","B"): labels alone.
+        name, labels = "", texts
+    elif cycle == "CYCLE95":
+        labels = name.split(":") if ":" in name else []
+    elif not labels and re.match(r"\([^,]*,[ \t]*1\b", given):
+        labels = [f"E_LAB_{end}_{name}" for end in "AE"]
+    if len(labels) == 2 and (cycle == "CYCLE95" or not name or labels[0].startswith("E_LAB_A")):  # noqa: PLR2004
+        yield Call(CallKind.PROFILE, labels[0], labels[1], cycle=cycle)
+    elif name and not labels:
+        yield Call(CallKind.PROFILE, _program_name(name), cycle=cycle)
+    else:
+        yield strange(found[0])
+
+
+_PARAMETER = re.compile(r"([A-Z_]\w*+)[ \t]*+(?:\[[^\]]*\][ \t]*+)?(?:=[^,]*)?\Z", re.IGNORECASE)
+
+
+def _procedure(line: LineReader, found: re.Match[str]) -> Iterable[MacroStatement]:
+    line.begins = found["name"].upper()
+    names = (_PARAMETER.search(each) for each in (found["formal"] or "")[1:-1].split(","))
+    line.parameters += [name[1].upper() for name in names if name]
+    line.hide(found.start(), found.end())
+    return ()
+
+
+def _define(line: LineReader, kind: re.Match[str]) -> Iterator[MacroStatement]:
+    """Variables and fields are 0, and texts empty, where nothing else is said."""
+    empty = Quoted("") if kind["text"] else Constant(0.0)
+    while True:
+        found = line.need(r"(?P<name>[A-Z_]\w*+)[ \t]*+(?P<size>\[[\d, \t]++\])?+")
+        name = found["name"].upper()
+        ends = [range(int(each)) for each in re.findall(r"\d+", found["size"] or "")]
+        elements = [f"{name}[{','.join(map(str, each))}]" for each in itertools.product(*ends)] if ends else [name]
+        if line.take("="):
+            yield from _initial(line, elements)
+        elif len(elements) <= _MOST_ELEMENTS:
+            yield from (Assign(Variable(each), empty) for each in elements)
+        if not line.take(","):
+            return
+
+
+def _initial(line: LineReader, elements: list[str]) -> Iterator[MacroStatement]:
+    is_list = line.take(r"(?:SET|REP)?[ \t]*+(?=\()") if len(elements) > 1 else None
+    values = [value for _, value in _given(line)] if is_list else [line.term()]
+    if is_list and is_list[0].strip().upper() == "REP":
+        values = values[:1] * min(len(elements), _MOST_ELEMENTS)
+    for name, value in zip(elements, values, strict=False):
+        yield Assign(Variable(name), value)
+
+
+def _equals(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    """A word with a value, or a variable that gets one."""
+    name = found["name"].upper()
+    is_address = name[1:].isdigit() or len(name) == 1
+    if name.startswith("$") or name in line.names or name in _BY_AXIS or (is_address and name[0] != "R"):
+        line.take(r"(?:AC|IC|DC|ACP|ACN|CAC|CIC|CDC)[ \t]*+\(")
+        line.word(is_value=False)
+        return
+    line.at = found.start()
+    said = line.assignment()
+    if isinstance(said, Forget) and isinstance(said.variable, Variable | Indexed) and found["index"]:
+        # A field that gets several values: A[0]=SET(1,2,3).
+        yield Strange(said.reason)
+        return
+    yield said
+
+
+def _label(line: LineReader, found: re.Match[str]) -> Iterable[MacroStatement]:
+    line.labels.append(found["label"].upper())
+    line.hide(found.start(), found.end())
+    return ()
+
+
+def _key(word: str) -> str:
+    return word + _BEHIND
+
+
+_TABLE = (
+    Spelling(r"%.*+", nothing),
+    Spelling(r"(?P<label>[A-Z_]\w++):(?!=)", _label),
+    Spelling(
+        _key(
+            r"DEF[ \t]++(?>(?:(?:NCK|CHAN|SYN[RW]{1,2})[ \t]++)*)"
+            r"(?:REAL|INT|BOOL|CHAR|(?P<text>STRING)[ \t]*+\[[^\]]*+\])"
+        ),
+        _define,
+    ),
+    Spelling(_key(rf"PROC[ \t]++(?P<name>\w++)[ \t]*+(?P<formal>{_ARGUMENTS})?+") + ".*+", _procedure),
+    Spelling(_key("(?:DEF|EXTERN|REDEF|DEFINE)") + ".*+", nothing),
+    Spelling(_key("IF"), _if),
+    Spelling(_key("ELSE"), lambda *_: [Else()]),
+    Spelling(_key("ENDIF"), lambda *_: [EndIf()]),
+    Spelling(_key("WHILE"), _while),
+    Spelling(_key("ENDWHILE"), lambda *_: [EndLoop("WHILE")]),
+    Spelling(_key("FOR"), _for),
+    Spelling(_key("ENDFOR"), lambda *_: [EndLoop("FOR")]),
+    Spelling(_key("LOOP"), lambda *_: [Loop("LOOP")]),
+    Spelling(_key("ENDLOOP"), lambda *_: [EndLoop("LOOP")]),
+    Spelling(_key("REPEAT(?P<block>B?)"), _repeat),
+    Spelling(_key("UNTIL"), _until),
+    Spelling(_key("GOTO(?P<way>[BFC]?)"), _jump),
+    Spelling(_key("GOTOS"), lambda _, found: [strange(found[0])]),
+    Spelling(_key("CASE"), _case),
+    Spelling(_key(rf"CALL[ \t]++BLOCK[ \t]++(?P<first>{_LABEL})[ \t]++TO[ \t]++(?P<last>{_LABEL})"), _between),
+    Spelling(_key("(?:CALL|PCALL|EXTCALL)"), _call_by_name),
+    Spelling(_key("MCALL") + "(?=[ \t]*+[A-Z]).*+", lambda _, found: [strange(found[0])]),
+    Spelling(_key("MCALL"), nothing),
+    Spelling(_key("RET"), _return),
+    Spelling(rf"(?P<cycle>CYCLE(?:95|62))[ \t]*+(?P<given>{_ARGUMENTS})", _profile),
+    Spelling(r"M0*+17(?![\w.=])", lambda *_: [Return()], stays=True),
+    Spelling(PROGRAM_END, lambda *_: [ProgramEnd()], stays=True),
+    Spelling(
+        r"(?P<name>\$?[A-Z_]{2}\w*+|[A-Z]\d*+)[ \t]*+(?P<index>\[[^\]]*+\])?+[ \t]*+=(?!=)[ \t]*+",
+        _equals,
+    ),
+    Spelling(r"(?P<name>L\d++)(?![\w.])", _call),
+    Spelling(r"(?P<name>[A-Z_]{2}\w*+)(?![\[=])", _call),
+)
+_RESERVED = ("TO", "OF", "DEFAULT", "SAVE", "ENDLABEL", "AC", "IC", "DC", "ACP", "ACN")
+_ADDRESSES = ("FRC", "FRCM", "FB", "FZ", "FAD", "AP", "RP", "AR", "TURN", "OVR", "LIMS", "DISR", "DISCL")
+"""Words of every program."""
+_ENDINGS = (".SPF", ".MPF", ".ARC", "", ".txt")
+
+
+def _files(name: str) -> tuple[str, ...]:
+    return (*(f"{name}{ending}" for ending in _ENDINGS), f"_N_{name}_SPF")
+
+
+def _unknown(name: str) -> str:
+    return f"{name} is the machine's" if name.startswith("$") else f"{name} is set by nothing before"
+
+
+def sinumerik(names: Iterable[str]) -> MacroLanguage:
+    """The statements of SINUMERIK. The names are those of words and commands: others call subprograms."""
+    known = frozenset(name.upper() for name in (*names, *_RESERVED, *_ADDRESSES))
+    long = "|".join(sorted((re.escape(name) for name in known if len(name) > 1), key=len, reverse=True))
+    form = LineForm(
+        SINUMERIK,
+        head=r"(?:%_N_(?P<program>\w+?)_[A-Z]{3}(?!\w))?[ \t\ufeff]*+(?>(?:/[0-9]?+)?)[ \t]*+"
+        r"(?>(?:[N:][ \t]*+(?P<number>\d++)(?!\.))?)",
+        comment=r";.*+",
+        table=_TABLE,
+        skip=r"[ \t]++|\"[^\"]*+\"?+|[A-Z](?![A-Z_])[\d.]*+|[A-Z_$]\w*+|[\d.]++|.",
+        behind_value="[A-Z_$]",
+        says=rf"(?<![A-Z_])(?=[A-Z_]{{2}})(?!(?:{long})(?![A-Z_]))"
+        r"|=[ \t]*+[-+]?+(?:[^-+.\d \t]|[\d.,]++[ \t]*+[-+*/])"
+        r"|(?<![A-Z_])(?:[RL]\d|M0*+(?:2|17|30)(?!\d|[ \t]*+=))|%_N_|\$",
+        names=known,
+    )
+    return MacroLanguage("sinumerik", form.may_say, form.read, _files, _unknown)

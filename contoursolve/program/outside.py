@@ -1,0 +1,108 @@
+"""What is told about blocks outside contours: that on which a contour depends.
+
+Programs of other people hold much that no table knows and no contour minds. So a finding about a block outside contours
+waits. It is told
+
+* at once, if it is about a contour by itself: a slip whose fix makes a block one, a block or a fault with a word by
+  which contours are known, a fact, an arc that leads to a contour, a start point stated apart;
+* where the program has a contour, before or behind: words that may be meant for one, and questions;
+* at the next contour behind it: a G word that cannot be read, a comment that is not closed, text outside the %. Nobody
+  knows then which plane, units and mode are in force;
+* at a contour whose start rests on its line: the last one that set an axis of the plane, or a word that stays in force,
+  or made it unknown. A start that is counted in increments rests on all lines before;
+* in the block right behind a contour, at which the contour may end.
+
+What waits in vain is passed over; `check --strict` tells all.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from enum import Enum
+
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnostics.finding import Diagnostic
+from contoursolve.gcode import Block, FaultKind, Word
+from contoursolve.reading import ReadIssue, State, words_of
+from contoursolve.reading.dialect import Dialect
+
+_BESIDE_CONTOURS: frozenset[Enum | None] = frozenset(
+    {ReadIssue.COMMA_MISSING, ReadIssue.COMMA_WORD_UNKNOWN, ReadIssue.ASKED_NOTHING, ReadIssue.FACT_UNMARKED}
+)
+_BEFORE_CONTOURS: frozenset[Enum | None] = frozenset({ReadIssue.TEXT_OUTSIDE, FaultKind.COMMENT_NOT_CLOSED})
+_WAITING = frozenset(
+    {*FaultKind, ReadIssue.REPEATED_ADDRESS, ReadIssue.VALUE_TOO_LARGE, *_BESIDE_CONTOURS, *_BEFORE_CONTOURS}
+)
+
+
+class Outside:
+    """One pass over the findings outside the contours of one program, which tells some of them."""
+
+    def __init__(self, dialect: Dialect | None, *, is_strict: bool = False) -> None:
+        self.is_strict = is_strict
+        self._signs = dialect.signs if dialect else _no_signs
+        self._long = {each for each in dialect.modes.lexicon.addresses if len(each) > 1} if dialect else set[str]()
+        """Addresses with a comma or several letters: those of contours."""
+        self._held: list[Diagnostic] = []
+        self._contour = 0
+        """The first line of the last contour; 0 if there is none yet."""
+        self._is_behind = False
+
+    def take(
+        self,
+        findings: Sequence[Diagnostic],
+        line: int,
+        blocks: Callable[[], Iterable[Block]],
+        answer: Answer | None,
+        before: State,
+    ) -> Iterator[Diagnostic]:
+        """What is told once the next lines are known, from one with this number: blocks outside contours, or a contour
+        with its answer; and the findings beside it. `before` is the state before them."""
+        if self.is_strict:
+            yield from findings
+            return
+        shown = {block.line - line for block in blocks() if self._signs(block)} if findings else set[int]()
+        for each in findings:
+            if self._is_behind or each.span.line - line in shown or self._is_told(each):
+                yield each
+            else:
+                self._held.append(each)
+        if answer is not None:
+            lines, is_counted = _rests_on(answer, before)
+            self._contour = line
+            held, self._held = self._held, []
+            for each in held:
+                if is_counted or each.span.line in lines or _waits_for_any(each):
+                    yield each
+                else:
+                    self._held.append(each)
+        self._is_behind = answer is not None or (
+            self._is_behind and not any(words_of(block.text) for block in blocks())
+        )
+
+    def _is_told(self, finding: Diagnostic) -> bool:
+        """Whether a finding waits for nothing."""
+        if finding.fixes or finding.about not in _WAITING or finding.span.line <= 0:
+            return True
+        if isinstance(finding.about, FaultKind) and not self._long.isdisjoint(finding.addresses):
+            return True
+        if finding.about in _BESIDE_CONTOURS:
+            return self._contour > 0
+        return finding.span.line <= self._contour and _waits_for_any(finding)
+
+
+def _no_signs(_: Block) -> tuple[Word, ...]:
+    return ()
+
+
+def _waits_for_any(finding: Diagnostic) -> bool:
+    """Whether a finding is told at any contour behind it."""
+    return "G" in finding.addresses or finding.about in _BESIDE_CONTOURS | _BEFORE_CONTOURS
+
+
+def _rests_on(answer: Answer, before: State) -> tuple[set[int], bool]:
+    """The lines on which the start of a contour rests, and whether it is counted in increments."""
+    places = [before.axes[axis] for axis in answer.claim.before.plane.axes]
+    lines = {place.span.line for place in places if place.span is not None}
+    lines |= {word.span.line for word in before.memory.values()}
+    addresses = answer.claim.lexicon.addresses
+    words = [place.word for place in places if place.word is not None and place.word.address in addresses]
+    return lines, any(addresses[word.address].is_step(is_incremental=before.is_incremental) for word in words)
