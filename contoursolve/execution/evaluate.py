@@ -113,10 +113,31 @@ FUNCTIONS: Mapping[str, Callable[..., float]] = {
 """What each function and operation computes, angles in degrees; a condition that holds is 1."""
 
 _TWO = (
-    "add subtract multiply divide integer_divide modulo power arctangent2 length minimum maximum equal unequal greater"
-    " at_least less at_most and or exclusive_or bits_and bits_or bits_exclusive_or"
+    "add",
+    "subtract",
+    "multiply",
+    "divide",
+    "integer_divide",
+    "modulo",
+    "power",
+    "arctangent2",
+    "length",
+    "minimum",
+    "maximum",
+    "equal",
+    "unequal",
+    "greater",
+    "at_least",
+    "less",
+    "at_most",
+    "and",
+    "or",
+    "exclusive_or",
+    "bits_and",
+    "bits_or",
+    "bits_exclusive_or",
 )
-ARGUMENTS = dict.fromkeys(FUNCTIONS, 1) | dict.fromkeys(_TWO.split(), 2) | {"pi": 0}
+ARGUMENTS = dict.fromkeys(FUNCTIONS, 1) | dict.fromkeys(_TWO, 2) | {"pi": 0}
 """How many arguments each takes."""
 CONDITIONS = ("equal", "unequal", "greater", "at_least", "less", "at_most", "and", "or", "exclusive_or", "not")
 """Functions whose value is 0 or 1."""

@@ -4,6 +4,8 @@ import re
 from collections.abc import Iterator
 from functools import cache
 
+from msgspec import structs
+
 from contoursolve.execution.language import (
     Assign,
     Call,
@@ -132,7 +134,7 @@ _TABLE = (
     Spelling(r"ELSE(?![A-Z])", lambda *_: [Else()]),
     Spelling(r"ENDIF(?![A-Z])", lambda *_: [EndIf()]),
     Spelling(r"GOTO", lambda line, _: [Jump(_block(line))]),
-    Spelling(r"M0*+9(?P<kind>[78])(?![\d.])", _call),
+    Spelling(r"M0*+9(?P<kind>8)(?![\d.])", _call),
     Spelling(r"G0*+65(?![\d.])", _macro_call),
     Spelling(r"G0*+66(?!\d)", lambda *_: [Strange("G66 calls a macro behind each move")], stays=True),
     Spelling(r"M0*+99(?![\d.])", _return, stays=True),
@@ -179,3 +181,12 @@ def _unknown(name: str) -> str:
 def fanuc() -> MacroLanguage:
     """Macro B, and the calls, jumps and profiles of the controls that follow Fanuc."""
     return MacroLanguage("fanuc", _FORM.may_say, _FORM.read, program_files, _unknown, made_by=fanuc)
+
+
+_HAAS = structs.replace(_FORM, table=(Spelling(r"M0*+9(?P<kind>7)(?![\d.])", _call), *_TABLE))
+
+
+@cache
+def haas() -> MacroLanguage:
+    """The same with M97, which calls lines of the same program; on a Fanuc, M97 is the machine's own."""
+    return MacroLanguage("haas", _HAAS.may_say, _HAAS.read, program_files, _unknown, made_by=haas)

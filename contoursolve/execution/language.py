@@ -247,6 +247,8 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     before`."""
     jumps_to_numbers: bool = True
     """Whether a jump names a block number; Klartext knows labels alone."""
+    declares: bool = False
+    """Whether variables with names have to be declared: SINUMERIK's DEF."""
     passes_return: bool = False
     """Whether the end of a subprogram does nothing where none was called: LBL 0."""
     made_by: Callable[[], "MacroLanguage"] | None = None

@@ -213,6 +213,8 @@ class Machine:
             self._visited.add(index)
         block, code = frame.source.blocks[index], frame.source.code(index)
         frame.at += 1
+        if self.language.declares and self._has_strange_words(block, code):
+            code = replace(code, rest=block.text, statements=())
         rest = iter(code.statements)
         moving = list[MacroStatement]()
         for statement in rest:
@@ -220,9 +222,10 @@ class Machine:
                 moving = [statement, *rest]
             elif not self._assign(statement) and self._is_alone:
                 code = replace(code, rest=block.text)
-        is_head = code.begins is not None and block.find("O") is not None and bool(frame.callers)
-        if (code.rest.strip() or not code.statements) and not is_head:
-            ran = self._block(frame, block, code)
+        if self._is_alone and frame.callers and any(isinstance(each, Return) for each in moving):
+            code = replace(code, rest=_without_return(code.rest, block))
+        ran = self._block(frame, block, code)
+        if not self._is_passed_over(frame, block, code, ran):
             here = (frame.source.name, block.line)
             if here[0] != self._last[0] or here[1] <= self._last[1]:
                 yield Turn(Event.BARRIER, block.line)
@@ -230,6 +233,30 @@ class Machine:
             yield ran
         for statement in moving:
             yield from self._do(frame, index, statement)
+
+    def _has_strange_words(self, block: Block, code: CodeLine) -> bool:
+        """Whether what looks like assignments stands among words, to variables that nobody has declared: `G1 X5 AGN=30`
+        has a word that is mistyped."""
+        variables = [each.variable for each in code.statements if isinstance(each, Assign)]
+        names = [each.name for each in variables if isinstance(each, Variable)]
+        is_strange = any(name.isalpha() and name not in self.values for name in names)
+        rest = parse_block(code.rest, block.line, block.syntax) if is_strange else block
+        return is_strange and any(word.address != "N" for word in rest.words)
+
+    def _is_passed_over(self, frame: _Frame, block: Block, code: CodeLine, ran: Block) -> bool:
+        """Whether a line has nothing to run: all of it is statements, or the head of a program that is called."""
+        if code.begins is not None and block.find("O") is not None and frame.callers:
+            return True
+        is_bare = all(word.address == "N" for word in ran.words) and ran.macro is None
+        if self._is_alone and is_bare and (code.statements or code.labels):
+            return not ran.syntax.comment.search(ran.text)
+        return bool(code.statements) and not code.rest.strip()
+
+    def _unclear(self, frame: _Frame, index: int, reason: str) -> Iterator[Block | Turn]:
+        """A line that does what is not known; without calls, it stays as it is written."""
+        if self._is_alone:
+            yield frame.source.blocks[index]
+        yield Turn(Event.LOST, self._line(frame, index), reason)
 
     def _block(self, frame: _Frame, block: Block, code: CodeLine) -> Block:
         """A block with numbers in the place of variables."""
@@ -308,23 +335,23 @@ class Machine:
 
     # Statements that move nothing
 
-    def _do(self, frame: _Frame, index: int, statement: MacroStatement) -> Iterator[Turn]:
+    def _do(self, frame: _Frame, index: int, statement: MacroStatement) -> Iterator[Block | Turn]:
         """Carry out a statement of a line."""
         yield from _DO[type(statement)](self, frame, index, statement)
 
-    def _do_assign(self, _frame: _Frame, _index: int, statement: Assign | Forget) -> Iterator[Turn]:
+    def _do_assign(self, _frame: _Frame, _index: int, statement: Assign | Forget) -> Iterator[Block | Turn]:
         self._assign(statement)
         yield from ()
 
-    def _do_end(self, _frame: _Frame, _index: int, _statement: ProgramEnd) -> Iterator[Turn]:
+    def _do_end(self, _frame: _Frame, _index: int, _statement: ProgramEnd) -> Iterator[Block | Turn]:
         self._frames = []
         yield from ()
 
-    def _do_strange(self, frame: _Frame, index: int, statement: Strange) -> Iterator[Turn]:
+    def _do_strange(self, frame: _Frame, index: int, statement: Strange) -> Iterator[Block | Turn]:
         self._lose([*self.values], statement.reason)
-        yield Turn(Event.LOST, self._line(frame, index), statement.reason)
+        yield from self._unclear(frame, index, statement.reason)
 
-    def _do_when(self, frame: _Frame, index: int, when: When) -> Iterator[Turn]:
+    def _do_when(self, frame: _Frame, index: int, when: When) -> Iterator[Block | Turn]:
         truth = self._truth(when.condition)
         for statement in when.then:
             if isinstance(truth, Unknown) and isinstance(statement, Assign | Forget):
@@ -333,7 +360,7 @@ class Machine:
             elif isinstance(truth, Unknown) and isinstance(statement, Jump):
                 yield from self._jump(frame, index, replace(statement, condition=when.condition))
             elif isinstance(truth, Unknown):
-                yield Turn(Event.LOST, self._line(frame, index), truth.reason)
+                yield from self._unclear(frame, index, truth.reason)
             elif truth:
                 yield from self._do(frame, index, statement)
 
@@ -345,7 +372,7 @@ class Machine:
         """The line of the main file at which something on a line happens."""
         return frame.callers[0].line if frame.source.name and frame.callers else frame.source.blocks[index].line
 
-    def _jump(self, frame: _Frame, index: int, jump: Jump) -> Iterator[Turn]:
+    def _jump(self, frame: _Frame, index: int, jump: Jump) -> Iterator[Block | Turn]:
         truth = self._truth(jump.condition) if jump.condition is not None else True
         if truth is False:
             return
@@ -356,9 +383,11 @@ class Machine:
             if target > index:
                 why = f"line {self._line(frame, index)} may have jumped here: {truth.reason}"
                 self._joins.setdefault((frame.source.name, target), (why, len(self._assigned)))
+                if self._is_alone:
+                    yield frame.source.blocks[index]
                 return
             self._lose(self._assigned_in(frame, target, index), truth.reason)
-            yield Turn(Event.LOST, self._line(frame, index), truth.reason)
+            yield from self._unclear(frame, index, truth.reason)
             key = (frame.source.name, index)
             if key in self._went_back:
                 return
@@ -400,10 +429,12 @@ class Machine:
 
     # Branches
 
-    def _begin_branch(self, frame: _Frame, index: int, branch: If | ElseIf) -> Iterator[Turn]:
+    def _begin_branch(self, frame: _Frame, index: int, branch: If | ElseIf) -> Iterator[Block | Turn]:
         truth = self._truth(branch.condition)
         if isinstance(truth, Unknown):
             frame.branches.append(_Branch(True, truth.reason, dict(self.values)))
+            if self._is_alone:
+                yield frame.source.blocks[index]
             yield Turn(Event.ENTER, self._line(frame, index))
         elif truth:
             frame.branches.append(_Branch(True))
@@ -424,7 +455,7 @@ class Machine:
                     return other
         raise _RefusedError(f"the IF of line {self._line(frame, index)} has no end")
 
-    def _next_branch(self, frame: _Frame, index: int, part: ElseIf | Else) -> Iterator[Turn]:
+    def _next_branch(self, frame: _Frame, index: int, part: ElseIf | Else) -> Iterator[Block | Turn]:
         branch = frame.branches[-1] if frame.branches else _Branch(True)
         if branch.reason:
             # Nobody knows which part runs: this one begins where the first one did.
@@ -439,18 +470,18 @@ class Machine:
         else:
             branch.has_run = True
 
-    def _end_branch(self, frame: _Frame, index: int, _end: EndIf) -> Iterator[Turn]:
+    def _end_branch(self, frame: _Frame, index: int, _end: EndIf) -> Iterator[Block | Turn]:
         branch = frame.branches.pop() if frame.branches else _Branch(True)
         if branch.reason:
             # Whatever one of its parts may have set.
             first = next((each for each in range(index, -1, -1) if _begins_branch(frame.source.code(each))), 0)
             self._lose(self._assigned_in(frame, first, index), branch.reason)
             yield Turn(Event.LEAVE, self._line(frame, index))
-            yield Turn(Event.LOST, self._line(frame, index), branch.reason)
+            yield from self._unclear(frame, index, branch.reason)
 
     # Loops
 
-    def _begin_loop(self, frame: _Frame, index: int, loop: Loop | For) -> Iterator[Turn]:
+    def _begin_loop(self, frame: _Frame, index: int, loop: Loop | For) -> Iterator[Block | Turn]:
         known = next((each for each in frame.loops if each.first == index), None)
         if isinstance(loop, For):
             yield from self._count(frame, index, loop, known)
@@ -464,13 +495,13 @@ class Machine:
             if isinstance(truth, Unknown):
                 yield from self._enter_unknown_loop(frame, index, loop.name, truth)
 
-    def _enter_unknown_loop(self, frame: _Frame, index: int, name: str, why: Unknown) -> Iterator[Turn]:
+    def _enter_unknown_loop(self, frame: _Frame, index: int, name: str, why: Unknown) -> Iterator[Block | Turn]:
         """Run a loop once of which nobody knows how often it runs."""
         frame.loops[-1].is_certain = False
         self._lose(self._assigned_in(frame, index, self._loop_end(frame, index, name)), why.reason)
-        yield Turn(Event.LOST, self._line(frame, index), why.reason)
+        yield from self._unclear(frame, index, why.reason)
 
-    def _count(self, frame: _Frame, index: int, loop: For, known: _Loop | None) -> Iterator[Turn]:
+    def _count(self, frame: _Frame, index: int, loop: For, known: _Loop | None) -> Iterator[Block | Turn]:
         name = self._name(loop.variable)
         first, last, step = (self._value(each) for each in (loop.first, loop.last, loop.step))
         if known is None:
@@ -502,7 +533,7 @@ class Machine:
                     depth -= 1
         raise _RefusedError(f"the loop of line {self._line(frame, index)} has no end")
 
-    def _end_loop(self, frame: _Frame, index: int, end: EndLoop) -> Iterator[Turn]:
+    def _end_loop(self, frame: _Frame, index: int, end: EndLoop) -> Iterator[Block | Turn]:
         loop = next((each for each in reversed(frame.loops) if not end.name or each.name == end.name), None)
         if loop is None:
             return
@@ -511,7 +542,7 @@ class Machine:
             reason = until.reason if isinstance(until, Unknown) else "how often the loop runs is not known"
             self._lose(self._assigned_in(frame, loop.first, index), reason)
             frame.loops.remove(loop)
-            yield Turn(Event.LOST, self._line(frame, index), reason)
+            yield from self._unclear(frame, index, reason)
         elif until:
             frame.loops.remove(loop)
         else:
@@ -524,18 +555,18 @@ class Machine:
 
     # Calls
 
-    def _call(self, frame: _Frame, index: int, call: Call) -> Iterator[Turn]:
+    def _call(self, frame: _Frame, index: int, call: Call) -> Iterator[Block | Turn]:
         line, count = self._line(frame, index), self._value(call.count)
         text = frame.source.blocks[index].text.strip()
         found = self._find(frame, index, call)
         if isinstance(found, Unknown):
             self._lose([*self.values], found.reason)
-            yield Turn(Event.LOST, line, found.reason)
+            yield from self._unclear(frame, index, found.reason)
             return
         if len(self._frames) >= DEEPEST:
             raise _RefusedError(f"line {line} calls itself again and again: {DEEPEST} calls in one another")
         if isinstance(count, Unknown):
-            yield Turn(Event.LOST, line, f"how often {text} runs is not known: {count.reason}")
+            yield from self._unclear(frame, index, f"how often {text} runs is not known: {count.reason}")
         times = int(count) if isinstance(count, float) else 1
         if times < 1:
             return
@@ -616,7 +647,7 @@ class Machine:
             return (source, first, end) if end is not None else Unknown(f"{text} names {last}, which is not there")
         return source, first, index - 1 if call.kind is CallKind.SECTION else len(source) - 1
 
-    def _return(self, frame: _Frame, _index: int, end: Return) -> Iterator[Turn]:
+    def _return(self, frame: _Frame, _index: int, end: Return) -> Iterator[Block | Turn]:
         if frame.call is None:
             if not self.language.passes_return:
                 self._frames = []
@@ -643,7 +674,7 @@ class Machine:
             yield Turn(Event.LEAVE, frame.callers[-1].line, frame.call.cycle)
 
 
-_DO: Mapping[type[MacroStatement], Callable[..., Iterator[Turn]]] = {
+_DO: Mapping[type[MacroStatement], Callable[..., Iterator[Block | Turn]]] = {
     Assign: Machine._do_assign,
     Forget: Machine._do_assign,
     When: Machine._do_when,
@@ -664,6 +695,19 @@ _DO: Mapping[type[MacroStatement], Callable[..., Iterator[Turn]]] = {
 
 def _first(values: Iterable[int | None]) -> int | None:
     return next((each for each in values if each is not None), None)
+
+
+_RETURNS = (17, 29, 99)
+"""M codes that end a subprogram."""
+
+
+def _without_return(text: str, block: Block) -> str:
+    """A line without the word that ends a subprogram."""
+    for word in block.words:
+        if word.address == "M" and word.number in _RETURNS:
+            begin, end = word.span.column - 1, word.span.end_column - 1
+            text = text[:begin] + " " * (end - begin) + text[end:]
+    return text
 
 
 def _is_local(name: str) -> bool:

@@ -9,7 +9,8 @@ from pathlib import Path
 from msgspec import Struct
 
 from contoursolve.execution.language import CodeLine, MacroLanguage
-from contoursolve.gcode import Block, Program, UnreadableProgramError, decode, parse, read_bytes
+from contoursolve.gcode import Block, Program, UnreadableProgramError, parse, read_bytes
+from contoursolve.gcode.contents import decode
 from contoursolve.gcode.syntax import Syntax
 
 

@@ -54,7 +54,8 @@ def expand_lines(  # noqa: PLR0913 - takes what `rewrite` takes
         blocks, machine = whole, machine_for(Program("", "", whole, dialect.modes.syntax), dialect, around)
 
     def leave(turn: Turn) -> None:
-        summary.left.append(Left((turn.line,), turn.reason or "which part of the branch runs is not known", (), {}))
+        if kind is not InGCodes:  # which tells of each block that it cannot write
+            summary.left.append(Left((turn.line,), turn.reason or "which part of the branch runs is not known", (), {}))
 
     told = leave if options.is_inline or kind is InGCodes else None
     steps = walk(blocks, dialect, unit, policy, Depth.PATH, start, together, machine, told)

@@ -90,7 +90,7 @@ def save(tmp_path):
         (2, ("solve",)),
         (2, ("check",)),
         (2, ("solve", SHAFT, *ONE)),
-        (2, ("solve", SHAFT, "--start", "X40. Z0.")),
+        (0, ("solve", SHAFT, "--start", "X40. Z0.")),
         (2, ("solve", SHAFT, "--control", "fanuc")),
         (2, ("solve", SHAFT, "--units", "cubit")),
         (2, ("solve", SHAFT, "--rules", "perhaps")),

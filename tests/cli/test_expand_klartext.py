@@ -204,7 +204,6 @@ def test_a_conventional_block_in_g_codes(block, written):
     [
         ("CYCL DEF 200 DRILLING ~", "CYCL DEF"),
         ("CALL LBL 1 REP 3", "CALL LBL"),
-        ("LBL 1", "LBL"),
         ("PLANE RESET STAY", "PLANE"),
         ("APPR LT X+2 Y+1 LEN1 RL", "APPR LT"),
         ("DEP LT LEN5", "DEP LT"),

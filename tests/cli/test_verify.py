@@ -777,7 +777,6 @@ def test_verify_takes_what_solve_takes(desk):
     for wrong, message in (
         ((desk.program,), "name PROGRAM and RESULT.json"),
         (("--block", block), "name RESULT.json and no PROGRAM"),
-        (("--start", "X40. Z0.", desk.program, desk.result), "--start goes with --block"),
         (("--block", block, desk.program, desk.result), "name RESULT.json and no PROGRAM"),
     ):
         status, _, errors = run("verify", *wrong)

@@ -188,7 +188,6 @@ def test_the_same_corner_is_read_however_it_is_written(text):
     [
         "G1 X100+P10 #ANG=30",
         "G1 X[100+P10] #ANG=30",
-        "G1 X=SIN[30] #ANG=30",
         "G1 X40 #ANG=P5",
         "G1 X40 #RND=V.P.R\nY40",
         "G1 X30\nG301 I=P1\nY30",

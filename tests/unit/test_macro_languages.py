@@ -9,7 +9,7 @@ from examples import law
 from hypothesis import strategies as st
 
 from contoursolve.execution.evaluate import FUNCTIONS, evaluate, name_of_indexed, variables_of, written
-from contoursolve.execution.fanuc import fanuc
+from contoursolve.execution.fanuc import fanuc, haas
 from contoursolve.execution.isg import isg
 from contoursolve.execution.klartext import klartext
 from contoursolve.execution.language import (
@@ -261,7 +261,7 @@ FANUC_LINES = [
     ("G0 X40. M98 P0100 L3", "G0 X40.", [Call(CallKind.PROGRAM, "100", count=F("3"))]),
     ("M98P50100", "", [Call(CallKind.PROGRAM, "100", count=F("5"))]),
     ("M98 P#1", "", [Call(CallKind.PROGRAM, F("#1"))]),
-    ("M97 P1000 L2", "", [Call(CallKind.LINES, "1000", count=F("2"))]),
+    ("M97 P1000 L2", "M97 P1000 L2", []),
     ("M99", "M99", [Return()]),
     ("M99 P30", "", [Return(F("30"))]),
     ("G28 U0 M30", "G28 U0 M30", [ProgramEnd()]),
@@ -389,6 +389,7 @@ ISG_LINES = [
 ]
 LANGUAGES = {
     fanuc(): FANUC_LINES,
+    haas(): [("M97 P1000 L2", "", [Call(CallKind.LINES, "1000", count=F("2"))])],
     klartext(): KLARTEXT_LINES,
     SINUMERIK_LANGUAGE: SINUMERIK_LINES,
     isg(): ISG_LINES,

@@ -12,7 +12,7 @@ from contoursolve.controls.plain import (
     merge,
 )
 from contoursolve.diagnostics.source import Evidence, Source
-from contoursolve.execution.fanuc import fanuc
+from contoursolve.execution.fanuc import fanuc, haas
 from contoursolve.geometry import Unit
 from contoursolve.reading import Address, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 
@@ -82,5 +82,5 @@ HAAS_MILL_WORDS = _with(
 
 LATHE_MODES = Modes(LATHE_WORDS, _LATHE_CODES, ("Z", "X"), CALLS, language=fanuc())
 MILL_MODES = Modes(MILL_WORDS, _MILL_CODES, ("X", "Y", "Z"), CALLS, language=fanuc())
-HAAS_LATHE_MODES = Modes(HAAS_LATHE_WORDS, _LATHE_CODES, ("Z", "X"), CALLS, language=fanuc())
-HAAS_MILL_MODES = Modes(HAAS_MILL_WORDS, _MILL_CODES, ("X", "Y", "Z"), CALLS, language=fanuc())
+HAAS_LATHE_MODES = Modes(HAAS_LATHE_WORDS, _LATHE_CODES, ("Z", "X"), CALLS, language=haas())
+HAAS_MILL_MODES = Modes(HAAS_MILL_WORDS, _MILL_CODES, ("X", "Y", "Z"), CALLS, language=haas())

@@ -137,7 +137,7 @@ _ENDS, _LEXICON, _BESIDE = frozenset({17}), _words(), frozenset({"RNDM", "FRC", 
 @cache
 def statements() -> MacroLanguage:
     """Variables, jumps and calls: a name that is no word and no command calls a subprogram."""
-    return structs.replace(sinumerik([*SYNTAX.codes, *_LEXICON.addresses, *_BESIDE]), made_by=statements)
+    return structs.replace(sinumerik([*SYNTAX.codes, *_LEXICON.addresses, *_BESIDE]), declares=True, made_by=statements)
 
 
 MODES = Modes(
