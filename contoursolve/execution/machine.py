@@ -1,5 +1,6 @@
 """Runs a program as a control does: assignments, jumps, loops, calls and profiles, from block to block."""
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import Enum
 
@@ -173,7 +174,9 @@ class Machine:
                 name = self.main.code(index).begins
                 told = f"program {name}" if name is not None else f"line {block.line}"
                 yield Turn(Event.FRESH, block.line, f"nothing in this file calls {told}")
-                self.values = dict(self.given)
+                # What was set once in all holds there, too.
+                once = {name for name, times in Counter(self._assigned).items() if times == 1}
+                self.values = {name: value for name, value in self.values.items() if name in once or name in self.given}
                 yield from self._run_from(index)
 
     def _run_from(self, index: int) -> Iterator[Block | Turn]:
