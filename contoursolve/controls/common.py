@@ -196,7 +196,7 @@ READING_RULES = (
     Rule(
         code="value-variable",
         message="{words} depends on a macro variable; only the control knows its value",
-        help="write the number",
+        help='write the number, or state the value: --let "#100=95."',
         source=_READING,
         about=ReadIssue.VARIABLE,
         accepted=(_GOOD,),

@@ -604,6 +604,10 @@ class Examiner:
             from contoursolve.diagnosis.diagnose import diagnose  # noqa: PLC0415
 
             answer = diagnose(answer, dialect, self.policy, blocks[after : after + _BEHIND], pending.previous)
+            if self.depth is Depth.FULL and any(each.about is ReadIssue.VARIABLE for each in answer.diagnostics):
+                from contoursolve.program.open_values import tell_values  # noqa: PLC0415 - few contours need it
+
+                answer = tell_values(answer, dialect, self.policy)
         elif self.depth is not Depth.VERDICT and any(
             each.about is ReadIssue.POINT_MISSING for each in answer.diagnostics
         ):
