@@ -17,6 +17,7 @@ from contoursolve.api import solve
 from contoursolve.cli.options import (
     CouldNotRunError,
     control_option,
+    let_option,
     print_findings,
     rules_option,
     settings_of,
@@ -48,6 +49,7 @@ def block_options(command: Callable[..., None]) -> Callable[..., None]:
                 metavar="WORDS",
                 help='The start point, such as "X40. Z0.", in words as the control reads them.',
             ),
+            let_option,
             control_option("The control; found from the block without it."),
             units_option,
             rules_option,
@@ -70,7 +72,7 @@ fact_option = click.option(
 def read_options(options: dict[str, Any]) -> dict[str, Any]:
     """The arguments of a function about a block, from the options of a command, after a warning on standard error if
     its start point may be meant otherwise."""
-    rest = {name: options[name] for name in ("start", "control", "units", "rules")}
+    rest = {name: options[name] for name in ("start", "control", "units", "rules", "variables")}
     block = "\n".join(options["blocks"])
     rest["settings"] = settings_of(parse(block, "<block>"), options["assignments"])
     for finding in solve(block, **rest, depth="verdict").diagnostics:

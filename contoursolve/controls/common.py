@@ -195,7 +195,7 @@ READING_RULES = (
     ),
     Rule(
         code="value-variable",
-        message="{words} depends on a macro variable; only the control knows its value",
+        message="{words} {depend} on a variable, whose value is not known here",
         help='write the number, or state the value: --let "#100=95."',
         source=_READING,
         about=ReadIssue.VARIABLE,

@@ -119,6 +119,7 @@ def family(
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,
+    variables: Mapping[str, float] | None = None,
     workers: int | None = None,
     executor: Executor | None = None,
 ) -> Family:
@@ -137,6 +138,7 @@ def family(
         units: `mm` or `inch`, for numbers before any G20 or G21.
         rules: `enforce`, `warn` or `off` (see `Policy`).
         settings: conventions of the controls by `control.name`; the default ones without.
+        variables: values of the variables in the block that do not vary, by name.
         workers: threads; with an executor, how many stretches of rows it has under way at once.
         executor: any `concurrent.futures.Executor` (processes, loky, Dask's `Client.get_executor()`); its workers get
             plain data and need this package.
@@ -169,6 +171,7 @@ def family(
         units=units,
         rules=rules,
         settings=settings,
+        variables=variables,
     )
     return solve_sweep(ready, workers, executor)
 

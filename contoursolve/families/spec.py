@@ -200,6 +200,8 @@ class Template(Struct, frozen=True, eq=False):
     start: Program | None
     words: Mapping[str, Word]
     facts: tuple[Directive, ...] = ()
+    variables: Mapping[str, tuple[int, int]] = {}
+    """Variables that stand for a word: by their names, the line and the column of its value."""
 
     def with_words(self, names: Sequence[str]) -> "Template":
         """The same block with the words of these names free. Raises FamilyError as `find_words`."""
@@ -272,10 +274,11 @@ def find_words(template: Template, names: Sequence[str]) -> dict[str, Word]:
     }
     for name in names:
         head, _, address = name.rpartition(".")
-        if " " in name:
+        if name in template.variables:
+            found[name] = _at(template.variables[name], words)
+        elif " " in name:
             found[name] = _fact_of(name, stated)
-            continue
-        if head == START:
+        elif head == START:
             found[name] = _only(address, _words_of(start) if start is not None else [], "the start point", "")
         else:
             line, _, address = name.rpartition(":")
@@ -285,6 +288,12 @@ def find_words(template: Template, names: Sequence[str]) -> dict[str, Word]:
     if len({word.span for word in found.values()}) < len(found):
         raise FamilyError(f"{' and '.join(found)} name a word twice")
     return found
+
+
+def _at(place: tuple[int, int], words: Iterable[Word]) -> Word:
+    """The word that is at a line and a column."""
+    line, column = place
+    return next(each for each in words if each.span.line == line and each.span.column <= column < each.span.end_column)
 
 
 def _words_of(program: Program) -> list[Word]:
@@ -360,6 +369,7 @@ class SweepSpec(Struct, frozen=True):
     units: str
     rules: str
     settings: tuple[tuple[str, str], ...]
+    variables: tuple[tuple[str, float], ...] = ()
 
     def template(self) -> Template:
         """The block with its free words. Raises FamilyError for a word that is not there, UnknownControlError,
@@ -379,7 +389,10 @@ class SweepSpec(Struct, frozen=True):
         syntax = dialect.modes.syntax
         program, start = gcode.spelled(program, syntax), start and gcode.spelled(start, syntax)
         facts = tuple(gcode.read_directive(fact, -number) for number, fact in enumerate(self.facts, 1))
-        template = Template(program, dialect, unit, policy, start, {}, facts)
+        from contoursolve.families.variables import numbered  # noqa: PLC0415 - it raises errors of this module
+
+        program, places = numbered(program, dialect.modes.language, dict(self.variables), self.names)
+        template = Template(program, dialect, unit, policy, start, {}, facts, places)
         return template.with_words(self.names)
 
 
@@ -392,9 +405,10 @@ class BlockOptions(TypedDict, total=False):
     units: str
     rules: str
     settings: Mapping[str, str] | None
+    variables: Mapping[str, float] | None
 
 
-def spec_of(
+def spec_of(  # noqa: PLR0913 - what `family` takes
     block: str,
     names: Iterable[str] = (),
     *,
@@ -404,8 +418,10 @@ def spec_of(
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,
+    variables: Mapping[str, float] | None = None,
 ) -> SweepSpec:
     """The spec of a block with the words of these names free; a text alone is one fact."""
     stated = (facts,) if isinstance(facts, str) else tuple(facts)
     options = tuple(sorted((settings or {}).items()))
-    return SweepSpec(block, tuple(map(name_of, names)), start, control, stated, units, rules, options)
+    known = tuple((name.strip().upper(), float(value)) for name, value in (variables or {}).items())
+    return SweepSpec(block, tuple(map(name_of, names)), start, control, stated, units, rules, options, known)

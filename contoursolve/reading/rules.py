@@ -311,7 +311,9 @@ def _gap(field: re.Match[str]) -> str:
     return _PHRASES[name] if name in _PHRASES else f"<{_GAPS.get(name, name)}>"
 
 
-VERBS = {"are": "is", "have": "has", "do": "does", "stand": "stands", "leave": "leaves", "define": "defines"}
+VERBS = {"are": "is", "have": "has", "do": "does", "stand": "stands", "leave": "leaves", "define": "defines"} | {
+    "depend": "depends"
+}
 """Verbs of a message about words, and as they are of one word."""
 
 _PHRASES = VERBS | {"comparison": "", "fits": "at most <limit> fits", "smaller": "write at most <limit>"}
