@@ -432,7 +432,8 @@ class Examiner:
             if self.outside.is_strict:
                 self.diagnostics += self.marks.look(block)
             is_torn = not is_shown and has_lookalike_code(block)
-            if self.outside.is_strict or block.directives or is_torn:
+            is_unread = any(fault.kind is FaultKind.BLOCK_TOO_LONG for fault in block.faults)
+            if self.outside.is_strict or block.directives or is_torn or is_unread:
                 self._check_block(block)
             # One line is enough: with that mended, the control is known.
             is_shown = is_shown or (is_torn and self._check_letters_of_any(blocks, index, start))
