@@ -69,10 +69,12 @@ class Outside:
             lines, is_counted = _rests_on(answer, before)
             self._contour = line
             held, self._held = self._held, []
+            # What no axis has from a line now, it never will.
+            later = {place.span.line for place in before.axes.values() if place.span is not None}
             for each in held:
                 if is_counted or each.span.line in lines or _waits_for_any(each):
                     yield each
-                else:
+                elif each.span.line in later:
                     self._held.append(each)
         self._is_behind = answer is not None or (
             self._is_behind and not any(words_of(block.text) for block in blocks())
