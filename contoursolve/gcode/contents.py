@@ -10,7 +10,7 @@ _TAPE_CODES = bytes([0x02, 0x03, 0x11, 0x12, 0x13, 0x14, 0x1A])
 """STX, ETX, DC1 to DC4 and SUB: left in a program by a reader of paper tape or by DOS."""
 
 _CONTROLS = bytes(each for each in range(0x20) if each not in b"\t\n\v\f\r" + _TAPE_CODES)
-_LEADER = re.compile(rb"\0{8,}")
+_LEADER = re.compile(rb"\0{2,}")
 """Blank tape before and behind a program."""
 _MOST_CONTROLS = 1 / 32
 """The share of other control bytes in a text that came over a poor line."""

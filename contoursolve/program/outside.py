@@ -4,7 +4,7 @@ Programs of other people hold much that no table knows and no contour minds. So 
 waits. It is told
 
 * at once, if it is about a contour by itself: a slip whose fix makes a block one, a block or a fault with a word by
-  which contours are known, a fact, an arc that leads to a contour, a start point stated apart;
+  which contours are known, a block too long to be read, a fact, an arc that leads to a contour, a start point apart;
 * where the program has a contour, before or behind: words that may be meant for one, and questions;
 * at the next contour behind it: a G word that cannot be read, a comment that is not closed, text outside the %. Nobody
   knows then which plane, units and mode are in force;
@@ -30,7 +30,7 @@ _BESIDE_CONTOURS: frozenset[Enum | None] = frozenset(
 _BEFORE_CONTOURS: frozenset[Enum | None] = frozenset({ReadIssue.TEXT_OUTSIDE, FaultKind.COMMENT_NOT_CLOSED})
 _WAITING = frozenset(
     {*FaultKind, ReadIssue.REPEATED_ADDRESS, ReadIssue.VALUE_TOO_LARGE, *_BESIDE_CONTOURS, *_BEFORE_CONTOURS}
-)
+) - {FaultKind.BLOCK_TOO_LONG}
 
 
 class Outside:
@@ -69,10 +69,12 @@ class Outside:
             lines, is_counted = _rests_on(answer, before)
             self._contour = line
             held, self._held = self._held, []
+            # What no axis has from a line now, it never will.
+            later = {place.span.line for place in before.axes.values() if place.span is not None}
             for each in held:
                 if is_counted or each.span.line in lines or _waits_for_any(each):
                     yield each
-                else:
+                elif each.span.line in later:
                     self._held.append(each)
         self._is_behind = answer is not None or (
             self._is_behind and not any(words_of(block.text) for block in blocks())

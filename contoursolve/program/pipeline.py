@@ -258,7 +258,7 @@ _LOOKED_AT = 1_000
 """Lines of a program in which the words of a control are looked for."""
 
 _ARCS = (2, 3)
-"""Motions of arcs that end where their words say, whatever else is wrong with them."""
+"""Motions of arcs. Those with an end or a centre end where their words say, whatever else is wrong with them."""
 
 _TRIES = 32
 """Blocks among them that are tried with a comma."""
@@ -432,7 +432,8 @@ class Examiner:
             if self.outside.is_strict:
                 self.diagnostics += self.marks.look(block)
             is_torn = not is_shown and has_lookalike_code(block)
-            if self.outside.is_strict or block.directives or is_torn:
+            is_unread = any(fault.kind is FaultKind.BLOCK_TOO_LONG for fault in block.faults)
+            if self.outside.is_strict or block.directives or is_torn or is_unread:
                 self._check_block(block)
             # One line is enough: with that mended, the control is known.
             is_shown = is_shown or (is_torn and self._check_letters_of_any(blocks, index, start))
@@ -512,7 +513,8 @@ class Examiner:
             return pending, partial(self.queue.leave, pending)
         behind = advance(state, block, modes)
         if isinstance(found, ParsedContour):
-            if self.outside.is_strict or behind.motion not in _ARCS or dialect.signs(block):
+            ends = behind.motion in _ARCS and any(map(block.find, (*behind.plane.axes, *behind.plane.centers)))
+            if self.outside.is_strict or not ends or dialect.signs(block):
                 self._check_arc(found, Pending(found, Step((), state), view, after))
             self._check_units(start, found)
         else:
@@ -717,8 +719,10 @@ def _is_clean(block: Block, dialect: Dialect) -> bool:
     if block.faults or block.directives or block.unmarked:
         return False
     addresses = [word.address for word in block.words]
-    is_known = len({*addresses}) == len(addresses) and dialect.modes.lexicon.addresses.keys() >= {*addresses}
-    return is_known and all(word.number is not None and abs(word.number) <= _USUAL for word in block.words)
+    known = dialect.modes.lexicon.addresses
+    is_read = all(each in known or (block.syntax is ISO and each[0] != ",") for each in addresses)
+    is_usual = all(word.number is not None and abs(word.number) <= _USUAL for word in block.words)
+    return is_read and is_usual and len({*addresses}) == len(addresses)
 
 
 def _repeated(words: Sequence[Word]) -> list[Word]:

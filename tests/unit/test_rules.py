@@ -3,7 +3,8 @@
 import pytest
 from examples import some_of
 
-from contoursolve import Result, UnknownControlError, solve
+from contoursolve import Result, UnknownControlError
+from contoursolve.api import follow_program, parse
 from contoursolve.controls import DIALECTS
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 
@@ -73,11 +74,16 @@ def examples(kind):
 def examine(program: str, control: str | None) -> Result:
     """The control of a common row's example is the one that its words show, else the lathe."""
     try:
-        result = solve(program, control=control)
+        result = read_all(program, control)
     except UnknownControlError as error:
-        return solve(program, control=error.choices[0])
+        return read_all(program, error.choices[0])
     is_told = result.control or any(each.code == "control-unknown" for each in result.diagnostics)
-    return result if is_told else solve(program, control="yasnac-lx3")
+    return result if is_told else read_all(program, "yasnac-lx3")
+
+
+def read_all(program: str, control: str | None) -> Result:
+    """With the findings about every line."""
+    return follow_program(parse(program), control=control, strict=True).collect()
 
 
 @some_of(("control", "code", "program"), examples("rejected"), one_in=3)
