@@ -38,7 +38,7 @@ from contoursolve.execution.subprograms import Library, Source
 from contoursolve.gcode import Block, Caller, Program, parse_block
 
 MOST_STEPS = 100_000
-"""Blocks after which a program is not followed any further."""
+"""Blocks that run again, or in another file, after which a program is not followed any further."""
 
 DEEPEST = 50
 """Calls in one another; controls admit ten at most."""
@@ -156,6 +156,8 @@ class Machine:
         self._last: tuple[str, int] = ("", 0)
         """The file and the line of the last block."""
         self._is_alone = False
+        self._passed: set[int] = set()
+        """What was known at each jump back."""
 
     def run_alone(self) -> Iterator[Block | Turn]:
         """The blocks of the main program and of what it calls, as one program without calls. What is set to a value
@@ -193,7 +195,8 @@ class Machine:
                 told = f"the program runs more than {MOST_STEPS:,} blocks; it is not followed any further"
                 yield Turn(Event.STOPPED, frame.source.blocks[frame.at].line, told)
                 return
-            self._steps += 1
+            # A long program is no endless one.
+            self._steps += frame.source is not self.main or frame.at in self._visited
             try:
                 yield from self._step(frame)
             except _RefusedError as error:
@@ -398,9 +401,20 @@ class Machine:
         if target is None:
             where = jump.target if isinstance(jump.target, str) else "a block that is not known"
             raise _RefusedError(f"line {self._line(frame, index)} jumps to {where}, which is not there")
+        if target <= index:
+            self._check_repetition(frame, index, target)
         frame.at = target
         frame.loops = [each for each in frame.loops if each.first <= target]
         frame.branches = []
+
+    def _check_repetition(self, frame: _Frame, index: int, target: int) -> None:
+        """Refuse to go back to a line where everything was the same before: that would go on for ever."""
+        calls = tuple((each.source.name, each.at, each.left) for each in self._frames)
+        # Values have no order; what they were is all that matters.
+        now = hash((frame.source.name, index, target, calls, frozenset(self.values.items())))
+        if now in self._passed:
+            raise _RefusedError(f"line {self._line(frame, index)} runs for ever: nothing changes from pass to pass")
+        self._passed.add(now)
 
     def _target(self, frame: _Frame, index: int, jump: Jump) -> int | None:
         last = frame.last if frame.call is None or frame.call.kind is not CallKind.PROFILE else len(frame.source) - 1
@@ -554,6 +568,7 @@ class Machine:
                 value, name = self._value(counting.variable), self._name(counting.variable)
                 if isinstance(value, float) and isinstance(name, str):
                     self._set(name, value + loop.step)
+            self._check_repetition(frame, index, loop.first)
             frame.at = loop.first
 
     # Calls

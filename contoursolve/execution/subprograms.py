@@ -40,7 +40,8 @@ class Source:
     def __init__(self, program: Program, language: MacroLanguage, *, is_other: bool) -> None:
         self.name = program.name if is_other else ""
         """Its name, if it is another file than the main program."""
-        self.blocks: Sequence[Block] = program.blocks
+        # Each is looked at several times.
+        self.blocks: Sequence[Block] = tuple(program.blocks)
         self.language = language
         self._codes: dict[int, CodeLine] = {}
 
@@ -81,9 +82,10 @@ class Source:
     def sections(self) -> dict[str, int]:
         """The programs that it has, each with the index of the line with which it begins."""
         found: dict[str, int] = {}
-        for index, code in enumerate(self._read):
-            if code.begins is not None:
-                found.setdefault(code.begins.upper(), index)
+        for index in range(len(self)):
+            name = self.code(index).begins
+            if name is not None:
+                found.setdefault(name.upper(), index)
         return found
 
     def section_end(self, first: int) -> int:

@@ -111,6 +111,8 @@ class Feasible(Shown, Struct, frozen=True):
     """Why the block as it stands has no contour; empty if it has."""
     is_diameter: bool = False
     """Whether the values are diameters."""
+    is_open: bool = False
+    """Whether it is a variable of which nobody says the value; `stated` says nothing then."""
 
     @property
     def is_complete(self) -> bool:
@@ -149,7 +151,9 @@ def feasible(
     >>> found.intervals[0].high.reason.text
     'P is too large for line 1: P at most 51.961 mm'
     """
-    template = spec_of(block, (word,), **options).template()
+    spec = spec_of(block, (word,), **options)
+    template = spec.template()
+    is_open = bool(template.variables.keys() - dict(spec.variables).keys())
     check_block(template)
     search = RangeSearch(template)
     low, high = search.range_of(within)
@@ -159,9 +163,9 @@ def feasible(
         if is_solved:
             last = rest[-1] if rest else first
             intervals.append(Interval(_end(search, pieces, first, last, -1), _end(search, pieces, last, first, +1)))
-    refusal = first_error(search.answer)
+    refusal = "" if is_open else first_error(search.answer)
     about = (search.word, search.unit, search.stated, (low, high))
-    return Feasible(*about, tuple(intervals), tuple(search.doubts), refusal, search.diameters[0])
+    return Feasible(*about, tuple(intervals), tuple(search.doubts), refusal, search.diameters[0], is_open)
 
 
 def _end(search: RangeSearch, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:

@@ -35,7 +35,8 @@ def range_title(found: Feasible) -> str:
     if not found.intervals:
         number, proof = "no range", "proven" if found.is_complete else "none was found, which is no proof"
     stated = written(found.stated, found.unit)
-    return f"{found.word}, now {stated}, from {low} to {high}: {number} with a contour ({proof})"
+    now = "" if found.is_open else f" now {stated},"
+    return f"{found.word},{now} from {low} to {high}: {number} with a contour ({proof})"
 
 
 def _proof(*, is_complete: bool) -> str:

@@ -12,7 +12,7 @@ from contoursolve.diagnostics.finding import Basis, Diagnostic, Fix, Label, Seve
 from contoursolve.diagnostics.source import Span
 from contoursolve.execution.machine import Machine, Written, needs_running
 from contoursolve.execution.subprograms import Library, Surroundings
-from contoursolve.gcode import Block, Program
+from contoursolve.gcode import Block, Program, split_lines
 from contoursolve.program.profiles import CycleProfile, profiles_of, turns_back
 from contoursolve.program.solve_queue import Step
 from contoursolve.reading import ReadIssue, State
@@ -30,7 +30,8 @@ _ALIKE = 6
 def machine_for(program: Program, dialect: Dialect, around: Surroundings) -> Machine | None:
     """What runs a program; None for one that neither calls, jumps nor computes."""
     language = dialect.modes.language
-    if language is None or not needs_running((block.text for block in program.blocks), language):
+    lines = split_lines(program.text) or [block.text for block in program.blocks]
+    if language is None or not needs_running(lines, language):
         return None
     return Machine(program, language, Library(language, dialect.modes.syntax, around.folders), around.values)
 
@@ -59,6 +60,9 @@ def in_text_order(
             ran.setdefault(step.blocks[0].line, []).append(step)
         for block in step.blocks if not step.blocks or not step.blocks[0].file else ():
             before.setdefault(block.line, step.before)
+    if not ran:
+        # No contour minds where it is not followed.
+        findings = [each for each in findings if each.about is not ReadIssue.NOT_FOLLOWED]
     profiles.extend(profiles_of(in_cycle))
     findings += (each for profile in profiles for each in turns_back(profile, rules))
     by_line: dict[int, list[Diagnostic]] = {}

@@ -207,7 +207,7 @@ class Run:
     def _steps(self) -> Iterator[Step]:
         blocks, start = self.frame.program.blocks, self.frame.start
         if self._machine is not None:
-            return self._examiner.steps_as_run(blocks, self._machine, start)
+            return self._examiner.steps_as_run(self._machine.main.blocks, self._machine, start)
         # Blocks that are not kept are read as they are needed.
         is_whole = isinstance(blocks, tuple) or self.frame.control is None
         return self._examiner.steps(blocks if is_whole else iter(blocks), start)
