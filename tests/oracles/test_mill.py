@@ -241,7 +241,7 @@ AT = "G17 G90 G0 X0 Y0 Z0"
     ],
 )
 def test_an_ordinary_arc_is_checked_and_not_listed(block, codes):
-    found = check("\n".join((AT, block)), control="nct-99m")
+    found = check("\n".join((AT, block)), control="nct-99m", strict=True)
     assert {each.code for each in found if each.severity.value == "error"} == codes
     assert solve_mill((AT, block)).answers == ()
 
