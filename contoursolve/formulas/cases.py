@@ -38,6 +38,13 @@ class _Side(NamedTuple):
     low: Decimal | None
     high: Decimal | None
 
+    def holds(self, values: Values) -> bool:
+        """Whether the value is there, at some values."""
+        own = at(self.value, values)
+        if self.low == self.high:
+            return own == self.low
+        return (self.low is None or self.low < own) and (self.high is None or own < self.high)
+
     @property
     def condition(self) -> Term:
         """That the value is there."""
@@ -70,44 +77,91 @@ def term_of(value: Affine) -> Term:
 
 
 def case_of(
-    reader: Reader, values: Values, writing: Callable[[Answer], Mapping[str, Writing]], decided: frozenset[object] = frozenset()
+    reader: Reader,
+    values: Values,
+    writing: Callable[[Answer], Mapping[str, Writing]],
+    decided: tuple[_Side, ...] = (),
 ) -> Case:
-    """The statements of a contour in the case of some values, and in all others. Raises FormulaError."""
+    """The statements of a contour in the case of some values, and in all others where what is `decided` holds. Raises
+    FormulaError."""
     answer, known = reader.answer(values), {**reader.example, **values}
-    stated = reader.follow(known)
-    main = body_of(reader, answer.profile, stated, writing(answer))
+    stated, own = reader.follow(known), refusal(answer)
+    main = _refusing(own) if own else body_of(reader, answer.profile, stated, writing(answer))
+    borders = borders_of(reader, answer, stated)
+    tied = {name for border in borders if len(border.value.factors) > 1 for name in border.value.factors}
     stops: list[tuple[_Side, str]] = []
     forks: list[tuple[_Side, Case]] = []
-    for border in borders_of(reader, answer, stated):
-        key = tuple(border.value.factors.items())
-        for side, inner in _others(border, known) if key not in decided else ():
-            there = reader.put(border.value, inner, known)
+    for border in borders:
+        is_tied = not tied.isdisjoint(border.value.factors)
+        is_decided = any(border.value.factors == side.value.factors for side in decided)
+        for side, inner in _others(border, known) if not is_decided else ():
+            there = _reach(reader, side, inner, known, decided)
+            if there is None:
+                continue
             try:
                 other = reader.answer(there)
                 code = refusal(other)
-                if not code and not is_same_case(answer, other) and difference(main.statements, _floats(there), other, writing(answer)):
-                    forks.append((side, case_of(reader, there, writing, decided | {key})))
+                if code and code == own:
+                    continue
+                is_same = is_same_case(answer, other) and reader.follow(there) == stated
+                # A single value between others may be where two cases meet.
+                is_met = side.low == side.high and other.contour is not None
+                is_met = is_met and not difference(main.statements, _floats(there), other, writing(answer))
+                if is_tied if code else not (is_same or is_met):
+                    # Whether it is refused may depend on the other values.
+                    code = ""
+                    forks.append((side, case_of(reader, there, writing, (*decided, side))))
             except FormulaError:
                 code = OTHER
             if code:
-                stops.append((side, code.partition("-")[2].replace("-", " ").upper()[:_LETTERS] if code != OTHER else code))
+                stops.append((side, _message(code)))
     found: Case = main
     for side, case in forks:
         found = Fork(side.condition, case, found)
     return _with_stops(found, [Stop(side.condition, message) for side, message in _merged(stops)])
 
 
+def _message(code: str) -> str:
+    """What a machine says where a rule refuses."""
+    return code if code == OTHER else code.partition("-")[2].replace("-", " ").upper()[:_LETTERS]
+
+
+def _refusing(code: str) -> Body:
+    """A case that a rule refuses whatever its values are."""
+    nothing = Constant(0.0)
+    return Body((Stop(Apply(LESS, (nothing, Constant(1.0))), _message(code)),), (nothing, nothing))
+
+
 def _floats(values: Values) -> dict[str, float]:
     return {name: float(each) for name, each in values.items()}
+
+
+def _reach(
+    reader: Reader, side: _Side, number: Decimal, known: Values, decided: tuple[_Side, ...]
+) -> dict[str, Decimal] | None:
+    """Values at which a border value is this number and what is decided holds; None if none are found."""
+    tried = [reader.put(side.value, number, known, name) for name in side.value.factors]
+    for there in list(tried):
+        for other in decided:
+            own = at(other.value, known)
+            names = [name for name in other.value.factors if name not in side.value.factors]
+            tried += [reader.put(other.value, own, there, name) for name in names if not other.holds(there)]
+    return next((there for there in tried if all(each.holds(there) for each in (side, *decided))), None)
 
 
 def _others(border: Border, known: Values) -> Iterator[tuple[_Side, Decimal]]:
     """The sides of a border on which a value is not."""
     own = at(border.value, known)
     for low, high, inner in border.sides():
-        is_here = own == low if low == high else (low is None or low < own) and (high is None or own < high)
-        if not is_here:
-            yield _Side(border.value, low, high), inner
+        side = _Side(border.value, low, high)
+        if side.holds(known):
+            continue
+        for end in (low, high):
+            # As far behind the border, if that is there: what is solved here is likely to be solved there.
+            mirrored = 2 * end - own if end is not None else own
+            if low != high and (low is None or low < mirrored) and (high is None or mirrored < high):
+                inner = mirrored  # noqa: PLW2901
+        yield side, inner
 
 
 def _merged(stops: list[tuple[_Side, str]]) -> Iterator[tuple[_Side, str]]:

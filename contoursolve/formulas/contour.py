@@ -10,10 +10,10 @@ from msgspec import Struct
 from contoursolve.execution.language import Apply, Assign, Constant, Term, Variable, When
 from contoursolve.families.case_classes import ORIGIN
 from contoursolve.formulas.given import FormulaError, Reader, less
-from contoursolve.geometry import FIRST, SECOND, Arc, Profile, assemble, scalar
+from contoursolve.geometry import FIRST, SECOND, Arc, Fact, OnCircle, Profile, assemble, scalar
 from contoursolve.numeric.expressions import magnitude
 from contoursolve.numeric.formulas import AT_MOST, COMMON, LESS, SIGN, TURNED, ZERO, Affine, formulas_of
-from contoursolve.solving import RefusalKind, is_closed, points_with_two_solutions
+from contoursolve.solving import RefusalKind, is_closed, make_plan, points_with_two_solutions
 from contoursolve.solving.checks import Check, Source, Test, plain_checks
 from contoursolve.solving.numbers import axes_of
 
@@ -50,7 +50,13 @@ class Choose(Struct, frozen=True):
     otherwise: tuple["Statement", ...]
 
 
-Statement = Assign | When | Stop | Leg | Choose
+class Said(Struct, frozen=True):
+    """A line that stays as it is."""
+
+    text: str
+
+
+Statement = Assign | When | Stop | Leg | Choose | Said
 
 
 class Writing(Struct, frozen=True):
@@ -79,7 +85,7 @@ def body_of(reader: Reader, profile: Profile, stated: Mapping[str, Affine], writ
         raise FormulaError(f"nothing chooses between the two places of {loose[0]}")
     source, checks = plain_checks(system)
     margins = [_failing(check, margin) for check, margin in checks]
-    path = list(_path(source, profile, writing))
+    path = list(_path(source, profile, writing, make_plan(system).checks))
     outputs = [margin for margin, *_ in margins]
     for leg in path:
         outputs += leg.values
@@ -132,12 +138,18 @@ class _Way(Struct, frozen=True):
     values: tuple[Any, ...]
 
 
-def _path(source: Source, profile: Profile, writing: Mapping[str, Writing]) -> Iterator[_Way]:
-    """The elements and corners of a path, as `solving.contour.trace` has them."""
+def _path(
+    source: Source, profile: Profile, writing: Mapping[str, Writing], facts: Sequence[Fact]
+) -> Iterator[_Way]:
+    """The elements and corners of a path, as `solving.contour.trace` has them; `facts` are those that are held against
+    the others."""
     figure, tape = profile.figure, source.tape
     corners = {corner.at: corner for corner in figure.corners}
     origin = tape.input(f"{ORIGIN}0"), tape.input(f"{ORIGIN}1")
     here = source.point(figure.start)
+    circles = {fact.center for fact in facts if isinstance(fact, OnCircle)}
+    compared = {each.name for each in figure.path if isinstance(each, Arc) and each.center in circles}
+    """Arcs whose ends may be off their circle by as much as the control allows."""
 
     def way(name: str, end: Any, center: Any = None, turn: Any = None) -> _Way:
         scales, is_incremental = writing[name].scales, writing[name].is_incremental
@@ -148,9 +160,14 @@ def _path(source: Source, profile: Profile, writing: Mapping[str, Writing]) -> I
             values += [(origin[axis] + end[axis]) * scales[axis] for axis in (FIRST, SECOND)]
         if center is not None:
             # A centre is no diameter, but has the unit of the program.
-            unit = min(scales)
-            values += [(center[axis] - here[axis]) * unit for axis in (FIRST, SECOND)]
-            values += [turn, steps[0] * steps[0] + steps[1] * steps[1]]
+            unit, chord = min(scales), steps[0] * steps[0] + steps[1] * steps[1]
+            spoke = [center[axis] - here[axis] for axis in (FIRST, SECOND)]
+            if name in compared:
+                # As far from one end as from the other.
+                off = sum((steps[axis] / 2 - spoke[axis]) * steps[axis] for axis in (FIRST, SECOND)) / chord
+                spoke = [spoke[axis] + off * steps[axis] for axis in (FIRST, SECOND)]
+            values += [spoke[axis] * unit for axis in (FIRST, SECOND)]
+            values += [turn, chord]
         return _Way(name, tuple(values))
 
     for element in figure.path:

@@ -9,10 +9,10 @@ from contoursolve.diagnosis.examine import Answer, Policy
 from contoursolve.execution.language import Assign, Term, Variable, When
 from contoursolve.formulas.cases import Case, Fork, case_of
 from contoursolve.formulas.check import Runner, difference
-from contoursolve.formulas.contour import Body, Choose, Leg, Statement, Writing
+from contoursolve.formulas.contour import Body, Choose, Leg, Said, Statement, Writing
 from contoursolve.formulas.given import STEP, FormulaError, Reader, at
 from contoursolve.formulas.lines import Free, FormulaLines
-from contoursolve.formulas.scratch import Scratch, allocate, names_of, place, place_in, renamed
+from contoursolve.formulas.scratch import Scratch, allocate, apart, names_of, place, place_in, renamed
 from contoursolve.formulas.targets import MacroTarget, TargetWriter, lowered
 from contoursolve.gcode import Block, Passage
 from contoursolve.gcode.comments import comment_out
@@ -21,7 +21,7 @@ from contoursolve.postprocess.expander import Expander
 from contoursolve.program.solve_queue import Step
 from contoursolve.reading import State, words_of
 from contoursolve.reading.follow import ContourBlock, blocks_of
-from contoursolve.reading.modal_dependence import carried, frame_of
+from contoursolve.reading.modal_dependence import carried
 from contoursolve.reading.modal_state import Position, advance
 
 
@@ -127,7 +127,7 @@ class FormulaExpander(Expander):
         return Reader(self.dialect, self.policy, tuple(step.blocks), macros, answer.claim.before, axes, free)
 
     def _formulas(self, step: Step, answer: Answer) -> Iterator[str]:
-        reader = self._reader(step, answer)
+        self.writer.plane, reader = answer.plane, self._reader(step, answer)
         parts = {each.block.line: each for each in blocks_of(answer.claim, step.before, self.modes)}
 
         def writing_of(other: Answer) -> dict[str, Writing]:
@@ -136,18 +136,27 @@ class FormulaExpander(Expander):
             return {name: self._writing(_part_of(name, parts), other) for name in names}
 
         case = case_of(reader, {}, writing_of)
-        names = {name for name in writing_of(answer)}
-        making = [line for line in parts if any(parts[line].makes(name) for name in names)]
-        split = [_of_block(case, [parts[line] for line in making], place) for place in range(len(making))]
+        lines = [line for line in parts if any(map(parts[line].makes, writing_of(answer)))]
+        making = [parts[line] for line in lines]
+        words = {block.line: self._beside(block, parts[block.line]) for block in step.blocks if block.line in parts}
+        if isinstance(case, Body):
+            split = [_of_block(case, making, place) for place in range(len(lines))]
+        else:
+            # Each case is written as a whole, with what its blocks say besides.
+            split = [_of_cases(case, making, [words.pop(line) for line in lines])]
         statements, ends = self._placed(reader, split, case)
         self._check(reader, [each for block in statements for each in block], writing_of)
-        self._end(answer, reader, ends, self._writing(parts[making[-1]], answer))
+        self._end(answer, reader, ends, self._writing(making[-1], answer))
         for block in step.blocks:
-            if block.line in parts:
-                own = statements[making.index(block.line)] if block.line in making else ()
-                yield self._written(block, parts[block.line], own)
-            else:
+            if block.line not in parts:
                 yield from super()._keep(block, step.before)
+                continue
+            first, last = words.get(block.line, ((), ()))
+            place = lines.index(block.line) if block.line in lines else len(statements)
+            own = self.writer.lines(statements[place]) if place < len(statements) else ()
+            end = self.lines.take_end(block.line)
+            text = [*self._commented_out(block), *first, *own, *last]
+            yield (end or self.lines.end).join(text) + end if text else ""
         self.motion = NO_MOTION
 
     def _writing(self, part: ContourBlock, answer: Answer) -> Writing:
@@ -206,23 +215,20 @@ class FormulaExpander(Expander):
             self.free[name] = Free(name, term, Decimal(repr(value)), known or {next(iter(names)): value})
             self.axes[axis] = Affine({name: Decimal(repr(1 / scale))}, Decimal(0))
 
-    def _written(self, block: Block, part: ContourBlock, statements: Sequence[Statement]) -> str:
-        """The lines in place of a block: what else it says stands before and behind its path."""
+    def _commented_out(self, block: Block) -> list[str]:
+        return comment_out(block.text.strip(), self._syntax_of(block)) if self.options.has_comments else []
+
+    def _beside(self, block: Block, part: ContourBlock) -> tuple[Sequence[str], Sequence[str]]:
+        """What else a block says: the lines before its path, and those behind. Raises FormulaError."""
         if block.is_skippable:
             raise FormulaError("its blocks begin with /")
-        frame, rest = frame_of(block.text), carried(block, self.modes)
+        rest = carried(block, self.modes)
         own = {word.text.strip(): new for word, new in self._switches(block) if new}
-        kept = [word for word in rest.kept if word.text.strip() not in own]
-        self.watch.look(block, kept, part.state, None)
+        self.watch.look(block, [word for word in rest.kept if word.text.strip() not in own], part.state, None)
         said = [[*(own.get(code, code) for code in rest.codes), *rest.words]]
         if rest.numbers or said[0]:
             self._tell(block, self.numberer.number(block, [*rest.numbers], said))
-        lines = comment_out(block.text.strip(), self._syntax_of(block)) if self.options.has_comments else []
-        lines += [" ".join(words) for words in said if words]
-        lines += self.writer.lines(statements)
-        lines += [" ".join(rest.last)] if rest.last else []
-        end = self.lines.take_end(block.line)
-        return frame.before + (end or self.lines.end).join(lines) + end + frame.behind if lines else ""
+        return [" ".join(words) for words in said if words], [" ".join(rest.last)] if rest.last else []
 
 
 NO_MOTION = -1
@@ -235,11 +241,8 @@ END = Variable("end:0"), Variable("end:1")
 """Where each of several cases ends."""
 
 
-def _of_block(case: Case, parts: Sequence[ContourBlock], number: int) -> list[Statement]:
+def _of_block(case: Body, parts: Sequence[ContourBlock], number: int) -> list[Statement]:
     """The statements for one of the blocks that make a contour."""
-    if isinstance(case, Fork):
-        then, otherwise = (tuple(_of_block(_ending(each), parts, number)) for each in (case.then, case.otherwise))
-        return [Choose(case.condition, then, otherwise)]
     found: list[Statement] = []
     held: list[Statement] = []
     at_last = number
@@ -252,11 +255,20 @@ def _of_block(case: Case, parts: Sequence[ContourBlock], number: int) -> list[St
     return found + (held if at_last == number else [])
 
 
-def _ending(case: Case) -> Case:
-    """A case that says in variables of its own where it ends."""
+def _of_cases(
+    case: Case, parts: Sequence[ContourBlock], beside: Sequence[tuple[Sequence[str], Sequence[str]]]
+) -> list[Statement]:
+    """The statements for all blocks, case by case; `beside` is what they say before and behind."""
     if isinstance(case, Fork):
-        return case
-    return Body((*case.statements, *(Assign(own, end) for own, end in zip(END, case.end, strict=True))), case.end)
+        then, otherwise = (
+            tuple(apart(_of_cases(each, parts, beside), tag, {own.name for own in END}))
+            for tag, each in (("then ", case.then), ("else ", case.otherwise))
+        )
+        return [Choose(case.condition, then, otherwise)]
+    found: list[Statement] = []
+    for number, (before, behind) in enumerate(beside):
+        found += [*map(Said, before), *_of_block(case, parts, number), *map(Said, behind)]
+    return [*found, *(Assign(own, end) for own, end in zip(END, case.end, strict=True))]
 
 
 def _part_of(name: str, parts: Mapping[int, ContourBlock]) -> ContourBlock:

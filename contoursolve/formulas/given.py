@@ -86,7 +86,8 @@ class Reader(Struct, frozen=True, eq=False):
         for name in self.free:
             moved = next((each for each in self._beside(known, name) if is_same_case(base, each[1])), None)
             if moved is None:
-                raise FormulaError(f"the least change of {name} makes another contour")
+                # The case is that of this number alone.
+                continue
             step, there = moved[0], _stated(moved[1])
             for stated, value in here.items():
                 if there[stated] != value:
@@ -100,11 +101,10 @@ class Reader(Struct, frozen=True, eq=False):
         for step in (STEP, -STEP):
             yield step, self.answer({**known, name: known[name] + step})
 
-    def put(self, value: Affine, number: Decimal, values: Values) -> dict[str, Decimal]:
+    def put(self, value: Affine, number: Decimal, values: Values, name: str = "") -> dict[str, Decimal]:
         """Values with one of them changed, so that an affine value is this number."""
-        known = {**self.example, **values}
-        name, factor = next(iter(value.factors.items()))
-        return {**known, name: known[name] + (number - at(value, known)) / factor}
+        known, name = {**self.example, **values}, name or next(iter(value.factors))
+        return {**known, name: known[name] + (number - at(value, known)) / value.factors[name]}
 
     def is_turned(self, choice: Choice, value: Affine) -> bool:
         """Whether a choice is another one where the value that makes it has the other sign."""
@@ -170,12 +170,13 @@ def borders_of(reader: Reader, answer: Answer, stated: Mapping[str, Affine]) -> 
                 found.append(Border(Affine({slot.free.name: one}, Decimal(0)), tuple(numbers)))
     for name in claim.limits:
         value = less(stated[name], stated[f"limit:{name}"])
-        if value.factors and len(value.factors) > 1:
+        own = next((each for each in found if each.value.factors.keys() == value.factors.keys()), None)
+        if value.factors and own is None:
             found.append(Border(value, (Decimal(0),)))
+            # Seen from either of two values, it is the same border.
             break
-        if value.factors:
+        if own is not None:
             (factor,) = value.factors.values()
-            own = next(each for each in found if each.value.factors.keys() == value.factors.keys())
             number = -value.constant / factor * next(iter(own.value.factors.values()))
             found[found.index(own)] = Border(own.value, tuple(sorted({*own.numbers, number})))
     return found

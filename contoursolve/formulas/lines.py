@@ -1,6 +1,6 @@
 """The lines of a program with variables, read as if every word had the value that its variables have for example."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from typing import Any
 
@@ -8,10 +8,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.execution.evaluate import evaluate, variables_of
-from contoursolve.execution.language import Assign, CodeLine, MacroLanguage, Term, Unknown, Variable, When
+from contoursolve.execution.language import Assign, CodeLine, Term, Unknown, Variable, When
 from contoursolve.families.spec import write
 from contoursolve.gcode import Block, Word, parse_block
 from contoursolve.program.lines import Lines
+from contoursolve.reading.dialect import Dialect
 
 DECIMALS = 6
 """To which an example of a value is rounded: controls read no more."""
@@ -65,16 +66,18 @@ class MacroLine(Struct, frozen=True):
 class FormulaLines(Lines):
     """The lines of a program on their way; `macros` are those that hold variables, by their numbers."""
 
-    def __init__(self, *args: Any, language: MacroLanguage, lets: Mapping[str, float], **options: Any) -> None:
-        super().__init__(*args, **options)
-        self.language, self.lets = language, lets
+    def __init__(
+        self, lines: Iterable[str], dialect: Dialect, *args: Any, lets: Mapping[str, float], **options: Any
+    ) -> None:
+        super().__init__(lines, dialect, *args, **options)
+        self.language, self.lets = dialect.modes.language, lets
         self.macros: dict[int, MacroLine] = {}
         self.values: dict[str, float | str | Unknown] = {**lets}
         """The variables as far as the program has been read."""
 
     def _read(self, line: str, number: int) -> Block:
         block = super()._read(line, number)
-        if not self.language.may_say(block.text):
+        if self.language is None or not self.language.may_say(block.text):
             return block
         code, slots = self.language.read(block.text), list[Slot]()
         for place, word in enumerate(code.words):
@@ -97,7 +100,7 @@ class FormulaLines(Lines):
                 self.values[statement.variable.name] = evaluate(statement.value, self._look_up)
 
     def _look_up(self, name: str) -> float | str | Unknown:
-        return self.values.get(name, Unknown(self.language.unknown(name)))
+        return self.values.get(name, Unknown(f"{name} has no value"))
 
     def _known(self, term: Term) -> dict[str, float]:
         """The values of the variables of an expression that has one."""

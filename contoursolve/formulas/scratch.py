@@ -9,8 +9,9 @@ from msgspec.structs import replace
 
 from contoursolve.execution.evaluate import variables_of
 from contoursolve.execution.language import Apply, Assign, Term, Variable, When
-from contoursolve.formulas.contour import Choose, Leg, Statement, Stop
+from contoursolve.formulas.contour import Choose, Leg, Said, Statement, Stop
 from contoursolve.formulas.given import FormulaError
+from contoursolve.numeric.formulas import COMMON
 
 _RANGE = re.compile(r"\s*([^\d\s-]+)(\d+)\s*-\s*(?:[^\d\s-]+)?(\d+)\s*")
 
@@ -121,11 +122,20 @@ def _named(statement: Any, known: Mapping[str, Term]) -> Any:
             return replace(statement, condition=place_in(statement.condition, known), **parts)
         case Stop():
             return replace(statement, condition=place_in(statement.condition, known))
+        case Said():
+            return statement
         case Leg():
             end, center = ((place_in(a, known), place_in(b, known)) for a, b in (statement.end, statement.center or statement.end))
             turn, chord = (each if each is None else place_in(each, known) for each in (statement.turn, statement.chord))
             return Leg(statement.name, end, center if statement.center else None, turn, chord)
     raise TypeError(statement)
+
+
+def apart(statements: Sequence[Statement], tag: str, shared: Collection[str]) -> Iterator[Statement]:
+    """Statements with a tag before the names of their values, but for those that are shared."""
+    names = {name for written, read in _uses(statements) for name in (written, *read) if COMMON in name}
+    tagged = {name: Variable(tag + name) for name in names if name not in shared}
+    return (place(each, tagged) for each in statements)
 
 
 def place(statement: Statement, terms: Mapping[str, Term]) -> Statement:

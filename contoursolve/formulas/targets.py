@@ -8,7 +8,7 @@ from msgspec import Struct
 from contoursolve.execution.evaluate import written
 from contoursolve.execution.language import Apply, Assign, Constant, Term, Variable, When
 from contoursolve.execution.write import write_term
-from contoursolve.formulas.contour import SHORTEST, Choose, Leg, Statement, Stop
+from contoursolve.formulas.contour import SHORTEST, Choose, Leg, Said, Statement, Stop
 from contoursolve.geometry import Plane
 from contoursolve.numeric.formulas import AT_MOST, LESS
 
@@ -31,6 +31,8 @@ class MacroTarget(Struct, frozen=True, eq=False):
     when: str = ""
     """How a variable gets a value where a condition holds, if that is one line."""
     is_klartext: bool = False
+    has_brackets: bool = False
+    """Whether what a variable is set to has brackets if it is computed."""
 
 
 def _by_words(condition: str, then: Sequence[str], otherwise: Sequence[str], number: int) -> Iterator[str]:
@@ -77,7 +79,7 @@ _FANUC = MacroTarget("fanuc", "#140-#199", _by_jumps, f"IF [{{}}] THEN #3000={AL
 TARGETS = {
     "fanuc": _FANUC,
     "haas": MacroTarget("haas", "#140-#199", _by_jumps, _FANUC.stop, when=_FANUC.when),
-    "linuxcnc": MacroTarget("linuxcnc", "#140-#199", _by_words, "(abort, {})"),
+    "linuxcnc": MacroTarget("linuxcnc", "#140-#199", _by_words, "(abort, {})", has_brackets=True),
     "sinumerik": MacroTarget("sinumerik", "R50-R99", _by_lines, 'SETAL(65000,"{}")'),
     "klartext": MacroTarget("klartext", "Q40-Q99", _by_labels, "FN 14: ERROR = 1000", "{} = {}", is_klartext=True),
 }
@@ -114,12 +116,17 @@ class TargetWriter:
                     yield from self._fork(each.condition, list(self.lines(each.then)), list(self.lines(each.otherwise)))
                 case Leg():
                     yield from self._leg(each)
+                case Said():
+                    yield each.text
 
     def _text(self, term: Term) -> str:
         return write_term(term, self.target.notation)
 
     def _assign(self, statement: Assign) -> str:
-        return self.target.assign.format(self._text(statement.variable), self._text(statement.value))
+        value = self._text(statement.value)
+        if self.target.has_brackets and isinstance(statement.value, Apply):
+            value = f"[{value}]"
+        return self.target.assign.format(self._text(statement.variable), value)
 
     def _condition(self, term: Term) -> str:
         if not self.target.is_klartext:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
+from math import sqrt
 from typing import Any
 
 import sympy
@@ -19,8 +20,13 @@ the least angle is 17 times as large."""
 
 AT_MOST, LESS, SIGN, TURNED = "at_most", "less", "sign", "arctangent2"
 """Functions that are not written in the middle of an expression in all macro languages."""
+ROOT = "square_root"
 COMMON = "common:"
 """What the names of common subexpressions begin with."""
+
+
+_DEEPEST = 12
+"""Operations on operations of an expression that has no name."""
 
 
 class Affine(Struct, frozen=True):
@@ -48,16 +54,37 @@ def formulas_of(
     for number, output in enumerate(outputs):
         kept.output(str(number), output)
     known = [_Symbols.sign(_affine(signs[name])) if name in signs else _input(name, inputs) for name in kept.inputs]
-    results = [_rounded(sympy.sympify(each)) for each in Replay(kept.function(), _Symbols, _number)(known)]
-    named, reduced = sympy.cse(results, sympy.numbered_symbols(COMMON, real=True), order="none")
+    parts = _Parts(kept.function(), _Symbols, _number)
+    results = parts(known)
+    everything = [_rounded(sympy.sympify(each)) for each in (*parts.named.values(), *results)]
+    named, reduced = sympy.cse(everything, sympy.numbered_symbols(COMMON, real=True), order="none")
     writer = _Writer()
-    for symbol, expression in named:
+    for symbol, expression in (*named, *zip(parts.named, reduced, strict=False)):
         if expression.is_number:
             writer.known[symbol.name] = expression
         else:
             writer.steps[symbol.name] = writer.term(expression, is_step=True)
-    results = tuple(map(writer.term, reduced))
-    return Formulas(writer.steps, results, frozenset(writer.rooted))
+    return Formulas(writer.steps, tuple(map(writer.term, reduced[len(parts.named) :])), frozenset(writer.rooted))
+
+
+class _Parts(Replay):
+    """Instructions of which long results get names: sympy walks through an expression as often as it is used."""
+
+    named: dict[Any, Any]
+
+    def __call__(self, inputs: Sequence[Any]) -> list[Any]:
+        work, depths = self._constants.copy(), [0] * len(self._constants)
+        self.named = {}
+        for source, target in self._inputs:
+            work[target] = inputs[source]
+        for operation, first, second, target in self._steps:
+            found = operation(work[first], work[second]) if second >= 0 else operation(work[first])
+            depths[target] = 1 + max(depths[first], depths[second] if second >= 0 else 0)
+            if depths[target] > _DEEPEST and getattr(found, "args", ()):
+                symbol = sympy.Symbol(f"{COMMON}part of {target}", real=True)
+                self.named[symbol], found, depths[target] = found, symbol, 0
+            work[target] = found
+        return self.results(work)
 
 
 def _input(name: str, inputs: Mapping[str, Affine]) -> Any:
@@ -88,8 +115,16 @@ def _number(value: float) -> Any:
 class _Symbols:
     """The functions of instructions; truth is 1 or 0, which is multiplied."""
 
-    root = staticmethod(sympy.sqrt)
     magnitude = staticmethod(sympy.Abs)
+
+    @staticmethod
+    def root(value: Any) -> Any:
+        if value.is_number:
+            return _number(sqrt(float(value)))
+        if value.is_Pow and value.exp == 2:  # noqa: PLR2004 - a square
+            return sympy.Abs(value.base)
+        # A root of sympy's is real only where it knows that.
+        return sympy.Function(ROOT, real=True, nonnegative=True)(value)
 
     @staticmethod
     def sign(value: Any) -> Any:
@@ -155,6 +190,9 @@ class _Writer:
         if expression.is_Pow:
             return self._power(expression.base, expression.exp)
         name = expression.func.__name__
+        if name == ROOT:
+            (base,) = expression.args
+            return Apply(ROOT, (self.term(base) if self._is_squares(base) else self._root_of(base),))
         found = Apply(_NAMES.get(name, name), tuple(map(self.term, expression.args)))
         return self._named(expression, found) if name in (AT_MOST, LESS, SIGN, TURNED) and not is_step else found
 
@@ -197,8 +235,6 @@ class _Writer:
             return Apply("divide", (Constant(1.0), self._power(base, -exponent)))
         if exponent == 1:
             return self.term(base)
-        if exponent == sympy.Rational(1, 2):
-            return Apply("square_root", (self.term(base) if self._is_squares(base) else self._root_of(base),))
         if exponent == 2 and not base.is_Symbol:  # noqa: PLR2004 - a square
             own = self._named(base, self.term(base))
             return Apply("multiply", (own, own))
