@@ -348,8 +348,8 @@ def expand(
     if formulas:
         from contoursolve.formulas.rewriting import formulas_for, post_of_formulas  # noqa: PLC0415
 
-        target, post = post_of_formulas(post, dialect)
-        making = formulas_for(text, target, scratch, variables or {}, choice_of(Policy, rules, "rules"))
+        post = post_of_formulas(post)
+        making = formulas_for(text, post, scratch, variables or {}, choice_of(Policy, rules, "rules"))
     options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, numbering, inline)
     summary, unit, policy = Summary(), choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
     if dialect is None:

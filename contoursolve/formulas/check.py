@@ -72,9 +72,7 @@ def difference(
     here, path = answer.contour.start, list[tuple[str, Point, Point | None, float]]()
     for name, end, center, turn in runner.legs:
         scales, is_step = writing[name].scales, writing[name].is_incremental
-        one, two = (
-            value / scale + is_step * at for value, scale, at in zip(end, scales, here, strict=True)
-        )
+        one, two = (value / scale + is_step * at for value, scale, at in zip(end, scales, here, strict=True))
         if hypot(one - here[0], two - here[1]) > WITHIN:
             unit = min(scales)
             middle = (here[0] + center[0] / unit, here[1] + center[1] / unit) if center is not None else None

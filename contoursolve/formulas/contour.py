@@ -1,4 +1,4 @@
-"""A contour as statements of a macro language: values in the order of need, conditions that stop, and legs of a path."""
+"""A contour as statements of a macro language: values in the order of need, conditions that stop, legs of a path."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
@@ -18,7 +18,7 @@ from contoursolve.solving.checks import Check, Source, Test, plain_checks
 from contoursolve.solving.numbers import axes_of
 
 SHORTEST = 1e-6
-"""mm squared. The square of the least increment: an arc whose ends are nearer is a line, for it could be a full turn."""
+"""mm squared. The least increment, squared: an arc whose ends are nearer is a line, for it could be a full turn."""
 
 LONGEST_TERM, DEEPEST_TERM = 60, 3
 """Characters and brackets in brackets of an expression that a control surely reads in one block."""
@@ -138,9 +138,7 @@ class _Way(Struct, frozen=True):
     values: tuple[Any, ...]
 
 
-def _path(
-    source: Source, profile: Profile, writing: Mapping[str, Writing], facts: Sequence[Fact]
-) -> Iterator[_Way]:
+def _path(source: Source, profile: Profile, writing: Mapping[str, Writing], facts: Sequence[Fact]) -> Iterator[_Way]:
     """The elements and corners of a path, as `solving.contour.trace` has them; `facts` are those that are held against
     the others."""
     figure, tape = profile.figure, source.tape
@@ -244,6 +242,9 @@ class _Maker:
     def _ready(self, term: Term) -> Term:
         """A term whose variables have their values, short enough for a block."""
         match term:
+            case Variable(name) if isinstance(self.steps.get(name), Variable | Constant):
+                # It is another one.
+                return self._ready(self.steps[name])
             case Variable(name):
                 if name in self.steps and name not in self._made:
                     self._made.add(name)

@@ -11,7 +11,7 @@ from contoursolve.formulas.cases import Case, Fork, case_of
 from contoursolve.formulas.check import Runner, difference
 from contoursolve.formulas.contour import Body, Choose, Leg, Said, Statement, Writing
 from contoursolve.formulas.given import STEP, FormulaError, Reader, at
-from contoursolve.formulas.lines import Free, FormulaLines
+from contoursolve.formulas.lines import FormulaLines, Free
 from contoursolve.formulas.scratch import Scratch, allocate, apart, names_of, place, place_in, renamed
 from contoursolve.formulas.targets import MacroTarget, TargetWriter, lowered
 from contoursolve.gcode import Block, Passage
@@ -64,9 +64,7 @@ class FormulaExpander(Expander):
         known = {name: each.value for name, each in free.items()}
 
         def after(values: Mapping[str, Decimal]) -> State:
-            moved = {
-                axis: Position(at(each, values), "", state.axes[axis].span) for axis, each in held.items()
-            }
+            moved = {axis: Position(at(each, values), "", state.axes[axis].span) for axis, each in held.items()}
             typed = macro.typed(block, values)[0] if macro else block
             return advance(state.move(moved), typed, self.modes)
 
@@ -78,7 +76,9 @@ class FormulaExpander(Expander):
             if value is None:
                 continue
             moved = {name: beside[name][axis].value for name in names}
-            factors = {name: (each - value) / STEP for name, each in moved.items() if each is not None and each != value}
+            factors = {
+                name: (each - value) / STEP for name, each in moved.items() if each is not None and each != value
+            }
             if factors:
                 rest = value - sum((factors[name] * known[name] for name in factors), Decimal(0))
                 self.axes[axis] = Affine(factors, rest)
@@ -114,7 +114,9 @@ class FormulaExpander(Expander):
     def _reader(self, step: Step, answer: Answer) -> Reader:
         """The contour as it follows variables. Raises FormulaError."""
         blocks, macros = answer.claim.blocks, self.lines.macros
-        own = {slot.free.name: slot.free for block in blocks if block.line in macros for slot in macros[block.line].slots}
+        own = {
+            slot.free.name: slot.free for block in blocks if block.line in macros for slot in macros[block.line].slots
+        }
         axes = dict[str, Affine]()
         for axis in answer.plane.axes:
             if axis in self.axes:

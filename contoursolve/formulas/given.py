@@ -124,7 +124,8 @@ def is_same_case(one: Answer, other: Answer) -> bool:
     first, second = one.profile, other.profile
     return (
         first.layout is second.layout
-        and [(each.point, each.given) for each in first.choices] == [(each.point, each.given) for each in second.choices]
+        and [(each.point, each.given) for each in first.choices]
+        == [(each.point, each.given) for each in second.choices]
         and all(one.side is two.side or one.given for one, two in zip(first.choices, second.choices, strict=True))
         and first.givens.keys() == second.givens.keys()
         and first.ignored == second.ignored

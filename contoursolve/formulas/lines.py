@@ -95,9 +95,8 @@ class FormulaLines(Lines):
         if isinstance(statement, When) and evaluate(statement.condition, self._look_up) == 1:
             for each in statement.then:
                 self._follow(each)
-        elif isinstance(statement, Assign) and isinstance(statement.variable, Variable):
-            if statement.variable.name not in self.lets:
-                self.values[statement.variable.name] = evaluate(statement.value, self._look_up)
+        elif isinstance(statement, Assign) and getattr(statement.variable, "name", None) not in (None, *self.lets):
+            self.values[getattr(statement.variable, "name", "")] = evaluate(statement.value, self._look_up)
 
     def _look_up(self, name: str) -> float | str | Unknown:
         return self.values.get(name, Unknown(f"{name} has no value"))

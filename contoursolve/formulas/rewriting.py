@@ -12,7 +12,7 @@ from contoursolve.diagnosis.examine import Policy
 from contoursolve.formulas.expander import FormulaExpander
 from contoursolve.formulas.lines import FormulaLines
 from contoursolve.formulas.scratch import Scratch, read_scratch
-from contoursolve.formulas.targets import TARGETS, MacroTarget
+from contoursolve.formulas.targets import TARGETS
 from contoursolve.postprocess.post_processors import POSTS, Post, find_post, post_of
 from contoursolve.reading.dialect import Dialect
 
@@ -20,12 +20,19 @@ _LABELS = re.compile(r"(?:\b[NO]|\bLBL\s+)\s*(\d{1,8})", re.IGNORECASE)
 _VARIABLES = re.compile(r"[#RQ]\s*\d{1,5}", re.IGNORECASE)
 _FIRST_LABEL = 9001
 
+_FURTHER = {"haas": HAAS_MILL, "sinumerik": SIEMENS_840D, "klartext": HEIDENHAIN}
+"""Controls that contours are written for in their own words alone, but for formulas."""
+
+POST_NAMES = (*POSTS, *_FURTHER)
+"""Targets of formulas."""
+
 
 class Formulas(Struct, frozen=True, eq=False):
-    """A target, the variables that may be used, the values of others for example, and what the program uses itself."""
+    """A target by its name, the variables that may be used, if they are named, the values of others for example, and
+    what the program uses itself."""
 
-    target: MacroTarget
-    scratch: Scratch
+    target: str
+    scratch: Scratch | None
     lets: Mapping[str, float]
     policy: Policy
     taken: frozenset[str]
@@ -35,34 +42,36 @@ class Formulas(Struct, frozen=True, eq=False):
         """The lines of a program on their way."""
         return FormulaLines(*args, lets=self.lets, **options)
 
-    def expander(self, *args: Any) -> FormulaExpander:
+    def expander(self, dialect: Dialect, *args: Any) -> FormulaExpander:
         """The pass over a program."""
+        own = {"haas": "haas", "siemens": "sinumerik", "heidenhain": "klartext"}
+        name = own.get(dialect.name.partition("-")[0], "fanuc") if self.target == "same" else self.target
+        scratch = self.scratch or read_scratch(TARGETS[name].scratch)
         return FormulaExpander(
-            *args, target=self.target, scratch=self.scratch, policy=self.policy, taken=self.taken, label=self.label
+            dialect,
+            *args,
+            target=TARGETS[name],
+            scratch=scratch,
+            policy=self.policy,
+            taken=self.taken,
+            label=self.label,
         )
 
 
-POSTS_OF_FORMULAS = {"haas": HAAS_MILL, "sinumerik": SIEMENS_840D, "klartext": HEIDENHAIN}
-"""Controls for which there is no other plain program than in their own words."""
+def post_of_formulas(post: str | Post) -> Post:
+    """The target of this name for formulas. Raises ValueError, which lists the choices."""
+    if isinstance(post, Post) or post in POSTS:
+        return find_post(post)
+    if post not in _FURTHER:
+        raise ValueError(f"unknown post {post!r}; choose from {', '.join(POST_NAMES)}")
+    return replace(post_of(_FURTHER[post]), name=post, target=None)
 
 
-def post_of_formulas(post: str | Post, dialect: Dialect | None) -> tuple[str, Post]:
-    """The language of formulas for a target, and how it writes a program: for the program's own control, the language
-    of that. Raises ValueError, which lists the choices."""
-    name = post.name if isinstance(post, Post) else post
-    if name in POSTS_OF_FORMULAS:
-        return name, replace(post_of(POSTS_OF_FORMULAS[name]), target=None)
-    own = dialect.name.partition("-")[0] if dialect is not None else ""
-    language = {"haas": "haas", "siemens": "sinumerik", "heidenhain": "klartext"}.get(own, "fanuc")
-    if name not in (*POSTS, *POSTS_OF_FORMULAS):
-        raise ValueError(f"unknown post {name!r}; choose from {', '.join((*POSTS, *POSTS_OF_FORMULAS))}")
-    return (language if name == "same" else name), find_post(post)
-
-
-def formulas_for(text: str, target: str, scratch: str | None, lets: Mapping[str, float], policy: Policy) -> Formulas:
-    """The formulas of a program in the language of a target. Raises ValueError for a range of variables that is none."""
-    own = TARGETS[target]
+def formulas_for(text: str, post: Post, scratch: str | None, lets: Mapping[str, float], policy: Policy) -> Formulas:
+    """The formulas of a program for a target. Raises ValueError for a range of variables that is none."""
     used = frozenset(re.sub(r"\s+", "", each).upper() for each in _VARIABLES.findall(text))
     numbers = [int(each) for each in _LABELS.findall(text)]
     label = max([_FIRST_LABEL, *(number + 1 for number in numbers if number >= _FIRST_LABEL)])
-    return Formulas(own, read_scratch(scratch or own.scratch), lets, policy, used, label)
+    if post.name not in ("same", *TARGETS):
+        raise ValueError(f"{post.title} has no formulas; choose from {', '.join(POST_NAMES)}")
+    return Formulas(post.name, read_scratch(scratch) if scratch else None, lets, policy, used, label)

@@ -125,8 +125,12 @@ def _named(statement: Any, known: Mapping[str, Term]) -> Any:
         case Said():
             return statement
         case Leg():
-            end, center = ((place_in(a, known), place_in(b, known)) for a, b in (statement.end, statement.center or statement.end))
-            turn, chord = (each if each is None else place_in(each, known) for each in (statement.turn, statement.chord))
+            end, center = (
+                (place_in(a, known), place_in(b, known)) for a, b in (statement.end, statement.center or statement.end)
+            )
+            turn, chord = (
+                each if each is None else place_in(each, known) for each in (statement.turn, statement.chord)
+            )
             return Leg(statement.name, end, center if statement.center else None, turn, chord)
     raise TypeError(statement)
 

@@ -104,7 +104,9 @@ class TargetWriter:
                     yield self._assign(each)
                 case When(condition, (Assign() as then, *_)):
                     if self.target.when:
-                        yield self.target.when.format(self._condition(condition), self._text(then.variable), self._text(then.value))
+                        yield self.target.when.format(
+                            self._condition(condition), self._text(then.variable), self._text(then.value)
+                        )
                     else:
                         yield from self._fork(condition, [self._assign(then)])
                 case Stop():
@@ -150,7 +152,11 @@ class TargetWriter:
             return straight
         left, right = ([*self._arc(code, way, leg)] for code, way in (("G03", "DR+"), ("G02", "DR-")))
         is_left = Apply("greater", (leg.turn, Constant(0.0)))
-        turned = (left if leg.turn.value > 0 else right) if isinstance(leg.turn, Constant) else list(self._fork(is_left, left, right))
+        turned = (
+            (left if leg.turn.value > 0 else right)
+            if isinstance(leg.turn, Constant)
+            else list(self._fork(is_left, left, right))
+        )
         if isinstance(leg.chord, Constant):
             return turned if leg.chord.value >= SHORTEST else straight
         return self._fork(Apply(LESS, (leg.chord, Constant(SHORTEST))), straight, turned)
@@ -158,7 +164,8 @@ class TargetWriter:
     def _arc(self, code: str, way: str, leg: Leg) -> Iterator[str]:
         centers = list(zip(self.plane.centers, leg.center or leg.end, strict=True))
         if not self.target.is_klartext:
-            yield f"{self._motion(code, '', leg)} {' '.join(self._word(*each) for each in sorted(centers, key=lambda each: each[0]))}"
+            words = (self._word(*each) for each in sorted(centers, key=lambda each: each[0]))
+            yield " ".join([self._motion(code, "", leg), *words])
             return
         names = [f"I{axis}" for axis in self.plane.axes]
         yield " ".join(["CC", *(self._word(name, each) for name, (_, each) in zip(names, centers, strict=True))])
@@ -173,7 +180,11 @@ class TargetWriter:
         text = written(value.value) if isinstance(value, Constant) else self._text(value)
         if self.target.is_klartext:
             return f"{address}{text if text.startswith('-') else '+' + text}"
-        return f"{address}={text}" if self.target.notation == "sinumerik" and isinstance(value, Variable) else address + text
+        return (
+            f"{address}={text}"
+            if self.target.notation == "sinumerik" and isinstance(value, Variable)
+            else address + text
+        )
 
 
 def lowered(statements: Iterable[Statement], target: MacroTarget, numbers: Iterator[int]) -> Iterator[Statement]:

@@ -25,8 +25,8 @@ COMMON = "common:"
 """What the names of common subexpressions begin with."""
 
 
-_DEEPEST = 12
-"""Operations on operations of an expression that has no name."""
+_LONGEST = 40
+"""Operations of an expression that has no name."""
 
 
 class Affine(Struct, frozen=True):
@@ -73,16 +73,14 @@ class _Parts(Replay):
     named: dict[Any, Any]
 
     def __call__(self, inputs: Sequence[Any]) -> list[Any]:
-        work, depths = self._constants.copy(), [0] * len(self._constants)
-        self.named = {}
+        work, self.named = self._constants.copy(), {}
         for source, target in self._inputs:
             work[target] = inputs[source]
         for operation, first, second, target in self._steps:
             found = operation(work[first], work[second]) if second >= 0 else operation(work[first])
-            depths[target] = 1 + max(depths[first], depths[second] if second >= 0 else 0)
-            if depths[target] > _DEEPEST and getattr(found, "args", ()):
+            if found.count_ops() > _LONGEST:
                 symbol = sympy.Symbol(f"{COMMON}part of {target}", real=True)
-                self.named[symbol], found, depths[target] = found, symbol, 0
+                self.named[symbol], found = found, symbol
             work[target] = found
         return self.results(work)
 
@@ -182,7 +180,11 @@ class _Writer:
         if expression.is_number:
             return Constant(float(expression))
         if expression.is_Symbol:
-            return Constant(float(self.known[expression.name])) if expression.name in self.known else Variable(expression.name)
+            return (
+                Constant(float(self.known[expression.name]))
+                if expression.name in self.known
+                else Variable(expression.name)
+            )
         if expression.is_Add:
             return self._sum(expression)
         if expression.is_Mul:
@@ -240,7 +242,6 @@ class _Writer:
             return Apply("multiply", (own, own))
         return Apply("multiply", (self.term(base), self._power(base, exponent - 1)))
 
-
     def _root_of(self, base: Any) -> Variable:
         """A step of its own, of which a root is taken."""
         is_step = base.is_Symbol and base.name.startswith(COMMON)
@@ -264,4 +265,3 @@ def _is_negative(part: Any) -> bool:
 def _is_below(factor: Any) -> bool:
     """Whether a factor stands below the bar of a fraction."""
     return bool(factor.is_Pow and factor.exp.is_negative)
-

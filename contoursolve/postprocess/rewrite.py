@@ -83,8 +83,9 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
     else:
         dialect = configure(dialect, settings)
         places = lines_of_facts(parse(tape.read(), tape.name), dialect, unit, start, facts) if facts else {}
+        is_certain = bool(named or recogniser.begun) or not recogniser.is_sure
         lines = expand_lines(
-            lines_of(tape.lines(), dialect, places, is_certain=bool(named or recogniser.begun) or not recogniser.is_sure),
+            lines_of(tape.lines(), dialect, places, is_certain=is_certain),
             dialect,
             options,
             summary,

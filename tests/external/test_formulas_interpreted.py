@@ -1,4 +1,4 @@
-"""Formulas of contours, run by LinuxCNC's interpreter at random values: the path is ours, and it stops where we refuse."""
+"""Formulas run by LinuxCNC's interpreter at random values: the path is ours, and it stops where we refuse."""
 
 import re
 from collections import defaultdict
@@ -83,7 +83,9 @@ def families(form: str) -> list[Family]:
     own = [each for each in drawings() if each.shows & {*FORMS[form]}]
     for drawing in rng.sample(own, min(PROGRAMS, len(own))):
         text, values = with_variables(rng, drawing)
-        expansion = contoursolve.expand(text, post="linuxcnc", control=drawing.control, formulas=True, variables=values, scratch="#140-#400")
+        expansion = contoursolve.expand(
+            text, post="linuxcnc", control=drawing.control, formulas=True, variables=values, scratch="#140-#400"
+        )
         assert expansion.text is not None, (text, values, expansion.summary.left)
         # LinuxCNC has no compensation in G19, and says so; with D0, it changes nothing.
         formulas = re.sub(r"G4[12] |D0", "", expansion.text) if drawing.plane == 19 else expansion.text
@@ -94,7 +96,9 @@ def families(form: str) -> list[Family]:
 def solved(family: Family, values: dict[str, float]) -> tuple[list[Contour], bool, bool]:
     """The contours that a single solve of each makes, whether one is refused, and whether the ends of an arc are off
     its circle by as much as the control allows."""
-    result = run(parse(family.typed(values)), DIALECTS[family.drawing.control], Length.MM, Policy.ENFORCE, Depth.VERDICT)
+    result = run(
+        parse(family.typed(values)), DIALECTS[family.drawing.control], Length.MM, Policy.ENFORCE, Depth.VERDICT
+    )
     found: list[Contour] = []
     is_off = any(each.about is NoteKind.RADIUS_DIFFERS for each in result.diagnostics)
     for answer in result.answers:

@@ -128,9 +128,7 @@ _THERE = (77777.0, 38888.5)
 """Also where X is a diameter."""
 
 
-def interpret_rows(
-    rows: Sequence[tuple[str, Mapping[str, float]]], folder: Path
-) -> list[tuple[list[Motion], bool]]:
+def interpret_rows(rows: Sequence[tuple[str, Mapping[str, float]]], folder: Path) -> list[tuple[list[Motion], bool]]:
     """The motions of programs at values of their variables, each row in turn, and whether it stops with `(abort, ...)`;
     a program without an end is read once."""
     programs = list(dict.fromkeys(program for program, _ in rows))
