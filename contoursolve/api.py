@@ -431,9 +431,9 @@ def convert(
     if found.text is None or dialect is None:
         return Conversion(found.text, found.control, target.name, found.summary, None)
     unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
-    axes = tuple(sorted({*dialect.modes.axes, *target.modes.axes}))
+    axes, around = tuple(sorted({*dialect.modes.axes, *target.modes.axes})), surroundings_of(name)
     old, new = (
-        follow(run(gcode.parse(program, name), whole(each), unit, policy), each, unit, axes)
+        follow(run(gcode.parse(program, name), whole(each), unit, policy, around=around), each, unit, axes)
         for program, each in ((text, dialect), (found.text, target))
     )
     comparison = compare(old, new, _CONVERTED_WITHIN)
