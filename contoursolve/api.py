@@ -299,6 +299,8 @@ def expand(
     rules: str = "enforce",
     facts: Iterable[str | Statement] = (),
     settings: Mapping[str, str] | None = None,
+    formulas: bool = False,
+    scratch: str | None = None,
     variables: Mapping[str, float] | None = None,
     folders: Iterable[str | Path] = (),
     name: str = "<program>",
@@ -319,6 +321,9 @@ def expand(
         block_numbers: `first`: of the lines in the place of a block, the first one has its number; `all`: the others
             have numbers, too, which the program does not use.
         inline: whether to write out each call, jump and loop, with numbers for variables.
+        formulas: whether contours whose words hold variables become formulas in the target's macro language; `post` may
+            then be `haas`, `sinumerik` or `klartext`, too. Values of `variables` are examples.
+        scratch: the variables in which formulas compute, such as `#140-#160`.
         control: and all others as for `solve`, with the same errors.
 
     >>> print(expand("G00 X40. Z0.\\nG111 X100. A180. K-30. B120. C5. F0.2").text)
@@ -339,6 +344,12 @@ def expand(
     if decimals is not None and (isinstance(decimals, bool) or decimals not in range(1, MOST_DECIMALS + 1)):
         raise ValueError(f"decimals cannot be {decimals!r}; choose 1 to {MOST_DECIMALS}, or None for the target's own")
     numbering = choice_of(Numbering, block_numbers, "block_numbers")
+    making = None
+    if formulas:
+        from contoursolve.formulas.rewriting import formulas_for, post_of_formulas  # noqa: PLC0415
+
+        post = post_of_formulas(post)
+        making = formulas_for(text, post, scratch, variables or {}, choice_of(Policy, rules, "rules"))
     options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, numbering, inline)
     summary, unit, policy = Summary(), choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
     if dialect is None:
@@ -349,7 +360,7 @@ def expand(
     further = lines_of_facts(program, dialect, unit, beginning, _facts(facts))
     pieces = list(
         expand_lines(
-            Lines(gcode.split_lines(text), dialect, further, is_certain=True),
+            (making.lines if making else Lines)(gcode.split_lines(text), dialect, further, is_certain=True),
             dialect,
             options,
             summary,
@@ -357,7 +368,8 @@ def expand(
             policy=policy,
             start=beginning,
             numbers=numbers_of(gcode.split_lines(text), dialect) if numbering is Numbering.ALL else None,
-            around=surroundings_of(name, variables, folders) if is_run else None,
+            around=surroundings_of(name, variables, folders) if is_run and not making else None,
+            expander=making.expander if making else None,
         )
     )
     opening = opening_of(options, dialect, unit, summary)
@@ -419,9 +431,9 @@ def convert(
     if found.text is None or dialect is None:
         return Conversion(found.text, found.control, target.name, found.summary, None)
     unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
-    axes = tuple(sorted({*dialect.modes.axes, *target.modes.axes}))
+    axes, around = tuple(sorted({*dialect.modes.axes, *target.modes.axes})), surroundings_of(name)
     old, new = (
-        follow(run(gcode.parse(program, name), whole(each), unit, policy), each, unit, axes)
+        follow(run(gcode.parse(program, name), whole(each), unit, policy, around=around), each, unit, axes)
         for program, each in ((text, dialect), (found.text, target))
     )
     comparison = compare(old, new, _CONVERTED_WITHIN)

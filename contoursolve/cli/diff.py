@@ -8,6 +8,8 @@ from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
     control_option,
+    let_option,
+    path_option,
     print_findings,
     read,
     rules_option,
@@ -19,6 +21,7 @@ from contoursolve.cli.printing import print_lines, say
 from contoursolve.controls import DIALECTS, PLAIN
 from contoursolve.diagnosis.examine import Policy
 from contoursolve.diagnostics.finding import Severity
+from contoursolve.execution.subprograms import surroundings_of
 from contoursolve.gcode import Program
 from contoursolve.geometry import Length
 from contoursolve.program.pipeline import Result, run
@@ -47,6 +50,8 @@ _ANY_CONTROL = (*DIALECTS, *PLAIN)
     "--new-control",
     _ANY_CONTROL,
 )
+@let_option
+@path_option
 @units_option
 @click.option(
     "--new-units", type=click.Choice([unit.value for unit in Length]), help="The same for NEW. Without it, as for OLD."
@@ -65,6 +70,8 @@ def diff(
     tolerance: float,
     control: str | Dialect | None,
     new_control: str | Dialect | None,
+    variables: dict[str, float],
+    folders: tuple[str, ...],
     units: str,
     new_units: str | None,
     rules: str,
@@ -73,10 +80,10 @@ def diff(
 ) -> None:
     """Tell whether OLD and NEW describe the same path, and if not, where they differ first.
 
-    diff solves the contours and follows all moves by G0 to G3, and the path functions of Klartext. It reads either
-    program as its own control does. Either program may divide a line or an arc. diff does not follow cycles,
-    subprograms and the like: they must be the same word by word, and it lists them. It does not compare feeds, leads,
-    speeds, tools, offsets, dwells and M functions.
+    diff solves the contours and follows all moves by G0 to G3, and the path functions of Klartext. It follows calls,
+    jumps and variables, too. It reads either program as its own control does. Either program may divide a line or an
+    arc. Cycles and other blocks that diff does not follow must be the same word by word. diff lists them. It does not
+    compare feeds, leads, speeds, tools, offsets, dwells and M functions.
 
     Exit status: 0 the same path, 1 not the same or not solved, 2 could not run.
 
@@ -95,7 +102,8 @@ def diff(
         before = sides[0][1] if sides else None
         is_kept = control is not None and before is not None and _reads_what_shows_others(before, program)
         dialect = _dialect_of(program, own or (before if is_kept else None), before, assignments)
-        result = run(program, whole(dialect), Length(unit), Policy(rules))
+        around = surroundings_of(program.name, variables, folders)
+        result = run(program, whole(dialect), Length(unit), Policy(rules), around=around)
         sides.append((result, dialect, Length(unit)))
     results = [result for result, _, _ in sides]
     if any(map(_has_no_path, results)):

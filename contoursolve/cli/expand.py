@@ -87,10 +87,10 @@ def wording_options(command: Callable[..., None]) -> Callable[..., None]:
 @click.option("--force", "is_forced", is_flag=True, help="Replace NEW if it exists.")
 @click.option(
     "--post",
-    type=click.Choice(list(POSTS)),
+    type=click.Choice(["same", "linuxcnc", "fanuc", "haas", "sinumerik", "klartext"]),
     default="same",
     show_default=True,
-    help="For which control: the one that OLD is for, LinuxCNC, or Fanuc.",
+    help="For which control: the one that OLD is for, LinuxCNC, or Fanuc; with --formulas, also the others.",
 )
 @wording_options
 @click.option(
@@ -98,6 +98,18 @@ def wording_options(command: Callable[..., None]) -> Callable[..., None]:
     "is_inline",
     is_flag=True,
     help="Write one program without calls, jumps, loops and variables: each call and each pass as it runs.",
+)
+@click.option(
+    "--formulas",
+    "has_formulas",
+    is_flag=True,
+    help="Write contours whose words hold variables as formulas of these, in the target's macro language. The values "
+    "of the variables in OLD, or of --let, are an example, at which the formulas are checked.",
+)
+@click.option(
+    "--scratch",
+    metavar="RANGE",
+    help='The variables in which formulas compute, such as "#140-#160".',
 )
 @click.option(
     "--keep-going",
@@ -146,19 +158,19 @@ def expand(
     if bool(blocks) == bool(program):
         raise click.UsageError("name a program (- for standard input), or give --block")
     target = program_itself(program, output) if is_in_place else target_of(program, output, is_forced=is_forced)
-    wish = _wish(post, options)
+    wish = _wish(_post_of(post, options), options)
     source = tape_of("".join(f"{block}\n" for block in blocks), "<block>") if blocks else open_tape(program or "-")
     with TemporaryFile() as body:
         with _progress_bar() as progress:
             rewritten = _rewrite(source, body, wish, start, options, progress)
         summary = rewritten.summary
         report_left(summary, program or "<block>", style_of_output())
-        report_misread(summary, POSTS[post], style_of_output(), is_kept=keeps_untranslated)
+        report_misread(summary, wish.post, style_of_output(), is_kept=keeps_untranslated)
         if summary.left and not keeps_going:
             say("nothing was written (--keep-going expands the others)", err=True)
             context.exit(FOUND_ERRORS)
         if summary.misread and not keeps_untranslated:
-            report_told(summary, POSTS[post])
+            report_told(summary, wish.post)
             say(f"nothing was written: {_BY_HAND} (--keep-untranslated writes it as it is)", err=True)
             context.exit(FOUND_ERRORS)
         if target is None:
@@ -169,7 +181,7 @@ def expand(
             except CannotWriteError as error:
                 raise CouldNotRunError(str(error)) from None
             say(f"{target} written" + (f"; the old one is {backup}" if backup else ""), err=True)
-    _report_expansion(summary, POSTS[post], style_of_output())
+    _report_expansion(summary, wish.post, style_of_output())
     context.exit(FOUND_ERRORS if summary.left else 0)
 
 
@@ -198,7 +210,7 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
         say(f"FILTER_PROGRESS={int(share * 100)}", err=True)
 
     with TemporaryFile() as body:
-        wish = _wish("linuxcnc", options)
+        wish = _wish(POSTS["linuxcnc"], options)
         rewritten = _rewrite(open_tape(program), body, wish, None, options, progress)
         report_left(rewritten.summary, program, plain)
         report_misread(rewritten.summary, wish.post, plain, is_kept=False)
@@ -230,11 +242,26 @@ def target_of(program: str | None, output: str | None, *, is_forced: bool) -> Pa
     return target
 
 
-def _wish(post: str, options: Mapping[str, Any]) -> Options:
+def _post_of(post: str, options: Mapping[str, Any]) -> Post:
+    """The target of this name."""
+    if not options["has_formulas"]:
+        if options["scratch"]:
+            raise click.UsageError("--scratch goes with --formulas")
+        if post not in POSTS:
+            raise click.UsageError(f"--post {post} goes with --formulas; convert writes the words of other controls")
+        return POSTS[post]
+    if options["arcs"] != Arcs.CENTER.value or options["is_inline"]:
+        raise click.UsageError("--formulas goes without --arcs radius and --inline")
+    from contoursolve.formulas.rewriting import post_of_formulas  # noqa: PLC0415 - few programs need it
+
+    return post_of_formulas(post)
+
+
+def _wish(post: Post, options: Mapping[str, Any]) -> Options:
     """How the options ask the contours to be written."""
     arcs, numbering = Arcs(options["arcs"]), Numbering(options["block_numbers"])
     has_comments, is_inline = not options["no_comments"], options.get("is_inline", False)
-    return Options(POSTS[post], arcs, options["decimals"], has_comments, numbering, is_inline)
+    return Options(post, arcs, options["decimals"], has_comments, numbering, is_inline)
 
 
 def _rewrite(
@@ -250,6 +277,7 @@ def _rewrite(
     try:
         with source as tape:
             name = tape.name
+            making = _formulas(tape, wish, options)
             return rewrite(
                 tape,
                 body,
@@ -262,6 +290,7 @@ def _rewrite(
                 facts=[gcode.read_directive(text, -number) for number, text in enumerate(options.get("facts", ()), 1)],
                 around=surroundings_of(tape.name, options.get("variables"), options.get("folders", ())),
                 progress=progress,
+                **making,
             )
     except (SettingError, UnreadableProgramError) as error:
         raise CouldNotRunError(str(error)) from None
@@ -269,6 +298,20 @@ def _rewrite(
         raise CouldNotRunError(f"{name}: {error}; say which with --control {'|'.join(error.choices)}") from None
     except FactPlaceError as error:
         raise CouldNotRunError(f"{name}: {error}") from None
+
+
+def _formulas(tape: Tape, wish: Options, options: Mapping[str, Any]) -> Mapping[str, Any]:
+    """What writes contours as formulas, if that is asked for."""
+    if not options.get("has_formulas"):
+        return {}
+    from contoursolve.formulas.rewriting import formulas_for  # noqa: PLC0415 - few programs need it
+
+    policy, variables = Policy(options["rules"]), options["variables"]
+    try:
+        making = formulas_for(tape.read(), wish.post, options["scratch"], variables or {}, policy)
+    except ValueError as error:
+        raise CouldNotRunError(str(error)) from None
+    return {"lines_of": making.lines, "expander": making.expander}
 
 
 @contextmanager

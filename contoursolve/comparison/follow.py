@@ -1,7 +1,8 @@
-"""Follows a solved program block by block into its path: contours, and the ordinary moves G0 to G3 between them."""
+"""Follows a solved program block by block, as it runs, into its path: contours, and the ordinary moves G0 to G3 between
+them."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace as replace_fields
 from decimal import Decimal
 from math import atan2, ceil, cos, dist, hypot, radians, sin, tau
@@ -11,10 +12,12 @@ from msgspec.structs import replace
 
 from contoursolve.comparison.travel import Bend, Motion, Place, Step, Travel, Unfollowed
 from contoursolve.controls.plain import CENTERS, Centers
-from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.examine import Answer, Depth
 from contoursolve.gcode import Block, Macro, Program, Word
 from contoursolve.geometry import Length, Plane, Turn
-from contoursolve.program.pipeline import Result
+from contoursolve.program.calls import machine_for
+from contoursolve.program.pipeline import Examiner, Result
+from contoursolve.program.solve_queue import Step as Passed
 from contoursolve.reading import Code, Effect, Lexicon, State, WithoutPoint, advance, apply_modes, codes_of, leave
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import ContourBlock, blocks_of
@@ -48,8 +51,13 @@ class Path(Struct, frozen=True):
 
 def follow(result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...]) -> Path:
     """The path of a program that has been solved for this control; `unit` is that before any G20 or G21."""
-    follower = _Follower(dialect, unit, axes)
-    return Path(result.program.name, dialect.name, axes, tuple(follower.walk(result.program, result.answers)))
+    follower, machine = _Follower(dialect, unit, axes), machine_for(result.program, dialect, result.around)
+    if machine is None:
+        steps = follower.walk(result.program, result.answers)
+    else:
+        examiner = Examiner(dialect, unit, result.policy, Depth.VERDICT)
+        steps = follower.run(examiner.steps(machine.run_all_alone(), result.start))
+    return Path(result.program.name, dialect.name, axes, tuple(steps))
 
 
 def whole(dialect: Dialect) -> Dialect:
@@ -77,8 +85,22 @@ class _Follower:
             if answer is not None:
                 inside = answer.lines[-1]
                 yield from self._contour(answer)
-            elif block.line > inside and (block.words or block.macro or block.faults):
-                yield from self._restated(self.plain, block) if self.plain else self._block(self._switch(block))
+            elif block.line > inside:
+                yield from self._beside(block)
+
+    def run(self, steps: Iterable[Passed]) -> Iterator[Step]:
+        """The same of a program that calls or computes, as it runs."""
+        for step in steps:
+            self.state = step.before
+            if step.answer is not None:
+                yield from self._contour(step.answer)
+            else:
+                yield from (each for block in step.blocks for each in self._beside(block))
+
+    def _beside(self, block: Block) -> Iterator[Step]:
+        """What a block beside contours adds to the path."""
+        if block.words or block.macro or block.faults:
+            yield from self._restated(self.plain, block) if self.plain else self._block(self._switch(block))
 
     def _contour(self, answer: Answer) -> Iterator[Step]:
         """The elements of a contour, each with the block that makes it: a form has one block, or one an element."""
@@ -272,6 +294,7 @@ class _Follower:
             is_skippable=block.is_skippable,
             unit=state.unit,
             doubled=tuple(axis in doubled for axis in self.axes),
+            file=block.file,
         )
 
     def _unfollowed(self, block: Block, reason: str) -> Unfollowed:
@@ -288,7 +311,7 @@ class _Follower:
             own = [word for word in block.words if word.address == "G" and word.number == motion.number]
             block = replace(block, words=tuple(word for word in block.words if word not in own))
         words = sorted(self._canonical(word) for word in block.words if word.address not in "NO")
-        return Unfollowed(block.line, block.text.strip(), (*modes, *words), reason)
+        return Unfollowed(block.line, block.text.strip(), (*modes, *words), reason, block.file)
 
     def _motion(self, block: Block, state: State) -> Code | None:
         """The motion that a block states, or that is in force and that the block relies on."""

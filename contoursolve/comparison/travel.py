@@ -53,6 +53,8 @@ class Travel(Struct, frozen=True):
     is_skippable: bool
     unit: Length
     doubled: tuple[bool, ...]
+    file: str = ""
+    """The name of the file of the line, if it is that of a subprogram."""
 
     def at(self, fraction: float) -> Place:
         """The point that lies at a fraction of the way."""
@@ -114,6 +116,7 @@ class Unfollowed(Struct, frozen=True):
     text: str
     words: tuple[str, ...]
     reason: str
+    file: str = ""
 
 
 Step = Travel | Unfollowed

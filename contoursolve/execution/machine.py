@@ -165,6 +165,11 @@ class Machine:
         self._is_alone = True
         yield from self._run_from(0)
 
+    def run_all_alone(self) -> Iterator[Block | Turn]:
+        """The same, and behind it what nothing calls."""
+        self._is_alone = True
+        yield from self.run()
+
     def run(self) -> Iterator[Block | Turn]:
         """Every block in the order in which it runs, with numbers for its variables; behind the end of the program,
         what nothing calls."""
@@ -201,6 +206,8 @@ class Machine:
                 yield from self._step(frame)
             except _RefusedError as error:
                 # The control stops here; what follows is examined as if it went on.
+                if self._is_alone:
+                    yield frame.source.blocks[frame.at - 1]
                 yield Turn(Event.STOPPED, self._line(frame, frame.at - 1), str(error))
 
     def _says_something(self, index: int) -> bool:
@@ -228,7 +235,7 @@ class Machine:
                 moving = [statement, *rest]
             elif not self._assign(statement) and self._is_alone:
                 code = replace(code, rest=block.text)
-        if self._is_alone and frame.callers and any(isinstance(each, Return) for each in moving):
+        if frame.callers and any(isinstance(each, Return) for each in moving):
             code = replace(code, rest=_without_return(code.rest, block))
         ran = self._block(frame, block, code)
         if not self._is_passed_over(frame, block, code, ran):

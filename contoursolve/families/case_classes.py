@@ -264,7 +264,7 @@ def _moves(template: Template, values: Mapping[str, float], name: str, answer: A
 def case_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, float]) -> CaseClass:
     """The class of a contour that was solved at these values of its free words. Raises FamilyError as `case_of`."""
     profile = answer.profile
-    status = _verdict(answer)
+    status = verdict_of(answer)
     free: dict[str, Linear] = {}
     for word, typed in words.items():
         stated = stated_by(typed, profile)
@@ -283,7 +283,7 @@ def _open_points(profile: Profile) -> tuple[str, ...] | None:
     return tuple(point for point in points_with_two_solutions(system) if point not in chosen)
 
 
-def _verdict(answer: Answer) -> Status | None:
+def verdict_of(answer: Answer) -> Status | None:
     """The status that all rows of the class have, if the equations are not solved."""
     errors = errors_of(answer)
     is_refused = any(each.basis is Basis.RULE for each in errors)

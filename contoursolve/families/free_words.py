@@ -29,6 +29,7 @@ from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Given, Profile, Unit
 from contoursolve.numeric.columns import Array
 from contoursolve.reading import ParsedContour, ReadIssue
+from contoursolve.reading.rules import Rule
 from contoursolve.solving import Status
 from contoursolve.solving.row_outcome import Codes
 from contoursolve.tolerance import LARGEST
@@ -100,7 +101,7 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
         stated = stated_by(word, answer.profile)
         one: Decimal | None = None
         if word.address in claim.lexicon.addresses:
-            limits |= set(_limits_beside(template, claim, word))
+            limits |= set(limits_beside(template.dialect.rules, claim, word))
             one = claim.lexicon.value(unit_word(word, has_point=True), answer.unit)
         elif word.address != FACT:
             raise FamilyError(f"{word.text} is no word of the contour")
@@ -138,14 +139,14 @@ def _compared(template: Template, claim: ParsedContour) -> Iterator[tuple[str, s
                     yield names[0], names[1]
 
 
-def _limits_beside(template: Template, claim: ParsedContour, word: Word) -> Iterator[Decimal]:
+def limits_beside(rules: Sequence[Rule], claim: ParsedContour, word: Word) -> Iterator[Decimal]:
     """The limits of the rules that hold for some values of a word beside what else the block states."""
     stated = claim.stated()
     own = {name for name, typed in claim.words.items() if is_same(word, typed)}
     for role in claim.form.roles:
         calls = role.names(stated)
         seen = {call: stated[name] for call, name in calls.items()}
-        conditions = [rule.when for rule in template.dialect.rules if role.name in rule.roles and rule.when is not None]
+        conditions = [rule.when for rule in rules if role.name in rule.roles and rule.when is not None]
         for call in (call for call, name in calls.items() if name in own):
             for condition in conditions:
                 yield from condition.limits(call, seen)

@@ -87,6 +87,10 @@ class Replay:
             work[target] = inputs[source]
         for operation, first, second, target in self._steps:
             work[target] = operation(work[first], work[second]) if second >= 0 else operation(work[first])
+        return self.results(work)
+
+    def results(self, work: Sequence[Any]) -> list[Any]:
+        """The outputs among all values, by their places."""
         results = [self._zero] * self._count
         for source, target in self._outputs:
             results[target] = work[source]

@@ -79,17 +79,18 @@ def _divide(
 
 def _runs(blocks: Sequence[Unfollowed]) -> Iterator[str]:
     """One row for the blocks in a row with the same reason."""
-    for reason, run in groupby(blocks, key=lambda each: each.reason):
+    for (reason, _), run in groupby(blocks, key=lambda each: (each.reason, each.file)):
         first, *more = run
         until = f", and {len(more)} more up to line {more[-1].line}" if more else ""
-        yield f"line {first.line}: {_cut(first.text)} ({reason}){until}"
+        file = f"{printable(first.file)} " if first.file else ""
+        yield f"{file}line {first.line}: {_cut(first.text)} ({reason}){until}"
 
 
 def _step_lines(name: str, path: Path, step: Step | None) -> Iterator[str]:
     if step is None:
         yield f"  {name} {printable(path.name)}: the path has ended"
         return
-    yield f"  {name} {printable(path.name)}:{step.line}: {_cut(step.text)}"
+    yield f"  {name} {printable(step.file or path.name)}:{step.line}: {_cut(step.text)}"
     if isinstance(step, Unfollowed):
         yield f"      not followed: {step.reason}"
         return
@@ -189,7 +190,7 @@ def _path(path: Path) -> dict[str, Any]:
 def _step(step: Step | None) -> dict[str, Any] | None:
     if step is None:
         return None
-    data: dict[str, Any] = {"line": step.line, "text": step.text}
+    data: dict[str, Any] = {**({"file": step.file} if step.file else {}), "line": step.line, "text": step.text}
     if isinstance(step, Unfollowed):
         return {**data, "kind": "not-followed", "reason": step.reason}
     data |= {

@@ -12,7 +12,7 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import statuses_text
 from contoursolve.diagnostics.finding import Severity
-from contoursolve.geometry import SECOND, Length, Turn
+from contoursolve.geometry import SECOND, Length, Plane, Turn
 from contoursolve.pictures.compose import MOST_ELEMENTS, remarks_of
 from contoursolve.pictures.page import TextRun, visible
 from contoursolve.pictures.scene import Closeup, Mark, MarkKind, Part, Scene, Trail, Weight, axis_names
@@ -21,6 +21,7 @@ from contoursolve.pictures.theme import Role
 from contoursolve.pictures.turned import crosses_axis, cylinders_of, turn_part
 from contoursolve.pictures.vectors import distance
 from contoursolve.program.pipeline import Result
+from contoursolve.program.profiles import CycleProfile
 from contoursolve.solving import Point
 from contoursolve.solving.contour import ArcSegment, LineSegment, Segment
 from contoursolve.tolerance import LENGTH
@@ -99,7 +100,7 @@ def compose_overview(result: Result, title: str | None, *, is_whole: bool | None
         scene = Scene(
             told,
             axis_names(plane),  # it has no numbers, so that contours in mm and in inches may stand together
-            (*_move_trails(beside), *_contour_parts(drawn)),
+            (*_profile_parts(result.profiles, plane, beside), *_move_trails(beside), *_contour_parts(drawn)),
             remarks=tuple(_remarks(drawn, len(own))),
             meanings={Role.CONFLICTING: "no contour", **_meaning_of(beside)},
             has_turning_axis=plane.diameters[SECOND],
@@ -136,7 +137,33 @@ def describe_overview(result: Result) -> str:
         )
     if len(result.answers) > len(shown):
         sentences.append(f"And {len(result.answers) - len(shown)} more contours.")
+    cycles = dict.fromkeys(_cycle(each) for each in result.profiles)
+    sentences += [f"{cycle}: dashed lines lead to its profile and back." for cycle in cycles]
     return " ".join(sentences) or "There is no contour."
+
+
+def _profile_parts(profiles: Sequence[CycleProfile], plane: Plane, moves: Sequence[Move]) -> Iterator[Part]:
+    """The ways between the start of each cycle and the ends of its profile, and the cycles by their names and lines."""
+    drawn = {(move.segment.start, move.segment.end) for move in moves}
+    begun: dict[Point, list[str]] = {}
+    for each in profiles:
+        if each.start is None or not each.path or each.plane != plane:
+            continue
+        named = begun.setdefault(each.start, [])
+        if _cycle(each) not in named:
+            named.append(_cycle(each))
+        for way in ((each.start, each.path[0][1]), (each.path[-1][1], each.start)):
+            if way not in drawn and distance(*way) > LENGTH:
+                drawn.add(way)
+                yield Trail((LineSegment("way", *way),), Role.RAPID, Weight.PASSING)
+    for start, named in list(begun.items())[:MOST_LABELED]:
+        label = (TextRun("; ".join(named), Role.MUTED),)
+        yield Mark(start, MarkKind.PLACE, label, label)
+
+
+def _cycle(profile: CycleProfile) -> str:
+    """The cycle that cuts a profile, and its line."""
+    return f"{profile.caller.cycle}, line {profile.caller.line}"
 
 
 def _contour_parts(drawn: Sequence[Drawn]) -> Iterator[Part]:
@@ -215,7 +242,7 @@ def _moves(result: Result) -> list[Move]:
         owner: Answer | None = None
         is_rapid = False
         for number, step in steps:
-            if step.line in owners:
+            if step.line in owners and not step.file:
                 owner, is_rapid = owners[step.line], False
                 continue
             motion = step.motion if isinstance(step, Travel) else None
@@ -229,7 +256,9 @@ def _moves(result: Result) -> list[Move]:
                 reached[number] += owner.contour is not None and not is_rapid
                 is_between = reached[number] > 1  # from both sides
                 found[number] = Move(segment, owner.plane.axes, is_rapid, is_between)
-    return [found[number] for number in sorted(found)[:MOST_MOVES]]
+    # What runs several times is drawn once.
+    once = {(move.segment, move.is_rapid): move for _, move in sorted(found.items(), key=lambda each: each[0])}
+    return list(once.values())[:MOST_MOVES]
 
 
 def plain_trail(result: Result, like: Answer) -> list[Trail]:

@@ -1,6 +1,6 @@
 """A program with its contours written as plain G-code, or in plain words of its control."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from contoursolve.diagnosis.examine import Depth, Policy
@@ -34,12 +34,13 @@ def expand_lines(  # noqa: PLR0913 - takes what `rewrite` takes
     start: Program | None = None,
     numbers: Numbers | None = None,
     around: Surroundings | None = None,
+    expander: Callable[..., Expander] | None = None,
 ) -> Iterator[str | object]:
     """The lines of a program (each with its end) with every contour replaced, and `OPENING` once.
 
     `numbers` are those of the whole program, where every line is to have one. `around` is for a program that calls or
-    computes, which is read as a whole. Unless the control of the lines is certain, raises UnknownControlError if some
-    block is for another one.
+    computes, which is read as a whole; `expander` makes another pass than the usual one. Unless the control of the
+    lines is certain, raises UnknownControlError if some block is for another one.
     """
     writing, kind = dialect.writing, Expander
     if writing is not None and options.post is SAME:
@@ -59,7 +60,7 @@ def expand_lines(  # noqa: PLR0913 - takes what `rewrite` takes
 
     told = leave if options.is_inline or kind is InGCodes else None
     steps = walk(blocks, dialect, unit, policy, Depth.PATH, start, together, machine, told)
-    yield from kind(dialect, options, summary, lines, numbers).expand(steps)
+    yield from (expander or kind)(dialect, options, summary, lines, numbers).expand(steps)
 
 
 def lines_of_facts(

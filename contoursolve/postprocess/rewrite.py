@@ -13,6 +13,7 @@ from contoursolve.execution.subprograms import ALONE, Surroundings
 from contoursolve.gcode import Block, Directive, Program, parse, parse_block
 from contoursolve.gcode.files import Tape
 from contoursolve.geometry import Length
+from contoursolve.postprocess.expander import Expander
 from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_facts, opening_of
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
 from contoursolve.postprocess.numbering import numbers_of
@@ -61,8 +62,11 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
     facts: Sequence[Directive] = (),
     around: Surroundings = ALONE,
     progress: Callable[[float], None] = lambda _: None,
+    lines_of: Callable[..., Lines] = Lines,
+    expander: Callable[..., Expander] | None = None,
 ) -> Rewritten:
-    """Expand a program into `body`; `progress` is told which share of it has been read.
+    """Expand a program into `body`; `progress` is told which share of it has been read; `lines_of` and `expander` read
+    and write it in another way.
 
     Raises UnknownControlError, SettingError and FactPlaceError, as `solve` does. With facts, all of the program is
     held in memory, to see which contour they are about.
@@ -79,8 +83,9 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
     else:
         dialect = configure(dialect, settings)
         places = lines_of_facts(parse(tape.read(), tape.name), dialect, unit, start, facts) if facts else {}
+        is_certain = bool(named or recogniser.begun) or not recogniser.is_sure
         lines = expand_lines(
-            Lines(tape.lines(), dialect, places, is_certain=bool(named or recogniser.begun) or not recogniser.is_sure),
+            lines_of(tape.lines(), dialect, places, is_certain=is_certain),
             dialect,
             options,
             summary,
@@ -88,7 +93,8 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
             policy=policy,
             start=start,
             numbers=numbers_of(tape.lines(), dialect) if options.numbering is Numbering.ALL else None,
-            around=around if needs_running(tape.lines(), dialect.modes.language) else None,
+            around=around if expander is None and needs_running(tape.lines(), dialect.modes.language) else None,
+            expander=expander,
         )
     held: list[str] = []
     size, place, told = 0, len(tape.mark), 0.0

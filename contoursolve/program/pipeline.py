@@ -82,6 +82,8 @@ class Result(Shown, Struct, frozen=True):
     policy: Policy = Policy.ENFORCE
     profiles: tuple[CycleProfile, ...] = ()
     """The profiles of cycles."""
+    around: Surroundings = ALONE
+    """The values of variables, and where subprograms are."""
 
     @property
     def has_errors(self) -> bool:
@@ -184,7 +186,7 @@ class Run:
         if facts and dialect is not None:
             program, facts = attach(program, dialect, unit, start, facts)
         control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
-        self.frame = Result(program, control, (), (), start, tuple(facts), settings, policy)
+        self.frame = Result(program, control, (), (), start, tuple(facts), settings, policy, around=around)
         goes_on = depth is Depth.FULL
         self._examiner = Examiner(dialect, unit, policy, depth, together, goes_on=goes_on, is_strict=is_strict)
         self._machine = machine_for(program, dialect, around) if dialect is not None else None

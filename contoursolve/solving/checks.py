@@ -36,7 +36,7 @@ from contoursolve.numeric.expressions import Tape, at_most, below, larger, large
 from contoursolve.numeric.inputs import COSINE, SINE, lookup
 from contoursolve.numeric.interpreter import Replay
 from contoursolve.solving.compare import allowance
-from contoursolve.solving.compile import compile_system
+from contoursolve.solving.compile import Machine, compile_plainly, compile_system
 from contoursolve.solving.corners import Pair
 from contoursolve.solving.numbers import axes_of, inputs_of
 from contoursolve.solving.plan import AffineStep, DistanceStep, Step, TwoCirclesStep, is_closed, lines_through
@@ -145,9 +145,8 @@ class Checked(Struct, frozen=True, eq=False):
 def compile_checks(system: System) -> Checked:
     """The checks of a determined system in closed form."""
     machine = compile_system(system)
-    plan, tape = machine.plan, machine.tape.copy()
-    known = {name: tape.expression(name) for name in system.unknowns}
-    source = Source(system.figure, tape, lookup(system, tape, known | at_origin(system.figure)))
+    source = _source_of(system, machine)
+    plan, tape = machine.plan, source.tape
     basis = largest(tape.expression(name) for name in machine.residuals)
     corners = largest(tape.expression(name) for name in machine.corner_residuals)
     pairs = [
@@ -162,6 +161,21 @@ def compile_checks(system: System) -> Checked:
     tape.output("worst", largest([basis, corners]))
     checks, margins = zip(*pairs, strict=True)
     return Checked(checks, margins, tape, is_clear)
+
+
+def _source_of(system: System, machine: Machine) -> Source:
+    """The expressions of a system in closed form, with a tape of their own."""
+    tape = machine.tape.copy()
+    known = {name: tape.expression(name) for name in system.unknowns}
+    return Source(system.figure, tape, lookup(system, tape, known | at_origin(system.figure)))
+
+
+def plain_checks(system: System) -> tuple[Source, list[tuple[Check, Any]]]:
+    """The checks of a determined system that a control has to make by itself, and where their margins come from."""
+    machine = compile_plainly(system)
+    source, plan = _source_of(system, machine), machine.plan
+    steps = (pair for pair in check_steps(source, plan.steps) if pair[0].role is not Role.TOUCHING)
+    return source, [*steps, *check_facts(source, plan.checks, len(plan.basis)), *check_path(source)]
 
 
 def add_checks(tape: Tape, pairs: Iterable[tuple[Check, Any]], first: int = 0) -> Any:

@@ -367,8 +367,23 @@ class Machine(Struct, frozen=True):
 @lru_cache(maxsize=4096)
 def compile_system(system: System) -> Machine:
     """The function of a determined system; one for each combination of words."""
-    plan = make_plan(system)
-    builder = _Builder(system)
+    return _compile(_Builder(system))
+
+
+@lru_cache(maxsize=64)
+def compile_plainly(system: System) -> Machine:
+    """The same for formulas that a control evaluates: a line that touches a circle is nothing of its own."""
+    return _compile(_PlainBuilder(system, touching=0.0))
+
+
+class _PlainBuilder(_Builder):
+    def _root(self, discriminant: Any, offset: Any, radius: Any, scale: Any, number: int) -> Any:
+        super()._root(discriminant, offset, radius, 0 * scale, number)
+        return sqrt(discriminant)
+
+
+def _compile(builder: _Builder) -> Machine:
+    plan = make_plan(builder.system)
     for number, step in enumerate(plan.steps):
         builder.run(step, number)
     slopes = builder.outputs(plan)

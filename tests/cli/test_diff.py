@@ -212,7 +212,7 @@ def test_a_program_is_equal_to_itself_and_what_is_not_followed_is_named(diff, pr
     [
         "G28 U0 W0",
         "M98 P100",
-        "#100 = 5.",
+        "#100 = #5041",
         "G65 P9000 A1.",
         "G01 X#100",
         "G71 P1 Q2 U0.5",
@@ -224,9 +224,36 @@ def test_a_program_is_equal_to_itself_and_what_is_not_followed_is_named(diff, pr
 def test_what_is_not_followed_must_be_the_same_word_by_word(diff, line):
     program = MANUAL + "\n{}\nG00 X40. Z10."
     assert diff(program.format(line), program.format(line))["verdict"] == "equal"
-    assert diff(program.format(line), program.format(f"N5 {line} (COMMENT)"))["verdict"] == "equal"
+    assert diff(program.format(line), program.format(f"N7 {line} (COMMENT)"))["verdict"] == "equal"
     for other in ("(NOTHING)", line + "1", "G30 U0 W0"):
         assert diff(program.format(line), program.format(other))["verdict"] == "different"
+
+
+CALLING = """O1 (GROOVES)
+#100=40.
+G00 X#100 Z-10.
+M98 P2
+Z-20.
+M98 P2
+M30
+O2
+G111 X#100 A250. K-3. B110. P0.5
+M99"""
+WRITTEN_OUT = """O1 (GROOVES)
+G00 X40. Z-10.
+{block}
+Z-20.
+{block}
+M30"""
+
+
+def test_calls_and_variables_are_the_same_path_as_what_they_stand_for(diff):
+    block = "G111 X40. A250. K-3. B110. P0.5"
+    assert diff(CALLING, WRITTEN_OUT.format(block=block))["verdict"] == "equal"
+    found = diff(CALLING.replace("#100=40.", "#100=40.1"), WRITTEN_OUT.format(block=block))
+    assert (found["verdict"], found["difference"]["old"]["line"]) == ("different", 3)
+    found = diff(CALLING, WRITTEN_OUT.format(block=block).replace("Z-20.", "Z-21."))
+    assert (found["verdict"], found["difference"]["old"]["line"]) == ("different", 5)
 
 
 def test_blocks_that_are_not_followed_are_listed_once_where_both_have_them(tmp_path):

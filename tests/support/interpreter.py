@@ -4,7 +4,7 @@ import os
 import re
 import shutil
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import atan2, cos, hypot, pi, sin, tau
 from pathlib import Path
 from tempfile import mkdtemp
@@ -120,3 +120,28 @@ def _on_arc(motion: Motion, share: float) -> complex:
     radius = hypot(begin.real, begin.imag) * (1 - share) + hypot(finish.real, finish.imag) * share
     angle = first + sign * swept * share
     return motion.center + radius * complex(cos(angle), sin(angle))
+
+
+_STOP = "G90 G00 X77777. Y77777. Z77777.\n"
+"""What stands in place of an abort, where many programs run in one process."""
+_THERE = (77777.0, 38888.5)
+"""Also where X is a diameter."""
+
+
+def interpret_rows(rows: Sequence[tuple[str, Mapping[str, float]]], folder: Path) -> list[tuple[list[Motion], bool]]:
+    """The motions of programs at values of their variables, each row in turn, and whether it stops with `(abort, ...)`;
+    a program without an end is read once."""
+    programs = list(dict.fromkeys(program for program, _ in rows))
+    text = ""
+    for number, program in enumerate(programs, 1):
+        stopping = re.sub(r"\(abort,.*\)\n", f"{_STOP}o{number} return\n", program)
+        text += f"o{number} sub\n{stopping}o{number} endsub\n"
+    for program, values in rows:
+        number = programs.index(program) + 1
+        text += _BETWEEN + "".join(f"{name}={value:.6f}\n" for name, value in values.items()) + f"o{number} call\n"
+    found = []
+    for motions in _run(text + "G40\nM2\n", folder)[2::2]:
+        last = motions[-1].end if motions else 0j
+        is_stopped = last.real in _THERE and last.imag in _THERE
+        found.append((motions[:-1] if is_stopped else motions, is_stopped))
+    return found

@@ -23,6 +23,7 @@ FLOORS = (
     "controls",
     "program verification",
     "comparison families postprocess",
+    "formulas",
     "api pictures",
     "output try_edits",
     "notebook",

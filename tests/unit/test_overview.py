@@ -9,7 +9,7 @@ import pytest
 import contoursolve
 from contoursolve.pictures import draw_answer, draw_result
 from contoursolve.pictures.page import WIDTH, Box, Stroke
-from contoursolve.pictures.theme import Role
+from contoursolve.pictures.theme import Role, Theme
 
 SHAFT = Path(__file__).parents[2] / "notebooks" / "programs" / "shaft.nc"
 BROKEN = SHAFT.with_stem("shaft_broken")
@@ -131,3 +131,31 @@ def test_of_very_many_small_contours_none_is_enlarged_and_the_picture_says_how_m
     assert not [told for told in shown if told.endswith("times as large") or told.startswith("0 words")]
     names = ", ".join(f"{number}  line {2 * number}" for number in range(1, 7))
     assert f"too small to be read here: {names} and 54 more".replace("  ", " ") in shown
+
+
+PROFILE = """G00 X64. Z2.
+G71 U2. R1.
+G71 P10 Q60 U0.5 W0.1 F0.3
+N10 G00 X16.
+G01 Z0.
+X24. ,C1.5
+Z-30. ,R3.
+X36. ,A120.
+Z-50. ,R2.
+X60. ,C1.
+Z-60.
+N60 X64.
+G70 P10 Q60
+M30"""
+
+
+@pytest.mark.parametrize("theme", list(Theme))
+def test_dashed_lines_lead_from_the_start_of_a_cycle_to_its_profile_and_back(theme):
+    found = contoursolve.solve(PROFILE, control="fanuc-lathe")
+    picture = draw_result(found, theme=theme)
+    assert "G71, line 3; G70, line 13" in texts(picture)
+    ways = {frozenset(spots(stroke)) for stroke in strokes(picture, Role.RAPID)}
+    assert len(ways) == 2
+    assert len(frozenset.intersection(*ways)) == 1
+    told = "G71, line 3: dashed lines lead to its profile and back."
+    assert told in picture.svg

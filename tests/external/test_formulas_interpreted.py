@@ -1,0 +1,143 @@
+"""Formulas run by LinuxCNC's interpreter at random values: the path is ours, and it stops where we refuse."""
+
+import re
+from collections import defaultdict
+from collections.abc import Sequence
+from functools import cache
+from random import Random
+from typing import NamedTuple
+
+import pytest
+from interpreter import assert_path, interpret_rows
+from test_interpreted import Drawing, drawings
+
+import contoursolve
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.examine import Depth, Policy
+from contoursolve.gcode import parse
+from contoursolve.geometry import Length
+from contoursolve.program.pipeline import run
+from contoursolve.solving import NoteKind
+from contoursolve.solving.contour import ArcSegment, Contour
+
+VALUES = 500
+"""Of every form."""
+PROGRAMS = 10
+"""Of every form; each with several values."""
+INCREMENT, OFF = 0.001, 0.01
+"""mm or inch. The increment, and how far the ends of an arc may be off its circle."""
+FORMS = {
+    "G111": ("G111",),
+    "G112 turning": ("G112 turning",),
+    "G112 facing": ("G112 facing",),
+    "G11, G12, G01 with I or K": ("G11", "G12", "G01"),
+    "line-line": ("line-line",),
+    "line-circle": ("line-circle",),
+    "circle-line": ("circle-line",),
+    "circle-circle": ("circle-circle",),
+    "chains of 3 and 4": ("chain of 3", "chain of 4"),
+    "chains of 5 and 6": ("chain of 5", "chain of 6"),
+    "16.1": ("16.1",),
+    "16.2": ("16.2",),
+}
+"""What shows each form."""
+
+_WORD = re.compile(r"(?<![\w#,])(,?[A-FI-KPQRUWXYZD])(-?\d+\.\d+)")
+
+
+class Family(NamedTuple):
+    """A program with variables, the numbers that it was drawn with, and its formulas."""
+
+    drawing: Drawing
+    text: str
+    values: dict[str, float]
+    formulas: str
+
+    def typed(self, values: dict[str, float]) -> str:
+        """The program with numbers."""
+        return re.sub(r"#\d+", lambda found: f"{values[found[0]]:.6f}", self.text)
+
+
+def with_variables(rng: Random, drawing: Drawing) -> tuple[str, dict[str, float]]:
+    """A drawn program with variables in some of its words."""
+    lines = drawing.text.splitlines()
+    words = [(number, word) for number, line in enumerate(lines) if number for word in _WORD.finditer(line)]
+    chosen = sorted(rng.sample(words, rng.randint(1, 3)), key=lambda each: (each[0], each[1].start()), reverse=True)
+    values = {}
+    for count, (number, word) in enumerate(chosen, 100):
+        values[f"#{count}"] = round(float(word[2]), 6)
+        lines[number] = f"{lines[number][: word.start(2)]}#{count}{lines[number][word.end(2) :]}"
+    return "\n".join(lines) + "\n", values
+
+
+def another(rng: Random, value: float) -> float:
+    """A value near another one, or of another kind."""
+    near = value * rng.gauss(1, 0.1), value + rng.gauss(0, 3)
+    return round(rng.choice((*near, *near, *near, -value, 0.0, float(round(value)), rng.uniform(-200, 200))), 3)
+
+
+@cache
+def families(form: str) -> list[Family]:
+    """Programs of a form with variables."""
+    rng, found = Random(form), []
+    own = [each for each in drawings() if each.shows & {*FORMS[form]}]
+    for drawing in rng.sample(own, min(PROGRAMS, len(own))):
+        text, values = with_variables(rng, drawing)
+        expansion = contoursolve.expand(
+            text, post="linuxcnc", control=drawing.control, formulas=True, variables=values, scratch="#140-#400"
+        )
+        assert expansion.text is not None, (text, values, expansion.summary.left)
+        # LinuxCNC has no compensation in G19, and says so; with D0, it changes nothing.
+        formulas = re.sub(r"G4[12] |D0", "", expansion.text) if drawing.plane == 19 else expansion.text
+        found.append(Family(drawing, text, values, formulas))
+    return found
+
+
+def solved(family: Family, values: dict[str, float]) -> tuple[list[Contour], bool, bool]:
+    """The contours that a single solve of each makes, whether one is refused, and whether the ends of an arc are off
+    its circle by as much as the control allows."""
+    result = run(
+        parse(family.typed(values)), DIALECTS[family.drawing.control], Length.MM, Policy.ENFORCE, Depth.VERDICT
+    )
+    found: list[Contour] = []
+    is_off = any(each.about is NoteKind.RADIUS_DIFFERS for each in result.diagnostics)
+    for answer in result.answers:
+        is_refused = any(each.severity.value == "error" for each in answer.diagnostics)
+        if is_refused or answer.contour is None:
+            return found, True, is_off
+        found.append(answer.contour)
+    return found, not found, is_off
+
+
+def elements_of(contours: Sequence[Contour], unit: float) -> list[tuple]:
+    found = []
+    for contour in contours:
+        for each in contour.elements:
+            arc = each if isinstance(each, ArcSegment) else None
+            places = (each.start, each.end, arc.center if arc else None)
+            start, end, center = (complex(*place) / unit if place else None for place in places)
+            found.append((start, end, center, arc.turn.value if arc else ""))
+    return found
+
+
+@pytest.mark.interpreter
+@pytest.mark.slow
+@pytest.mark.parametrize("form", FORMS)
+def test_the_interpreter_runs_formulas_as_we_solve(form, tmp_path):
+    rng, own = Random(f"values {form}"), families(form)
+    rows = [
+        (family, {name: another(rng, value) if count else value for name, value in family.values.items()})
+        for family in own
+        for count in range(-(-VALUES // len(own)))
+    ]
+    runs = interpret_rows([(family.formulas, values) for family, values in rows], tmp_path)
+    seen = defaultdict(int)
+    for (family, values), (motions, is_stopped) in zip(rows, runs, strict=True):
+        contours, is_refused, is_off = solved(family, values)
+        assert is_stopped == is_refused, (family.text, values, family.formulas)
+        unit = 25.4 if "G20" in family.text else 1.0
+        cut = [each for each in motions if each.kind != "traverse"]
+        assert_path(cut, elements_of(contours, unit), OFF if is_off else INCREMENT)
+        seen[is_refused] += 1
+    assert len(rows) >= VALUES
+    assert min(seen[True], seen[False]) >= VALUES // 20, dict(seen)
