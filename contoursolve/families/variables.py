@@ -7,6 +7,8 @@ from contoursolve.execution.evaluate import evaluate, variables_of, written
 from contoursolve.execution.language import MacroLanguage, Unknown, Variable, WordFormula
 from contoursolve.families.spec import FamilyError
 from contoursolve.gcode import Program
+from contoursolve.program.recognise import choose
+from contoursolve.reading.dialect import Dialect
 
 Places = Mapping[str, tuple[int, int]]
 """By the name of a variable, the line and the column of the value that it is."""
@@ -60,3 +62,16 @@ def _number(
     reason = found.reason if isinstance(found, Unknown) else f"{typed} is no number"
     names = ", ".join(dict.fromkeys(each.name for each in variables_of(word.value) if isinstance(each, Variable)))
     raise FamilyError(f'{reason}; state it with --let "{names or typed}=NUMBER", or vary it')
+
+
+def with_numbers(
+    block: str, control: str | Dialect | None, settings: Mapping[str, str] | None, values: Mapping[str, float]
+) -> str:
+    """A block with numbers for all of its variables. Raises FamilyError for one without a value, and as `choose`."""
+    program = gcode.parse(block, "<block>")
+    dialect = choose(control, program, settings)
+    if dialect is None:
+        return block
+    known = {name.strip().upper(): float(value) for name, value in values.items()}
+    spelled = gcode.spelled(program, dialect.modes.syntax)
+    return numbered(spelled, dialect.modes.language, known, ())[0].text
