@@ -240,7 +240,7 @@ READING_RULES = (
     Rule(
         code="position-unknown",
         message="the start point is not known in {axes}: {reason}",
-        help="position {axes} with an absolute word before this block (with --block: by --start)",
+        help="position {axes} with an absolute word before this block, or state where the tool is with --start",
         source=_READING,
         about=ReadIssue.POSITION_UNKNOWN,
         accepted=(_GOOD,),

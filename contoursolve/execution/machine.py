@@ -177,6 +177,7 @@ class Machine:
         for index, block in enumerate(self.main.blocks):
             if index not in self._visited and self._says_something(index):
                 if self._steps >= MOST_STEPS:
+                    yield from self._unfollowed(index)
                     return
                 name = self.main.code(index).begins
                 told = f"program {name}" if name is not None else f"line {block.line}"
@@ -185,6 +186,15 @@ class Machine:
                 once = {name for name, times in Counter(self._assigned).items() if times == 1}
                 self.values = {name: value for name, value in self.values.items() if name in once or name in self.given}
                 yield from self._run_from(index)
+
+    def _unfollowed(self, first: int) -> Iterator[Block | Turn]:
+        """What has not run from a line on, as it is written."""
+        for index in range(first, len(self.main)):
+            if index not in self._visited:
+                block = self.main.blocks[index]
+                if index == first or index - 1 in self._visited:
+                    yield Turn(Event.FRESH, block.line, "the program is not followed as far as this")
+                yield block
 
     def _run_from(self, index: int) -> Iterator[Block | Turn]:
         """What runs from a line of the main file on, up to the end of the program or what has run before."""
