@@ -607,7 +607,9 @@ class Machine:
             return
         source, first, last = found
         is_behind = call.cycle.startswith("G") and source is frame.source and first > index
-        if self._is_alone and call.kind is CallKind.PROFILE and not is_behind:
+        is_inside = any(each.call is not None and each.call.kind is CallKind.PROFILE for each in self._frames)
+        if call.kind is CallKind.PROFILE and (is_inside or (self._is_alone and not is_behind)):
+            # In a profile, no control runs a cycle.
             return
         own = self._arguments(call, source, first)
         caller = Caller(line, text, call.cycle)

@@ -40,6 +40,8 @@ class CycleProfile(Struct, frozen=True):
     unit: Length
     is_free: bool
     """Whether its first block programs both axes."""
+    has_contour: bool
+    """Whether a contour belongs to it."""
 
 
 def profiles_of(steps: Sequence[Step]) -> Iterator[CycleProfile]:
@@ -58,7 +60,15 @@ def profiles_of(steps: Sequence[Step]) -> Iterator[CycleProfile]:
         plane, block = behind.plane, steps[first].blocks[0]
         axes = {word.address for word in block.words}
         is_free = len(axes & {"X", "Z", "U", "W"}) > 1
-        yield CycleProfile(caller, _place(begin), tuple(path), plane, behind.unit, is_free)
+        yield CycleProfile(
+            caller,
+            _place(begin),
+            tuple(path),
+            plane,
+            behind.unit,
+            is_free,
+            any(step.answer is not None for _, step in inside),
+        )
 
 
 def _cycle_of(step: Step) -> Caller | None:
@@ -96,7 +106,7 @@ def _place(state: State) -> Point | None:
 
 def turns_back(profile: CycleProfile, rules: tuple[Rule, ...]) -> Iterator[Diagnostic]:
     """Where the profile of a cycle turns back along an axis along which the cycle goes one way."""
-    axes = ONE_WAY.get(profile.caller.cycle, ())
+    axes = ONE_WAY.get(profile.caller.cycle, ()) if profile.has_contour else ()
     for axis in axes[:1] if profile.is_free else axes:
         values = [at[axis] for _, at in profile.path]
         if len(values) < 2:  # noqa: PLR2004 - a way has two ends
