@@ -148,6 +148,9 @@ def expand(
     Of a Klartext program, free contours become L, CC and C. For another target, such as --post linuxcnc, expand writes
     the other blocks in G codes, too.
 
+    Calls stay. A contour of a subprogram is written once, and must be the same in every call. With --inline, it may
+    differ: expand writes out each call.
+
     Exit status: 0 every contour is expanded, 1 one is left or nothing is written, 2 could not run.
 
     \b

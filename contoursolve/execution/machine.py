@@ -1,5 +1,6 @@
 """Runs a program as a control does: assignments, jumps, loops, calls and profiles, from block to block."""
 
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import Enum
@@ -164,6 +165,9 @@ class Machine:
         that is not known stays; the profile of a cycle that is written elsewhere does not run."""
         self._is_alone = True
         yield from self._run_from(0)
+        last = next((at for at in reversed(range(len(self.main))) if self.main.blocks[at].text.strip()), None)
+        if last is not None and last not in self._visited and _ENDS_FILE.fullmatch(self.main.blocks[last].text):
+            yield self.main.blocks[last]
 
     def run_all_alone(self) -> Iterator[Block | Turn]:
         """The same, and behind it what nothing calls."""
@@ -248,7 +252,7 @@ class Machine:
         if frame.callers and any(isinstance(each, Return) for each in moving):
             code = replace(code, rest=_without_return(code.rest, block))
         ran = self._block(frame, block, code)
-        if not self._is_passed_over(frame, block, code, ran):
+        if not self._is_passed_over(frame, code, ran):
             here = (frame.source.name, block.line)
             if here[0] != self._last[0] or here[1] <= self._last[1]:
                 yield Turn(Event.BARRIER, block.line)
@@ -266,9 +270,9 @@ class Machine:
         rest = parse_block(code.rest, block.line, block.syntax) if is_strange else block
         return is_strange and any(word.address != "N" for word in rest.words)
 
-    def _is_passed_over(self, frame: _Frame, block: Block, code: CodeLine, ran: Block) -> bool:
+    def _is_passed_over(self, frame: _Frame, code: CodeLine, ran: Block) -> bool:
         """Whether a line has nothing to run: all of it is statements, or the head of a program that is called."""
-        if code.begins is not None and block.find("O") is not None and frame.callers:
+        if code.begins is not None and frame.callers:
             return True
         is_bare = all(word.address == "N" for word in ran.words) and ran.macro is None
         if self._is_alone and is_bare and (code.statements or code.labels):
@@ -608,8 +612,15 @@ class Machine:
         source, first, last = found
         is_behind = call.cycle.startswith("G") and source is frame.source and first > index
         is_inside = any(each.call is not None and each.call.kind is CallKind.PROFILE for each in self._frames)
-        if call.kind is CallKind.PROFILE and (is_inside or (self._is_alone and not is_behind)):
+        if call.kind is CallKind.PROFILE and is_inside:
             # In a profile, no control runs a cycle.
+            return
+        if self._is_alone and call.kind is CallKind.PROFILE and not is_behind:
+            if not self._says_words(frame, index):
+                yield frame.source.blocks[index]
+            if not call.cycle.startswith("G"):
+                told = f"{call.cycle} cuts a profile that is written elsewhere, which a program without calls has not"
+                yield Turn(Event.BARRIER, line, told)
             return
         own = self._arguments(call, source, first)
         caller = Caller(line, text, call.cycle)
@@ -620,6 +631,11 @@ class Machine:
         if source.name:
             self.called.add(source.name)
         self._frames.append(_Frame(source, first, first, last, call, (*frame.callers, caller), times, own))
+
+    def _says_words(self, frame: _Frame, index: int) -> bool:
+        """Whether a line has words besides its number and its statements."""
+        block, code = frame.source.blocks[index], frame.source.code(index)
+        return any(word.address != "N" for word in parse_block(code.rest, block.line, block.syntax).words)
 
     def _arguments(self, call: Call, source: Source, first: int) -> dict[str, Known] | None:
         values = {name: self._value(term) for name, term in call.arguments}
@@ -753,6 +769,9 @@ def _is_local(name: str) -> bool:
 
 
 _LAST_LOCAL = 33
+
+_ENDS_FILE = re.compile(r"\s*(?:%|\d*\s*END\s+PGM\b.*)\s*", re.IGNORECASE)
+"""The last line of a file, which stands behind all of its subprograms."""
 
 
 def _begins_branch(code: CodeLine) -> bool:

@@ -371,9 +371,11 @@ class Examiner:
 
         def watched() -> Iterator[Line]:
             for each in machine.run_alone():
-                is_open = isinstance(each, Turn) and each.event in (Event.LOST, Event.STOPPED)
-                if isinstance(each, Turn) and (is_open or (each.event is Event.ENTER and not each.reason)):
-                    told(each)
+                if isinstance(each, Turn):
+                    is_open = each.event in (Event.LOST, Event.STOPPED)
+                    is_open = is_open or (each.event is Event.ENTER and not each.reason)
+                    if is_open or (each.event is Event.BARRIER and each.reason):
+                        told(each)
                 yield each
 
         yield from self.steps(watched(), start)
