@@ -1039,3 +1039,18 @@ def test_the_filter_writes_and_refuses_as_its_options_ask(tmp_path):
     assert b"(" not in written
     same = run("expand", old, "--post", "linuxcnc", "--rules", "warn", *options)
     assert written == same[1]
+
+
+def test_a_program_without_calls_keeps_the_last_line_of_its_file():
+    docs = PROGRAMS.parents[1] / "docs" / "programs"
+    for name, last in (("pulley.nc", "%"), ("lever.h", "24 END PGM LEVER MM")):
+        text = contoursolve.expand((docs / name).read_text(), inline=True).text
+        assert text.splitlines()[-1] == last
+
+
+def test_a_profile_that_is_written_elsewhere_needs_its_call():
+    text = (PROGRAMS.parents[1] / "docs" / "programs" / "bush.arc").read_text()
+    assert contoursolve.expand(text, inline=True).text is None
+    kept = contoursolve.expand(text, inline=True, keep_going=True).text
+    assert 'N60 CYCLE95("L_BUSH",' in kept
+    assert kept.count("%_N_") == 1

@@ -14,3 +14,8 @@ if motions is not None:
         for element in answer.contour.elements:
             x, y = element.end
             assert min(max(abs(x - at[0]), abs(y - at[1])) for at in ways) < 2e-4
+
+lines = written_out.text.splitlines()
+assert not any("M98" in line or "#" in line for line in lines)
+assert [line for line in lines if line.startswith("N40 G01 X60.")] == ["N40 G01 X60. Z-54.509", "N40 G01 X60. Z-70.509"]
+assert [(each.caller.cycle, each.caller.line) for each in turned.profiles] == [("G71", 11), ("G70", 21)]
