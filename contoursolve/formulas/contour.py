@@ -77,7 +77,9 @@ def body_of(reader: Reader, profile: Profile, stated: Mapping[str, Affine], writ
     """The statements of a contour of one case; `writing` goes by the names of elements and corners. Raises
     FormulaError where a step has no closed form."""
     system = assemble(profile)
-    if profile.is_extended or not is_closed(system):
+    if profile.is_extended:
+        raise FormulaError("what it states besides its words has no closed form")
+    if not is_closed(system):
         raise FormulaError("a step of it has no closed form")
     chosen = {choice.point for choice in profile.choices}
     loose = [point for point in points_with_two_solutions(system) if point not in chosen]

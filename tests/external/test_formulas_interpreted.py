@@ -4,6 +4,7 @@ import re
 from collections import defaultdict
 from collections.abc import Sequence
 from functools import cache
+from itertools import accumulate
 from random import Random
 from typing import NamedTuple
 
@@ -25,6 +26,8 @@ VALUES = 500
 """Of every form."""
 LONGEST_MESSAGE = 26
 """Characters that a Fanuc control shows."""
+LONGEST_LINE, MOST_BRACKETS = 80, 5
+"""Characters of a block, and brackets in brackets."""
 PROGRAMS = 10
 """Of every form; each with several values."""
 INCREMENT, OFF = 0.001, 0.01
@@ -146,6 +149,12 @@ def test_the_interpreter_runs_formulas_as_we_solve(form, tmp_path):
     assert min(seen[True], seen[False]) >= VALUES // 20, dict(seen)
 
 
+def nested(line: str) -> int:
+    """How many brackets of a line lie in each other."""
+    depths = accumulate((sign == "[") - (sign == "]") for sign in line)
+    return max(depths, default=0)
+
+
 LANGUAGES = {"fanuc": "#140-#400", "haas": "#140-#400", "sinumerik": "R140-R400", "klartext": "Q240-Q500"}
 FEW = 3
 """Programs of every form, and a tenth of the values, for each of the other controls."""
@@ -171,6 +180,9 @@ def test_what_is_written_for_other_controls_does_the_same(language):
                 keep_untranslated=True,
             )
             assert expansion.text is not None
+            written = [line for line in expansion.text.splitlines() if line[:1] not in "(;" and line not in family.text]
+            assert max(map(len, written)) < LONGEST_LINE, max(written, key=len)
+            assert max(map(nested, written)) <= MOST_BRACKETS
             for _ in range(VALUES // 10 // FEW):
                 values = {name: another(rng, value) for name, value in family.values.items()}
                 contours, is_refused, is_off = solved(family, values)

@@ -1,10 +1,10 @@
 """Runs what `expand --formulas` writes for Fanuc, Haas, SINUMERIK and Klartext: no import of the package.
 
-Expressions are rewritten into Python's and evaluated; a program goes from line to line, by jumps and by IF, ELSE, ENDIF.
+Expressions are rewritten into Python's and evaluated; a program goes from line to line, by jumps and by IF.
 """
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from math import acos, atan2, cos, degrees, radians, sin, sqrt
 from typing import NamedTuple
 
@@ -40,6 +40,10 @@ class _Machine:
     def __init__(self, text: str, values: Mapping[str, float]) -> None:
         self.lines = [line.strip() for line in text.splitlines()]
         self.values = dict(values)
+        self.motions: list[tuple[str, dict[str, float], dict[str, float]]] = []
+        self.center: dict[str, float] = {}
+        self.message: str | None = None
+        self.place = 0
         self.labels = {
             found[1]: number
             for number, line in enumerate(self.lines)
@@ -59,47 +63,59 @@ class _Machine:
         # Klartext has functions of what stands behind them.
         found = re.sub(r"\b(SQRT|SQ|ABS|SIN|COS|ACOS|SGN|INT) (Q\d+|[\d.]+)", r"\1(\2)", found)
         found = _VARIABLE.sub(lambda name: repr(self.values[name[0]]), found)
-        return float(eval(found, {"__builtins__": {}}, dict(_FUNCTIONS)))  # noqa: S307 - our own text
+        return float(eval(found, {"__builtins__": {}}, dict(_FUNCTIONS)))
 
     def run(self) -> Run:
-        motions: list[tuple[str, dict[str, float], dict[str, float]]] = []
-        center: dict[str, float] = {}
-        place = steps = 0
-        while place < len(self.lines):
-            line = self.lines[place]
-            place, steps = place + 1, steps + 1
+        steps = 0
+        while self.place < len(self.lines) and self.message is None:
+            line = self.lines[self.place]
+            self.place, steps = self.place + 1, steps + 1
             assert steps < _MOST_LINES, "it goes round"
-            if found := re.fullmatch(r"IF \[(.*)\] THEN #3000=\d+ \((.*)\)", line):
-                if self.value(found[1]):
-                    return Run(motions, found[2])
-            elif found := re.fullmatch(r"IF \[(.*)\] THEN (#\d+)=(.*)", line):
-                if self.value(found[1]):
-                    self.values[found[2]] = self.value(found[3])
-            elif found := re.fullmatch(r"IF \[(.*)\] GOTO (\d+)", line):
-                place = self.labels[found[2]] if self.value(found[1]) else place
-            elif found := re.fullmatch(r"FN (9|11|12): IF (\S+) (EQU|GT|LT) (\S+) GOTO LBL (\d+)", line):
-                one, two = self.value(found[2]), self.value(found[4])
-                holds = {"EQU": one == two, "GT": one > two, "LT": one < two}[found[3]]
-                place = self.labels[found[5]] if holds else place
-            elif found := re.fullmatch(r"GOTO (\d+)", line):
-                place = self.labels[found[1]]
-            elif found := re.fullmatch(r"IF (.*)", line):
-                place = place if self.value(found[1]) else self._behind(place, "ELSE")
-            elif line == "ELSE":
-                place = self._behind(place, "")
-            elif found := re.fullmatch(r'SETAL\(65000,"(.*)"\)', line):
-                return Run(motions, found[1])
-            elif line == "FN 14: ERROR = 1000":
-                return Run(motions, "ERROR")
-            elif found := re.fullmatch(r"(#\d+|[RQ]\d+) ?= ?(.*)", line):
-                self.values[found[1]] = self.value(found[2])
-            elif line.startswith("CC "):
-                center = {name[1:]: self.value(text) for name, text in _WORD.findall(line)}
-            elif found := re.match(r"(G0?[0123]|L|C) ", line):
-                words = {name: self.value(text) for name, text in _WORD.findall(line)}
-                kind = {"L": "G01", "C": "G03" if line.endswith("DR+") else "G02"}.get(found[1], found[1])
-                motions.append((kind, words, center if found[1] == "C" else {}))
-        return Run(motions, "")
+            for pattern, does in _LINES:
+                if found := re.fullmatch(pattern, line):
+                    does(self, *found.groups())
+                    break
+        return Run(self.motions, self.message or "")
+
+    def alarm(self, message: str = "ERROR") -> None:
+        self.message = message
+
+    def alarm_if(self, condition: str, message: str) -> None:
+        self.message = message if self.value(condition) else None
+
+    def assign(self, name: str, value: str) -> None:
+        self.values[name] = self.value(value)
+
+    def assign_if(self, condition: str, name: str, value: str) -> None:
+        if self.value(condition):
+            self.assign(name, value)
+
+    def jump(self, label: str) -> None:
+        self.place = self.labels[label]
+
+    def jump_if(self, condition: str, label: str) -> None:
+        if self.value(condition):
+            self.jump(label)
+
+    def compare(self, one: str, sign: str, other: str, label: str) -> None:
+        first, second = self.value(one), self.value(other)
+        if {"EQU": first == second, "GT": first > second, "LT": first < second}[sign]:
+            self.jump(label)
+
+    def branch(self, condition: str) -> None:
+        self.place = self.place if self.value(condition) else self._behind(self.place, "ELSE")
+
+    def skip(self) -> None:
+        self.place = self._behind(self.place, "")
+
+    def set_center(self, text: str) -> None:
+        self.center = {name[1:]: self.value(value) for name, value in _WORD.findall(text)}
+
+    def move(self, kind: str, text: str) -> None:
+        words = {name: self.value(value) for name, value in _WORD.findall(text)}
+        center = self.center if kind == "C" else {}
+        kind = {"L": "G01", "C": "G03" if text.endswith("DR+") else "G02"}.get(kind, kind)
+        self.motions.append((kind, words, center))
 
     def _behind(self, place: int, other: str) -> int:
         """The line behind the ELSE or the ENDIF of an IF."""
@@ -110,6 +126,23 @@ class _Machine:
                 return number + 1
             depth += line.startswith("IF ") - (line == "ENDIF")
         raise AssertionError("an IF does not end")
+
+
+_LINES: tuple[tuple[str, Callable[..., None]], ...] = (
+    (r"IF \[(.*)\] THEN #3000=\d+ \((.*)\)", _Machine.alarm_if),
+    (r"IF \[(.*)\] THEN (#\d+)=(.*)", _Machine.assign_if),
+    (r"IF \[(.*)\] GOTO (\d+)", _Machine.jump_if),
+    (r"FN (?:9|11|12): IF (\S+) (EQU|GT|LT) (\S+) GOTO LBL (\d+)", _Machine.compare),
+    (r"GOTO (\d+)", _Machine.jump),
+    (r"IF (.*)", _Machine.branch),
+    (r"ELSE", _Machine.skip),
+    (r'SETAL\(65000,"(.*)"\)', _Machine.alarm),
+    (r"FN 14: ERROR = 1000", _Machine.alarm),
+    (r"(#\d+|[RQ]\d+) ?= ?(.*)", _Machine.assign),
+    (r"CC (.*)", _Machine.set_center),
+    (r"(G0?[0123]|L|C) (.*)", _Machine.move),
+)
+"""What each line does; the first pattern counts."""
 
 
 def run_macros(text: str, values: Mapping[str, float]) -> Run:
