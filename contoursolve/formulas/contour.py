@@ -22,6 +22,8 @@ SHORTEST = 1e-6
 
 LONGEST_TERM, DEEPEST_TERM = 60, 3
 """Characters and brackets in brackets of an expression that a control surely reads in one block."""
+LONGEST_MARGIN = 25
+"""Characters of one beside which a message stands."""
 
 
 class Stop(Struct, frozen=True):
@@ -216,7 +218,10 @@ class _Maker:
     def stop(self, margin: Term, kind: str, limit: float, message: str) -> None:
         """Stop where a check fails; one that cannot is left out."""
         self._message = message
-        condition = Apply(kind, (self._ready(margin), Constant(limit)))
+        own = self._ready(margin)
+        if length_of(own) > LONGEST_MARGIN:
+            own = self._word(own)
+        condition = Apply(kind, (own, Constant(limit)))
         if not isinstance(margin, Constant) and condition not in self._stops:
             self._stops.add(condition)
             self.statements.append(Stop(condition, message))
@@ -269,8 +274,10 @@ class _Maker:
 
     def _make(self, variable: Variable, term: Term) -> None:
         """The statements that give a step its value."""
-        arguments = tuple(self._ready(each) for each in term.arguments) if isinstance(term, Apply) else ()
         kind = term.function if isinstance(term, Apply) else ""
+        # Some controls write a direction by several functions.
+        ready = self._word if kind == TURNED else self._ready
+        arguments = tuple(map(ready, term.arguments)) if isinstance(term, Apply) else ()
         if kind in (AT_MOST, LESS):
             self._flag(variable, Apply(kind, arguments), 1.0, is_first=True)
         elif kind == SIGN:
@@ -278,7 +285,8 @@ class _Maker:
             self._flag(variable, Apply("greater", (own, Constant(ZERO))), 1.0, is_first=True)
             self._flag(variable, Apply(LESS, (own, Constant(-ZERO))), -1.0)
         else:
-            self.statements.append(Assign(variable, self._ready(term)))
+            own = Apply(kind, arguments) if kind == TURNED else self._ready(term)
+            self.statements.append(Assign(variable, own))
             if kind == TURNED:
                 # Some controls count from 0 to 360.
                 less_turn = Apply("subtract", (variable, Constant(360.0)))

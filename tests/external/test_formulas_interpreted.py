@@ -181,7 +181,8 @@ def test_what_is_written_for_other_controls_does_the_same(language):
             )
             assert expansion.text is not None
             written = [line for line in expansion.text.splitlines() if line[:1] not in "(;" and line not in family.text]
-            assert max(map(len, written)) < LONGEST_LINE, max(written, key=len)
+            most = LONGEST_LINE + 20 * (language == "klartext")
+            assert max(map(len, written)) < most, max(written, key=len)
             assert max(map(nested, written)) <= MOST_BRACKETS
             for _ in range(VALUES // 10 // FEW):
                 values = {name: another(rng, value) for name, value in family.values.items()}
