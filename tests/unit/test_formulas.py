@@ -3,8 +3,10 @@
 import re
 
 import pytest
+from click.testing import CliRunner
 
 import contoursolve
+from contoursolve.cli import main
 
 BLOCK = "#100=95.\nG0 X40. Z0.\nG111 X#100 A180. K-30. B120. P5. Q5. F0.2\n"
 LX3 = {"control": "yasnac-lx3", "formulas": True}
@@ -87,3 +89,41 @@ def test_klartext_has_the_contour_and_the_rest_is_left():
     assert "Q100 = 95\n" in expansion.text
     assert "FN 14: ERROR = 1000" in expansion.text
     assert re.search(r"CC IZ\+\S+ IX\+\S+\nC X\+Q100 Z\+Q\d+ DR\+", expansion.text.replace("-", "+"))
+
+
+def command(*arguments: str) -> tuple[int, str]:
+    """The exit status of `expand --formulas`, and what it prints."""
+    done = CliRunner().invoke(main, ["expand", "--formulas", *arguments])
+    return done.exit_code, done.output
+
+
+WORDS = ("--control", "yasnac-lx3", "--start", "X40. Z0.", "--block")
+
+
+def test_the_command_writes_formulas_of_a_block_with_values_for_example():
+    status, text = command("--post", "linuxcnc", "--let", "#1=95.", *WORDS, "G111 X#1 A180. K-30. B120. P5. Q5.")
+    assert status == 0
+    assert "(abort, P DOES NOT FIT)" in text
+    assert "1 contour expanded" in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "told"),
+    [
+        (("--scratch", "#140-#140", "--let", "#1=95."), 1, "it needs 3 variables; #140-#140 has 1"),
+        (("--scratch", "#160-#140", "--let", "#1=95."), 2, "is no range of variables"),
+        (("--arcs", "radius", "--let", "#1=95."), 2, "goes without --arcs radius"),
+        ((), 1, "X#1"),
+    ],
+)
+def test_the_command_says_why_it_writes_nothing(arguments, status, told):
+    found, text = command(*arguments, *WORDS, "G111 X#1 A180. K-30. B120. P5. Q5.")
+    assert found == status
+    assert told in text
+
+
+def test_what_belongs_to_formulas_is_asked_for_with_them():
+    for option in (("--scratch", "#140-#160"), ("--post", "sinumerik")):
+        done = CliRunner().invoke(main, ["expand", *option, *WORDS, "G111 X95. A180. K-30. B120."])
+        assert done.exit_code == 2
+        assert "--formulas" in done.output
