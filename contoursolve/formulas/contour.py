@@ -218,6 +218,8 @@ class _Maker:
     def stop(self, margin: Term, kind: str, limit: float, message: str) -> None:
         """Stop where a check fails; one that cannot is left out."""
         self._message = message
+        if kind == LESS and limit < 0 and self._is_length(margin):
+            return
         own = self._ready(margin)
         if length_of(own) > LONGEST_MARGIN:
             own = self._word(own)
@@ -225,6 +227,11 @@ class _Maker:
         if not isinstance(margin, Constant) and condition not in self._stops:
             self._stops.add(condition)
             self.statements.append(Stop(condition, message))
+
+    def _is_length(self, term: Term) -> bool:
+        """Whether a value is never below 0."""
+        made = self.steps.get(term.name, term) if isinstance(term, Variable) else term
+        return isinstance(made, Apply) and made.function in ("square_root", "absolute")
 
     def leg(self, name: str, values: Sequence[Term], is_incremental: bool) -> None:
         """A leg behind what it needs."""
