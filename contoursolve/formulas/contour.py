@@ -22,6 +22,8 @@ SHORTEST = 1e-6
 
 LONGEST_TERM, DEEPEST_TERM = 60, 3
 """Characters and brackets in brackets of an expression that a control surely reads in one block."""
+LONGEST_MARGIN = 25
+"""Characters of one beside which a message stands."""
 
 
 class Stop(Struct, frozen=True):
@@ -77,7 +79,9 @@ def body_of(reader: Reader, profile: Profile, stated: Mapping[str, Affine], writ
     """The statements of a contour of one case; `writing` goes by the names of elements and corners. Raises
     FormulaError where a step has no closed form."""
     system = assemble(profile)
-    if profile.is_extended or not is_closed(system):
+    if profile.is_extended:
+        raise FormulaError("what it states besides its words has no closed form")
+    if not is_closed(system):
         raise FormulaError("a step of it has no closed form")
     chosen = {choice.point for choice in profile.choices}
     loose = [point for point in points_with_two_solutions(system) if point not in chosen]
@@ -214,10 +218,20 @@ class _Maker:
     def stop(self, margin: Term, kind: str, limit: float, message: str) -> None:
         """Stop where a check fails; one that cannot is left out."""
         self._message = message
-        condition = Apply(kind, (self._ready(margin), Constant(limit)))
+        if kind == LESS and limit < 0 and self._is_length(margin):
+            return
+        own = self._ready(margin)
+        if length_of(own) > LONGEST_MARGIN:
+            own = self._word(own)
+        condition = Apply(kind, (own, Constant(limit)))
         if not isinstance(margin, Constant) and condition not in self._stops:
             self._stops.add(condition)
             self.statements.append(Stop(condition, message))
+
+    def _is_length(self, term: Term) -> bool:
+        """Whether a value is never below 0."""
+        made = self.steps.get(term.name, term) if isinstance(term, Variable) else term
+        return isinstance(made, Apply) and made.function in ("square_root", "absolute")
 
     def leg(self, name: str, values: Sequence[Term], is_incremental: bool) -> None:
         """A leg behind what it needs."""
@@ -267,8 +281,10 @@ class _Maker:
 
     def _make(self, variable: Variable, term: Term) -> None:
         """The statements that give a step its value."""
-        arguments = tuple(self._ready(each) for each in term.arguments) if isinstance(term, Apply) else ()
         kind = term.function if isinstance(term, Apply) else ""
+        # Some controls write a direction by several functions.
+        ready = self._word if kind == TURNED else self._ready
+        arguments = tuple(map(ready, term.arguments)) if isinstance(term, Apply) else ()
         if kind in (AT_MOST, LESS):
             self._flag(variable, Apply(kind, arguments), 1.0, is_first=True)
         elif kind == SIGN:
@@ -276,7 +292,8 @@ class _Maker:
             self._flag(variable, Apply("greater", (own, Constant(ZERO))), 1.0, is_first=True)
             self._flag(variable, Apply(LESS, (own, Constant(-ZERO))), -1.0)
         else:
-            self.statements.append(Assign(variable, self._ready(term)))
+            own = Apply(kind, arguments) if kind == TURNED else self._ready(term)
+            self.statements.append(Assign(variable, own))
             if kind == TURNED:
                 # Some controls count from 0 to 360.
                 less_turn = Apply("subtract", (variable, Constant(360.0)))

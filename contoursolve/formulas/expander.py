@@ -6,18 +6,20 @@ from itertools import count
 from typing import Any
 
 from contoursolve.diagnosis.examine import Answer, Policy
-from contoursolve.execution.language import Assign, Term, Variable, When
+from contoursolve.execution.language import Assign, ProgramEnd, Term, Variable, When
+from contoursolve.execution.write import write_term
 from contoursolve.formulas.cases import Case, Fork, case_of
 from contoursolve.formulas.check import Runner, difference
 from contoursolve.formulas.contour import Body, Choose, Leg, Said, Statement, Writing
 from contoursolve.formulas.given import STEP, FormulaError, Reader, at
-from contoursolve.formulas.lines import FormulaLines, Free
+from contoursolve.formulas.lines import FormulaLines, Free, MacroLine
 from contoursolve.formulas.scratch import Scratch, allocate, apart, names_of, place, place_in, renamed
-from contoursolve.formulas.targets import MacroTarget, TargetWriter, lowered
-from contoursolve.gcode import Block, Passage
+from contoursolve.formulas.targets import PREFIXES, MacroTarget, TargetWriter, lowered
+from contoursolve.gcode import Block, Passage, parse_block
 from contoursolve.gcode.comments import comment_out
 from contoursolve.numeric.formulas import Affine
 from contoursolve.postprocess.expander import Expander
+from contoursolve.postprocess.expansion_report import Left
 from contoursolve.program.solve_queue import Step
 from contoursolve.reading import State, words_of
 from contoursolve.reading.follow import ContourBlock, blocks_of
@@ -47,13 +49,48 @@ class FormulaExpander(Expander):
     def _pass(self, passage: Passage, state: State) -> Iterator[str | object]:
         said = "".join(map(words_of, passage.lines))
         self.axes = {axis: each for axis, each in self.axes.items() if axis not in said}
+        if said and self.is_foreign and self.target.is_klartext:
+            for number, line in enumerate(passage.lines, passage.line):
+                yield from self._keep(parse_block(line.rstrip("\r\n"), number, self.modes.syntax), state)
+            return
         yield from super()._pass(passage, state)
 
     def _keep(self, block: Block, state: State, there: int | None = None) -> Iterator[str]:
         macro = self.lines.macros.get(block.line)
         if macro is not None or self.axes:
             self._follow(block, state)
-        yield from super()._keep(block, state, there)
+        if macro is not None and not macro.code.words and all(isinstance(x, ProgramEnd) for x in macro.code.statements):
+            macro = None
+        is_other = self.is_foreign and self.target.is_klartext and bool(block.words)
+        if not is_other and (macro is None or not self.is_foreign):
+            yield from super()._keep(block, state, there)
+            return
+        text = self._in_its_language(macro) if macro is not None and not is_other else ""
+        if not text:
+            reason = f"{block.text.strip()} is no contour: write it in {self.target.notation} by hand"
+            self.summary.left.append(Left((block.line,), reason, (), {block.line: block.text}))
+        yield (text or block.text) + self.lines.take_end(block.line)
+
+    @property
+    def is_foreign(self) -> bool:
+        """Whether variables have other names on the target."""
+        return self.target.prefix != PREFIXES.get(self.lines.language.name if self.lines.language else "", "#")
+
+    def _in_its_language(self, macro: MacroLine) -> str:
+        """A line that assigns, or has words with variables, as the target has it; empty if that cannot be told."""
+        code = macro.code
+        if not all(isinstance(each, Assign) for each in code.statements):
+            return ""
+        text = code.rest
+        for word in reversed(code.words):
+            value = f"{self.target.equals}{write_term(self._own(word.value), self.target.notation)}"
+            text = text[: word.begin] + value + text[word.end :]
+        statements = [
+            Assign(self._own(each.variable), self._own(each.value))  # type: ignore[arg-type]
+            for each in code.statements
+            if isinstance(each, Assign)
+        ]
+        return self.lines.end.join([*([text.rstrip()] if text.strip() else []), *self.writer.lines(statements)])
 
     def _follow(self, block: Block, state: State) -> None:
         """Where a block that is no contour leads, and what it changes."""
@@ -182,7 +219,7 @@ class FormulaExpander(Expander):
 
     def _own(self, term: Term) -> Term:
         """A term of the program in variables of the target."""
-        return renamed(term, self.scratch.names[0].rstrip("0123456789"))
+        return renamed(term, self.target.prefix) if self.is_foreign else term
 
     def _check(
         self, reader: Reader, statements: Sequence[Statement], writing: Callable[[Answer], Mapping[str, Writing]]

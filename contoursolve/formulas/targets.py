@@ -27,6 +27,10 @@ class MacroTarget(Struct, frozen=True, eq=False):
     fork: Fork
     stop: str
     """What stops the machine with a text."""
+    prefix: str = "#"
+    """What begins the names of its variables."""
+    equals: str = ""
+    """What stands between an address and an expression."""
     assign: str = "{}={}"
     when: str = ""
     """How a variable gets a value where a condition holds, if that is one line."""
@@ -80,10 +84,15 @@ TARGETS = {
     "fanuc": _FANUC,
     "haas": MacroTarget("haas", "#140-#199", _by_jumps, _FANUC.stop, when=_FANUC.when),
     "linuxcnc": MacroTarget("linuxcnc", "#140-#199", _by_words, "(abort, {})", has_brackets=True),
-    "sinumerik": MacroTarget("sinumerik", "R50-R99", _by_lines, 'SETAL(65000,"{}")'),
-    "klartext": MacroTarget("klartext", "Q40-Q99", _by_labels, "FN 14: ERROR = 1000", "{} = {}", is_klartext=True),
+    "sinumerik": MacroTarget("sinumerik", "R50-R99", _by_lines, 'SETAL(65000,"{}")', prefix="R", equals="="),
+    "klartext": MacroTarget(
+        "klartext", "Q40-Q99", _by_labels, "FN 14: ERROR = 1000", prefix="Q", assign="{} = {}", is_klartext=True
+    ),
 }
 """Targets by the names of their languages."""
+
+PREFIXES = {"sinumerik": "R", "klartext": "Q"}
+"""What begins the names of variables in the language of a program, where it is no #."""
 
 _JUMPS = {"greater": ("FN 11", "GT"), LESS: ("FN 12", "LT")}
 """The conditions of Klartext."""
@@ -179,12 +188,9 @@ class TargetWriter:
         """A word with a number or a variable."""
         text = written(value.value) if isinstance(value, Constant) else self._text(value)
         if self.target.is_klartext:
+            text = text.removesuffix(".")
             return f"{address}{text if text.startswith('-') else '+' + text}"
-        return (
-            f"{address}={text}"
-            if self.target.notation == "sinumerik" and isinstance(value, Variable)
-            else address + text
-        )
+        return f"{address}{self.target.equals}{text}" if isinstance(value, Variable) else address + text
 
 
 def lowered(statements: Iterable[Statement], target: MacroTarget, numbers: Iterator[int]) -> Iterator[Statement]:

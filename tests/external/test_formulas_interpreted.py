@@ -4,11 +4,13 @@ import re
 from collections import defaultdict
 from collections.abc import Sequence
 from functools import cache
+from itertools import accumulate
 from random import Random
 from typing import NamedTuple
 
 import pytest
 from interpreter import assert_path, interpret_rows
+from macros import motions_of, run_macros
 from test_interpreted import Drawing, drawings
 
 import contoursolve
@@ -22,6 +24,10 @@ from contoursolve.solving.contour import ArcSegment, Contour
 
 VALUES = 500
 """Of every form."""
+LONGEST_MESSAGE = 26
+"""Characters that a Fanuc control shows."""
+LONGEST_LINE, MOST_BRACKETS = 80, 5
+"""Characters of a block, and brackets in brackets."""
 PROGRAMS = 10
 """Of every form; each with several values."""
 INCREMENT, OFF = 0.001, 0.01
@@ -141,3 +147,58 @@ def test_the_interpreter_runs_formulas_as_we_solve(form, tmp_path):
         seen[is_refused] += 1
     assert len(rows) >= VALUES
     assert min(seen[True], seen[False]) >= VALUES // 20, dict(seen)
+
+
+def nested(line: str) -> int:
+    """How many brackets of a line lie in each other."""
+    depths = accumulate((sign == "[") - (sign == "]") for sign in line)
+    return max(depths, default=0)
+
+
+LANGUAGES = {"fanuc": "#140-#400", "haas": "#140-#400", "sinumerik": "R140-R400", "klartext": "Q240-Q500"}
+FEW = 3
+"""Programs of every form, and a tenth of the values, for each of the other controls."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_is_written_for_other_controls_does_the_same(language):
+    rng, seen = Random(language), defaultdict(int)
+    for form in FORMS:
+        for family in families(form)[:FEW]:
+            drawing = family.drawing
+            if "G91" in drawing.shows or drawing.shows & {"G11", "G12", "G01"}:
+                continue  # of several contours, or increments
+            expansion = contoursolve.expand(
+                family.text,
+                post=language,
+                control=drawing.control,
+                formulas=True,
+                variables=family.values,
+                scratch=LANGUAGES[language],
+                keep_going=True,
+                keep_untranslated=True,
+            )
+            assert expansion.text is not None
+            written = [line for line in expansion.text.splitlines() if line[:1] not in "(;" and line not in family.text]
+            most = LONGEST_LINE + 20 * (language == "klartext")
+            assert max(map(len, written)) < most, max(written, key=len)
+            assert max(map(nested, written)) <= MOST_BRACKETS
+            for _ in range(VALUES // 10 // FEW):
+                values = {name: another(rng, value) for name, value in family.values.items()}
+                contours, is_refused, is_off = solved(family, values)
+                prefix = {"sinumerik": "R", "klartext": "Q"}.get(language, "#")
+                own = {prefix + name[1:]: value for name, value in values.items()}
+                done = run_macros(expansion.text, {**own, **values})
+                assert bool(done.message) == is_refused, (family.text, values, done.message)
+                assert len(done.message) <= LONGEST_MESSAGE
+                seen[is_refused] += 1
+                if is_refused:
+                    continue
+                unit = 25.4 if "G20" in family.text else 1.0
+                plane = contours[0].plane
+                scales = tuple(2.0 if is_diameter else 1.0 for is_diameter in plane.diameters)
+                start = complex(*contours[0].start) / unit
+                motions = motions_of(done, start, "".join(plane.axes), scales)
+                assert_path(list(motions), elements_of(contours, unit), OFF if is_off else INCREMENT)
+    assert min(seen[True], seen[False]) > VALUES // 10

@@ -1,0 +1,129 @@
+"""Contours as formulas: what is written, what is refused, and where a program with variables goes on."""
+
+import re
+
+import pytest
+from click.testing import CliRunner
+
+import contoursolve
+from contoursolve.cli import main
+
+BLOCK = "#100=95.\nG0 X40. Z0.\nG111 X#100 A180. K-30. B120. P5. Q5. F0.2\n"
+LX3 = {"control": "yasnac-lx3", "formulas": True}
+
+
+def left(text: str, **options: object) -> str:
+    """Why nothing is written."""
+    expansion = contoursolve.expand(text, **{**LX3, "post": "linuxcnc", **options})
+    assert expansion.text is None
+    return expansion.summary.left[0].reason
+
+
+def test_the_program_keeps_its_variables_and_each_check_stops_the_machine():
+    text = contoursolve.expand(BLOCK, post="fanuc", **LX3).text
+    assert text.startswith("#100=95.\nG0 X40. Z0.\n(G111 X#100 A180. K-30. B120. P5. Q5. F0.2)\nF0.2\n")
+    assert "IF [#141 LE 0.000001] THEN #3000=101 (P DOES NOT FIT)" in text
+    assert text.splitlines()[-1].startswith("G03 X#100 Z#")
+    assert max(map(len, text.splitlines())) < 80
+
+
+def test_a_contour_begins_where_the_formulas_of_the_one_before_it_end():
+    chain = BLOCK + "G111 W-20. A170. K-10. B140.\n"
+    text = contoursolve.expand(chain, post="linuxcnc", **LX3).text
+    second = text[text.index("(G111 W-20.") :]
+    assert "#100" in second
+
+
+def test_scratch_variables_are_those_that_are_named_and_that_the_program_does_not_use():
+    text = contoursolve.expand("#141=3.\n" + BLOCK, post="fanuc", scratch="#140-#160", **LX3).text
+    assert {*re.findall(r"#(\d+)=", text)} <= {"141", "100", "3000", "140", "142", "143"}
+    assert text.count("#141=") == 1
+    assert (
+        left(BLOCK, scratch="#140-#141")
+        == "no formulas: it needs 3 variables; #140-#141 has 2 that the program does not use"
+    )
+    with pytest.raises(ValueError, match="is no range of variables"):
+        contoursolve.expand(BLOCK, post="fanuc", scratch="140", **LX3)
+
+
+def test_a_value_for_example_is_that_of_the_program_or_is_given():
+    assert contoursolve.expand(BLOCK.replace("#100=95.\n", ""), variables={"#100": 80.0}, post="fanuc", **LX3).text
+    assert "X#100" in left(BLOCK.replace("#100=95.\n", ""))
+
+
+def test_the_example_must_have_a_contour():
+    assert "corner" in left(BLOCK, variables={"#100": 41.0})
+
+
+def test_a_start_that_follows_a_variable_is_lost_when_that_changes():
+    moved = "#100=95.\n#101=40.\nG0 X#101 Z0.\n#101=50.\nG111 X#100 A180. K-30. B120.\n"
+    assert left(moved) == "no formulas: X of its start follows variables that have changed"
+
+
+def test_what_has_no_closed_form_is_refused_with_the_reason():
+    free = "#100=95.\nG0 X40. Z0.\nG111 X#100 A180. B120. (contoursolve: length of line 1 = 30)\n"
+    assert left(free) == "no formulas: what it states besides its words has no closed form"
+
+
+def test_the_sign_of_a_word_is_a_case_of_its_own():
+    text = "#100=-8.\nG0 X100. Z0.\nG12 X60. K#100\n"
+    written = contoursolve.expand(text, post="linuxcnc", **LX3).text
+    assert re.search(r"o\d+ if \[#100 (LT|GT) ", written)
+
+
+@pytest.mark.parametrize(
+    ("post", "shown"),
+    [
+        ("haas", "THEN #3000=101 (P DOES NOT FIT)"),
+        ("sinumerik", "R100=95.\nG0 X40. Z0.\n;G111 X#100"),
+        ("sinumerik", 'SETAL(65000,"P DOES NOT FIT")'),
+    ],
+)
+def test_other_controls_have_other_words(post, shown):
+    assert shown in contoursolve.expand(BLOCK, post=post, **LX3).text
+
+
+def test_klartext_has_the_contour_and_the_rest_is_left():
+    expansion = contoursolve.expand(BLOCK, post="klartext", keep_going=True, **LX3)
+    assert [each.lines for each in expansion.summary.left] == [(2,)]
+    assert "Q100 = 95\n" in expansion.text
+    assert "FN 14: ERROR = 1000" in expansion.text
+    assert re.search(r"CC IZ\+\S+ IX\+\S+\nC X\+Q100 Z\+Q\d+ DR\+", expansion.text.replace("-", "+"))
+
+
+def command(*arguments: str) -> tuple[int, str]:
+    """The exit status of `expand --formulas`, and what it prints."""
+    done = CliRunner().invoke(main, ["expand", "--formulas", *arguments])
+    return done.exit_code, done.output
+
+
+WORDS = ("--control", "yasnac-lx3", "--start", "X40. Z0.", "--block")
+
+
+def test_the_command_writes_formulas_of_a_block_with_values_for_example():
+    status, text = command("--post", "linuxcnc", "--let", "#1=95.", *WORDS, "G111 X#1 A180. K-30. B120. P5. Q5.")
+    assert status == 0
+    assert "(abort, P DOES NOT FIT)" in text
+    assert "1 contour expanded" in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "told"),
+    [
+        (("--scratch", "#140-#140", "--let", "#1=95."), 1, "it needs 3 variables; #140-#140 has 1"),
+        (("--scratch", "#160-#140", "--let", "#1=95."), 2, "is no range of variables"),
+        (("--arcs", "radius", "--let", "#1=95."), 2, "goes without --arcs radius"),
+        ((), 1, "X#1"),
+    ],
+)
+def test_the_command_says_why_it_writes_nothing(arguments, status, told):
+    found, text = command(*arguments, *WORDS, "G111 X#1 A180. K-30. B120. P5. Q5.")
+    assert found == status
+    assert told in text
+
+
+def test_what_belongs_to_formulas_is_asked_for_with_them():
+    for option in (("--scratch", "#140-#160"), ("--post", "sinumerik")):
+        done = CliRunner().invoke(main, ["expand", *option, *WORDS, "G111 X95. A180. K-30. B120."])
+        assert done.exit_code == 2
+        assert "--formulas" in done.output
