@@ -221,7 +221,7 @@ class Machine:
             except _RefusedError as error:
                 # The control stops here; what follows is examined as if it went on.
                 if self._is_alone:
-                    yield frame.source.blocks[frame.at - 1]
+                    yield self._as_written(frame, frame.at - 1)
                 yield Turn(Event.STOPPED, self._line(frame, frame.at - 1), str(error))
 
     def _says_something(self, index: int) -> bool:
@@ -282,7 +282,7 @@ class Machine:
     def _unclear(self, frame: _Frame, index: int, reason: str) -> Iterator[Block | Turn]:
         """A line that does what is not known; without calls, it stays as it is written."""
         if self._is_alone:
-            yield frame.source.blocks[index]
+            yield self._as_written(frame, index)
         yield Turn(Event.LOST, self._line(frame, index), reason)
 
     def _block(self, frame: _Frame, block: Block, code: CodeLine) -> Block:
@@ -411,7 +411,7 @@ class Machine:
                 why = f"line {self._line(frame, index)} may have jumped here: {truth.reason}"
                 self._joins.setdefault((frame.source.name, target), (why, len(self._assigned)))
                 if self._is_alone:
-                    yield frame.source.blocks[index]
+                    yield self._as_written(frame, index)
                 return
             self._lose(self._assigned_in(frame, target, index), truth.reason)
             yield from self._unclear(frame, index, truth.reason)
@@ -472,7 +472,7 @@ class Machine:
         if isinstance(truth, Unknown):
             frame.branches.append(_Branch(True, truth.reason, dict(self.values)))
             if self._is_alone:
-                yield frame.source.blocks[index]
+                yield self._as_written(frame, index)
             yield Turn(Event.ENTER, self._line(frame, index))
         elif truth:
             frame.branches.append(_Branch(True))
@@ -631,6 +631,14 @@ class Machine:
         if source.name:
             self.called.add(source.name)
         self._frames.append(_Frame(source, first, first, last, call, (*frame.callers, caller), times, own))
+
+    def _as_written(self, frame: _Frame, index: int) -> Block:
+        """A line that stays as it is written; of one whose words have run, its statements."""
+        block, code = frame.source.blocks[index], frame.source.code(index)
+        if not self._says_words(frame, index) or len(code.rest) != len(block.text):
+            return block
+        text = "".join(" " if kept.strip() else typed for typed, kept in zip(block.text, code.rest, strict=True))
+        return parse_block(text, block.line, block.syntax) if text.strip() else block
 
     def _says_words(self, frame: _Frame, index: int) -> bool:
         """Whether a line has words besides its number and its statements."""

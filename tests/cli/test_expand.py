@@ -1054,3 +1054,8 @@ def test_a_profile_that_is_written_elsewhere_needs_its_call():
     kept = contoursolve.expand(text, inline=True, keep_going=True).text
     assert 'N60 CYCLE95("L_BUSH",' in kept
     assert kept.count("%_N_") == 1
+
+
+def test_a_call_that_is_not_found_stays_and_the_words_beside_it_run_once():
+    text = contoursolve.expand("G91 G01 X5. M98 P9000\nM30", control="fanuc-mill", inline=True, keep_going=True).text
+    assert (text.count("X5."), text.count("M98 P9000")) == (1, 1)
