@@ -274,7 +274,7 @@ READING_RULES = (
         about=ReadIssue.CALLS_DIFFER,
         severity=Severity.INFO,
         accepted=(_CALLING.format("G00 X40. Z0."),),
-        rejected=(_CALLING.format("G00 X42. Z0."),),
+        rejected=(_CALLING.format("G00 X130. Z0."),),
     ),
     Rule(
         code="subprogram-refused",

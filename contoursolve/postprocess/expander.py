@@ -18,6 +18,7 @@ from contoursolve.postprocess.numbering import Numberer, Numbers, Offsets
 from contoursolve.postprocess.post_processors import SAME, Machine, machine_of
 from contoursolve.postprocess.translate import Moves, translate
 from contoursolve.postprocess.untranslatable import Watch
+from contoursolve.program.calls import path_of
 from contoursolve.program.lines import Lines
 from contoursolve.program.solve_queue import Step
 from contoursolve.reading import (
@@ -112,7 +113,9 @@ class Expander:
                 for block in step.blocks:
                     yield from self._keep(block, step.before)
                 continue
-            reason = self._obstacle(step.answer) or self._relying(step.answer, rest, coming)
+            differs = len({path_of(each) for each in (step.answer, *step.others)}) > 1
+            several = "it is not the same every time that it runs; --inline writes each time out" if differs else ""
+            reason = self._obstacle(step.answer) or several or self._relying(step.answer, rest, coming)
             if reason:
                 yield from self._leave(step, step.answer, reason)
             else:
@@ -251,9 +254,6 @@ class Expander:
         errors = [each for each in answer.diagnostics if each.severity is Severity.ERROR]
         if errors or answer.contour is None:
             return f"{errors[0].code}: {errors[0].message}" if errors else "the contour is not known"
-        differing = next((each for each in answer.diagnostics if each.about is ReadIssue.CALLS_DIFFER), None)
-        if differing is not None:
-            return "it is not the same every time that it runs; --inline writes each time out"
         if len({block.is_skippable for block in answer.claim.blocks}) > 1:
             return "some of its blocks begin with / and some do not: with them skipped, it is another contour"
         is_open = any(answer.claim.before.axes[axis].is_skippable for axis in answer.plane.axes)

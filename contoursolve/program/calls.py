@@ -90,18 +90,18 @@ def _key(finding: Diagnostic) -> tuple[Span, str, str]:
 
 
 def _once(visits: Sequence[Step], rules: tuple[Rule, ...]) -> list[Answer]:
-    """The different answers to one contour that runs several times; the first one says how they differ."""
+    """The different answers to one contour that runs several times; the first one says how their verdicts differ."""
     groups: dict[object, list[Answer]] = {}
     for step in visits:
         if step.answer is not None:
             groups.setdefault(_result(step.answer), []).append(step.answer)
     found = [_with_calls(each) for each in groups.values()]
-    if len({_path(each) for each in found}) > 1:
+    if len({each.status for each in found}) > 1:
         first = found[0]
         context = context_of(first.claim, rules)
         several = report(context, context.row(ReadIssue.CALLS_DIFFER), Basis.RULE, [], results=_results(found))
         found[0] = replace(first, diagnostics=(*first.diagnostics, several))
-    return found[:MOST_TOLD]
+    return found
 
 
 def _with_calls(answers: Sequence[Answer]) -> Answer:
@@ -111,10 +111,10 @@ def _with_calls(answers: Sequence[Answer]) -> Answer:
 
 def _result(answer: Answer) -> object:
     """What makes two results of a contour the same."""
-    return answer.status, tuple(each.message for each in answer.diagnostics), answer.start.is_known, _path(answer)
+    return answer.status, tuple(each.message for each in answer.diagnostics), answer.start.is_known, path_of(answer)
 
 
-def _path(answer: Answer) -> object:
+def path_of(answer: Answer) -> object:
     """A path as it is written: its ends, or where increments are in force its steps, and the centres of arcs."""
     if answer.contour is None:
         return answer.status

@@ -42,7 +42,9 @@ def compare(program: OpenProgram, text: str, control: str | None) -> None:
     assert program.diagnostics == fresh.diagnostics
     contours = list(program.contours)
     assert [(each.first, each.last) for each in contours] == [(each.lines[0], each.lines[-1]) for each in fresh.answers]
-    for contour, answer in zip(contours, fresh.answers, strict=True):
+    # Where calls lead to several results, an editor shows the first.
+    firsts = [next(each for each in fresh.answers if each.lines == answer.lines) for answer in fresh.answers]
+    for contour, answer in zip(contours, firsts, strict=True):
         now = program.contour_at(contour.first)
         assert now is not None
         assert (now.lines, now.status, now.contour, now.diagnostics) == (
