@@ -226,6 +226,8 @@ class CodeLine(Struct, frozen=True):
     """Names by which it is called, in upper case: `LBL 1` is `1`, `LBL "A"` is `A`, SINUMERIK's `MARK:` is `MARK`."""
     begins: str | None = None
     """The program that begins with it: `O0100` is `100`, `%_N_L10_SPF` is `L10`, `BEGIN PGM A` is `A`."""
+    is_part: bool = False
+    """Whether that is a subprogram by its first line: `%_N_L10_SPF`, `%L SUB`, PROC."""
     statements: tuple[MacroStatement, ...] = ()
     words: tuple[WordFormula, ...] = ()
     parameters: tuple[str, ...] = ()

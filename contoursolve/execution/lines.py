@@ -41,6 +41,7 @@ class LineReader:
         self.at = 0
         self.number = ""
         self.begins: str | None = None
+        self.is_part = False
         self.labels, self.words = list[str](), list[WordFormula]()
         self.statements, self.parameters = list[MacroStatement](), list[str]()
         self._rest = list(typed)
@@ -139,6 +140,7 @@ class LineReader:
             self.number,
             tuple(self.labels),
             self.begins,
+            self.is_part,
             tuple(self.statements),
             tuple(words),
             tuple(self.parameters),
@@ -172,7 +174,7 @@ class LineForm(Struct, frozen=True, eq=False):
 
     notation: Notation
     head: str
-    """What a line begins with: groups `number` and `program`."""
+    """What a line begins with: groups `number` and `program`, and `part` for a subprogram."""
     comment: str
     table: tuple[Spelling, ...]
     skip: str
@@ -197,9 +199,9 @@ class LineForm(Struct, frozen=True, eq=False):
         if len(reader.text.rstrip()) > LONGEST_LINE:
             return CodeLine(line, number, statements=(Strange(f"a line of {len(line):,} characters"),))
         reader.number, reader.at = number, head.end() if head else 0
-        program = head.groupdict().get("program") if head else None
-        if program:
-            reader.begins = number_of(program).upper()
+        groups = head.groupdict() if head else {}
+        if program := groups.get("program"):
+            reader.begins, reader.is_part = number_of(program).upper(), bool(groups.get("part"))
         reader.statements = reader.read_statements()
         return reader.code()
 

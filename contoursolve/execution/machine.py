@@ -154,17 +154,18 @@ class Machine:
         self._joins: dict[tuple[str, int], tuple[str, int]] = {}
         """By file and index of a line that may be jumped to: why that is not known, and how much was assigned then."""
         self._went_back: set[tuple[str, int]] = set()
-        self._last: tuple[str, int] = ("", 0)
-        """The file and the line of the last block."""
-        self._is_alone = False
         self._passed: set[int] = set()
         """What was known at each jump back."""
+        self._last: tuple[_Frame | None, int] = (None, 0)
+        """What ran the last block, and its line."""
+        self._is_alone, self._is_reached = False, True
+        """Whether calls are written out, and whether what runs is reached from the main program."""
 
     def run_alone(self) -> Iterator[Block | Turn]:
         """The blocks of the main program and of what it calls, as one program without calls. What is set to a value
         that is not known stays; the profile of a cycle that is written elsewhere does not run."""
         self._is_alone = True
-        yield from self._run_from(0)
+        yield from self._run_from(self._begin())
         last = next((at for at in reversed(range(len(self.main))) if self.main.blocks[at].text.strip()), None)
         if last is not None and last not in self._visited and _ENDS_FILE.fullmatch(self.main.blocks[last].text):
             yield self.main.blocks[last]
@@ -177,7 +178,8 @@ class Machine:
     def run(self) -> Iterator[Block | Turn]:
         """Every block in the order in which it runs, with numbers for its variables; behind the end of the program,
         what nothing calls."""
-        yield from self._run_from(0)
+        yield from self._run_from(self._begin())
+        self._is_reached = False
         for index, block in enumerate(self.main.blocks):
             if index not in self._visited and self._says_something(index):
                 if self._steps >= MOST_STEPS:
@@ -200,13 +202,22 @@ class Machine:
                     yield Turn(Event.FRESH, block.line, "the program is not followed as far as this")
                 yield block
 
+    def _begin(self) -> int:
+        """The index of the line with which the main program begins: no subprogram by its head, and none calls it."""
+        sections = self.main.sections
+        first = min(sections.values(), default=0)
+        if len(sections) < 2 or any(map(self._says_something, range(first))):  # noqa: PLR2004 - one calls another
+            return 0
+        called = {sections[name] for name in self.main.called() if name in sections}
+        return min({*sections.values()} - called, key=lambda at: (self.main.code(at).is_part, at), default=first)
+
     def _run_from(self, index: int) -> Iterator[Block | Turn]:
         """What runs from a line of the main file on, up to the end of the program or what has run before."""
         head = next((at for at in range(index, len(self.main)) if self._says_something(at)), index)
         self._frames = [_Frame(self.main, index, index, self.main.section_end(head))]
         while self._frames:
             frame = self._frames[-1]
-            is_known = not frame.callers and index and frame.source is self.main and frame.at in self._visited
+            is_known = not (self._is_reached or frame.callers) and frame.at in self._visited
             if frame.at > frame.last or is_known:
                 yield from self._leave(frame)
                 continue
@@ -253,10 +264,9 @@ class Machine:
             code = replace(code, rest=_without_return(code.rest, block))
         ran = self._block(frame, block, code)
         if not self._is_passed_over(frame, code, ran):
-            here = (frame.source.name, block.line)
-            if here[0] != self._last[0] or here[1] <= self._last[1]:
+            if self._last[0] is not frame or block.line <= self._last[1]:
                 yield Turn(Event.BARRIER, block.line)
-            self._last = here
+            self._last = (frame, block.line)
             yield ran
         for statement in moving:
             yield from self._do(frame, index, statement)
@@ -623,7 +633,7 @@ class Machine:
                 yield Turn(Event.BARRIER, line, told)
             return
         own = self._arguments(call, source, first)
-        caller = Caller(line, text, call.cycle)
+        caller = Caller(line, text, call.cycle, self._is_reached)
         if call.kind is CallKind.PROFILE:
             yield Turn(Event.ENTER, line, call.cycle)
             if is_behind:

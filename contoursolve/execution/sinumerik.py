@@ -174,7 +174,7 @@ _PARAMETER = re.compile(r"([A-Z_]\w*+)[ \t]*+(?:\[[^\]]*\][ \t]*+)?(?:=[^,]*)?\Z
 
 
 def _procedure(line: LineReader, found: re.Match[str]) -> Iterable[MacroStatement]:
-    line.begins = found["name"].upper()
+    line.begins, line.is_part = found["name"].upper(), True
     names = (_PARAMETER.search(each) for each in (found["formal"] or "")[1:-1].split(","))
     line.parameters += [name[1].upper() for name in names if name]
     line.hide(found.start(), found.end())
@@ -294,7 +294,7 @@ def sinumerik(names: Iterable[str]) -> MacroLanguage:
     long = "|".join(sorted((re.escape(name) for name in known if len(name) > 1), key=len, reverse=True))
     form = LineForm(
         SINUMERIK,
-        head=r"(?:%_N_(?P<program>\w+?)_[A-Z]{3}(?!\w))?[ \t\ufeff]*+(?>(?:/[0-9]?+)?)[ \t]*+"
+        head=r"(?:%_N_(?P<program>\w+?)_(?:(?P<part>SPF)|[A-Z]{3})(?!\w))?[ \t\ufeff]*+(?>(?:/[0-9]?+)?)[ \t]*+"
         r"(?>(?:[N:][ \t]*+(?P<number>\d++)(?!\.))?)",
         comment=r";.*+",
         table=_TABLE,

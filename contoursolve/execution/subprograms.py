@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 
 from msgspec import Struct
 
-from contoursolve.execution.language import CodeLine, MacroLanguage
+from contoursolve.execution.language import Call, CodeLine, MacroLanguage
 from contoursolve.gcode import Block, Program, UnreadableProgramError, parse, read_bytes
 from contoursolve.gcode.contents import decode
 from contoursolve.gcode.syntax import Syntax
@@ -87,6 +87,15 @@ class Source:
             if name is not None:
                 found.setdefault(name.upper(), index)
         return found
+
+    def called(self) -> Iterator[str]:
+        """The programs that a program of the file calls by name; not those that call themselves."""
+        name = ""
+        for code in map(self.code, range(len(self))):
+            name = name if code.begins is None else code.begins.upper()
+            for each in code.statements:
+                if isinstance(each, Call) and isinstance(each.target, str) and each.target.upper() != name:
+                    yield each.target.upper()
 
     def section_end(self, first: int) -> int:
         """The index of the last line of the program to which a line belongs."""

@@ -132,11 +132,13 @@ class Macro(Enum):
 
 
 class Caller(Struct, frozen=True):
-    """The block from which a line was called: its line, and what it says. `cycle` is the cycle whose profile it is."""
+    """The block from which a line was called: its line, and what it says. `cycle` is the cycle whose profile it is;
+    `is_reached` says whether the main program comes there."""
 
     line: int
     text: str
     cycle: str = ""
+    is_reached: bool = True
 
 
 class Block(Shown, Struct, frozen=True):

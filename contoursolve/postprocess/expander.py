@@ -1,5 +1,6 @@
 """One pass over a program: its contours written as plain G-code, and everything else byte for byte as it was."""
 
+import re
 from collections import deque
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from decimal import Decimal
@@ -335,7 +336,7 @@ class Expander:
                 moves.append(move._replace(words=(*move.words, *beside)))
             end = self.lines.take_end(block.line)
             self._end_lasting(moves, ended, claim.after if block is step.blocks[-1] else None)
-            text = self._write(block, moves, end, state)
+            text = self._write(block, moves, end, state, part.block)
             if text:
                 yield text
             if moves:
@@ -418,29 +419,44 @@ class Expander:
         places = max(form.decimals, -exponent if isinstance(exponent, int) else 0)
         return spell(word.address, form.number(float(value), f"%.{places}f"))
 
-    def _write(self, block: Block, moves: list[Move], end: str, state: State) -> str:
-        """The lines in place of a block. Its number and what it sets stand in the first, what ends it in the last."""
-        frame, rest = frame_of(block.text), carried(block, self.modes)
-        own = {word.text.strip(): new for word, new in self._switches(block) if new}
+    def _write(self, block: Block, moves: list[Move], end: str, state: State, solved: Block) -> str:
+        """The lines in place of a block; `solved` is the same with numbers for variables. Its number and what it sets
+        stand in the first, what ends it in the last."""
+        frame, rest = frame_of(block.text), carried(solved, self.modes)
+        own = {word.text.strip(): new for word, new in self._switches(solved) if new}
+        typed = self._typed(block)
+        beside = [typed.get(word.address, word.text.strip()) for word in rest.kept if word.text.strip() in rest.words]
         indent = frame.indent
         lines = (
             [indent + text for text in comment_out(block.text.strip(), self._syntax_of(block))]
             if self.options.has_comments
             else []
         )
-        self.watch.look(block, [word for word in rest.kept if word.text.strip() not in own], state, None)
+        self.watch.look(solved, [word for word in rest.kept if word.text.strip() not in own], state, None)
         comments = [] if self.options.has_comments else own_comments(block)
         texts = [[NAMES[move.code], *move.words] for move in moves]
         texts = texts or ([[]] if rest.says_something or comments else [])
         if texts:
-            texts[0] = [*(own.get(code, code) for code in rest.codes), *texts[0], *rest.words, *comments]
+            texts[0] = [*(own.get(code, code) for code in rest.codes), *texts[0], *beside, *comments]
             texts[-1] += rest.last
-            self._tell(block, self.numberer.number(block, [*rest.numbers], texts))
+            self._tell(block, self.numberer.number(solved, [*rest.numbers], texts))
         lines += [indent + frame.skip + " ".join(text) for text in texts]
         if lines:
             lines[0] = frame.before + lines[0]
             lines[-1] += frame.behind
         return (end or self.lines.end).join(lines) + end if lines else ""
+
+    def _typed(self, block: Block) -> dict[str, str]:
+        """The words of a block that have variables, by their addresses."""
+        language = self.modes.language
+        if language is None or not language.may_say(block.text):
+            return {}
+        code, found = language.read(block.text), dict[str, str]()
+        for each in code.words:
+            address = re.search(r"([A-Za-z]*)[ \t]*=?[ \t]*\Z", block.text[: each.begin])
+            if address is not None:
+                found[address[1].upper()] = block.text[address.start() : each.end]
+        return found
 
 
 def _in_turn(steps: Iterator[Step], coming: deque[Step]) -> Iterator[Step]:

@@ -74,9 +74,9 @@ class InOwnWords(_Expander):
         self.claim = answer.claim
         yield from super()._replace(step, answer)
 
-    def _write(self, block: Block, moves: list[Move], end: str, _state: State) -> str:
+    def _write(self, block: Block, moves: list[Move], end: str, _state: State, _solved: Block) -> str:
         texts = self.own.write(block, [(move.code, move.words) for move in moves])
-        behind = self.own.close(self.claim.after) if block is self.claim.blocks[-1] else []
+        behind = self.own.close(self.claim.after) if block.line == self.claim.blocks[-1].line else []
         frame, number = frame_of(block.text), block.find("N")
         comments = comment_out(block.text, block.syntax) if self.options.has_comments else []
         beside = [] if comments else own_comments(block)
@@ -132,7 +132,7 @@ class InGCodes(_Expander):
         if self.options.post.target is not None:
             self.summary.written_out.append(answer.lines[0])
 
-    def _write(self, block: Block, moves: list[Move], end: str, state: State) -> str:
+    def _write(self, block: Block, moves: list[Move], end: str, state: State, _solved: Block) -> str:
         said = self.plain.beside(block, state)
         self.summary.unit = self.summary.unit or state.unit
         return "".join(self._say_left(block, said.reason)) + self._lines(block, said.says, moves, end)

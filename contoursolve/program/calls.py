@@ -43,16 +43,19 @@ def in_text_order(
     rules: tuple[Rule, ...],
     told: Sequence[Diagnostic],
     profiles: list[CycleProfile],
+    state: State,
 ) -> Iterator[Step]:
     """The steps of a program as it runs, each contour once, in the order in which the program is written. `told` are
-    findings about the whole text; the profiles of cycles are added to `profiles`."""
+    findings about the whole text; the profiles of cycles are added to `profiles`; it begins in a state."""
     ran: dict[int, list[Step]] = {}
     before: dict[int, State] = {}
     findings = list(told)
-    state, in_cycle = None, list[Step]()
+    in_cycle, reached = list[Step](), set[int]()
     for step in steps:
         in_cycle.append(step)
         state = step.before
+        if not _counts(step, reached):
+            continue
         findings += step.findings
         if step.answer is not None and step.blocks[0].file:
             findings += _of_other_file(step.answer, step.blocks[0], rules)
@@ -73,16 +76,26 @@ def in_text_order(
         line, count, answers = blocks[index].line, 1, tuple[Answer, ...]()
         if line in ran:
             count = ran[line][0].blocks[-1].line - line + 1
-            answers = tuple(_typed(each, blocks, machine.written) for each in _once(ran[line], rules))
+            # Between blocks of a contour stand others, where a jump leads from one to another.
+            inside = [_once(ran[at], rules) for at in range(line, line + count) if at in ran]
+            answers = tuple(_typed(each, blocks, machine.written) for once in inside for each in once)
         own = tuple(blocks[index : index + count])
         own_findings = tuple(each for block in own for each in by_line.pop(block.line, ()))
         state = before.get(line, state)
-        if state is not None:
-            yield Step(own, state, next(iter(answers), None), own_findings, others=answers[1:])
+        yield Step(own, state, next(iter(answers), None), own_findings, others=answers[1:])
         index += count
     rest = tuple(each for found in by_line.values() for each in found)
-    if rest and state is not None:
+    if rest:
         yield Step((), state, findings=rest)
+
+
+def _counts(step: Step, reached: set[int]) -> bool:
+    """Whether a step counts: what is called from where the main program never comes does where nothing else calls it.
+    The lines that the main program reaches are added to `reached`."""
+    is_reached = all(each.is_reached for block in step.blocks[:1] for each in block.callers)
+    if is_reached:
+        reached |= {block.line for block in step.blocks if not block.file}
+    return is_reached or step.blocks[0].line not in reached
 
 
 def _key(finding: Diagnostic) -> tuple[Span, str, str]:

@@ -363,7 +363,8 @@ class Examiner:
         told = [*(finding for block in blocks for finding in marks.look(block)), *marks.finish()]
         steps = self.steps(machine.run(), start)
         outside = told if self.outside.is_strict else []
-        yield from in_text_order(blocks, machine, steps, self.rules, outside, self.profiles)
+        first = cast("Dialect", self.dialect).initial_state(self.unit)
+        yield from in_text_order(blocks, machine, steps, self.rules, outside, self.profiles, first)
 
     def steps_alone(self, machine: Machine, start: Program | None, told: Callable[[Turn], None]) -> Iterator[Step]:
         """The same as one program without calls; `told` is called where it is not known what runs."""

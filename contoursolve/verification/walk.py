@@ -125,13 +125,16 @@ def _configured(dialect: Dialect | None, claims: ClaimedResult) -> Dialect | Non
 
 def _surplus(claims: ClaimedResult, lines: set[int]) -> Iterator[ContourReceipt]:
     """Contours of the result where the program has none, or that the result has twice."""
-    own = [(contour.line, contour.start) for contour in claims.contours]
-    for contour in {(contour.line, contour.start): contour for contour in claims.contours}.values():
-        ledger, times = Ledger(), own.count((contour.line, contour.start))
+    several = dict[object, list[ClaimedContour]]()
+    for contour in claims.contours:
+        result = contour.status, contour.end, repr(contour.elements)
+        several.setdefault((contour.line, contour.start, result), []).append(contour)
+    for contour, times in ((each[0], len(each)) for each in several.values()):
+        ledger = Ledger()
         if contour.line not in lines:
             remark = f"line {contour.line} begins none" if lines else "no line of the program begins one"
             ledger.require("the program has a contour block here", (), False, remark)
-        elif times > 1:
+        elif times > 1 and contour.has_path:
             ledger.require("the result has this contour once", (), False, f"it has it {times} times")
         if ledger.failures:
             yield _receipt(contour.lines, contour.form, contour, ledger, is_checked=False)
@@ -159,7 +162,7 @@ def follow(
     start: Program | None = None,
     around: Surroundings = ALONE,
 ) -> Iterator[Found]:
-    """Every contour block of a program, in the order in which it runs; each once that begins at the same place.
+    """Every contour block of a program, in the order in which they run first, for each claim about it.
 
     `start` are blocks that state the start point apart from the program. Facts that only the result states are taken
     as stated in the last block of their contour.
@@ -167,16 +170,8 @@ def follow(
     blocks, start_error = _with_claimed_facts(program.blocks, claims), 0.0
     apart = sum(each.span.line < 0 for block in program.blocks for each in block.directives)
 
-    def claimed_for(claim: ParsedContour) -> ClaimedContour | None:
-        there = claims.get(claim.blocks[0].line, ()) if not claim.blocks[0].file else ()
-        here = [None if value is None else float(value) for value in claim.before.start().values]
-        return min(there, key=lambda each: _distance(each.start, here), default=None)
-
-    def end_of(claim: ParsedContour) -> tuple[float, float] | None:
-        claimed = claimed_for(claim)
-        return claimed.end if claimed and claimed.has_path else None
-
-    modes, seen = dialect.modes, set[object]()
+    modes, visits, reached = dialect.modes, dict[int, list[Found]](), set[int]()
+    matching = _Matching(claims)
     first = dialect.initial_state(unit)
     for block in start.blocks if start else ():
         first = advance(first, block, modes)
@@ -186,19 +181,64 @@ def follow(
             state = behind_turn(state, run, entered, lambda: first, modes)
             continue
         left = list[State]()
-        for found, behind in contours_of(run, dialect.find, modes, state, None, end_of, left):
-            claimed, block = claimed_for(found), found.blocks[0]
-            key = block.line, block.text, tuple(found.before.start().values)
-            if not block.file and key not in seen:
-                seen.add(key)
-                yield Found(found, claimed, start_error, dialect, next_place(run[behind:], found, modes), rules, apart)
+        for found, behind in contours_of(run, dialect.find, modes, state, None, matching.end_of, left):
+            claimed, block = matching.claimed(found), found.blocks[0]
+            is_reached = all(each.is_reached for each in block.callers)
+            if not block.file and (is_reached or block.line not in reached):
+                here = Found(found, claimed, start_error, dialect, next_place(run[behind:], found, modes), rules, apart)
+                visits.setdefault(block.line, []).append(here)
             start_error = PRINTED if claimed and claimed.end is not None else start_error
+        reached |= {each.line for each in run if not each.file and all(one.is_reached for one in each.callers)}
         state = left[0]
+    for line, several in visits.items():
+        if line not in claims:
+            yield several[0]
+        for claimed in claims.get(line, ()):
+            yield replace(_best(several, claimed), claimed=claimed)
 
 
-def _distance(one: Sequence[float | None], other: Sequence[float | None]) -> float:
+def _best(several: Sequence[Found], claimed: ClaimedContour) -> Found:
+    """Of the times that a contour runs, the one of which a result claims something."""
+    return min(several, key=lambda each: (each.claimed is not claimed, _distance(claimed, each.claim)))
+
+
+class _Matching:
+    """Which claim is about a contour, each time that it runs."""
+
+    def __init__(self, claims: Claims) -> None:
+        self._claims = claims
+        self._taken: dict[object, ClaimedContour] = {}
+        """Those of several from one start."""
+
+    def claimed(self, claim: ParsedContour) -> ClaimedContour | None:
+        """The claim from the nearest start."""
+        there = self._claims.get(claim.blocks[0].line, ()) if not claim.blocks[0].file else ()
+        nearest = min((_distance(each, claim) for each in there), default=0.0)
+        alike = [each for each in there if _distance(each, claim) <= nearest + PRINTED]
+        if len(alike) <= 1:
+            return alike[0] if alike else None
+        # With other values of variables: in the order in which they run.
+        words = (word for block in claim.blocks for word in block.words if word.address in claim.lexicon.addresses)
+        key = claim.blocks[0].line, tuple(word.text for word in words), tuple(claim.before.start().values)
+        free = (each for each in alike if not any(each is one for one in self._taken.values()))
+        return self._taken.setdefault(key, next(free, alike[-1]))
+
+    def end_of(self, claim: ParsedContour) -> tuple[float, float] | None:
+        """Where a contour ends by its claim; the same steps from another start are one claim."""
+        claimed = self.claimed(claim)
+        if claimed is None or claimed.end is None or not claimed.has_path:
+            return None
+        if not claim.after.is_incremental:
+            return claimed.end
+        steps = zip(claimed.end, claimed.start, claim.before.start().values, strict=True)
+        first, second = (end + float(at or 0) - float(start or 0) for end, start, at in steps)
+        return first, second
+
+
+def _distance(claimed: ClaimedContour, claim: ParsedContour) -> float:
     """How far two starts are from each other, mm; what one of them does not know is far."""
-    pairs = zip(one, other, strict=True)
+    here = (None if value is None else float(value) for value in claim.before.start().values)
+    pairs = zip(claimed.start, here, strict=True)
     return sum(abs(a - b) if a is not None and b is not None else FARTHEST * (a is not b) for a, b in pairs)
 
 
