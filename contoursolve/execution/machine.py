@@ -51,7 +51,10 @@ MOST_LOGGED = 10_000
 def needs_running(lines: Iterable[str], language: MacroLanguage | None) -> bool:
     """Whether a program calls, jumps or computes, so that it has to be followed as it runs."""
     said = (language.read(line.rstrip("\r\n")) for line in lines if language.may_say(line)) if language else ()
-    return any(each.words or any(not isinstance(one, Return | ProgramEnd) for one in each.statements) for each in said)
+    return any(
+        each.words or each.is_part or any(not isinstance(one, Return | ProgramEnd) for one in each.statements)
+        for each in said
+    )
 
 
 class Event(Enum):
@@ -208,13 +211,22 @@ class Machine:
         first = min(sections.values(), default=0)
         if len(sections) < 2 or any(map(self._says_something, range(first))):  # noqa: PLR2004 - one calls another
             return 0
-        called = {sections[name] for name in self.main.called() if name in sections}
+        called = self._called()
         return min({*sections.values()} - called, key=lambda at: (self.main.code(at).is_part, at), default=first)
+
+    def _called(self) -> set[int]:
+        """The indices of the lines with which programs of the main file begin that others call."""
+        sections = self.main.sections
+        return {sections[name] for name in self.main.called() if name in sections}
 
     def _run_from(self, index: int) -> Iterator[Block | Turn]:
         """What runs from a line of the main file on, up to the end of the program or what has run before."""
         head = next((at for at in range(index, len(self.main)) if self._says_something(at)), index)
-        self._frames = [_Frame(self.main, index, index, self.main.section_end(head))]
+        last = self.main.section_end(head)
+        if head < min(self.main.sections.values(), default=0) and last + 1 not in self._called():
+            # What stands before the name of a program belongs to it.
+            last = self.main.section_end(last + 1)
+        self._frames = [_Frame(self.main, index, index, last)]
         while self._frames:
             frame = self._frames[-1]
             is_known = not (self._is_reached or frame.callers) and frame.at in self._visited
@@ -282,7 +294,7 @@ class Machine:
 
     def _is_passed_over(self, frame: _Frame, code: CodeLine, ran: Block) -> bool:
         """Whether a line has nothing to run: all of it is statements, or the head of a program that is called."""
-        if code.begins is not None and frame.callers:
+        if code.begins is not None and (frame.callers or not (self._is_reached or self._is_alone)):
             return True
         is_bare = all(word.address == "N" for word in ran.words) and ran.macro is None
         if self._is_alone and is_bare and (code.statements or code.labels):

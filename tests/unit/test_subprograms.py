@@ -1,0 +1,142 @@
+"""Worked examples wrapped in calls and profiles, with parameters; subprograms in files; what is told about calls."""
+
+import re
+
+import pytest
+from click.testing import CliRunner
+from examples_fanuc import FL_G5, FM_G1, FM_G3
+from examples_heidenhain import PROGRAMS
+
+from contoursolve import Status, expand, solve, solve_file
+from contoursolve.cli import main
+
+LATHE, MILL = "fanuc-lathe", "fanuc-mill"
+TAPER = "G01 X60. ,A120."
+
+
+def paths(text: str, control: str, **options) -> list[object]:
+    found = []
+    for answer in solve(text, control=control, **options).answers:
+        ends = [each.end for each in answer.contour.elements] if answer.contour else []
+        found.append((answer.status, [tuple(round(at, 5) + 0.0 for at in end) for end in ends]))
+    return found
+
+
+def parametrised(lines: list[str], words: str, name: str, sign: str) -> tuple[list[str], list[str]]:
+    """Lines with variables for the numbers of some words, and what sets these."""
+    given = list[str]()
+
+    def put(found: re.Match[str]) -> str:
+        given.append(f"{name}{101 + len(given)} = {found[2]}")
+        return found[1] + sign + name + str(100 + len(given))
+
+    return [re.sub(words, put, line) for line in lines], given
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+@pytest.mark.parametrize("has_parameters", [False, True])
+def test_free_contours_in_a_label(name, has_parameters):
+    first, *lines, last = PROGRAMS[name].splitlines()
+    body = [re.sub(r" M30$", "", line) for line in lines]
+    # A reference to another block (PAR 11, RX 13) is no length.
+    given = list[str]()
+    if has_parameters:
+        body, given = parametrised(body, r"((?<![IR])[XY]|\bAN|\bLEN ?)([-+]?\d+\.?\d*)(?![\w.])", "Q", "+")
+    text = "\n".join([first, *given, "CALL LBL 7", "L Z+100 R0 FMAX M30", "LBL 7", *body, "LBL 0", last])
+    own = paths(text, "heidenhain")
+    assert own == paths(PROGRAMS[name], "heidenhain")
+    assert own
+    contour = text.replace("CALL LBL 7", "L X-20 Y-20 R0 FMAX\nCYCL DEF 14.0 CONTOUR\nCYCL DEF 14.1 LABEL7\nCYCL CALL")
+    assert paths(contour, "heidenhain") == own
+
+
+EXAMPLES = {
+    "FL-G5": (LATHE, FL_G5, r"N10 [\s\S]*?(?=N80)"),
+    "FM-G1": (MILL, FM_G1, r"G01 X50\.[\s\S]*"),
+    "FM-G3": (MILL, FM_G3, r"N5 Y0[\s\S]*?(?=G00 Z50)"),
+}
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+@pytest.mark.parametrize("has_parameters", [False, True])
+def test_direct_drawing_in_a_subprogram(name, has_parameters):
+    control, text, contour = EXAMPLES[name]
+    body = re.search(contour, text)[0].strip().splitlines()
+    before = text[: re.search(contour, text).start()].replace("%\n", "")
+    lines, given = parametrised(body, r"((?<![A-Z,])[XYZ]|,[ACR])([-+]?\d+\.?\d*)", "#", "")
+    lines = lines if has_parameters else body
+    called = "\n".join([*given, before.strip(), "M98 P777", "M30", "O777", *lines, "M99"])
+    assert paths(called, control) == paths(text, control)
+    kept, inline = (expand(called, control=control, inline=each, comments=False) for each in (False, True))
+    assert kept.summary.replaced == inline.summary.replaced > 0
+    assert ",R" not in kept.text + inline.text
+    assert "M98" in kept.text
+    assert "M98" not in inline.text
+
+
+def test_direct_drawing_in_a_profile():
+    head, body, end = re.fullmatch(r"([\s\S]*?)(N10[\s\S]*?)(N80[\s\S]*)", FL_G5).groups()
+    cycle = f"{head}G71 U2. R1.\nG71 P9 Q70 U.5 W.1\nN9 G00 X16.\nG01 Z0\n{body}G70 P9 Q70\n{end}"
+    assert paths(cycle, LATHE) == paths(FL_G5, LATHE)
+
+
+def test_subprograms_in_files(tmp_path):
+    (tmp_path / "main.nc").write_text("G00 X40. Z0.\nM98 P100\nM98 P200\nG01 X80. ,A120.\nM30")
+    (tmp_path / "O0100.nc").write_text(f"O0100\n{TAPER}\nM99")
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "o200").write_text("O0200\nG01 X70. ,A0.\nM99")
+    alone = solve_file(tmp_path / "main.nc", control=LATHE)
+    assert any("O0200.nc beside it: name its folder with --path" in each.message for each in alone.diagnostics)
+    found = solve_file(tmp_path / "main.nc", control=LATHE, folders=[tmp_path / "other"])
+    assert [each.code for each in found.diagnostics if each.code == "subprogram-refused"] == ["subprogram-refused"]
+    assert next(each for each in found.diagnostics if each.code == "subprogram-refused").span.line == 3
+    done = CliRunner().invoke(main, ["check", str(tmp_path / "main.nc"), "--control", LATHE])
+    assert "--path" in done.output
+
+
+def test_what_nothing_calls_begins_where_start_says(tmp_path):
+    for control, text, start in (
+        (LATHE, f"#1=0\nG00 X40. Z0.\nM30\nO8\n{TAPER}\nM99", "X50. Z0."),
+        ("siemens-840d", "%_N_M_MPF\nG17 G0 X40 Y0\nM30\n%_N_L8_SPF\nG1 X60 ANG=20\nM17", "X50 Y0"),
+    ):
+        result = solve(text, control=control)
+        assert [each.status for each in result.answers] == [Status.UNDERDETERMINED]
+        assert "--start" in result.diagnostics[0].message
+        file = tmp_path / "main.nc"
+        file.write_text(text)
+        done = CliRunner().invoke(main, ["solve", str(file), "--control", control, "--start", start])
+        assert done.exit_code == 0, done.output
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (f"G00 X40. Z0.\nM98 P1\nM30\nO1\n{TAPER}\nM98 P1\nM99", "calls itself again and again"),
+        (f"G00 X40. Z0.\n{TAPER}\n#1=0\nWHILE [#1 GE 0] DO1\n#1=#1+1.\nEND1\nM30", "more than 100,000 blocks"),
+        (f"G00 X40. Z#5041\n{TAPER}", "#5041"),
+        (f"G00 X40. Z0.\nIF [#900 EQ 1] GOTO 5\nG00 X45.\nN5 {TAPER}", "line 2 may have jumped here"),
+        ("G00 X40. Z0.\nM98 P1\nG00 X58. Z0.\nM98 P1\nM30\nO1\nG01 Z-20. ,R5.\nX60.\nM99", "called in line 4: from"),
+        ("G00 X60. Z2.\nG71 P1 Q2 U.5\nN1 G00 X20.\nG01 Z-20. ,R3.\nX40. ,A120.\nX30.\nN2 Z-60.", "X"),
+    ],
+)
+def test_what_is_told(text, told):
+    assert any(told in each.message for each in solve(text, control=LATHE).diagnostics)
+
+
+def test_values_that_are_stated_hold():
+    text = "#100=1.\nG00 X#100 Z0.\nG01 X#101 ,A120."
+    assert paths(text, LATHE, variables={"#100": 40.0, "#101": 60.0}) == paths(f"G00 X40. Z0.\n{TAPER}", LATHE)
+
+
+def test_a_corner_ends_at_a_call_and_what_is_between_is_told():
+    called = "G00 X40. Z0.\nG01 Z-20. ,R5.\nM98 P1\nG00 X60. Z0.\nG01 X70. ,A120.\nM30\nO1\nG01 X80. Z-30.\nM99"
+    result = solve(called, control=LATHE)
+    assert [each.lines for each in result.answers] == [(2,), (5,)]
+    assert [each.status for each in result.answers] == [Status.REJECTED, Status.SOLVED]
+
+
+def test_words_beside_a_contour_keep_their_formulas():
+    text = "R1=50 R2=0.5\nL7\nL7\nM30\n%_N_L7_SPF\nG17 G0 X0 Y0\nG1 X=R1 Y10 F=R2*2 CHF=SQRT(R1-46)\nX80 Y50 F200\nM17"
+    found = expand(text, control="siemens-840d", comments=False).text
+    assert "F=R2*2" in found
+    assert "SQRT" not in found
