@@ -87,8 +87,7 @@ def test_the_command_line_states_values():
         assert (done.exit_code, "NAME=NUMBER" in done.output) == (2, True)
 
 
-@pytest.mark.needs("anywidget", "ipykernel")
+@pytest.mark.needs("anywidget")
 def test_the_explorer_takes_values_of_variables():
-    pytest.importorskip("anywidget")
     explorer = contoursolve.explore(BLOCK, start="X40. Z0.", variables={"#100": 95, "#101": 4.75})
     assert explorer.text == "G111 A180. K-30. B120. X95. P5. Q4.75"
