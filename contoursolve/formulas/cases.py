@@ -9,7 +9,7 @@ from msgspec import Struct
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.execution.language import Apply, Constant, Term, Variable
 from contoursolve.formulas.check import difference
-from contoursolve.formulas.contour import Body, Stop, Writing, body_of
+from contoursolve.formulas.contour import Body, Stop, Writing, body_of, free_sizes
 from contoursolve.formulas.given import Border, FormulaError, Reader, Values, at, borders_of, is_same_case, refusal
 from contoursolve.numeric.formulas import AT_MOST, LESS, ZERO, Affine
 
@@ -88,6 +88,12 @@ def case_of(
     stated, own = reader.follow(known), refusal(answer)
     main = _refusing(own) if own else body_of(reader, answer.profile, stated, writing(answer))
     borders = borders_of(reader, answer, stated)
+    sizes = [stated[size] for size in free_sizes(answer.profile, stated)]
+    sharp = [
+        _Side(Affine({name: abs(factor)}, Decimal(0)), Decimal(0), Decimal(0))
+        for size in sizes
+        for name, factor in size.factors.items()
+    ]
     tied = {name for border in borders if len(border.value.factors) > 1 for name in border.value.factors}
     stops: list[tuple[_Side, str]] = []
     forks: list[tuple[_Side, Case]] = []
@@ -104,8 +110,10 @@ def case_of(
                 if code and code == own:
                     continue
                 is_same = is_same_case(answer, other) and reader.follow(there) == stated
-                # A single value between others may be where two cases meet.
-                is_met = side.low == side.high and other.contour is not None
+                # Where two values meet borders at once may be another case still.
+                is_same = is_same and not own and not (is_tied and side.low == side.high)
+                # Without a corner, what is asked of the corner is left out.
+                is_met = side in sharp and other.contour is not None
                 is_met = is_met and not difference(main.statements, _floats(there), other, writing(answer))
                 if is_tied if code else not (is_same or is_met):
                     # Whether it is refused may depend on the other values.
@@ -115,10 +123,19 @@ def case_of(
                 code = OTHER
             if code:
                 stops.append((side, _message(code)))
-    found: Case = main
+    found: Case = _with_stops(main, [Stop(side.condition, message) for side, message in _merged(stops)])
+    own_body = found
     for side, case in forks:
-        found = Fork(side.condition, case, found)
-    return _with_stops(found, [Stop(side.condition, message) for side, message in _merged(stops)])
+        if not _is_part_of(case, own_body):
+            found = Fork(side.condition, case, found)
+    return found
+
+
+def _is_part_of(case: Case, other: Case) -> bool:
+    """Whether a case is another one, but for what is refused elsewhere."""
+    if not isinstance(case, Body) or not isinstance(other, Body):
+        return False
+    return (case.formulas, case.end) == (other.formulas, other.end) and {*case.stops} <= {*other.stops}
 
 
 def _message(code: str) -> str:
@@ -181,5 +198,5 @@ def _merged(stops: list[tuple[_Side, str]]) -> Iterator[tuple[_Side, str]]:
 def _with_stops(case: Case, stops: list[Stop]) -> Case:
     """A case that stops in some other ones, before it does anything else."""
     if isinstance(case, Body):
-        return Body((*stops, *case.statements), case.end)
+        return Body(case.formulas, case.end, (*dict.fromkeys([*stops, *case.stops]),))
     return Fork(case.condition, _with_stops(case.then, stops), _with_stops(case.otherwise, stops))

@@ -10,12 +10,13 @@ from msgspec import Struct
 from contoursolve.execution.language import Apply, Assign, Constant, Term, Variable, When
 from contoursolve.families.case_classes import ORIGIN
 from contoursolve.formulas.given import FormulaError, Reader, less
-from contoursolve.geometry import FIRST, SECOND, Arc, Fact, OnCircle, Profile, assemble, scalar
-from contoursolve.numeric.expressions import magnitude
+from contoursolve.geometry import FIRST, SECOND, Arc, Profile, assemble, scalar
+from contoursolve.numeric.expressions import at_most, magnitude
 from contoursolve.numeric.formulas import AT_MOST, COMMON, LESS, SIGN, TURNED, ZERO, Affine, formulas_of
-from contoursolve.solving import RefusalKind, is_closed, make_plan, points_with_two_solutions
+from contoursolve.solving import RefusalKind, is_closed, points_with_two_solutions
 from contoursolve.solving.checks import Check, Source, Test, plain_checks
 from contoursolve.solving.numbers import axes_of
+from contoursolve.tolerance import LARGEST
 
 SHORTEST = 1e-6
 """mm squared. The least increment, squared: an arc whose ends are nearer is a line, for it could be a full turn."""
@@ -69,10 +70,17 @@ class Writing(Struct, frozen=True):
 
 
 class Body(Struct, frozen=True):
-    """A contour of one case: its statements, each leg behind what it needs, and where it ends, as absolute words."""
+    """A contour of one case: its statements, each leg behind what it needs, where it ends, as absolute words, and where
+    other cases are refused."""
 
-    statements: tuple[Statement, ...]
+    formulas: tuple[Statement, ...]
     end: tuple[Term, Term]
+    stops: tuple[Stop, ...] = ()
+
+    @property
+    def statements(self) -> tuple[Statement, ...]:
+        """Everything, in order."""
+        return (*self.stops, *self.formulas)
 
 
 def body_of(reader: Reader, profile: Profile, stated: Mapping[str, Affine], writing: Mapping[str, Writing]) -> Body:
@@ -88,8 +96,17 @@ def body_of(reader: Reader, profile: Profile, stated: Mapping[str, Affine], writ
     if loose:
         raise FormulaError(f"nothing chooses between the two places of {loose[0]}")
     source, checks = plain_checks(system)
-    margins = [_failing(check, margin) for check, margin in checks]
-    path = list(_path(source, profile, writing, make_plan(system).checks))
+    absent = {
+        corner.name: LARGEST * at_most(magnitude(source.tape.input(corner.size)), ZERO)
+        for corner in profile.figure.corners
+        if corner.size in free_sizes(profile, stated)
+    }
+    """Added to what is asked of corners, where their size may be 0: then there is none."""
+    margins = [
+        _failing(check, margin, absent.get(check.subject) if check.kind in _ABOUT_CORNERS else None)
+        for check, margin in checks
+    ]
+    path = list(_path(source, profile, writing))
     outputs = [margin for margin, *_ in margins]
     for leg in path:
         outputs += leg.values
@@ -142,16 +159,12 @@ class _Way(Struct, frozen=True):
     values: tuple[Any, ...]
 
 
-def _path(source: Source, profile: Profile, writing: Mapping[str, Writing], facts: Sequence[Fact]) -> Iterator[_Way]:
-    """The elements and corners of a path, as `solving.contour.trace` has them; `facts` are those that are held against
-    the others."""
+def _path(source: Source, profile: Profile, writing: Mapping[str, Writing]) -> Iterator[_Way]:
+    """The elements and corners of a path, as `solving.contour.trace` has them."""
     figure, tape = profile.figure, source.tape
     corners = {corner.at: corner for corner in figure.corners}
     origin = tape.input(f"{ORIGIN}0"), tape.input(f"{ORIGIN}1")
     here = source.point(figure.start)
-    circles = {fact.center for fact in facts if isinstance(fact, OnCircle)}
-    compared = {each.name for each in figure.path if isinstance(each, Arc) and each.center in circles}
-    """Arcs whose ends may be off their circle by as much as the control allows."""
 
     def way(name: str, end: Any, center: Any = None, turn: Any = None) -> _Way:
         scales, is_incremental = writing[name].scales, writing[name].is_incremental
@@ -164,10 +177,6 @@ def _path(source: Source, profile: Profile, writing: Mapping[str, Writing], fact
             # A centre is no diameter, but has the unit of the program.
             unit, chord = min(scales), steps[0] * steps[0] + steps[1] * steps[1]
             spoke = [center[axis] - here[axis] for axis in (FIRST, SECOND)]
-            if name in compared:
-                # As far from one end as from the other.
-                off = sum((steps[axis] / 2 - spoke[axis]) * steps[axis] for axis in (FIRST, SECOND)) / chord
-                spoke = [spoke[axis] + off * steps[axis] for axis in (FIRST, SECOND)]
             values += [spoke[axis] * unit for axis in (FIRST, SECOND)]
             values += [turn, chord]
         return _Way(name, tuple(values))
@@ -192,8 +201,26 @@ def _path(source: Source, profile: Profile, writing: Mapping[str, Writing], fact
             here = end
 
 
-def _failing(check: Check, margin: Any) -> tuple[Any, str, float]:
-    """A margin, the comparison in which a check fails, and with what."""
+_ABOUT_CORNERS = (
+    RefusalKind.CORNER_TOO_LARGE,
+    RefusalKind.CORNER_STRAIGHT,
+    RefusalKind.CORNER_REVERSES,
+    RefusalKind.BEVEL_OUTSIDE,
+    RefusalKind.BEVEL_IN_BAND,
+    RefusalKind.LANDING_UNKNOWN,
+)
+
+
+def free_sizes(profile: Profile, stated: Mapping[str, Affine]) -> list[str]:
+    """The sizes of corners that follow variables."""
+    sizes = dict.fromkeys(corner.size for corner in profile.figure.corners)
+    return [size for size in sizes if size in stated and stated[size].factors]
+
+
+def _failing(check: Check, margin: Any, more: Any) -> tuple[Any, str, float]:
+    """A margin and what is added to it, the comparison in which a check fails, and with what."""
+    if more is not None:
+        margin = (magnitude(margin) if check.test is Test.APART else margin) + more
     match check.test:
         case Test.AT_LEAST | Test.NOT_BELOW:
             return margin, LESS, min(check.limit, -ZERO) if check.limit <= 0 else check.limit
