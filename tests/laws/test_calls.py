@@ -44,7 +44,7 @@ def results(typed: Typed, control: str) -> dict[int, set[object]]:
     return found
 
 
-@drawn(3, 71)
+@drawn(2, 12)
 def test_contours_are_those_of_the_flat_program(control, seed):
     typed, own = program(control, seed), defaultdict(list)
     for answer in solve(typed.text, control=control).answers:
@@ -72,7 +72,7 @@ def are_alike(one: str, other: str) -> bool:
     )
 
 
-@drawn(3, 35)
+@drawn(2, 9)
 def test_expanded_inline_it_is_the_flat_program(control, seed):
     typed = program(control, seed)
     options = {"control": control, "comments": False, "keep_going": True}
@@ -88,7 +88,7 @@ def test_expanded_inline_it_is_the_flat_program(control, seed):
         assert (line in left) is (len(found) > 1 or status != {"solved"}), line
 
 
-@drawn(1, 7)
+@drawn(1, 4)
 def test_verify_says_that_it_is_right(control, seed):
     typed = program(control, seed)
     with TemporaryDirectory() as folder:
@@ -107,7 +107,7 @@ def test_verify_says_that_it_is_right(control, seed):
             assert done.exit_code == 1, done.output
 
 
-@drawn(2, 17)
+@drawn(1, 4)
 def test_an_editor_finds_the_same_whatever_the_order_of_words_and_whenever_it_is_asked(control, seed):
     text = program(control, seed).text
     result = solve(text, control=control)
@@ -120,7 +120,7 @@ def test_an_editor_finds_the_same_whatever_the_order_of_words_and_whenever_it_is
     assert [*map(result_of, other.answers)] == [*map(result_of, result.answers)]
 
 
-@drawn(3, 71)
+@drawn(2, 12)
 def test_damaged_programs_are_answered(control, seed):
     draw, text = random.Random(f"{control} {seed}"), program(control, seed).text
     for _ in range(draw.choice((1, 2, 4, 12))):
