@@ -144,6 +144,8 @@ def check(
     rules: str = "enforce",
     facts: Iterable[str | Statement] = (),
     settings: Mapping[str, str] | None = None,
+    variables: Mapping[str, float] | None = None,
+    folders: Iterable[str | Path] = (),
     name: str = "<program>",
     strict: bool = False,
 ) -> tuple[Diagnostic, ...]:
@@ -157,7 +159,16 @@ def check(
     """
     program = _read(text, name)
     found = follow_program(
-        program, control=control, start=start, units=units, rules=rules, facts=facts, settings=settings, strict=strict
+        program,
+        control=control,
+        start=start,
+        units=units,
+        rules=rules,
+        facts=facts,
+        settings=settings,
+        variables=variables,
+        folders=folders,
+        strict=strict,
     )
     return found.collect().diagnostics
 
@@ -196,13 +207,30 @@ def check_file(
     path: str | Path,
     *,
     control: str | Dialect | None = None,
+    start: str | None = None,
     units: str = "mm",
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,
+    variables: Mapping[str, float] | None = None,
+    folders: Iterable[str | Path] = (),
     strict: bool = False,
 ) -> tuple[Diagnostic, ...]:
     """The findings about a file, with arguments as for `check` and errors as for `solve_file`."""
-    return _follow_file(path, settings, control=control, units=units, rules=rules, strict=strict).collect().diagnostics
+    return (
+        _follow_file(
+            path,
+            settings,
+            control=control,
+            start=start,
+            units=units,
+            rules=rules,
+            variables=variables,
+            folders=folders,
+            strict=strict,
+        )
+        .collect()
+        .diagnostics
+    )
 
 
 def _follow_file(path: str | Path, settings: Mapping[str, str] | None, **options: Any) -> Run:

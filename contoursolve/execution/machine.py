@@ -190,11 +190,19 @@ class Machine:
                     return
                 name = self.main.code(index).begins
                 told = f"program {name}" if name is not None else f"line {block.line}"
-                yield Turn(Event.FRESH, block.line, f"nothing in this file calls {told}")
+                is_begun = name is not None or self.main.code(index).labels or self._follows_end(index)
+                why = f"nothing in this file calls {told}" if is_begun else f"{told} does not run here"
+                yield Turn(Event.FRESH, block.line, why)
                 # What was set once in all holds there, too.
                 once = {name for name, times in Counter(self._assigned).items() if times == 1}
                 self.values = {name: value for name, value in self.values.items() if name in once or name in self.given}
                 yield from self._run_from(index)
+
+    def _follows_end(self, index: int) -> bool:
+        """Whether a line stands behind the end of a program, so that only a call leads there."""
+        before = next((at for at in range(index - 1, -1, -1) if self._says_something(at)), None)
+        said = self.main.code(before).statements if before is not None else ()
+        return any(isinstance(each, ProgramEnd | Return) for each in said)
 
     def _unfollowed(self, first: int) -> Iterator[Block | Turn]:
         """What has not run from a line on, as it is written."""
