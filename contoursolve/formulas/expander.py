@@ -26,9 +26,6 @@ from contoursolve.reading.follow import ContourBlock, blocks_of
 from contoursolve.reading.modal_dependence import carried
 from contoursolve.reading.modal_state import Position, advance
 
-MOST_LINES = 1_000
-"""Lines of the formulas of one contour; nobody reads more at a machine."""
-
 
 class FormulaExpander(Expander):
     """One pass over one program with variables."""
@@ -141,9 +138,6 @@ class FormulaExpander(Expander):
             return
         try:
             texts = list(self._formulas(step, answer))
-            count = sum(text.count("\n") for text in texts)
-            if count > MOST_LINES:
-                raise FormulaError(f"they would take {count:,} lines; write numbers for some of its variables")
         except FormulaError as error:
             for axis in axes:
                 self.axes[axis] = None
