@@ -6,8 +6,6 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.diagnostics.source import Span
-
 
 class Unknown(Struct, frozen=True):
     """No value, and why: `#5041 is the machine's position`."""
@@ -258,11 +256,3 @@ class MacroLanguage(Struct, frozen=True, eq=False):
 
     def __reduce__(self) -> Any:
         return self.made_by, ()
-
-
-EMPTY = CodeLine("")
-
-
-def span_of(line: int, formula: WordFormula) -> Span:
-    """The place of its value."""
-    return Span(line, formula.begin + 1, formula.end + 1)

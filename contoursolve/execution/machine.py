@@ -35,8 +35,8 @@ from contoursolve.execution.language import (
     Variable,
     When,
 )
-from contoursolve.execution.subprograms import Library, Source
-from contoursolve.gcode import Block, Caller, Program, parse_block
+from contoursolve.execution.subprograms import Library, Source, Surroundings
+from contoursolve.gcode import Block, Caller, Program, Syntax, parse_block, split_lines
 
 MOST_STEPS = 100_000
 """Blocks that run again, or in another file, after which a program is not followed any further."""
@@ -55,6 +55,16 @@ def needs_running(lines: Iterable[str], language: MacroLanguage | None) -> bool:
         each.words or each.is_part or any(not isinstance(one, Return | ProgramEnd) for one in each.statements)
         for each in said
     )
+
+
+def machine_of(
+    program: Program, language: MacroLanguage | None, syntax: Syntax, around: Surroundings
+) -> "Machine | None":
+    """What runs a program; None for one that neither calls, jumps nor computes."""
+    lines = split_lines(program.text) or [block.text for block in program.blocks]
+    if language is None or not needs_running(lines, language):
+        return None
+    return Machine(program, language, Library(language, syntax, around.folders), around.values)
 
 
 class Event(Enum):
@@ -148,8 +158,6 @@ class Machine:
         self.values: dict[str, Known] = dict(self.given)
         self.written: dict[int, tuple[Written, ...]] = {}
         """What stands for the variables of each line of the main file that has some, as it ran first."""
-        self.called: set[str] = set()
-        """The files that were called."""
         self._frames: list[_Frame] = []
         self._visited: set[int] = set()
         self._steps = 0
@@ -556,8 +564,7 @@ class Machine:
             return
         truth = self._truth(loop.condition) if loop.condition is not None else True
         if truth is False:
-            frame.loops = [each for each in frame.loops if each.first != index]
-            frame.at = self._loop_end(frame, index, loop.name) + 1
+            self._leave_loop(frame, index, loop.name)
         elif known is None or not isinstance(truth, Unknown):
             frame.loops = [*frame.loops, _Loop(loop.name, index)] if known is None else frame.loops
             if isinstance(truth, Unknown):
@@ -586,8 +593,12 @@ class Machine:
         state = frame.loops[-1]
         is_over = isinstance(current, float) and state.last is not None and (current - state.last) * state.step > 0
         if is_over:
-            frame.loops = [each for each in frame.loops if each.first != index]
-            frame.at = self._loop_end(frame, index, loop.name) + 1
+            self._leave_loop(frame, index, loop.name)
+
+    def _leave_loop(self, frame: _Frame, index: int, name: str) -> None:
+        """Go on behind a loop."""
+        frame.loops = [each for each in frame.loops if each.first != index]
+        frame.at = self._loop_end(frame, index, name) + 1
 
     def _loop_end(self, frame: _Frame, index: int, name: str) -> int:
         depth = 0
@@ -658,8 +669,6 @@ class Machine:
             yield Turn(Event.ENTER, line, call.cycle)
             if is_behind:
                 frame.at = last + 1
-        if source.name:
-            self.called.add(source.name)
         self._frames.append(_Frame(source, first, first, last, call, (*frame.callers, caller), times, own))
 
     def _as_written(self, frame: _Frame, index: int) -> Block:

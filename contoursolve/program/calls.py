@@ -10,9 +10,9 @@ from contoursolve.diagnosis.explain import Context, context_of, report
 from contoursolve.diagnosis.wording import join, measured
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Fix, Label, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.execution.machine import Machine, Written, needs_running
-from contoursolve.execution.subprograms import Library, Surroundings
-from contoursolve.gcode import Block, Program, split_lines
+from contoursolve.execution.machine import Machine, Written, machine_of
+from contoursolve.execution.subprograms import Surroundings
+from contoursolve.gcode import Block, Program
 from contoursolve.program.profiles import CycleProfile, profiles_of, turns_back
 from contoursolve.program.solve_queue import Step
 from contoursolve.reading import ReadIssue, State
@@ -29,11 +29,7 @@ _ALIKE = 6
 
 def machine_for(program: Program, dialect: Dialect, around: Surroundings) -> Machine | None:
     """What runs a program; None for one that neither calls, jumps nor computes."""
-    language = dialect.modes.language
-    lines = split_lines(program.text) or [block.text for block in program.blocks]
-    if language is None or not needs_running(lines, language):
-        return None
-    return Machine(program, language, Library(language, dialect.modes.syntax, around.folders), around.values)
+    return machine_of(program, dialect.modes.language, dialect.modes.syntax, around)
 
 
 def in_text_order(

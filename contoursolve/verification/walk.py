@@ -8,8 +8,8 @@ from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
-from contoursolve.execution.machine import Machine, Turn, needs_running
-from contoursolve.execution.subprograms import ALONE, Library, Surroundings, surroundings_of
+from contoursolve.execution.machine import Turn, machine_of
+from contoursolve.execution.subprograms import ALONE, Surroundings, surroundings_of
 from contoursolve.gcode import Block, Directive, Program
 from contoursolve.geometry import Length
 from contoursolve.reading import Modes, ParsedContour, State, advance, next_place
@@ -244,11 +244,11 @@ def _distance(claimed: ClaimedContour, claim: ParsedContour) -> float:
 
 def _runs(program: Program, modes: Modes, around: Surroundings) -> Iterator[Sequence[Block] | Turn]:
     """The blocks of a program between its turns."""
-    language, run = modes.language, list[Block]()
-    if language is None or not needs_running((block.text for block in program.blocks), language):
+    machine, run = machine_of(program, modes.language, modes.syntax, around), list[Block]()
+    if machine is None:
         yield program.blocks
         return
-    for each in Machine(program, language, Library(language, modes.syntax, around.folders), around.values).run():
+    for each in machine.run():
         if isinstance(each, Turn):
             yield run
             yield each
