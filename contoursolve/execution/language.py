@@ -59,6 +59,10 @@ class WordFormula(Struct, frozen=True):
     end: int
     value: Term
 
+    def put(self, number: str, line: str) -> str:
+        """The line with a number in the place of its value; what is behind it moves."""
+        return line[: self.begin] + number + line[self.end :]
+
 
 class Assign(Struct, frozen=True, tag=True):
     """A variable gets a value."""

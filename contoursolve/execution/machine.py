@@ -331,8 +331,9 @@ class Machine:
         for word in reversed(code.words):
             value, typed = self._value(word.value), block.text[word.begin : word.end]
             if isinstance(value, float):
-                text = text[: word.begin] + written(value) + text[word.end :]
-                changes.append(Written(word.begin, word.end, typed, written(value)))
+                number = written(value)
+                text = word.put(number, text)
+                changes.append(Written(word.begin, word.end, typed, number))
             else:
                 reason = value.reason if isinstance(value, Unknown) else f"{value!r} is no number"
                 changes.append(Written(word.begin, word.end, typed, "", reason))

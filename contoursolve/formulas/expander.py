@@ -84,7 +84,7 @@ class FormulaExpander(Expander):
         text = code.rest
         for word in reversed(code.words):
             value = f"{self.target.equals}{write_term(self._own(word.value), self.target.notation)}"
-            text = text[: word.begin] + value + text[word.end :]
+            text = word.put(value, text)
         statements = [
             Assign(self._own(each.variable), self._own(each.value))  # type: ignore[arg-type]
             for each in code.statements

@@ -117,7 +117,7 @@ class _Search:
         for word in reversed(language.read(text).words if language else ()):
             result = evaluate(word.value, lambda name: value if name == self.name else Unknown(name))
             if isinstance(result, float):
-                text = text[: word.begin] + written(result) + text[word.end :]
+                text = word.put(written(result), text)
         return parse_block(text, block.line, block.syntax)
 
     def _end(self, inside: _Trial, outside: _Trial | None) -> tuple[float, str]:
