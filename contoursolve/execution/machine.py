@@ -36,7 +36,7 @@ from contoursolve.execution.language import (
     When,
 )
 from contoursolve.execution.subprograms import Library, Source, Surroundings
-from contoursolve.gcode import Block, Caller, Program, Syntax, parse_block, split_lines
+from contoursolve.gcode import Block, Caller, Program, Substitution, Syntax, parse_block, split_lines
 
 MOST_STEPS = 100_000
 """Blocks that run again, or in another file, after which a program is not followed any further."""
@@ -89,17 +89,6 @@ class Turn(Struct, frozen=True):
 
     event: Event
     line: int
-    reason: str = ""
-
-
-class Written(Struct, frozen=True):
-    """What stands in a line for a variable: the columns of the typed value, from 0, and the number; without one, the
-    reason why there is none."""
-
-    begin: int
-    end: int
-    typed: str
-    number: str
     reason: str = ""
 
 
@@ -156,8 +145,6 @@ class Machine:
         self.main = Source(program, language, is_other=False)
         self.given = dict(given or {})
         self.values: dict[str, Known] = dict(self.given)
-        self.written: dict[int, tuple[Written, ...]] = {}
-        """What stands for the variables of each line of the main file that has some, as it ran first."""
         self._frames: list[_Frame] = []
         self._visited: set[int] = set()
         self._steps = 0
@@ -327,20 +314,24 @@ class Machine:
         """A block with numbers in the place of variables."""
         if not frame.callers and not frame.source.name and not code.statements and not code.words:
             return block
-        text, changes = code.rest, list[Written]()
+        text, changes = code.rest, list[Substitution]()
         for word in reversed(code.words):
             value, typed = self._value(word.value), block.text[word.begin : word.end]
             if isinstance(value, float):
                 number = written(value)
                 text = word.put(number, text)
-                changes.append(Written(word.begin, word.end, typed, number))
+                changes.append(Substitution(word.begin, word.end, typed, number))
             else:
                 reason = value.reason if isinstance(value, Unknown) else f"{value!r} is no number"
-                changes.append(Written(word.begin, word.end, typed, "", reason))
-        if changes and frame.source is self.main:
-            self.written.setdefault(block.line, tuple(reversed(changes)))
+                changes.append(Substitution(word.begin, word.end, typed, "", reason))
         ran = block if text == block.text else parse_block(text, block.line, block.syntax)
-        return replace(ran, callers=frame.callers, file=frame.source.name, directives=block.directives)
+        return replace(
+            ran,
+            callers=frame.callers,
+            file=frame.source.name,
+            directives=block.directives,
+            substituted=tuple(reversed(changes)),
+        )
 
     def _join(self, frame: _Frame, index: int) -> Iterator[Turn]:
         """What is not known on a line because it may have been jumped to."""
@@ -645,6 +636,7 @@ class Machine:
             yield from self._unclear(frame, index, found.reason)
             return
         if len(self._frames) >= DEEPEST:
+            yield from self._unwind(found[0], found[1])
             raise _RefusedError(f"line {line} calls itself again and again: {DEEPEST} calls in one another")
         if isinstance(count, Unknown):
             yield from self._unclear(frame, index, f"how often {text} runs is not known: {count.reason}")
@@ -763,6 +755,15 @@ class Machine:
             if target is None:
                 raise _RefusedError("the subprogram returns to a block that is not there")
             caller.at = target
+
+    def _unwind(self, source: Source, first: int) -> Iterator[Turn]:
+        """End what calls itself at all depths: otherwise, the calls behind each of its calls multiply."""
+        outermost = next(
+            (at for at, each in enumerate(self._frames) if (each.source, each.first) == (source, first)), 1
+        )
+        for frame in reversed(self._frames[max(outermost, 1) :]):
+            frame.left = 1
+            yield from self._leave(frame)
 
     def _leave(self, frame: _Frame) -> Iterator[Turn]:
         """The end of what a frame runs: it runs again, or what called it goes on."""

@@ -141,6 +141,17 @@ class Caller(Struct, frozen=True):
     is_reached: bool = True
 
 
+class Substitution(Struct, frozen=True):
+    """What stands in a line for a variable: the columns of the typed value, from 0, and the number; without one, the
+    reason why there is none."""
+
+    begin: int
+    end: int
+    typed: str
+    number: str
+    reason: str = ""
+
+
 class Block(Shown, Struct, frozen=True):
     """One line of a program; `text` is the line without its end, with numbers in the place of known variables."""
 
@@ -159,6 +170,8 @@ class Block(Shown, Struct, frozen=True):
     """From where it was called, the main program first."""
     file: str = ""
     """The file of the subprogram that it belongs to, if that is another file."""
+    substituted: tuple[Substitution, ...] = ()
+    """What stands for variables in it, in the order of the line."""
 
     def find(self, address: str) -> Word | None:
         """The first word with this address, or None."""

@@ -1,7 +1,7 @@
 """A program that calls or computes: its contours are solved where they run, and told once where they are written."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from msgspec.structs import replace
 
@@ -10,9 +10,9 @@ from contoursolve.diagnosis.explain import Context, context_of, report
 from contoursolve.diagnosis.wording import join, measured
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Fix, Label, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.execution.machine import Machine, Written, machine_of
+from contoursolve.execution.machine import Machine, machine_of
 from contoursolve.execution.subprograms import Surroundings
-from contoursolve.gcode import Block, Program
+from contoursolve.gcode import Block, Program, Substitution
 from contoursolve.program.profiles import CycleProfile, profiles_of, turns_back
 from contoursolve.program.solve_queue import Step
 from contoursolve.reading import ReadIssue, State
@@ -34,7 +34,6 @@ def machine_for(program: Program, dialect: Dialect, around: Surroundings) -> Mac
 
 def in_text_order(
     blocks: Sequence[Block],
-    machine: Machine,
     steps: Iterable[Step],
     rules: tuple[Rule, ...],
     told: Sequence[Diagnostic],
@@ -45,36 +44,37 @@ def in_text_order(
     findings about the whole text; the profiles of cycles are added to `profiles`; it begins in a state."""
     ran: dict[int, list[Step]] = {}
     before: dict[int, State] = {}
-    findings = list(told)
+    findings, here = list(told), _Substituted()
     in_cycle, reached = list[Step](), set[int]()
     for step in steps:
         in_cycle.append(step)
         state = step.before
         if not _counts(step, reached):
             continue
-        findings += step.findings
+        here |= _substituted(step.blocks)
+        findings += (_as_typed(each, blocks, here) for each in step.findings)
         if step.answer is not None and step.blocks[0].file:
             findings += _of_other_file(step.answer, step.blocks[0], rules)
         elif step.answer is not None:
-            ran.setdefault(step.blocks[0].line, []).append(step)
+            ran.setdefault(step.blocks[0].line, []).append(replace(step, answer=_typed(step.answer, blocks, here)))
         for block in step.blocks if not step.blocks or not step.blocks[0].file else ():
             before.setdefault(block.line, step.before)
     if not ran:
         # No contour minds where it is not followed.
         findings = [each for each in findings if each.about is not ReadIssue.NOT_FOLLOWED]
     profiles.extend(profiles_of(in_cycle))
-    findings += (each for profile in profiles for each in turns_back(profile, rules))
+    findings += (_as_typed(each, blocks, here) for profile in profiles for each in turns_back(profile, rules))
     by_line: dict[int, list[Diagnostic]] = {}
     for finding in {_key(each): each for each in findings}.values():
-        by_line.setdefault(finding.span.line, []).append(_as_typed(finding, blocks, machine.written))
+        by_line.setdefault(finding.span.line, []).append(finding)
     index = 0
     while index < len(blocks):
         line, count, answers = blocks[index].line, 1, tuple[Answer, ...]()
         if line in ran:
             count = ran[line][0].blocks[-1].line - line + 1
             # Between blocks of a contour stand others, where a jump leads from one to another.
-            inside = [_once(ran[at], rules) for at in range(line, line + count) if at in ran]
-            answers = tuple(_typed(each, blocks, machine.written) for once in inside for each in once)
+            inside = [_once(ran[at], blocks, rules) for at in range(line, line + count) if at in ran]
+            answers = tuple(each for once in inside for each in once)
         own = tuple(blocks[index : index + count])
         own_findings = tuple(each for block in own for each in by_line.pop(block.line, ()))
         state = before.get(line, state)
@@ -98,7 +98,7 @@ def _key(finding: Diagnostic) -> tuple[Span, str, str]:
     return finding.span, finding.code, finding.message
 
 
-def _once(visits: Sequence[Step], rules: tuple[Rule, ...]) -> list[Answer]:
+def _once(visits: Sequence[Step], blocks: Sequence[Block], rules: tuple[Rule, ...]) -> list[Answer]:
     """The different answers to one contour that runs several times; the first one says how their verdicts differ."""
     groups: dict[object, list[Answer]] = {}
     for step in visits:
@@ -109,7 +109,8 @@ def _once(visits: Sequence[Step], rules: tuple[Rule, ...]) -> list[Answer]:
         first = found[0]
         context = context_of(first.claim, rules)
         several = report(context, context.row(ReadIssue.CALLS_DIFFER), Basis.RULE, [], results=_results(found))
-        found[0] = replace(first, diagnostics=(*first.diagnostics, several))
+        told = _as_typed(several, blocks, _substituted(first.claim.blocks), first)
+        found[0] = replace(first, diagnostics=(*first.diagnostics, told))
     return found
 
 
@@ -164,44 +165,52 @@ def _of_other_file(answer: Answer, block: Block, rules: tuple[Rule, ...]) -> Ite
 # What was typed in the place of numbers --------------------------------------------------------------------------
 
 
-def _typed(answer: Answer, blocks: Sequence[Block], written: Mapping[int, tuple[Written, ...]]) -> Answer:
+_Substituted = dict[int, tuple[Substitution, ...]]
+"""What stands for the variables of some lines of the main file, as they ran last."""
+
+
+def _substituted(blocks: Sequence[Block]) -> _Substituted:
+    return {each.line: each.substituted for each in blocks if not each.file and each.substituted}
+
+
+def _typed(answer: Answer, blocks: Sequence[Block], here: _Substituted) -> Answer:
     """An answer whose findings are about what was typed."""
-    if not any(line in written for line in answer.lines):
+    if not any(line in here for line in answer.lines):
         return answer
-    return replace(answer, diagnostics=tuple(_as_typed(each, blocks, written, answer) for each in answer.diagnostics))
+    return replace(answer, diagnostics=tuple(_as_typed(each, blocks, here, answer) for each in answer.diagnostics))
 
 
 def _as_typed(
     finding: Diagnostic,
     blocks: Sequence[Block],
-    written: Mapping[int, tuple[Written, ...]],
+    here: _Substituted,
     answer: Answer | None = None,
 ) -> Diagnostic:
     """A finding about a line with numbers for its variables, about what was typed there: its places, what is to be
     written instead, and what the variables stand for."""
     lines = answer.lines if answer is not None else (finding.span.line,)
-    if not any(line in written for line in lines):
+    if not any(line in here for line in lines):
         return finding
-    changes = [(line, each) for line in lines for each in written.get(line, ())]
+    changes = [(line, each) for line in lines for each in here.get(line, ())]
     stands = [f"{each.typed} is {each.number} here" for _, each in changes if each.number]
     why = [f"{each.typed}: {each.reason}" for _, each in changes if each.reason]
     return replace(
         finding,
-        span=_place(finding.span, written),
-        labels=tuple(Label(_place(each.span, written), each.text) for each in finding.labels),
+        span=_place(finding.span, here),
+        labels=tuple(Label(_place(each.span, here), each.text) for each in finding.labels),
         notes=(*finding.notes, *dict.fromkeys([*stands, *why])),
-        fixes=tuple(_fix(each, [*lines], blocks, written) for each in finding.fixes),
+        fixes=tuple(_fix(each, [*lines], blocks, here) for each in finding.fixes),
     )
 
 
-def _place(span: Span, written: Mapping[int, tuple[Written, ...]]) -> Span:
+def _place(span: Span, here: _Substituted) -> Span:
     """The columns of what was typed."""
-    return Span(span.line, *(_column(at, written.get(span.line, ())) for at in (span.column, span.end_column)))
+    return Span(span.line, *(_column(at, here.get(span.line, ())) for at in (span.column, span.end_column)))
 
 
-def _column(column: int, written: Sequence[Written]) -> int:
+def _column(column: int, here: Sequence[Substitution]) -> int:
     shift = 0
-    for each in written:
+    for each in here:
         end = each.begin + shift + len(each.number or each.typed)
         if column - 1 >= end:
             shift += len(each.number or each.typed) - (each.end - each.begin)
@@ -210,7 +219,7 @@ def _column(column: int, written: Sequence[Written]) -> int:
     return column - shift
 
 
-def _fix(fix: Fix, lines: Sequence[int], blocks: Sequence[Block], written: Mapping[int, tuple[Written, ...]]) -> Fix:
+def _fix(fix: Fix, lines: Sequence[int], blocks: Sequence[Block], here: _Substituted) -> Fix:
     """A fix that keeps the variables that it does not change."""
     texts = fix.replacement.split("\n")
     if len(texts) != len(lines) and len(lines) > 1:
@@ -218,7 +227,7 @@ def _fix(fix: Fix, lines: Sequence[int], blocks: Sequence[Block], written: Mappi
     first = blocks[0].line
     for place, line in enumerate(lines):
         typed = blocks[line - first].text
-        for each in written.get(line, ()):
+        for each in here.get(line, ()):
             if each.number:
                 address = re.search(r"[A-Za-z_,=]*[ \t]*$", typed[: each.begin])
                 before = re.escape(address[0] if address else "")

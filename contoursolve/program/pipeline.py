@@ -1,5 +1,6 @@
 """The order of the stages: from the text of a program to its contours and findings."""
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from functools import partial
@@ -274,6 +275,9 @@ _NEAR = 8
 _BEHIND = 32
 """Blocks after a contour of which a repair may make a part of it: the rest of a chain that a comma joins."""
 
+MOST_EXPLAINED = 100
+"""Wrong results of one contour that are explained and mended, where it runs again and again."""
+
 _BATCH = 1_000
 """Blocks that are read at once."""
 
@@ -331,6 +335,8 @@ class Examiner:
         """The profiles of cycles that ran, known at the end."""
         self.entered: list[State] = []
         """The states to which the program comes back, of a branch or the profile of a cycle."""
+        self.faulty: Counter[tuple[str, int]] | None = None
+        """Of a program that runs: how often the contour at a line of a file was wrong. In a loop, each pass may be."""
         self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine, goes_on=goes_on)
 
     def steps(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step]:
@@ -358,17 +364,17 @@ class Examiner:
 
     def steps_as_run(self, blocks: Sequence[Block], machine: Machine, start: Program | None) -> Iterator[Step]:
         """The same of a program that calls or computes: as it runs, told in the order in which it is written."""
-        self.marks.is_done = True
+        self.marks.is_done, self.faulty = True, Counter()
         marks = Marks(self.marks.context)
         told = [*(finding for block in blocks for finding in marks.look(block)), *marks.finish()]
         steps = self.steps(machine.run(), start)
         outside = told if self.outside.is_strict else []
         first = cast("Dialect", self.dialect).initial_state(self.unit)
-        yield from in_text_order(blocks, machine, steps, self.rules, outside, self.profiles, first)
+        yield from in_text_order(blocks, steps, self.rules, outside, self.profiles, first)
 
     def steps_alone(self, machine: Machine, start: Program | None, told: Callable[[Turn], None]) -> Iterator[Step]:
         """The same as one program without calls; `told` is called where it is not known what runs."""
-        self.marks.is_done = True
+        self.marks.is_done, self.faulty = True, Counter()
 
         def watched() -> Iterator[Line]:
             for each in machine.run_alone():
@@ -606,7 +612,11 @@ class Examiner:
         # A path across the spindle axis is as the words say it.
         told = (each for each in answer.diagnostics if each.about is not ReadIssue.AXIS_CROSSED)
         has_findings = any(each.severity is not Severity.INFO for each in told)
-        if has_findings and self.depth is not Depth.VERDICT:
+        if has_findings and not self._is_explained(found.blocks[0]):
+            note = f"only the first {MOST_EXPLAINED} wrong results of a contour are explained; this is a later one"
+            diagnostics = (replace(each, notes=(*each.notes, note)) for each in answer.diagnostics)
+            answer = replace(answer, diagnostics=tuple(diagnostics))
+        elif has_findings and self.depth is not Depth.VERDICT:
             # Most programs need no diagnosis, and none should wait for its import.
             from contoursolve.diagnosis.diagnose import diagnose  # noqa: PLC0415
 
@@ -622,6 +632,13 @@ class Examiner:
 
             answer = mend_points(answer, dialect)
         return answer
+
+    def _is_explained(self, first: Block) -> bool:
+        """Whether what is wrong with a contour, of which this is the first block, is explained this time."""
+        if self.faulty is None:
+            return True
+        self.faulty[first.file, first.line] += 1
+        return self.faulty[first.file, first.line] <= MOST_EXPLAINED
 
     def _check_units(self, start: Program | None, found: ParsedContour) -> None:
         """Whether a contour is in the units in which the start point was stated apart from the program."""

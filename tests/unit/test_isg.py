@@ -209,7 +209,7 @@ def test_an_expression_has_no_value(text):
         ("G74 X0 Y0", "G74"),
         ("#ROTATION ON", "#ROTATION"),
         ("#CS ON [0,0,0]", "#CS"),
-        ("$IF P1 > 5", "macro"),
+        ("$IF P1 > 5\nG1 X5\n$ENDIF", "P1"),
         ("G1 X=P1 Y=P2+5", "variable"),
         ("G161", "G161"),
     ],

@@ -279,7 +279,7 @@ def test_without_a_motion_code_g1_is_in_force_or_the_program_must_say_it():
         ("POS[X]=50", "POS[X]=50"),
         ("G1 X1=5", "X1=5"),
         ("M17", "M17"),
-        ("IF R1>5 GOTOF ENDE", "macro"),
+        ("IF R1>5 GOTOF ENDE\nG1 X5\nENDE:", "R1"),
         ("G1 X=R1 Y=R2+5", "variable"),
         ("G1 X=_A", "variable"),
         ("G751", "G751"),

@@ -123,6 +123,25 @@ def test_what_is_told(text, told):
     assert any(told in each.message for each in solve(text, control=LATHE).diagnostics)
 
 
+def test_what_calls_itself_twice_is_not_run_at_every_depth():
+    text = f"G00 X40. Z0.\nM98 P1\n{TAPER}\nM30\nO1\n{TAPER}\nM98 P1\nG01 Z-80. ,R#1\nX70.\nM98 P1\nM99"
+    result = solve(text, control=LATHE)
+    assert not any("100,000" in each.message for each in result.diagnostics)
+    assert result.answers[0].lines == (3,)
+
+
+def test_each_pass_of_a_loop_is_told_with_its_own_values_and_the_first_ones_are_explained():
+    passes = 120
+    text = f"#1=1\nWHILE [#1 LE {passes}] DO1\nG00 X40. Z0.\nG01 X60. Z-[#1*0.5] ,A170.\n#1=#1+1\nEND1\nM30"
+    found = [each for each in solve(text, control=LATHE).diagnostics if each.code == "words-conflict"]
+    assert len(found) == passes
+    for number, each in enumerate(found, 1):
+        assert f"-[#1*0.5] is -{number / 2:.1f}".removesuffix("0").removesuffix(".") in "".join(each.notes)
+        assert all("Z-[#1*0.5]" in fix.replacement for fix in each.fixes if ",A170." not in fix.replacement)
+        assert ("only the first 100" in "".join(each.notes)) is (number > passes - 20)
+        assert bool(each.fixes) is (number <= passes - 20)
+
+
 def test_values_that_are_stated_hold():
     text = "#100=1.\nG00 X#100 Z0.\nG01 X#101 ,A120."
     assert paths(text, LATHE, variables={"#100": 40.0, "#101": 60.0}) == paths(f"G00 X40. Z0.\n{TAPER}", LATHE)
