@@ -71,7 +71,7 @@ class Event(Enum):
     """What happens to what is known between two blocks."""
 
     FRESH = "fresh"
-    """What follows is called by nothing: where the tool stands is not known."""
+    """What follows does not run from what stands before it: where the tool stands is not known, or was kept."""
     LOST = "lost"
     """Where the tool stands is not known any more."""
     ENTER = "enter"
@@ -85,11 +85,13 @@ class Event(Enum):
 
 
 class Turn(Struct, frozen=True):
-    """What happens between two blocks, on which line, and why."""
+    """What happens between two blocks, on which line, and why; `mark` is that of the block before which it was kept
+    what is known (see `Block`)."""
 
     event: Event
     line: int
     reason: str = ""
+    mark: int = 0
 
 
 Known = float | str | Unknown
@@ -107,11 +109,13 @@ class _Loop(Struct):
 
 
 class _Branch(Struct):
-    """An If that is open: whether one of its parts has run; where that is not known, why, and the values before it."""
+    """An If that is open: whether one of its parts has run; where that is not known, why; and the values before it."""
 
     has_run: bool
     reason: str = ""
     before: Mapping[str, Known] = {}
+    mark: int = 0
+    """Under which number it is kept what is known where it begins."""
 
 
 class _Frame(Struct):
@@ -156,8 +160,16 @@ class Machine:
         """What was known at each jump back."""
         self._last: tuple[_Frame | None, int] = (None, 0)
         """What ran the last block, and its line."""
-        self._is_alone, self._is_reached = False, True
-        """Whether calls are written out, and whether what runs is reached from the main program."""
+        self._untaken: dict[int, tuple[int, dict[str, Known]]] = {}
+        """By the index of a line of the main file to which a decision did not lead: the mark and the values there."""
+        self._marks, self._here, self._is_marking = 0, 0, False
+        """How many marks there are, the one under which it is kept what is known here, and whether the next block has
+        it."""
+        self.passed_over: set[int] = set()
+        """The lines of the main file that do not run, because of what was decided."""
+        self._is_alone, self._is_reached, self._is_passing_over = False, True, False
+        """Whether calls are written out, whether what runs is reached from the main program, and whether what runs is
+        passed over there."""
 
     def run_alone(self) -> Iterator[Block | Turn]:
         """The blocks of the main program and of what it calls, as one program without calls. What is set to a value
@@ -178,20 +190,49 @@ class Machine:
         what nothing calls."""
         yield from self._run_from(self._begin())
         self._is_reached = False
-        for index, block in enumerate(self.main.blocks):
+        for index in range(len(self.main)):
             if index not in self._visited and self._says_something(index):
                 if self._steps >= MOST_STEPS:
                     yield from self._unfollowed(index)
                     return
-                name = self.main.code(index).begins
-                told = f"program {name}" if name is not None else f"line {block.line}"
-                is_begun = name is not None or self.main.code(index).labels or self._follows_end(index)
-                why = f"nothing in this file calls {told}" if is_begun else f"{told} does not run here"
-                yield Turn(Event.FRESH, block.line, why)
-                # What was set once in all holds there, too.
-                once = {name for name, times in Counter(self._assigned).items() if times == 1}
-                self.values = {name: value for name, value in self.values.items() if name in once or name in self.given}
+                yield self._run_what_is_left(index)
                 yield from self._run_from(index)
+
+    def _run_what_is_left(self, index: int) -> Turn:
+        """Begin at a line that has not run: with what was known where a decision did not lead to it, or with nothing
+        but the variables that were set once in all."""
+        code, line = self.main.code(index), self.main.blocks[index].line
+        told = f"program {code.begins}" if code.begins is not None else f"line {line}"
+        is_begun = code.begins is not None or bool(code.labels) or self._follows_end(index)
+        self._is_passing_over = index in self._untaken or not is_begun
+        why = f"nothing in this file calls {told}" if is_begun else f"{told} does not run here"
+        once = {name for name, times in Counter(self._assigned).items() if times == 1}
+        rest = {name: value for name, value in self.values.items() if name in once or name in self.given}
+        mark, self.values = self._untaken.get(index, (0, rest))
+        self._here, self._is_marking = mark, False
+        return Turn(Event.FRESH, line, why, mark)
+
+    def _keep(self, frame: _Frame, first: int, branch: _Branch | None = None) -> None:
+        """Keep what is known now, or where a branch began, for a line to which a decision does not lead."""
+        first = next((at for at in range(first, len(frame.source)) if self._says_something(at)), first)
+        if frame.source is self.main and first not in self._untaken:
+            mark, before = (branch.mark, branch.before) if branch else (self._mark(), self._known(frame))
+            self._untaken[first] = mark, dict(before)
+
+    def _mark(self) -> int:
+        """The number under which it is kept what is known here."""
+        if not self._here:
+            self._marks += 1
+            self._here, self._is_marking = self._marks, True
+        return self._here
+
+    def _go_on(self) -> None:
+        """Whatever was known, it may be something else now."""
+        self._here, self._is_marking = 0, False
+
+    def _known(self, frame: _Frame) -> dict[str, Known]:
+        """What variables hold, those of a subprogram among them."""
+        return self.values | (frame.own or {})
 
     def _follows_end(self, index: int) -> bool:
         """Whether a line stands behind the end of a program, so that only a call leads there."""
@@ -243,7 +284,10 @@ class Machine:
             # A long program is no endless one.
             self._steps += frame.source is not self.main or frame.at in self._visited
             try:
-                yield from self._step(frame)
+                for each in self._step(frame):
+                    if isinstance(each, Turn) and each.event is not Event.BARRIER:
+                        self._go_on()
+                    yield each
             except _RefusedError as error:
                 # The control stops here; what follows is examined as if it went on.
                 if self._is_alone:
@@ -263,6 +307,8 @@ class Machine:
         index = frame.at
         yield from self._join(frame, index)
         if frame.source is self.main:
+            if self._is_passing_over and index not in self._visited:
+                self.passed_over.add(frame.source.blocks[index].line)
             self._visited.add(index)
         block, code = frame.source.blocks[index], frame.source.code(index)
         frame.at += 1
@@ -282,7 +328,8 @@ class Machine:
             if self._last[0] is not frame or block.line <= self._last[1]:
                 yield Turn(Event.BARRIER, block.line)
             self._last = (frame, block.line)
-            yield ran
+            yield replace(ran, mark=self._here) if self._is_marking else ran
+            self._go_on()
         for statement in moving:
             yield from self._do(frame, index, statement)
 
@@ -414,7 +461,7 @@ class Machine:
             if isinstance(truth, Unknown) and isinstance(statement, Assign | Forget):
                 name = self._name(statement.variable)
                 self._set(name, truth) if isinstance(name, str) else self._lose([*self.values], truth.reason)
-            elif isinstance(truth, Unknown) and isinstance(statement, Jump):
+            elif isinstance(statement, Jump):
                 yield from self._jump(frame, index, replace(statement, condition=when.condition))
             elif isinstance(truth, Unknown):
                 yield from self._unclear(frame, index, truth.reason)
@@ -431,9 +478,11 @@ class Machine:
 
     def _jump(self, frame: _Frame, index: int, jump: Jump) -> Iterator[Block | Turn]:
         truth = self._truth(jump.condition) if jump.condition is not None else True
-        if truth is False:
-            return
         target = self._target(frame, index, jump)
+        if truth is False:
+            if target is not None:
+                self._keep(frame, target)
+            return
         if isinstance(truth, Unknown):
             if target is None:
                 return
@@ -454,6 +503,8 @@ class Machine:
             raise _RefusedError(f"line {self._line(frame, index)} jumps to {where}, which is not there")
         if target <= index:
             self._check_repetition(frame, index, target)
+        elif jump.condition is not None:
+            self._keep(frame, index + 1)
         frame.at = target
         frame.loops = [each for each in frame.loops if each.first <= target]
         frame.branches = []
@@ -504,10 +555,10 @@ class Machine:
             if self._is_alone:
                 yield self._as_written(frame, index)
             yield Turn(Event.ENTER, self._line(frame, index))
-        elif truth:
-            frame.branches.append(_Branch(True))
-        else:
-            frame.branches.append(_Branch(False))
+            return
+        frame.branches.append(_Branch(truth, before=self._known(frame), mark=self._mark()))
+        if not truth:
+            self._keep(frame, index + 1, frame.branches[-1])
             frame.at = self._other_part(frame, index)
 
     def _other_part(self, frame: _Frame, index: int) -> int:
@@ -531,6 +582,7 @@ class Machine:
             yield Turn(Event.LEAVE, self._line(frame, index))
             yield Turn(Event.ENTER, self._line(frame, index))
         elif branch.has_run:
+            self._keep(frame, index + 1, branch)
             frame.at = self._other_part(frame, index)
         elif isinstance(part, ElseIf):
             frame.branches.pop()
@@ -772,6 +824,7 @@ class Machine:
             frame.at, frame.loops, frame.branches = frame.first, [], []
             return
         self._frames.pop()
+        self._go_on()
         if frame.call is not None and frame.call.kind is CallKind.PROFILE:
             yield Turn(Event.LEAVE, frame.callers[-1].line, frame.call.cycle)
 

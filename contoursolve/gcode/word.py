@@ -172,6 +172,8 @@ class Block(Shown, Struct, frozen=True):
     """The file of the subprogram that it belongs to, if that is another file."""
     substituted: tuple[Substitution, ...] = ()
     """What stands for variables in it, in the order of the line."""
+    mark: int = 0
+    """Under which number is kept what is known before it; 0: it is not kept."""
 
     def find(self, address: str) -> Word | None:
         """The first word with this address, or None."""

@@ -1,7 +1,7 @@
 """A program that calls or computes: its contours are solved where they run, and told once where they are written."""
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence, Set
 
 from msgspec.structs import replace
 
@@ -35,20 +35,22 @@ def machine_for(program: Program, dialect: Dialect, around: Surroundings) -> Mac
 def in_text_order(
     blocks: Sequence[Block],
     steps: Iterable[Step],
+    passed_over: Set[int],
     rules: tuple[Rule, ...],
     told: Sequence[Diagnostic],
     profiles: list[CycleProfile],
     state: State,
 ) -> Iterator[Step]:
-    """The steps of a program as it runs, each contour once, in the order in which the program is written. `told` are
-    findings about the whole text; the profiles of cycles are added to `profiles`; it begins in a state."""
+    """The steps of a program as it runs, each contour once, in the order in which the program is written. What is
+    wrong in lines that the program passes over, stops nothing. `told` are findings about the whole text; the profiles
+    of cycles are added to `profiles`; it begins in a state."""
     ran: dict[int, list[Step]] = {}
     before: dict[int, State] = {}
     findings, here = list(told), _Substituted()
     in_cycle, reached = list[Step](), set[int]()
-    for step in steps:
-        in_cycle.append(step)
-        state = step.before
+    for ran_step in steps:
+        in_cycle.append(ran_step)
+        state, step = ran_step.before, _as_warning(ran_step, passed_over)
         if not _counts(step, reached):
             continue
         here |= _substituted(step.blocks)
@@ -83,6 +85,23 @@ def in_text_order(
     rest = tuple(each for found in by_line.values() for each in found)
     if rest:
         yield Step((), state, findings=rest)
+
+
+def _as_warning(step: Step, passed_over: Set[int]) -> Step:
+    """A step; the errors of one whose lines do not run are warnings."""
+    if not step.blocks or step.blocks[0].file or step.blocks[0].line not in passed_over:
+        return step
+    if step.answer is not None:
+        diagnostics = tuple(map(_warning, step.answer.diagnostics))
+        step = replace(step, answer=replace(step.answer, diagnostics=diagnostics))
+    return replace(step, findings=tuple(map(_warning, step.findings)))
+
+
+def _warning(finding: Diagnostic) -> Diagnostic:
+    if finding.severity is not Severity.ERROR:
+        return finding
+    note = "the program passes over this line, so that this is a warning only"
+    return replace(finding, severity=Severity.WARNING, notes=(note, *finding.notes))
 
 
 def _counts(step: Step, reached: set[int]) -> bool:

@@ -60,7 +60,7 @@ from contoursolve.reading import (
     next_place,
 )
 from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import behind_turn, contours_of, reach_of, state_facts
+from contoursolve.reading.follow import Kept, behind_turn, contours_of, reach_of, state_facts
 from contoursolve.reading.lexicon import TURNED
 
 if TYPE_CHECKING:
@@ -333,8 +333,7 @@ class Examiner:
         """What states the start point apart."""
         self.profiles: list[CycleProfile] = []
         """The profiles of cycles that ran, known at the end."""
-        self.entered: list[State] = []
-        """The states to which the program comes back, of a branch or the profile of a cycle."""
+        self.kept = Kept()
         self.faulty: Counter[tuple[str, int]] | None = None
         """Of a program that runs: how often the contour at a line of a file was wrong. In a loop, each pass may be."""
         self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine, goes_on=goes_on)
@@ -370,7 +369,7 @@ class Examiner:
         steps = self.steps(machine.run(), start)
         outside = told if self.outside.is_strict else []
         first = cast("Dialect", self.dialect).initial_state(self.unit)
-        yield from in_text_order(blocks, steps, self.rules, outside, self.profiles, first)
+        yield from in_text_order(blocks, steps, machine.passed_over, self.rules, outside, self.profiles, first)
 
     def steps_alone(self, machine: Machine, start: Program | None, told: Callable[[Turn], None]) -> Iterator[Step]:
         """The same as one program without calls; `told` is called where it is not known what runs."""
@@ -417,7 +416,7 @@ class Examiner:
             context = Context(self.rules, self.unit, place=Span(turn.line, 1, 2))
             row = context.row(ReadIssue.NOT_FOLLOWED)
             self.diagnostics.append(report(context, row, Basis.RULE, [], reason=turn.reason))
-        return behind_turn(state, turn, self.entered, partial(self._begin, dialect, self.start), dialect.modes)
+        return behind_turn(state, turn, self.kept, partial(self._begin, dialect, self.start), dialect.modes)
 
     def _begin(self, dialect: Dialect, start: Program | None) -> State:
         """The modal state before a program, behind the block that states its start point apart."""
@@ -477,6 +476,8 @@ class Examiner:
                     yield Step((), state, findings=self._findings())
                 state, index = self._turn(dialect, line, state), index + 1
                 continue
+            if isinstance(line, Block) and line.mark:
+                self.kept.marked[line.mark] = state
             if isinstance(line, Passage):
                 passed = pass_plainly(held, index, moves=is_plain(state), joins=dialect.has_runs)
                 if passed:

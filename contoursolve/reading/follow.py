@@ -27,16 +27,19 @@ def contours_of(
     start: Program | None = None,
     end_of: Callable[[ParsedContour], End] = lambda _: None,
     left: list[State] | None = None,
+    marked: dict[int, State] | None = None,
 ) -> Iterator[tuple[ParsedContour, int]]:
     """Every contour of a program, with the index of the block behind it; the next one begins where `end_of` says.
 
     `start` are blocks that state the start point apart from the program. The state behind the last block is added to
-    `left`.
+    `left`, the states before marked blocks to `marked`.
     """
     for block in start.blocks if start else ():
         state = advance(state, block, modes)
     index = 0
     while index < len(blocks):
+        if marked is not None and blocks[index].mark:
+            marked[blocks[index].mark] = state
         found = find(blocks, index, state, modes)
         if found is not None and found.form.is_contour:
             index += reach_of(found, blocks, index)
@@ -49,20 +52,30 @@ def contours_of(
         left.append(state)
 
 
-def behind_turn(state: State, turn: Turn, entered: list[State], fresh: Callable[[], State], modes: Modes) -> State:
-    """The state behind a turn of a program that runs. `entered` are the states to which it comes back, `fresh` gives
-    the one in which nothing has run."""
+class Kept(Struct):
+    """The states of a program that runs which are needed again: those to which it comes back, and by their marks those
+    before blocks (see `Block`)."""
+
+    entered: list[State] = []
+    marked: dict[int, State] = {}
+
+
+def behind_turn(state: State, turn: Turn, kept: Kept, fresh: Callable[[], State], modes: Modes) -> State:
+    """The state behind a turn of a program that runs; `fresh` gives the one in which nothing has run."""
     match turn.event:
+        case Event.FRESH if turn.mark in kept.marked:
+            kept.entered.clear()
+            return kept.marked[turn.mark]
         case Event.FRESH:
-            entered.clear()
+            kept.entered.clear()
             state = fresh()
             told = f"{turn.reason}; say with --start where the tool is when it begins"
             unknown = tuple(axis for axis, at in state.axes.items() if at.value is None)
             return state.lose(unknown, told, Span(turn.line, 1, 2))
         case Event.ENTER:
-            entered.append(state)
+            kept.entered.append(state)
         case Event.LEAVE:
-            return entered.pop() if entered else state
+            return kept.entered.pop() if kept.entered else state
         case Event.LOST | Event.STOPPED:
             return state.lose(modes.axes, turn.reason, Span(turn.line, 1, 2))
         case _:

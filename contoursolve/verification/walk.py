@@ -14,7 +14,7 @@ from contoursolve.gcode import Block, Directive, Program
 from contoursolve.geometry import Length
 from contoursolve.reading import Modes, ParsedContour, State, advance, next_place
 from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import behind_turn, contours_of, state_facts
+from contoursolve.reading.follow import Kept, behind_turn, contours_of, state_facts
 from contoursolve.verification.contour_checks import check_contour
 from contoursolve.verification.decode import (
     FARTHEST,
@@ -175,13 +175,13 @@ def follow(
     first = dialect.initial_state(unit)
     for block in start.blocks if start else ():
         first = advance(first, block, modes)
-    state, entered = first, list[State]()
+    state, kept = first, Kept()
     for run in _runs(replace(program, blocks=blocks), modes, around):
         if isinstance(run, Turn):
-            state = behind_turn(state, run, entered, lambda: first, modes)
+            state = behind_turn(state, run, kept, lambda: first, modes)
             continue
         left = list[State]()
-        for found, behind in contours_of(run, dialect.find, modes, state, None, matching.end_of, left):
+        for found, behind in contours_of(run, dialect.find, modes, state, None, matching.end_of, left, kept.marked):
             claimed, block = matching.claimed(found), found.blocks[0]
             is_reached = all(each.is_reached for each in block.callers)
             if not block.file and (is_reached or block.line not in reached):

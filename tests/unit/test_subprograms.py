@@ -9,6 +9,8 @@ from examples_heidenhain import PROGRAMS
 
 from contoursolve import Status, expand, solve, solve_file
 from contoursolve.cli import main
+from contoursolve.output.document import to_json
+from contoursolve.verification import Document, Verdict, verify
 
 LATHE, MILL = "fanuc-lathe", "fanuc-mill"
 TAPER = "G01 X60. ,A120."
@@ -121,6 +123,83 @@ def test_what_nothing_calls_begins_where_start_says(tmp_path):
 )
 def test_what_is_told(text, told):
     assert any(told in each.message for each in solve(text, control=LATHE).diagnostics)
+
+
+BRANCHES = {
+    "fanuc-lathe": """#100={0}
+G00 X40. Z0.
+IF [#100 EQ 2] GOTO 20
+G01 X60. ,A120.
+Z-40. ,R3.
+X80.
+GOTO 30
+N20 G01 X50. ,A110.
+N30 G00 X100. Z5.
+G01 X110. ,A100.
+M30""",
+    "haas-lathe": """#100={0}
+G00 X40. Z0.
+IF [#100 EQ 1] THEN G01 X42.
+IF [#100 EQ 2] GOTO 20
+G01 X60. A120.
+N20 G01 X70. A110.
+M30""",
+    "siemens-840d": """R1={0}
+G17 G90 G0 X5 Y5
+IF R1==1
+G1 X20 ANG=45
+ELSE
+IF R1==2
+G1 X30 ANG=30
+ENDIF
+ENDIF
+G0 X0 Y0
+IF R1<>1 GOTOF SLOT
+G1 Y80 ANG=60
+GOTOF ENDS
+SLOT: G1 Y70 ANG=50
+ENDS: M30""",
+    "isg": """P1={0}
+G17 G90 G0 X5 Y5
+$IF P1==1
+G1 X20 #ANG=45
+$ELSE
+G1 X30 #ANG=30
+$ENDIF
+M30""",
+    "heidenhain": """BEGIN PGM A MM
+Q1 = {0}
+L X+10 Y+10 R0 F100
+FN 9: IF +Q1 EQU +2 GOTO LBL 5
+FL X+40 AN+30
+LBL 5
+L X+10 Y+10
+FL X+50 AN+20
+END PGM A MM""",
+}
+
+
+@pytest.mark.parametrize("control", BRANCHES)
+def test_a_part_that_does_not_run_begins_where_the_decision_was_made(control):
+    one, two = (solve(BRANCHES[control].format(value), control=control) for value in (1, 2))
+    assert {each.status for each in one.answers} == {Status.SOLVED}
+    if control != "haas-lathe":
+        assert [(each.lines, each.start.values) for each in one.answers] == [
+            (each.lines, each.start.values) for each in two.answers
+        ]
+    for value, result in enumerate((one, two), 1):
+        documents = Document("", BRANCHES[control].format(value).encode()), Document("", to_json(result).encode())
+        assert verify(*documents).verdict is Verdict.VERIFIED
+
+
+def test_what_is_wrong_in_a_part_that_does_not_run_stops_nothing():
+    text = BRANCHES[LATHE].format(1).replace("X50. ,A110.", "X50. Z-40. ,A110.")
+    (finding,) = solve(text, control=LATHE).diagnostics
+    assert (finding.code, finding.severity.value) == ("words-conflict", "warning")
+    assert "the program passes over this line" in finding.notes[0]
+    assert solve(text.replace("#100=1", "#100=2"), control=LATHE).diagnostics[0].severity.value == "error"
+    behind = "G00 X40. Z0.\nGOTO 9\nG01 X60. ,A120.\nN9 M30"
+    assert [each.severity.value for each in solve(behind, control=LATHE).diagnostics] == ["warning"]
 
 
 def test_what_calls_itself_twice_is_not_run_at_every_depth():
