@@ -1,14 +1,13 @@
 """Runs a program as a control does: assignments, jumps, loops, calls and profiles, from block to block."""
 
 import re
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from enum import Enum
 
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from contoursolve.execution.evaluate import evaluate, is_true, name_of_indexed, written
+from contoursolve.execution.evaluate import written
+from contoursolve.execution.events import EventKind, ProgramEvent
 from contoursolve.execution.language import (
     Assign,
     Call,
@@ -21,7 +20,6 @@ from contoursolve.execution.language import (
     For,
     Forget,
     If,
-    Indexed,
     Jump,
     JumpWay,
     Loop,
@@ -30,12 +28,12 @@ from contoursolve.execution.language import (
     ProgramEnd,
     Return,
     Strange,
-    Term,
     Unknown,
     Variable,
     When,
 )
 from contoursolve.execution.subprograms import Library, Source, Surroundings
+from contoursolve.execution.variables import Known, Variables
 from contoursolve.gcode import Block, Caller, Program, Substitution, Syntax, parse_block, split_lines
 
 MOST_STEPS = 100_000
@@ -43,9 +41,6 @@ MOST_STEPS = 100_000
 
 DEEPEST = 50
 """Calls in one another; controls admit ten at most."""
-
-MOST_LOGGED = 10_000
-"""Assignments that are kept in mind while it is not known whether a jump took place."""
 
 
 def needs_running(lines: Iterable[str], language: MacroLanguage | None) -> bool:
@@ -65,37 +60,6 @@ def machine_of(
     if language is None or not needs_running(lines, language):
         return None
     return Machine(program, language, Library(language, syntax, around.folders), around.values)
-
-
-class Event(Enum):
-    """What happens to what is known between two blocks."""
-
-    FRESH = "fresh"
-    """What follows does not run from what stands before it: where the tool stands is not known, or was kept."""
-    LOST = "lost"
-    """Where the tool stands is not known any more."""
-    ENTER = "enter"
-    """What follows begins here, and so does what comes behind it: the profile of a cycle, or one part of a branch."""
-    LEAVE = "leave"
-    """What ENTER began has ended: all is as it was there."""
-    BARRIER = "barrier"
-    """Nothing happens, but no contour goes on beyond this place."""
-    STOPPED = "stopped"
-    """The program stops here, or is not followed any further."""
-
-
-class Turn(Struct, frozen=True):
-    """What happens between two blocks, on which line, and why; `mark` is that of the block before which it was kept
-    what is known (see `Block`)."""
-
-    event: Event
-    line: int
-    reason: str = ""
-    mark: int = 0
-
-
-Known = float | str | Unknown
-"""What a variable holds."""
 
 
 class _Loop(Struct):
@@ -147,12 +111,10 @@ class Machine:
     ) -> None:
         self.language, self.library = language, library
         self.main = Source(program, language, is_other=False)
-        self.given = dict(given or {})
-        self.values: dict[str, Known] = dict(self.given)
+        self.variables = Variables(language, given or {}, self._own)
         self._frames: list[_Frame] = []
         self._visited: set[int] = set()
         self._steps = 0
-        self._assigned: list[str] = []
         self._joins: dict[tuple[str, int], tuple[str, int]] = {}
         """By file and index of a line that may be jumped to: why that is not known, and how much was assigned then."""
         self._went_back: set[tuple[str, int]] = set()
@@ -171,7 +133,7 @@ class Machine:
         """Whether calls are written out, whether what runs is reached from the main program, and whether what runs is
         passed over there."""
 
-    def run_alone(self) -> Iterator[Block | Turn]:
+    def run_alone(self) -> Iterator[Block | ProgramEvent]:
         """The blocks of the main program and of what it calls, as one program without calls. What is set to a value
         that is not known stays; the profile of a cycle that is written elsewhere does not run."""
         self._is_alone = True
@@ -180,12 +142,12 @@ class Machine:
         if last is not None and last not in self._visited and _ENDS_FILE.fullmatch(self.main.blocks[last].text):
             yield self.main.blocks[last]
 
-    def run_all_alone(self) -> Iterator[Block | Turn]:
+    def run_all_alone(self) -> Iterator[Block | ProgramEvent]:
         """The same, and behind it what nothing calls."""
         self._is_alone = True
         yield from self.run()
 
-    def run(self) -> Iterator[Block | Turn]:
+    def run(self) -> Iterator[Block | ProgramEvent]:
         """Every block in the order in which it runs, with numbers for its variables; behind the end of the program,
         what nothing calls."""
         yield from self._run_from(self._begin())
@@ -198,7 +160,7 @@ class Machine:
                 yield self._run_what_is_left(index)
                 yield from self._run_from(index)
 
-    def _run_what_is_left(self, index: int) -> Turn:
+    def _run_what_is_left(self, index: int) -> ProgramEvent:
         """Begin at a line that has not run: with what was known where a decision did not lead to it, or with nothing
         but the variables that were set once in all."""
         code, line = self.main.code(index), self.main.blocks[index].line
@@ -206,17 +168,15 @@ class Machine:
         is_begun = code.begins is not None or bool(code.labels) or self._follows_end(index)
         self._is_passing_over = index in self._untaken or not is_begun
         why = f"nothing in this file calls {told}" if is_begun else f"{told} does not run here"
-        once = {name for name, times in Counter(self._assigned).items() if times == 1}
-        rest = {name: value for name, value in self.values.items() if name in once or name in self.given}
-        mark, self.values = self._untaken.get(index, (0, rest))
+        mark, self.variables.values = self._untaken.get(index, (0, self.variables.set_once()))
         self._here, self._is_marking = mark, False
-        return Turn(Event.FRESH, line, why, mark)
+        return ProgramEvent(EventKind.FRESH, line, why, mark)
 
     def _keep(self, frame: _Frame, first: int, branch: _Branch | None = None) -> None:
         """Keep what is known now, or where a branch began, for a line to which a decision does not lead."""
         first = next((at for at in range(first, len(frame.source)) if self._says_something(at)), first)
         if frame.source is self.main and first not in self._untaken:
-            mark, before = (branch.mark, branch.before) if branch else (self._mark(), self._known(frame))
+            mark, before = (branch.mark, branch.before) if branch else (self._mark(), self.variables.all())
             self._untaken[first] = mark, dict(before)
 
     def _mark(self) -> int:
@@ -230,9 +190,9 @@ class Machine:
         """Whatever was known, it may be something else now."""
         self._here, self._is_marking = 0, False
 
-    def _known(self, frame: _Frame) -> dict[str, Known]:
-        """What variables hold, those of a subprogram among them."""
-        return self.values | (frame.own or {})
+    def _own(self) -> dict[str, Known] | None:
+        """The local variables of the subprogram that runs."""
+        return next((frame.own for frame in reversed(self._frames) if frame.own is not None), None)
 
     def _follows_end(self, index: int) -> bool:
         """Whether a line stands behind the end of a program, so that only a call leads there."""
@@ -240,13 +200,13 @@ class Machine:
         said = self.main.code(before).statements if before is not None else ()
         return any(isinstance(each, ProgramEnd | Return) for each in said)
 
-    def _unfollowed(self, first: int) -> Iterator[Block | Turn]:
+    def _unfollowed(self, first: int) -> Iterator[Block | ProgramEvent]:
         """What has not run from a line on, as it is written."""
         for index in range(first, len(self.main)):
             if index not in self._visited:
                 block = self.main.blocks[index]
                 if index == first or index - 1 in self._visited:
-                    yield Turn(Event.FRESH, block.line, "the program is not followed as far as this")
+                    yield ProgramEvent(EventKind.FRESH, block.line, "the program is not followed as far as this")
                 yield block
 
     def _begin(self) -> int:
@@ -263,7 +223,7 @@ class Machine:
         sections = self.main.sections
         return {sections[name] for name in self.main.called() if name in sections}
 
-    def _run_from(self, index: int) -> Iterator[Block | Turn]:
+    def _run_from(self, index: int) -> Iterator[Block | ProgramEvent]:
         """What runs from a line of the main file on, up to the end of the program or what has run before."""
         head = next((at for at in range(index, len(self.main)) if self._says_something(at)), index)
         last = self.main.section_end(head)
@@ -279,20 +239,20 @@ class Machine:
                 continue
             if self._steps >= MOST_STEPS:
                 told = f"the program runs more than {MOST_STEPS:,} blocks; it is not followed any further"
-                yield Turn(Event.STOPPED, frame.source.blocks[frame.at].line, told)
+                yield ProgramEvent(EventKind.STOPPED, frame.source.blocks[frame.at].line, told)
                 return
             # A long program is no endless one.
             self._steps += frame.source is not self.main or frame.at in self._visited
             try:
                 for each in self._step(frame):
-                    if isinstance(each, Turn) and each.event is not Event.BARRIER:
+                    if isinstance(each, ProgramEvent) and each.kind is not EventKind.BARRIER:
                         self._go_on()
                     yield each
             except _RefusedError as error:
                 # The control stops here; what follows is examined as if it went on.
                 if self._is_alone:
                     yield self._as_written(frame, frame.at - 1)
-                yield Turn(Event.STOPPED, self._line(frame, frame.at - 1), str(error))
+                yield ProgramEvent(EventKind.STOPPED, self._line(frame, frame.at - 1), str(error))
 
     def _says_something(self, index: int) -> bool:
         """Whether a line of the main file has more than its number, comments and blanks."""
@@ -302,7 +262,7 @@ class Machine:
 
     # One line
 
-    def _step(self, frame: _Frame) -> Iterator[Block | Turn]:
+    def _step(self, frame: _Frame) -> Iterator[Block | ProgramEvent]:
         """Run the next line of a frame."""
         index = frame.at
         yield from self._join(frame, index)
@@ -319,14 +279,14 @@ class Machine:
         for statement in rest:
             if not isinstance(statement, Assign | Forget):
                 moving = [statement, *rest]
-            elif not self._assign(statement) and self._is_alone:
+            elif not self.variables.assign(statement) and self._is_alone:
                 code = replace(code, rest=block.text)
         if frame.callers and any(isinstance(each, Return) for each in moving):
             code = replace(code, rest=_without_return(code.rest, block))
         ran = self._block(frame, block, code)
         if not self._is_passed_over(frame, code, ran):
             if self._last[0] is not frame or block.line <= self._last[1]:
-                yield Turn(Event.BARRIER, block.line)
+                yield ProgramEvent(EventKind.BARRIER, block.line)
             self._last = (frame, block.line)
             yield replace(ran, mark=self._here) if self._is_marking else ran
             self._go_on()
@@ -338,7 +298,7 @@ class Machine:
         has a word that is mistyped."""
         variables = [each.variable for each in code.statements if isinstance(each, Assign)]
         names = [each.name for each in variables if isinstance(each, Variable)]
-        is_strange = any(name.isalpha() and name not in self.values for name in names)
+        is_strange = any(name.isalpha() and name not in self.variables.values for name in names)
         rest = parse_block(code.rest, block.line, block.syntax) if is_strange else block
         return is_strange and any(word.address != "N" for word in rest.words)
 
@@ -351,11 +311,11 @@ class Machine:
             return not ran.syntax.comment.search(ran.text)
         return bool(code.statements) and not code.rest.strip()
 
-    def _unclear(self, frame: _Frame, index: int, reason: str) -> Iterator[Block | Turn]:
+    def _unclear(self, frame: _Frame, index: int, reason: str) -> Iterator[Block | ProgramEvent]:
         """A line that does what is not known; without calls, it stays as it is written."""
         if self._is_alone:
             yield self._as_written(frame, index)
-        yield Turn(Event.LOST, self._line(frame, index), reason)
+        yield ProgramEvent(EventKind.LOST, self._line(frame, index), reason)
 
     def _block(self, frame: _Frame, block: Block, code: CodeLine) -> Block:
         """A block with numbers in the place of variables."""
@@ -363,7 +323,7 @@ class Machine:
             return block
         text, changes = code.rest, list[Substitution]()
         for word in reversed(code.words):
-            value, typed = self._value(word.value), block.text[word.begin : word.end]
+            value, typed = self.variables.value(word.value), block.text[word.begin : word.end]
             if isinstance(value, float):
                 number = written(value)
                 text = word.put(number, text)
@@ -380,87 +340,38 @@ class Machine:
             substituted=tuple(reversed(changes)),
         )
 
-    def _join(self, frame: _Frame, index: int) -> Iterator[Turn]:
+    def _join(self, frame: _Frame, index: int) -> Iterator[ProgramEvent]:
         """What is not known on a line because it may have been jumped to."""
         joined = self._joins.pop((frame.source.name, index), None)
         if joined is not None:
             reason, count = joined
-            self._lose(self._assigned[count:], reason)
-            yield Turn(Event.LOST, frame.source.blocks[index].line, reason)
-
-    # Values
-
-    def _value(self, term: Term) -> Known:
-        return evaluate(term, self._look_up)
-
-    def _look_up(self, name: str) -> Known:
-        for frame in reversed(self._frames):
-            if frame.own is not None:
-                if name in frame.own:
-                    return frame.own[name]
-                if _is_local(name):
-                    return Unknown(f"{name} is not given by the call")
-                break
-        found = self.values.get(name)
-        return found if found is not None else Unknown(self.language.unknown(name))
-
-    def _assign(self, statement: Assign | Forget) -> bool:
-        """Set a variable; whether its value is known."""
-        name = self._name(statement.variable)
-        value = Unknown(statement.reason) if isinstance(statement, Forget) else self._value(statement.value)
-        if isinstance(name, Unknown):
-            # Which one it is, is not known: it may be any.
-            self._lose([*self.values], name.reason)
-            return False
-        self._set(name, value)
-        return not isinstance(value, Unknown)
-
-    def _name(self, variable: Variable | Indexed) -> str | Unknown:
-        if isinstance(variable, Variable):
-            return variable.name
-        indices = [self._value(each) for each in variable.indices]
-        unknown = next((each for each in indices if isinstance(each, Unknown)), None)
-        return unknown or name_of_indexed(variable.prefix, indices, variable.suffix)
-
-    def _set(self, name: str, value: Known) -> None:
-        if name in self.given and not any(frame.own is not None and name in frame.own for frame in self._frames):
-            # What is stated apart from the program holds.
-            return
-        own = next((frame.own for frame in reversed(self._frames) if frame.own is not None), None)
-        target = own if own is not None and _is_local(name) else self.values
-        target[name] = value
-        if len(self._assigned) < MOST_LOGGED:
-            self._assigned.append(name)
-
-    def _lose(self, names: Iterable[str], reason: str) -> None:
-        for name in names:
-            if name not in self.given:
-                self.values[name] = Unknown(reason)
+            self.variables.lose(self.variables.assigned[count:], reason)
+            yield ProgramEvent(EventKind.LOST, frame.source.blocks[index].line, reason)
 
     # Statements that move nothing
 
-    def _do(self, frame: _Frame, index: int, statement: MacroStatement) -> Iterator[Block | Turn]:
+    def _do(self, frame: _Frame, index: int, statement: MacroStatement) -> Iterator[Block | ProgramEvent]:
         """Carry out a statement of a line."""
         yield from _DO[type(statement)](self, frame, index, statement)
 
-    def _do_assign(self, _frame: _Frame, _index: int, statement: Assign | Forget) -> Iterator[Block | Turn]:
-        self._assign(statement)
+    def _do_assign(self, _frame: _Frame, _index: int, statement: Assign | Forget) -> Iterator[Block | ProgramEvent]:
+        self.variables.assign(statement)
         yield from ()
 
-    def _do_end(self, _frame: _Frame, _index: int, _statement: ProgramEnd) -> Iterator[Block | Turn]:
+    def _do_end(self, _frame: _Frame, _index: int, _statement: ProgramEnd) -> Iterator[Block | ProgramEvent]:
         self._frames = []
         yield from ()
 
-    def _do_strange(self, frame: _Frame, index: int, statement: Strange) -> Iterator[Block | Turn]:
-        self._lose([*self.values], statement.reason)
+    def _do_strange(self, frame: _Frame, index: int, statement: Strange) -> Iterator[Block | ProgramEvent]:
+        self.variables.lose_all(statement.reason)
         yield from self._unclear(frame, index, statement.reason)
 
-    def _do_when(self, frame: _Frame, index: int, when: When) -> Iterator[Block | Turn]:
-        truth = self._truth(when.condition)
+    def _do_when(self, frame: _Frame, index: int, when: When) -> Iterator[Block | ProgramEvent]:
+        truth = self.variables.truth(when.condition)
         for statement in when.then:
             if isinstance(truth, Unknown) and isinstance(statement, Assign | Forget):
-                name = self._name(statement.variable)
-                self._set(name, truth) if isinstance(name, str) else self._lose([*self.values], truth.reason)
+                name = self.variables.name(statement.variable)
+                self.variables.set(name, truth) if isinstance(name, str) else self.variables.lose_all(truth.reason)
             elif isinstance(statement, Jump):
                 yield from self._jump(frame, index, replace(statement, condition=when.condition))
             elif isinstance(truth, Unknown):
@@ -468,16 +379,12 @@ class Machine:
             elif truth:
                 yield from self._do(frame, index, statement)
 
-    def _truth(self, condition: Term) -> bool | Unknown:
-        value = self._value(condition)
-        return value if isinstance(value, Unknown) else is_true(value)
-
     def _line(self, frame: _Frame, index: int) -> int:
         """The line of the main file at which something on a line happens."""
         return frame.callers[0].line if frame.source.name and frame.callers else frame.source.blocks[index].line
 
-    def _jump(self, frame: _Frame, index: int, jump: Jump) -> Iterator[Block | Turn]:
-        truth = self._truth(jump.condition) if jump.condition is not None else True
+    def _jump(self, frame: _Frame, index: int, jump: Jump) -> Iterator[Block | ProgramEvent]:
+        truth = self.variables.truth(jump.condition) if jump.condition is not None else True
         target = self._target(frame, index, jump)
         if truth is False:
             if target is not None:
@@ -488,11 +395,11 @@ class Machine:
                 return
             if target > index:
                 why = f"line {self._line(frame, index)} may have jumped here: {truth.reason}"
-                self._joins.setdefault((frame.source.name, target), (why, len(self._assigned)))
+                self._joins.setdefault((frame.source.name, target), (why, len(self.variables.assigned)))
                 if self._is_alone:
                     yield self._as_written(frame, index)
                 return
-            self._lose(self._assigned_in(frame, target, index), truth.reason)
+            self.variables.lose(self._assigned_in(frame, target, index), truth.reason)
             yield from self._unclear(frame, index, truth.reason)
             key = (frame.source.name, index)
             if key in self._went_back:
@@ -513,7 +420,7 @@ class Machine:
         """Refuse to go back to a line where everything was the same before: that would go on for ever."""
         calls = tuple((each.source.name, each.at, each.left) for each in self._frames)
         # Values have no order; what they were is all that matters.
-        now = hash((frame.source.name, index, target, calls, frozenset(self.values.items())))
+        now = hash((frame.source.name, index, target, calls, frozenset(self.variables.values.items())))
         if now in self._passed:
             raise _RefusedError(f"line {self._line(frame, index)} runs for ever: nothing changes from pass to pass")
         self._passed.add(now)
@@ -526,7 +433,7 @@ class Machine:
             JumpWay.FORWARD: forward,
             JumpWay.BACKWARD: backward,
         }[jump.way]
-        value = self._resolve(jump.target)
+        value = self.variables.resolve(jump.target)
         if isinstance(value, Unknown):
             return None
         if value.isdigit() and self.language.jumps_to_numbers:
@@ -540,73 +447,66 @@ class Machine:
                 within = statement.then if isinstance(statement, When) else (statement,)
                 for each in within:
                     variable = each.variable if isinstance(each, Assign | Forget | For) else None
-                    name = self._name(variable) if variable is not None else None
+                    name = self.variables.name(variable) if variable is not None else None
                     if isinstance(name, str):
                         yield name
                     elif name is not None:
-                        yield from [*self.values]
+                        yield from [*self.variables.values]
 
     # Branches
 
-    def _begin_branch(self, frame: _Frame, index: int, branch: If | ElseIf) -> Iterator[Block | Turn]:
-        truth = self._truth(branch.condition)
+    def _begin_branch(self, frame: _Frame, index: int, branch: If | ElseIf) -> Iterator[Block | ProgramEvent]:
+        truth = self.variables.truth(branch.condition)
         if isinstance(truth, Unknown):
-            frame.branches.append(_Branch(True, truth.reason, dict(self.values)))
+            frame.branches.append(_Branch(True, truth.reason, dict(self.variables.values)))
             if self._is_alone:
                 yield self._as_written(frame, index)
-            yield Turn(Event.ENTER, self._line(frame, index))
+            yield ProgramEvent(EventKind.ENTER, self._line(frame, index))
             return
-        frame.branches.append(_Branch(truth, before=self._known(frame), mark=self._mark()))
+        frame.branches.append(_Branch(truth, before=self.variables.all(), mark=self._mark()))
         if not truth:
             self._keep(frame, index + 1, frame.branches[-1])
-            frame.at = self._other_part(frame, index)
+            frame.at = self._end(frame, index, frame.source.next_part(index, frame.last), "IF")
 
-    def _other_part(self, frame: _Frame, index: int) -> int:
-        """The index of the line with the next part of a branch, or its end."""
-        depth = 0
-        for other in range(index + 1, frame.last + 1):
-            for statement in frame.source.code(other).statements:
-                if isinstance(statement, If):
-                    depth += 1
-                elif isinstance(statement, EndIf) and depth:
-                    depth -= 1
-                elif isinstance(statement, EndIf | Else | ElseIf) and not depth:
-                    return other
-        raise _RefusedError(f"the IF of line {self._line(frame, index)} has no end")
-
-    def _next_branch(self, frame: _Frame, index: int, part: ElseIf | Else) -> Iterator[Block | Turn]:
+    def _next_branch(self, frame: _Frame, index: int, part: ElseIf | Else) -> Iterator[Block | ProgramEvent]:
         branch = frame.branches[-1] if frame.branches else _Branch(True)
         if branch.reason:
             # Nobody knows which part runs: this one begins where the first one did.
-            self.values = dict(branch.before)
-            yield Turn(Event.LEAVE, self._line(frame, index))
-            yield Turn(Event.ENTER, self._line(frame, index))
+            self.variables.values = dict(branch.before)
+            yield ProgramEvent(EventKind.LEAVE, self._line(frame, index))
+            yield ProgramEvent(EventKind.ENTER, self._line(frame, index))
         elif branch.has_run:
             self._keep(frame, index + 1, branch)
-            frame.at = self._other_part(frame, index)
+            frame.at = self._end(frame, index, frame.source.next_part(index, frame.last), "IF")
         elif isinstance(part, ElseIf):
             frame.branches.pop()
             yield from self._begin_branch(frame, index, part)
         else:
             branch.has_run = True
 
-    def _end_branch(self, frame: _Frame, index: int, _end: EndIf) -> Iterator[Block | Turn]:
+    def _end_branch(self, frame: _Frame, index: int, _end: EndIf) -> Iterator[Block | ProgramEvent]:
         branch = frame.branches.pop() if frame.branches else _Branch(True)
         if branch.reason:
             # Whatever one of its parts may have set.
-            first = next((each for each in range(index, -1, -1) if _begins_branch(frame.source.code(each))), 0)
-            self._lose(self._assigned_in(frame, first, index), branch.reason)
-            yield Turn(Event.LEAVE, self._line(frame, index))
+            first = frame.source.last_if(index)
+            self.variables.lose(self._assigned_in(frame, first, index), branch.reason)
+            yield ProgramEvent(EventKind.LEAVE, self._line(frame, index))
             yield from self._unclear(frame, index, branch.reason)
+
+    def _end(self, frame: _Frame, index: int, found: int | None, what: str) -> int:
+        """The end of what begins on a line. Raises if there is none."""
+        if found is None:
+            raise _RefusedError(f"the {what} of line {self._line(frame, index)} has no end")
+        return found
 
     # Loops
 
-    def _begin_loop(self, frame: _Frame, index: int, loop: Loop | For) -> Iterator[Block | Turn]:
+    def _begin_loop(self, frame: _Frame, index: int, loop: Loop | For) -> Iterator[Block | ProgramEvent]:
         known = next((each for each in frame.loops if each.first == index), None)
         if isinstance(loop, For):
             yield from self._count(frame, index, loop, known)
             return
-        truth = self._truth(loop.condition) if loop.condition is not None else True
+        truth = self.variables.truth(loop.condition) if loop.condition is not None else True
         if truth is False:
             self._leave_loop(frame, index, loop.name)
         elif known is None or not isinstance(truth, Unknown):
@@ -614,15 +514,16 @@ class Machine:
             if isinstance(truth, Unknown):
                 yield from self._enter_unknown_loop(frame, index, loop.name, truth)
 
-    def _enter_unknown_loop(self, frame: _Frame, index: int, name: str, why: Unknown) -> Iterator[Block | Turn]:
+    def _enter_unknown_loop(self, frame: _Frame, index: int, name: str, why: Unknown) -> Iterator[Block | ProgramEvent]:
         """Run a loop once of which nobody knows how often it runs."""
         frame.loops[-1].is_certain = False
-        self._lose(self._assigned_in(frame, index, self._loop_end(frame, index, name)), why.reason)
+        last = self._end(frame, index, frame.source.loop_end(index, frame.last, name), "loop")
+        self.variables.lose(self._assigned_in(frame, index, last), why.reason)
         yield from self._unclear(frame, index, why.reason)
 
-    def _count(self, frame: _Frame, index: int, loop: For, known: _Loop | None) -> Iterator[Block | Turn]:
-        name = self._name(loop.variable)
-        first, last, step = (self._value(each) for each in (loop.first, loop.last, loop.step))
+    def _count(self, frame: _Frame, index: int, loop: For, known: _Loop | None) -> Iterator[Block | ProgramEvent]:
+        name = self.variables.name(loop.variable)
+        first, last, step = (self.variables.value(each) for each in (loop.first, loop.last, loop.step))
         if known is None:
             frame.loops.append(_Loop(loop.name, index))
             if not (isinstance(name, str) and isinstance(first, float) and isinstance(last, float)):
@@ -632,8 +533,8 @@ class Machine:
                 return
             frame.loops[-1].last = last
             frame.loops[-1].step = step if isinstance(step, float) else 1.0
-            self._set(name, first)
-        current = self._value(loop.variable)
+            self.variables.set(name, first)
+        current = self.variables.value(loop.variable)
         state = frame.loops[-1]
         is_over = isinstance(current, float) and state.last is not None and (current - state.last) * state.step > 0
         if is_over:
@@ -642,28 +543,16 @@ class Machine:
     def _leave_loop(self, frame: _Frame, index: int, name: str) -> None:
         """Go on behind a loop."""
         frame.loops = [each for each in frame.loops if each.first != index]
-        frame.at = self._loop_end(frame, index, name) + 1
+        frame.at = self._end(frame, index, frame.source.loop_end(index, frame.last, name), "loop") + 1
 
-    def _loop_end(self, frame: _Frame, index: int, name: str) -> int:
-        depth = 0
-        for other in range(index + 1, frame.last + 1):
-            for statement in frame.source.code(other).statements:
-                if isinstance(statement, Loop | For) and (not name or statement.name == name):
-                    depth += 1
-                elif isinstance(statement, EndLoop) and (not name or statement.name == name):
-                    if not depth:
-                        return other
-                    depth -= 1
-        raise _RefusedError(f"the loop of line {self._line(frame, index)} has no end")
-
-    def _end_loop(self, frame: _Frame, index: int, end: EndLoop) -> Iterator[Block | Turn]:
+    def _end_loop(self, frame: _Frame, index: int, end: EndLoop) -> Iterator[Block | ProgramEvent]:
         loop = next((each for each in reversed(frame.loops) if not end.name or each.name == end.name), None)
         if loop is None:
             return
-        until = self._truth(end.until) if end.until is not None else False
+        until = self.variables.truth(end.until) if end.until is not None else False
         if not loop.is_certain or isinstance(until, Unknown):
             reason = until.reason if isinstance(until, Unknown) else "how often the loop runs is not known"
-            self._lose(self._assigned_in(frame, loop.first, index), reason)
+            self.variables.lose(self._assigned_in(frame, loop.first, index), reason)
             frame.loops.remove(loop)
             yield from self._unclear(frame, index, reason)
         elif until:
@@ -671,20 +560,20 @@ class Machine:
         else:
             counting = next((each for each in frame.source.code(loop.first).statements if isinstance(each, For)), None)
             if counting is not None:
-                value, name = self._value(counting.variable), self._name(counting.variable)
+                value, name = self.variables.value(counting.variable), self.variables.name(counting.variable)
                 if isinstance(value, float) and isinstance(name, str):
-                    self._set(name, value + loop.step)
+                    self.variables.set(name, value + loop.step)
             self._check_repetition(frame, index, loop.first)
             frame.at = loop.first
 
     # Calls
 
-    def _call(self, frame: _Frame, index: int, call: Call) -> Iterator[Block | Turn]:
-        line, count = self._line(frame, index), self._value(call.count)
+    def _call(self, frame: _Frame, index: int, call: Call) -> Iterator[Block | ProgramEvent]:
+        line, count = self._line(frame, index), self.variables.value(call.count)
         text = frame.source.blocks[index].text.strip()
-        found = self._find(frame, index, call)
+        found = self.library.find_called(call, frame.source, index, self.main, self.variables.resolve)
         if isinstance(found, Unknown):
-            self._lose([*self.values], found.reason)
+            self.variables.lose_all(found.reason)
             yield from self._unclear(frame, index, found.reason)
             return
         if len(self._frames) >= DEEPEST:
@@ -706,12 +595,12 @@ class Machine:
                 yield frame.source.blocks[index]
             if not call.cycle.startswith("G"):
                 told = f"{call.cycle} cuts a profile that is written elsewhere, which a program without calls has not"
-                yield Turn(Event.BARRIER, line, told)
+                yield ProgramEvent(EventKind.BARRIER, line, told)
             return
         own = self._arguments(call, source, first)
         caller = Caller(line, text, call.cycle, self._is_reached)
         if call.kind is CallKind.PROFILE:
-            yield Turn(Event.ENTER, line, call.cycle)
+            yield ProgramEvent(EventKind.ENTER, line, call.cycle)
             if is_behind:
                 frame.at = last + 1
         self._frames.append(_Frame(source, first, first, last, call, (*frame.callers, caller), times, own))
@@ -730,7 +619,7 @@ class Machine:
         return any(word.address != "N" for word in parse_block(code.rest, block.line, block.syntax).words)
 
     def _arguments(self, call: Call, source: Source, first: int) -> dict[str, Known] | None:
-        values = {name: self._value(term) for name, term in call.arguments}
+        values = {name: self.variables.value(term) for name, term in call.arguments}
         formal = source.code(first).parameters if source.blocks else ()
         if formal:
             given = list(values.values())
@@ -738,61 +627,10 @@ class Machine:
         if call.is_local:
             return dict(values)
         for name, value in values.items():
-            self._set(name, value)
+            self.variables.set(name, value)
         return None
 
-    def _find(self, frame: _Frame, index: int, call: Call) -> tuple[Source, int, int] | Unknown:
-        """What a call runs: a file, and the indices of its first and last line there."""
-        text, source = frame.source.blocks[index].text.strip(), frame.source
-        first = self._resolve(call.target)
-        last = self._resolve(call.last) if call.last is not None else None
-        for each in (first, last):
-            if isinstance(each, Unknown):
-                return Unknown(f"what {text} calls is not known: {each.reason}")
-        if call.kind is CallKind.LINES or (call.kind is CallKind.PROFILE and call.cycle.startswith("G")):
-            begin = source.number(str(first), 0, len(source) - 1)
-            end = source.number(str(last), begin or 0, len(source) - 1) if last is not None else len(source) - 1
-            if begin is None or end is None:
-                missing = first if begin is None else last
-                return Unknown(f"{text} names block {missing}, which is not there")
-            return source, begin, end
-        if call.kind is CallKind.PROGRAM:
-            return self._find_program(source, str(first), text)
-        return self._find_section(source, index, call, str(first), str(last) if last is not None else None)
-
-    def _resolve(self, target: Term | str) -> str | Unknown:
-        """The name or the number of what is called."""
-        value = target if isinstance(target, str) else self._value(target)
-        return f"{value:.0f}" if isinstance(value, float) else value
-
-    def _find_program(self, source: Source, name: str, text: str) -> tuple[Source, int, int] | Unknown:
-        for each in dict.fromkeys((source, self.main)):
-            if name in each.sections:
-                first = each.sections[name]
-                return each, first, each.section_end(first)
-        found = self.library.find(name)
-        if found is None or not len(found):
-            files = self.language.files(name)
-            where = f"; neither is {files[0]} beside it: name its folder with --path" if files else ""
-            return Unknown(f"{text} calls {name}, which is not in this file{where}")
-        first = found.sections.get(name, 0)
-        return found, first, found.section_end(first) if len(found.sections) > 1 else len(found) - 1
-
-    def _find_section(
-        self, source: Source, index: int, call: Call, name: str, last: str | None
-    ) -> tuple[Source, int, int] | Unknown:
-        text, everywhere = source.blocks[index].text.strip(), range(len(source))
-        first = source.label(name, everywhere)
-        if first is None and call.kind is CallKind.PROFILE:
-            return self._find_program(source, name, text)
-        if first is None:
-            return Unknown(f"{text} names {name}, which is not there")
-        if last is not None:
-            end = source.label(last, everywhere)
-            return (source, first, end) if end is not None else Unknown(f"{text} names {last}, which is not there")
-        return source, first, index - 1 if call.kind is CallKind.SECTION else len(source) - 1
-
-    def _return(self, frame: _Frame, _index: int, end: Return) -> Iterator[Block | Turn]:
+    def _return(self, frame: _Frame, _index: int, end: Return) -> Iterator[Block | ProgramEvent]:
         if frame.call is None:
             if not self.language.passes_return:
                 self._frames = []
@@ -800,7 +638,7 @@ class Machine:
         caller = self._frames[-2]
         yield from self._leave(frame)
         if end.to is not None:
-            value = self._value(end.to)
+            value = self.variables.value(end.to)
             target = (
                 caller.source.number(f"{value:.0f}", 0, len(caller.source) - 1) if isinstance(value, float) else None
             )
@@ -808,7 +646,7 @@ class Machine:
                 raise _RefusedError("the subprogram returns to a block that is not there")
             caller.at = target
 
-    def _unwind(self, source: Source, first: int) -> Iterator[Turn]:
+    def _unwind(self, source: Source, first: int) -> Iterator[ProgramEvent]:
         """End what calls itself at all depths: otherwise, the calls behind each of its calls multiply."""
         outermost = next(
             (at for at, each in enumerate(self._frames) if (each.source, each.first) == (source, first)), 1
@@ -817,7 +655,7 @@ class Machine:
             frame.left = 1
             yield from self._leave(frame)
 
-    def _leave(self, frame: _Frame) -> Iterator[Turn]:
+    def _leave(self, frame: _Frame) -> Iterator[ProgramEvent]:
         """The end of what a frame runs: it runs again, or what called it goes on."""
         frame.left -= 1
         if frame.left > 0:
@@ -826,10 +664,10 @@ class Machine:
         self._frames.pop()
         self._go_on()
         if frame.call is not None and frame.call.kind is CallKind.PROFILE:
-            yield Turn(Event.LEAVE, frame.callers[-1].line, frame.call.cycle)
+            yield ProgramEvent(EventKind.LEAVE, frame.callers[-1].line, frame.call.cycle)
 
 
-_DO: Mapping[type[MacroStatement], Callable[..., Iterator[Block | Turn]]] = {
+_DO: Mapping[type[MacroStatement], Callable[..., Iterator[Block | ProgramEvent]]] = {
     Assign: Machine._do_assign,
     Forget: Machine._do_assign,
     When: Machine._do_when,
@@ -865,16 +703,5 @@ def _without_return(text: str, block: Block) -> str:
     return text
 
 
-def _is_local(name: str) -> bool:
-    """Whether a variable belongs to one subprogram: #1 to #33 of Fanuc."""
-    return name.startswith("#") and name[1:].isdigit() and 1 <= int(name[1:]) <= _LAST_LOCAL
-
-
-_LAST_LOCAL = 33
-
 _ENDS_FILE = re.compile(r"\s*(?:%|\d*\s*END\s+PGM\b.*)\s*", re.IGNORECASE)
 """The last line of a file, which stands behind all of its subprograms."""
-
-
-def _begins_branch(code: CodeLine) -> bool:
-    return any(isinstance(each, If) for each in code.statements)

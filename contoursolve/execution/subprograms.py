@@ -2,13 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 
 from msgspec import Struct
 
-from contoursolve.execution.language import Call, CodeLine, MacroLanguage
+from contoursolve.execution.language import (
+    Call,
+    CallKind,
+    CodeLine,
+    Else,
+    ElseIf,
+    EndIf,
+    EndLoop,
+    For,
+    If,
+    Loop,
+    MacroLanguage,
+    Term,
+    Unknown,
+)
 from contoursolve.gcode import Block, Program, UnreadableProgramError, parse, read_bytes
 from contoursolve.gcode.contents import decode
 from contoursolve.gcode.syntax import Syntax
@@ -23,6 +37,9 @@ class Surroundings(Struct, frozen=True):
 
 
 ALONE = Surroundings()
+
+Resolve = Callable[[Term | str], str | Unknown]
+"""From what a call names to the name or number itself."""
 
 
 def surroundings_of(
@@ -102,6 +119,40 @@ class Source:
         later = (index for index in self.sections.values() if index > first)
         return min(later, default=len(self)) - 1
 
+    def next_part(self, index: int, last: int) -> int | None:
+        """The index of the line with the next part of the branch that a line begins or goes on with, or with its end;
+        None if there is none up to the last line."""
+        depth = 0
+        for other in range(index + 1, last + 1):
+            for statement in self.code(other).statements:
+                if isinstance(statement, If):
+                    depth += 1
+                elif isinstance(statement, EndIf) and depth:
+                    depth -= 1
+                elif isinstance(statement, EndIf | Else | ElseIf) and not depth:
+                    return other
+        return None
+
+    def loop_end(self, index: int, last: int, name: str) -> int | None:
+        """The index of the last line of the loop that a line begins; None if there is none up to the last line."""
+        depth = 0
+        for other in range(index + 1, last + 1):
+            for statement in self.code(other).statements:
+                if not isinstance(statement, Loop | For | EndLoop) or (name and statement.name != name):
+                    continue
+                if not isinstance(statement, EndLoop):
+                    depth += 1
+                elif depth:
+                    depth -= 1
+                else:
+                    return other
+        return None
+
+    def last_if(self, index: int) -> int:
+        """The index of the last line up to another that begins a branch; 0 if there is none."""
+        lines = range(index, -1, -1)
+        return next((each for each in lines if any(isinstance(one, If) for one in self.code(each).statements)), 0)
+
 
 class Library:
     """The subprograms that may be called from a program, found by their names."""
@@ -130,6 +181,49 @@ class Library:
             path = next((self._listed[each] for each in names if each in self._listed), None)
             self._files[name] = self._open(path) if path is not None else None
         return self._files[name]
+
+    def find_called(
+        self, call: Call, source: Source, index: int, main: Source, resolve: Resolve
+    ) -> tuple[Source, int, int] | Unknown:
+        """What a call on a line of a file runs: a file, and the indices of its first and last line there."""
+        text = source.blocks[index].text.strip()
+        first = resolve(call.target)
+        last = resolve(call.last) if call.last is not None else None
+        for each in (first, last):
+            if isinstance(each, Unknown):
+                return Unknown(f"what {text} calls is not known: {each.reason}")
+        if call.kind is CallKind.LINES or (call.kind is CallKind.PROFILE and call.cycle.startswith("G")):
+            begin = source.number(str(first), 0, len(source) - 1)
+            end = source.number(str(last), begin or 0, len(source) - 1) if last is not None else len(source) - 1
+            if begin is None or end is None:
+                missing = first if begin is None else last
+                return Unknown(f"{text} names block {missing}, which is not there")
+            return source, begin, end
+        if call.kind is CallKind.PROGRAM:
+            return self._find_program(str(first), source, main, text)
+        everywhere = range(len(source))
+        begin = source.label(str(first), everywhere)
+        if begin is None and call.kind is CallKind.PROFILE:
+            return self._find_program(str(first), source, main, text)
+        end = len(source) - 1 if call.kind is not CallKind.SECTION else index - 1
+        if last is not None:
+            end = source.label(str(last), everywhere)
+        if begin is None or end is None:
+            return Unknown(f"{text} names {first if begin is None else last}, which is not there")
+        return source, begin, end
+
+    def _find_program(self, name: str, source: Source, main: Source, text: str) -> tuple[Source, int, int] | Unknown:
+        for each in dict.fromkeys((source, main)):
+            if name in each.sections:
+                first = each.sections[name]
+                return each, first, each.section_end(first)
+        found = self.find(name)
+        if found is None or not len(found):
+            files = self.language.files(name)
+            where = f"; neither is {files[0]} beside it: name its folder with --path" if files else ""
+            return Unknown(f"{text} calls {name}, which is not in this file{where}")
+        first = found.sections.get(name, 0)
+        return found, first, found.section_end(first) if len(found.sections) > 1 else len(found) - 1
 
     def _open(self, path: Path) -> Source | None:
         try:

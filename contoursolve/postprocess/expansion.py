@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from contoursolve.diagnosis.examine import Depth, Policy
-from contoursolve.execution.machine import Turn
+from contoursolve.execution.events import ProgramEvent
 from contoursolve.execution.subprograms import Surroundings
 from contoursolve.gcode import Directive, Program
 from contoursolve.geometry import Length
@@ -54,12 +54,13 @@ def expand_lines(  # noqa: PLR0913 - takes what `rewrite` takes
         whole = tuple(each_block([*blocks], 0))
         blocks, machine = whole, machine_for(Program("", "", whole, dialect.modes.syntax), dialect, around)
 
-    def leave(turn: Turn) -> None:
+    def leave(event: ProgramEvent) -> None:
         if kind is not InGCodes:  # which tells of each block that it cannot write
-            summary.left.append(Left((turn.line,), turn.reason or "which part of the branch runs is not known", (), {}))
+            told = event.reason or "which part of the branch runs is not known"
+            summary.left.append(Left((event.line,), told, (), {}))
 
-    told = leave if options.is_inline or kind is InGCodes else None
-    steps = walk(blocks, dialect, unit, policy, Depth.PATH, start, together, machine, told)
+    telling = leave if options.is_inline or kind is InGCodes else None
+    steps = walk(blocks, dialect, unit, policy, Depth.PATH, start, together, machine, telling)
     yield from (expander or kind)(dialect, options, summary, lines, numbers).expand(steps)
 
 

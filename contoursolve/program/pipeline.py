@@ -26,7 +26,8 @@ from contoursolve.diagnosis.wording import either
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.execution.machine import Event, Machine, Turn
+from contoursolve.execution.events import EventKind, ProgramEvent
+from contoursolve.execution.machine import Machine
 from contoursolve.execution.subprograms import ALONE, Surroundings
 from contoursolve.gcode import (
     ISO,
@@ -60,7 +61,7 @@ from contoursolve.reading import (
     next_place,
 )
 from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import Kept, behind_turn, contours_of, reach_of, state_facts
+from contoursolve.reading.follow import Kept, behind_event, contours_of, reach_of, state_facts
 from contoursolve.reading.lexicon import TURNED
 
 if TYPE_CHECKING:
@@ -240,7 +241,7 @@ def walk(  # noqa: PLR0913 - all that a program is read by
     start: Program | None = None,
     together: Together | None = None,
     machine: Machine | None = None,
-    told: Callable[[Turn], None] | None = None,
+    told: Callable[[ProgramEvent], None] | None = None,
 ) -> Iterator[Step]:
     """Every block and every contour of a program in order; blocks that are not a sequence are read as they are needed,
     so that a program of any length takes no more memory than some thousand lines, or its longest contour. Plain lines
@@ -371,16 +372,18 @@ class Examiner:
         first = cast("Dialect", self.dialect).initial_state(self.unit)
         yield from in_text_order(blocks, steps, machine.passed_over, self.rules, outside, self.profiles, first)
 
-    def steps_alone(self, machine: Machine, start: Program | None, told: Callable[[Turn], None]) -> Iterator[Step]:
+    def steps_alone(
+        self, machine: Machine, start: Program | None, told: Callable[[ProgramEvent], None]
+    ) -> Iterator[Step]:
         """The same as one program without calls; `told` is called where it is not known what runs."""
         self.marks.is_done, self.faulty = True, Counter()
 
         def watched() -> Iterator[Line]:
             for each in machine.run_alone():
-                if isinstance(each, Turn):
-                    is_open = each.event in (Event.LOST, Event.STOPPED)
-                    is_open = is_open or (each.event is Event.ENTER and not each.reason)
-                    if is_open or (each.event is Event.BARRIER and each.reason):
+                if isinstance(each, ProgramEvent):
+                    is_open = each.kind in (EventKind.LOST, EventKind.STOPPED)
+                    is_open = is_open or (each.kind is EventKind.ENTER and not each.reason)
+                    if is_open or (each.kind is EventKind.BARRIER and each.reason):
                         told(each)
                 yield each
 
@@ -409,14 +412,14 @@ class Examiner:
         """What is known before a program, behind the block that states its start point apart."""
         return self.checkpoint(self._begin(cast("Dialect", self.dialect), start))
 
-    def _turn(self, dialect: Dialect, turn: Turn, state: State) -> State:
-        """The state behind a turn of the program."""
+    def _happen(self, dialect: Dialect, event: ProgramEvent, state: State) -> State:
+        """The state behind a event of the program."""
         self.previous = None
-        if turn.event is Event.STOPPED:
-            context = Context(self.rules, self.unit, place=Span(turn.line, 1, 2))
+        if event.kind is EventKind.STOPPED:
+            context = Context(self.rules, self.unit, place=Span(event.line, 1, 2))
             row = context.row(ReadIssue.NOT_FOLLOWED)
-            self.diagnostics.append(report(context, row, Basis.RULE, [], reason=turn.reason))
-        return behind_turn(state, turn, self.kept, partial(self._begin, dialect, self.start), dialect.modes)
+            self.diagnostics.append(report(context, row, Basis.RULE, [], reason=event.reason))
+        return behind_event(state, event, self.kept, partial(self._begin, dialect, self.start), dialect.modes)
 
     def _begin(self, dialect: Dialect, start: Program | None) -> State:
         """The modal state before a program, behind the block that states its start point apart."""
@@ -470,11 +473,11 @@ class Examiner:
                 yield from self._end(state)
                 return
             line = held[index]
-            if isinstance(line, Turn):
-                if line.event is Event.LEAVE:
+            if isinstance(line, ProgramEvent):
+                if line.kind is EventKind.LEAVE:
                     # Where the profile of a cycle ended.
                     yield Step((), state, findings=self._findings())
-                state, index = self._turn(dialect, line, state), index + 1
+                state, index = self._happen(dialect, line, state), index + 1
                 continue
             if isinstance(line, Block) and line.mark:
                 self.kept.marked[line.mark] = state

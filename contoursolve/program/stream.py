@@ -4,16 +4,16 @@ from collections.abc import Iterator, Sequence
 from itertools import islice
 from typing import overload
 
-from contoursolve.execution.machine import Turn
+from contoursolve.execution.events import ProgramEvent
 from contoursolve.gcode import Block, Passage, parse_block
 from contoursolve.reading import words_of
 
-Line = Block | Passage | Turn
+Line = Block | Passage | ProgramEvent
 """A line of a program, or several, read as far as it was needed; or what happens between two lines."""
 
 
 class View(Sequence[Block]):
-    """The blocks from a place up to a turn of the program; plain lines are read into words when somebody looks at them.
+    """The blocks from a place up to an event of the program; plain lines are read into words when somebody looks at them.
     `reach` is how many were looked at; one that is not there counts, too."""
 
     def __init__(self, held: Sequence[Line], index: int) -> None:
@@ -22,7 +22,7 @@ class View(Sequence[Block]):
         self.rest = each_block(held, index)
 
     def __len__(self) -> int:
-        return sum(len(each.lines) if isinstance(each, Passage) else 1 for each in _up_to_turn(self.held, self.first))
+        return sum(len(each.lines) if isinstance(each, Passage) else 1 for each in _up_to_event(self.held, self.first))
 
     @overload
     def __getitem__(self, index: int) -> Block: ...
@@ -37,18 +37,18 @@ class View(Sequence[Block]):
         return self.blocks[index]
 
     def holds(self, count: int) -> bool:
-        """Whether there are at least so many lines, or all that there are up to a turn."""
+        """Whether there are at least so many lines, or all that there are up to an event."""
         for place in range(self.first, len(self.held)):
             each = self.held[place]
             count -= len(each.lines) if isinstance(each, Passage) else 1
-            if count <= 0 or isinstance(each, Turn):
+            if count <= 0 or isinstance(each, ProgramEvent):
                 return True
         return False
 
     def lines(self, first: int) -> Iterator[tuple[int, str]]:
         """The lines from an index on as text, with their numbers."""
         reach = 1
-        for each in _up_to_turn(self.held, self.first):
+        for each in _up_to_event(self.held, self.first):
             count = len(each.lines) if isinstance(each, Passage) else 1
             reach += count
             self.reach = max(self.reach, reach)
@@ -59,11 +59,11 @@ class View(Sequence[Block]):
             first -= count
 
     def says_something(self, first: int) -> bool:
-        """Whether any block from an index on has more than its number, or the program turns."""
+        """Whether any block from an index on has more than its number, or an event of the program comes."""
         place, number = self.first, 0
         while place < len(self.held):
             each = self.held[place]
-            if isinstance(each, Turn):
+            if isinstance(each, ProgramEvent):
                 return True
             lines = each.lines if isinstance(each, Passage) else (each,)
             if any(map(_says_something, lines[max(0, first - number) :])):
@@ -73,8 +73,8 @@ class View(Sequence[Block]):
 
 
 def each_block(held: Sequence[Line], index: int) -> Iterator[Block]:
-    """The blocks from an index up to a turn of the program."""
-    for each in _up_to_turn(held, index):
+    """The blocks from an index up to an event of the program."""
+    for each in _up_to_event(held, index):
         if isinstance(each, Passage):
             for number, line in enumerate(each.lines, each.line):
                 yield parse_block(line.rstrip("\r\n"), number, each.syntax)
@@ -82,10 +82,10 @@ def each_block(held: Sequence[Line], index: int) -> Iterator[Block]:
             yield each
 
 
-def _up_to_turn(held: Sequence[Line], index: int) -> Iterator[Block | Passage]:
+def _up_to_event(held: Sequence[Line], index: int) -> Iterator[Block | Passage]:
     for place in range(index, len(held)):
         each = held[place]
-        if isinstance(each, Turn):
+        if isinstance(each, ProgramEvent):
             return
         yield each
 
@@ -104,7 +104,7 @@ def pass_plainly(held: Sequence[Line], index: int, *, moves: bool, joins: bool) 
         stop = next((place for place in order if words_of(lines[place])), len(lines))
         lines = lines[:stop]
     first = held[index]
-    return Passage(first.line, tuple(lines), first.syntax) if lines and not isinstance(first, Turn) else None
+    return Passage(first.line, tuple(lines), first.syntax) if lines and not isinstance(first, ProgramEvent) else None
 
 
 def go_on(held: list[Line], index: int, rest: int) -> tuple[list[Line], int]:

@@ -6,7 +6,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Span
-from contoursolve.execution.machine import Event, Turn
+from contoursolve.execution.events import EventKind, ProgramEvent
 from contoursolve.gcode import Block, Directive, Program, Word
 from contoursolve.reading.lexicon import Effect
 from contoursolve.reading.modal_state import Modes, State, advance, apply_modes, codes_of
@@ -60,24 +60,24 @@ class Kept(Struct):
     marked: dict[int, State] = {}
 
 
-def behind_turn(state: State, turn: Turn, kept: Kept, fresh: Callable[[], State], modes: Modes) -> State:
-    """The state behind a turn of a program that runs; `fresh` gives the one in which nothing has run."""
-    match turn.event:
-        case Event.FRESH if turn.mark in kept.marked:
+def behind_event(state: State, event: ProgramEvent, kept: Kept, fresh: Callable[[], State], modes: Modes) -> State:
+    """The state behind an event of a program that runs; `fresh` gives the one in which nothing has run."""
+    match event.kind:
+        case EventKind.FRESH if event.mark in kept.marked:
             kept.entered.clear()
-            return kept.marked[turn.mark]
-        case Event.FRESH:
+            return kept.marked[event.mark]
+        case EventKind.FRESH:
             kept.entered.clear()
             state = fresh()
-            told = f"{turn.reason}; say with --start where the tool is when it begins"
+            told = f"{event.reason}; say with --start where the tool is when it begins"
             unknown = tuple(axis for axis, at in state.axes.items() if at.value is None)
-            return state.lose(unknown, told, Span(turn.line, 1, 2))
-        case Event.ENTER:
+            return state.lose(unknown, told, Span(event.line, 1, 2))
+        case EventKind.ENTER:
             kept.entered.append(state)
-        case Event.LEAVE:
+        case EventKind.LEAVE:
             return kept.entered.pop() if kept.entered else state
-        case Event.LOST | Event.STOPPED:
-            return state.lose(modes.axes, turn.reason, Span(turn.line, 1, 2))
+        case EventKind.LOST | EventKind.STOPPED:
+            return state.lose(modes.axes, event.reason, Span(event.line, 1, 2))
         case _:
             pass
     return state

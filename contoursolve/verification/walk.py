@@ -8,13 +8,14 @@ from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
-from contoursolve.execution.machine import Turn, machine_of
+from contoursolve.execution.events import ProgramEvent
+from contoursolve.execution.machine import machine_of
 from contoursolve.execution.subprograms import ALONE, Surroundings, surroundings_of
 from contoursolve.gcode import Block, Directive, Program
 from contoursolve.geometry import Length
 from contoursolve.reading import Modes, ParsedContour, State, advance, next_place
 from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import Kept, behind_turn, contours_of, state_facts
+from contoursolve.reading.follow import Kept, behind_event, contours_of, state_facts
 from contoursolve.verification.contour_checks import check_contour
 from contoursolve.verification.decode import (
     FARTHEST,
@@ -177,8 +178,8 @@ def follow(
         first = advance(first, block, modes)
     state, kept = first, Kept()
     for run in _runs(replace(program, blocks=blocks), modes, around):
-        if isinstance(run, Turn):
-            state = behind_turn(state, run, kept, lambda: first, modes)
+        if isinstance(run, ProgramEvent):
+            state = behind_event(state, run, kept, lambda: first, modes)
             continue
         left = list[State]()
         for found, behind in contours_of(run, dialect.find, modes, state, None, matching.end_of, left, kept.marked):
@@ -242,14 +243,14 @@ def _distance(claimed: ClaimedContour, claim: ParsedContour) -> float:
     return sum(abs(a - b) if a is not None and b is not None else FARTHEST * (a is not b) for a, b in pairs)
 
 
-def _runs(program: Program, modes: Modes, around: Surroundings) -> Iterator[Sequence[Block] | Turn]:
-    """The blocks of a program between its turns."""
+def _runs(program: Program, modes: Modes, around: Surroundings) -> Iterator[Sequence[Block] | ProgramEvent]:
+    """The blocks of a program between its events."""
     machine, run = machine_of(program, modes.language, modes.syntax, around), list[Block]()
     if machine is None:
         yield program.blocks
         return
     for each in machine.run():
-        if isinstance(each, Turn):
+        if isinstance(each, ProgramEvent):
             yield run
             yield each
             run = []

@@ -1,0 +1,104 @@
+"""What the variables of a program hold while it runs."""
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
+
+from contoursolve.execution.evaluate import evaluate, is_true, name_of_indexed
+from contoursolve.execution.language import Assign, Forget, Indexed, MacroLanguage, Term, Unknown, Variable
+
+Known = float | str | Unknown
+"""What a variable holds."""
+
+MOST_LOGGED = 10_000
+"""Assignments that are kept in mind while it is not known whether a jump took place."""
+
+_LAST_LOCAL = 33
+
+
+class Variables:
+    """The variables of a program; `given` are values that are stated apart from it and hold whatever it sets, `own`
+    tells the local variables of the subprogram that runs, None if it has none of its own."""
+
+    def __init__(
+        self, language: MacroLanguage, given: Mapping[str, float], own: Callable[[], dict[str, Known] | None]
+    ) -> None:
+        self.given, self.values = dict(given), dict[str, Known](given)
+        self.assigned: list[str] = []
+        """What was set, in order."""
+        self._language, self._own = language, own
+
+    def value(self, term: Term) -> Known:
+        """The value of a term."""
+        return evaluate(term, self._look_up)
+
+    def truth(self, condition: Term) -> bool | Unknown:
+        """Whether a condition holds."""
+        value = self.value(condition)
+        return value if isinstance(value, Unknown) else is_true(value)
+
+    def resolve(self, target: Term | str) -> str | Unknown:
+        """The name or the number of what is called."""
+        value = target if isinstance(target, str) else self.value(target)
+        return f"{value:.0f}" if isinstance(value, float) else value
+
+    def name(self, variable: Variable | Indexed) -> str | Unknown:
+        """The name of a variable, its indices computed."""
+        if isinstance(variable, Variable):
+            return variable.name
+        indices = [self.value(each) for each in variable.indices]
+        unknown = next((each for each in indices if isinstance(each, Unknown)), None)
+        return unknown or name_of_indexed(variable.prefix, indices, variable.suffix)
+
+    def assign(self, statement: Assign | Forget) -> bool:
+        """Set a variable; whether its value is known."""
+        name = self.name(statement.variable)
+        value = Unknown(statement.reason) if isinstance(statement, Forget) else self.value(statement.value)
+        if isinstance(name, Unknown):
+            # Which one it is, is not known: it may be any.
+            self.lose_all(name.reason)
+            return False
+        self.set(name, value)
+        return not isinstance(value, Unknown)
+
+    def set(self, name: str, value: Known) -> None:
+        """Let a variable hold a value."""
+        own = self._own()
+        if name in self.given and not (own is not None and name in own):
+            return
+        target = own if own is not None and _is_local(name) else self.values
+        target[name] = value
+        if len(self.assigned) < MOST_LOGGED:
+            self.assigned.append(name)
+
+    def lose(self, names: Iterable[str], reason: str) -> None:
+        """Forget what some variables hold."""
+        for name in names:
+            if name not in self.given:
+                self.values[name] = Unknown(reason)
+
+    def lose_all(self, reason: str) -> None:
+        """Forget what every variable holds."""
+        self.lose([*self.values], reason)
+
+    def all(self) -> dict[str, Known]:
+        """What variables hold, those of the subprogram among them."""
+        return self.values | (self._own() or {})
+
+    def set_once(self) -> dict[str, Known]:
+        """Those that were set once in all, or are stated apart."""
+        once = {name for name, times in Counter(self.assigned).items() if times == 1} | self.given.keys()
+        return {name: value for name, value in self.values.items() if name in once}
+
+    def _look_up(self, name: str) -> Known:
+        own = self._own()
+        if own is not None and name in own:
+            return own[name]
+        if own is not None and _is_local(name):
+            return Unknown(f"{name} is not given by the call")
+        found = self.values.get(name)
+        return found if found is not None else Unknown(self._language.unknown(name))
+
+
+def _is_local(name: str) -> bool:
+    """Whether a variable belongs to one subprogram: #1 to #33 of Fanuc."""
+    return name.startswith("#") and name[1:].isdigit() and 1 <= int(name[1:]) <= _LAST_LOCAL
