@@ -13,8 +13,8 @@ Line = Block | Passage | ProgramEvent
 
 
 class View(Sequence[Block]):
-    """The blocks from a place up to an event of the program; plain lines are read into words when somebody looks at them.
-    `reach` is how many were looked at; one that is not there counts, too."""
+    """The blocks from a place up to an event of the program; plain lines are read into words when somebody looks at
+    them. `reach` is how many were looked at; one that is not there counts, too."""
 
     def __init__(self, held: Sequence[Line], index: int) -> None:
         self.held, self.first, self.reach = held, index, 0
