@@ -406,8 +406,9 @@ class Machine:
                 return
             self._went_back.add(key)
         if target is None:
-            where = jump.target if isinstance(jump.target, str) else "a block that is not known"
-            raise _RefusedError(f"line {self._line(frame, index)} jumps to {where}, which is not there")
+            where = self.variables.resolve(jump.target)
+            told = f"{where}, which is not there" if isinstance(where, str) else f"an unknown block: {where.reason}"
+            raise _RefusedError(f"line {self._line(frame, index)} jumps to {told}")
         if target <= index:
             self._check_repetition(frame, index, target)
         elif jump.condition is not None:
