@@ -174,8 +174,10 @@ class Machine:
 
     def _keep(self, frame: _Frame, first: int, branch: _Branch | None = None) -> None:
         """Keep what is known now, or where a branch began, for a line to which a decision does not lead."""
-        first = next((at for at in range(first, len(frame.source)) if self._says_something(at)), first)
-        if frame.source is self.main and first not in self._untaken:
+        if frame.source is not self.main:
+            return
+        first = next((at for at in range(first, len(self.main)) if self._says_something(at)), first)
+        if first not in self._untaken:
             mark, before = (branch.mark, branch.before) if branch else (self._mark(), self.variables.all())
             self._untaken[first] = mark, dict(before)
 

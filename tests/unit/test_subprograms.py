@@ -192,6 +192,17 @@ def test_a_part_that_does_not_run_begins_where_the_decision_was_made(control):
         assert verify(*documents).verdict is Verdict.VERIFIED
 
 
+def test_decisions_in_another_file_are_made_as_well(tmp_path):
+    (tmp_path / "plan.h").write_text(
+        "BEGIN PGM PLAN MM\n; REMARK\n; REMARK\n; REMARK\n"
+        "FN 9: IF +Q1 EQU +2 GOTO LBL 5\nL X+10 Y+10 F100\nLBL 5\nEND PGM PLAN MM"
+    )
+    main_program = tmp_path / "main.h"
+    for value, status in ((1, Status.SOLVED), (2, Status.UNDERDETERMINED)):
+        main_program.write_text(f"BEGIN PGM A MM\nQ1 = {value}\nCALL PGM PLAN.H\nFL X+40 AN+30\nEND PGM A MM")
+        assert [each.status for each in solve_file(main_program).answers] == [status]
+
+
 def test_what_is_wrong_in_a_part_that_does_not_run_stops_nothing():
     text = BRANCHES[LATHE].format(1).replace("X50. ,A110.", "X50. Z-40. ,A110.")
     (finding,) = solve(text, control=LATHE).diagnostics
