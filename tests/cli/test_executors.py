@@ -258,6 +258,11 @@ def test_another_sweep_does_not_go_on_where_one_was_killed(tmp_path, monkeypatch
     assert "0123456789abcdef.parts is left of another sweep that was not finished" in done.stderr
 
 
+def is_written(file: Path) -> bool:
+    """Whether a scheduler has told its address: the file is there before that."""
+    return file.exists() and file.read_text().rstrip().endswith("}")
+
+
 @pytest.mark.slow
 @pytest.mark.needs("distributed")
 def test_a_sweep_runs_on_the_cluster_of_a_scheduler(tmp_path):
@@ -278,7 +283,7 @@ def test_a_sweep_runs_on_the_cluster_of_a_scheduler(tmp_path):
             process = processes.enter_context(launch(*arguments))
             processes.callback(process.terminate)
             deadline = time.monotonic() + 60
-            while not file.exists() and time.monotonic() < deadline:
+            while not is_written(file) and time.monotonic() < deadline:
                 time.sleep(0.05)
         address = json.loads(file.read_text())["address"]
         for name, options in (("one.parquet", ()), ("two.parquet", ("--dask", address))):
@@ -296,7 +301,7 @@ def test_a_scheduler_that_goes_away_ends_the_sweep(tmp_path):
     options = {"cwd": tmp_path, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     with subprocess.Popen([*command, "--no-dashboard", "--scheduler-file", str(file)], **options) as scheduler:
         deadline = time.monotonic() + 60
-        while not file.exists() and time.monotonic() < deadline:
+        while not is_written(file) and time.monotonic() < deadline:
             time.sleep(0.05)
         address = json.loads(file.read_text())["address"]
         with start(*SWEEP, "--dask", address, cwd=tmp_path) as child:
