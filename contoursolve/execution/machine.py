@@ -431,17 +431,17 @@ class Machine:
     def _target(self, frame: _Frame, index: int, jump: Jump) -> int | None:
         last = frame.last if frame.call is None or frame.call.kind is not CallKind.PROFILE else len(frame.source) - 1
         forward, backward = range(index + 1, last + 1), range(index, -1, -1)
-        order = {
-            JumpWay.ANYWHERE: [*forward, *backward],
-            JumpWay.FORWARD: forward,
-            JumpWay.BACKWARD: backward,
+        ways = {
+            JumpWay.ANYWHERE: (forward, backward),
+            JumpWay.FORWARD: (forward,),
+            JumpWay.BACKWARD: (backward,),
         }[jump.way]
         value = self.variables.resolve(jump.target)
         if isinstance(value, Unknown):
             return None
         if value.isdigit() and self.language.jumps_to_numbers:
             return _first(frame.source.number(value, *ends) for ends in ((index + 1, last), (0, index)))
-        return frame.source.label(value.upper(), order)
+        return frame.source.label(value.upper(), *ways)
 
     def _assigned_in(self, frame: _Frame, first: int, last: int) -> Iterator[str]:
         """The variables that statements of some lines set."""

@@ -75,25 +75,29 @@ class Source:
         return found
 
     @cached_property
-    def _read(self) -> list[CodeLine]:
-        return [self.language.read(block.text) for block in self.blocks]
+    def _places(self) -> tuple[dict[str, list[int]], dict[str, list[int]]]:
+        """The indices of the lines with each block number, and with each label."""
+        numbers, labels = dict[str, list[int]](), dict[str, list[int]]()
+        for index, block in enumerate(self.blocks):
+            code = self.language.read(block.text)
+            if code.number:
+                numbers.setdefault(code.number, []).append(index)
+            for label in code.labels:
+                labels.setdefault(label, []).append(index)
+        return numbers, labels
 
     def number(self, number: str, first: int, last: int) -> int | None:
         """The index of the line with a block number, between two others."""
-        wanted = number.lstrip("0") or "0"
-        return next((index for index in range(first, last + 1) if self._read[index].number == wanted), None)
+        places = self._places[0].get(number.lstrip("0") or "0", ())
+        return next((index for index in places if first <= index <= last), None)
 
-    def label(self, name: str, order: Sequence[int]) -> int | None:
-        """The index of the first line of some with a label, or with a block number of that name (`N10`)."""
-        number = name[1:].lstrip("0") if name[:1] == "N" and name[1:].isdigit() else None
-        return next(
-            (
-                index
-                for index in order
-                if name in self._read[index].labels or (number and self._read[index].number == number)
-            ),
-            None,
-        )
+    def label(self, name: str, *ways: range) -> int | None:
+        """The index of the first line with a label, or with a block number of that name (`N10`), on some ways through
+        the lines, one after the other."""
+        numbers, labels = self._places
+        number = name[1:].lstrip("0") if name[:1] == "N" and name[1:].isdigit() else ""
+        places = [*labels.get(name, ()), *(numbers.get(number, ()) if number else ())]
+        return next((min(found, key=way.index) for way in ways if (found := [at for at in places if at in way])), None)
 
     @cached_property
     def sections(self) -> dict[str, int]:
