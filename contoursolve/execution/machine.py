@@ -73,13 +73,11 @@ class _Loop(Struct):
 
 
 class _Branch(Struct):
-    """An If that is open: whether one of its parts has run; where that is not known, why; and the values before it."""
+    """An If that is open: whether one of its parts has run; where that is not known, why, and the values before it."""
 
     has_run: bool
     reason: str = ""
     before: Mapping[str, Known] = {}
-    mark: int = 0
-    """Under which number it is kept what is known where it begins."""
 
 
 class _Frame(Struct):
@@ -172,14 +170,13 @@ class Machine:
         self._here, self._is_marking = mark, False
         return ProgramEvent(EventKind.FRESH, line, why, mark)
 
-    def _keep(self, frame: _Frame, first: int, branch: _Branch | None = None) -> None:
-        """Keep what is known now, or where a branch began, for a line to which a decision does not lead."""
+    def _keep(self, frame: _Frame, first: int) -> None:
+        """Keep what is known now for a line to which a decision does not lead."""
         if frame.source is not self.main:
             return
         first = next((at for at in range(first, len(self.main)) if self._says_something(at)), first)
         if first not in self._untaken:
-            mark, before = (branch.mark, branch.before) if branch else (self._mark(), self.variables.all())
-            self._untaken[first] = mark, dict(before)
+            self._untaken[first] = self._mark(), self.variables.all()
 
     def _mark(self) -> int:
         """The number under which it is kept what is known here."""
@@ -466,10 +463,19 @@ class Machine:
                 yield self._as_written(frame, index)
             yield ProgramEvent(EventKind.ENTER, self._line(frame, index))
             return
-        frame.branches.append(_Branch(truth, before=self.variables.all(), mark=self._mark()))
-        if not truth:
-            self._keep(frame, index + 1, frame.branches[-1])
+        frame.branches.append(_Branch(truth))
+        if truth:
+            self._keep_parts(frame, index)
+        else:
+            self._keep(frame, index + 1)
             frame.at = self._end(frame, index, frame.source.next_part(index, frame.last), "IF")
+
+    def _keep_parts(self, frame: _Frame, index: int) -> None:
+        """Keep what is known now for the parts of a branch behind the one that runs."""
+        part = frame.source.next_part(index, frame.last)
+        while part is not None and any(isinstance(each, Else | ElseIf) for each in frame.source.code(part).statements):
+            self._keep(frame, part + 1)
+            part = frame.source.next_part(part, frame.last)
 
     def _next_branch(self, frame: _Frame, index: int, part: ElseIf | Else) -> Iterator[Block | ProgramEvent]:
         branch = frame.branches[-1] if frame.branches else _Branch(True)
@@ -479,7 +485,6 @@ class Machine:
             yield ProgramEvent(EventKind.LEAVE, self._line(frame, index))
             yield ProgramEvent(EventKind.ENTER, self._line(frame, index))
         elif branch.has_run:
-            self._keep(frame, index + 1, branch)
             frame.at = self._end(frame, index, frame.source.next_part(index, frame.last), "IF")
         elif isinstance(part, ElseIf):
             frame.branches.pop()
