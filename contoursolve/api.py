@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
 from contoursolve import gcode
-from contoursolve.diagnosis.examine import Depth, Policy
+from contoursolve.diagnosis.examine import Depth
 from contoursolve.diagnostics.choices import choice_of
 from contoursolve.diagnostics.finding import Diagnostic
-from contoursolve.execution.machine import needs_running
-from contoursolve.execution.subprograms import surroundings_of
-from contoursolve.gcode import STANDARD_INPUT, Directive, Program, UnreadableProgramError
+from contoursolve.gcode import STANDARD_INPUT, Program, UnreadableProgramError
 from contoursolve.gcode.contents import decode
-from contoursolve.geometry import Length
-from contoursolve.postprocess.numbering import numbers_of
+from contoursolve.gcode.files import ANY_TEXT, tape_in_memory
 from contoursolve.program.pipeline import Result, Run, run
 from contoursolve.program.project import configure, find_settings, restate_control, stated_settings
 from contoursolve.program.recognise import choose, find_dialect
+from contoursolve.program.request import request_for
 from contoursolve.reading.dialect import Dialect
 
 if TYPE_CHECKING:
@@ -283,31 +282,28 @@ def follow_program(
     strict: bool = False,
 ) -> Run:
     """The same as a stream of contours and findings, for a program of any length; `strict` as for `check`."""
-    dialect = choose(control, program, settings)
-    beginning = gcode.parse(start, program.name, first_line=0) if start is not None else None
-    unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
-    deep, together = choice_of(Depth, depth, "depth"), None
-    if dialect is not None and len(program.blocks) >= _MANY:
+    asked = request_for(
+        program.name,
+        choose(control, program, settings),
+        start=start,
+        units=units,
+        rules=rules,
+        depth=depth,
+        facts=facts,
+        variables=variables,
+        folders=folders,
+        strict=strict,
+    )
+    together = None
+    if asked.dialect is not None and len(program.blocks) >= _MANY:
         from contoursolve.program.batch import Batch  # noqa: PLC0415 - a few blocks are solved before it is imported
 
-        together = Batch(dialect, policy, is_proven=deep is not Depth.PATH)
-    around = surroundings_of(program.name, variables, folders)
-    return Run(program, dialect, unit, policy, deep, beginning, _facts(facts), together, around, is_strict=strict)
+        together = Batch(asked.dialect, asked.policy, is_proven=asked.depth is not Depth.PATH)
+    return Run(program, asked, together)
 
 
 _MANY = 64
 """Blocks of a program whose contours are solved together."""
-
-
-def _facts(facts: Iterable[str | Statement]) -> list[Directive]:
-    """Further facts, numbered; a text alone is one fact."""
-    several = [facts] if isinstance(facts, str) else facts
-    return [_fact(fact, -number) for number, fact in enumerate(several, 1)]
-
-
-def _fact(fact: str | Statement, line: int) -> Directive:
-    text = fact if isinstance(fact, str) else str(fact)
-    return replace(gcode.read_directive(text, line), statement=None if isinstance(fact, str) else fact)
 
 
 def expand(
@@ -362,48 +358,28 @@ def expand(
     G01 X100. Z-47.321
     """
     # Only this function needs them.
-    from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_facts, opening_of  # noqa: PLC0415
-    from contoursolve.postprocess.expansion_report import Expansion, Options, Summary, left_unread  # noqa: PLC0415
+    from contoursolve.postprocess.expansion_report import Expansion, Options  # noqa: PLC0415
     from contoursolve.postprocess.post_processors import Arcs, Numbering, find_post  # noqa: PLC0415
-    from contoursolve.program.lines import Lines  # noqa: PLC0415
+    from contoursolve.postprocess.rewrite import rewrite  # noqa: PLC0415
 
-    program = gcode.parse(text, name)
-    dialect = choose(control, program, settings)
     if decimals is not None and (isinstance(decimals, bool) or decimals not in range(1, MOST_DECIMALS + 1)):
         raise ValueError(f"decimals cannot be {decimals!r}; choose 1 to {MOST_DECIMALS}, or None for the target's own")
-    numbering = choice_of(Numbering, block_numbers, "block_numbers")
-    making = None
+    asked = request_for(name, start=start, units=units, rules=rules, facts=facts, variables=variables, folders=folders)
+    writer = None
     if formulas:
         from contoursolve.formulas.rewriting import formulas_for, post_of_formulas  # noqa: PLC0415
 
         post = post_of_formulas(post)
-        making = formulas_for(text, post, scratch, variables or {}, choice_of(Policy, rules, "rules"))
+        writer = formulas_for(text, post, scratch, variables or {}, asked.policy)
+    numbering = choice_of(Numbering, block_numbers, "block_numbers")
     options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, numbering, inline)
-    summary, unit, policy = Summary(), choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
-    if dialect is None:
-        summary.left += filter(None, map(left_unread, program.blocks))
-        return Expansion(text if keep_going or not summary.left else None, None, summary)
-    beginning = gcode.parse(start, name, first_line=0) if start is not None else None
-    is_run = needs_running(gcode.split_lines(text), dialect.modes.language)
-    further = lines_of_facts(program, dialect, unit, beginning, _facts(facts))
-    pieces = list(
-        expand_lines(
-            (making.lines if making else Lines)(gcode.split_lines(text), dialect, further, is_certain=True),
-            dialect,
-            options,
-            summary,
-            unit=unit,
-            policy=policy,
-            start=beginning,
-            numbers=numbers_of(gcode.split_lines(text), dialect) if numbering is Numbering.ALL else None,
-            around=surroundings_of(name, variables, folders) if is_run and not making else None,
-            expander=making.expander if making else None,
-        )
-    )
-    opening = opening_of(options, dialect, unit, summary)
-    written = "".join(opening if piece is OPENING else str(piece) for piece in pieces)
+    stated = {} if isinstance(control, Dialect) else stated_settings(gcode.split_lines(text))
+    own = stated | dict(settings or {})
+    tape = tape_in_memory(text, name)
+    rewritten = rewrite(tape, BytesIO(), options, asked, control=control, settings=own, writer=writer)
+    summary, written = rewritten.summary, b"".join(rewritten.pieces())
     is_whole = (keep_going or not summary.left) and (keep_untranslated or not summary.misread)
-    return Expansion(written if is_whole else None, dialect.name, summary)
+    return Expansion(written.decode(*ANY_TEXT) if is_whole else None, rewritten.control, summary)
 
 
 def convert(
@@ -440,28 +416,30 @@ def convert(
     """
     # Only this function needs them.
     from contoursolve.comparison import compare, follow, whole  # noqa: PLC0415
-    from contoursolve.postprocess.expansion_report import Conversion  # noqa: PLC0415
+    from contoursolve.postprocess.expansion_report import Conversion, ConversionError  # noqa: PLC0415
     from contoursolve.postprocess.post_processors import machine_of, post_of  # noqa: PLC0415
     from contoursolve.postprocess.translate import language_of  # noqa: PLC0415
 
     target = to if isinstance(to, Dialect) else configure(find_dialect(to), settings)
     if language_of(target) is None:
-        raise ValueError(f"contours cannot be written in the words of {target.name}: its blocks are of another kind")
+        raise ConversionError(
+            f"contours cannot be written in the words of {target.name}: its blocks are of another kind"
+        )
     dialect = choose(control, gcode.parse(text, name), settings)
     if dialect is not None and machine_of(dialect) is not machine_of(target):
         kinds = f"{dialect.name} is a {machine_of(dialect).value}, {target.name} a {machine_of(target).value}"
         switches = (each.name for each in (dialect, target) if any(one.name == "machine" for one in each.settings))
         advice = "".join(f"; for a lathe, set {name}.machine=lathe" for name in switches)
-        raise ValueError(f"a program is converted for the same kind of machine: {kinds}{advice}")
+        raise ConversionError(f"a program is converted for the same kind of machine: {kinds}{advice}")
     post = post_of(target)
     found = expand(text, post=post, comments=comments, control=dialect, units=units, rules=rules, name=name)
     found = replace(found, text=found.text and restate_control(found.text, target.name, target.modes.settings))
     if found.text is None or dialect is None:
         return Conversion(found.text, found.control, target.name, found.summary, None)
-    unit, policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
-    axes, around = tuple(sorted({*dialect.modes.axes, *target.modes.axes})), surroundings_of(name)
+    asked = request_for(name, units=units, rules=rules, strict=True)
+    axes = tuple(sorted({*dialect.modes.axes, *target.modes.axes}))
     old, new = (
-        follow(run(gcode.parse(program, name), whole(each), unit, policy, around=around), each, unit, axes)
+        follow(run(gcode.parse(program, name), replace(asked, dialect=whole(each))), each, asked.unit, axes)
         for program, each in ((text, dialect), (found.text, target))
     )
     comparison = compare(old, new, _CONVERTED_WITHIN)

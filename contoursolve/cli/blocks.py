@@ -18,6 +18,7 @@ from contoursolve.cli.options import (
     CouldNotRunError,
     control_option,
     let_option,
+    naming,
     print_findings,
     rules_option,
     settings_of,
@@ -25,14 +26,10 @@ from contoursolve.cli.options import (
     units_option,
 )
 from contoursolve.cli.printing import say
-from contoursolve.diagnostics.extras import MissingExtraError, need
+from contoursolve.diagnostics.extras import need
 from contoursolve.diagnostics.json_text import json_text
 from contoursolve.families import FamilyError, RefusedError, name_of
 from contoursolve.gcode import parse
-from contoursolve.gcode.files import CannotWriteError
-from contoursolve.program.pipeline import FactPlaceError
-from contoursolve.program.project import SettingError
-from contoursolve.program.recognise import UnknownControlError
 from contoursolve.reading import ReadIssue
 from contoursolve.tolerance import LARGEST
 
@@ -83,17 +80,14 @@ def read_options(options: dict[str, Any]) -> dict[str, Any]:
 
 @contextmanager
 def usage() -> Iterator[None]:
-    """Errors of what was asked for as one line and exit status 2; before it, the findings about a block that is refused
+    """Errors about a block as one line and exit status 2; before it, the findings about a block that is refused
     whatever the values."""
     try:
-        yield
+        with naming():
+            yield
     except RefusedError as error:
         print_findings(error.result, err=True)
         raise CouldNotRunError("the control refuses the block for every value; nothing is computed") from None
-    except (FamilyError, SettingError, FactPlaceError, MissingExtraError, CannotWriteError) as error:
-        raise CouldNotRunError(str(error)) from None
-    except UnknownControlError as error:
-        raise CouldNotRunError(f"{error}; say which with --control {'|'.join(error.choices)}") from None
 
 
 def read_within(text: str) -> tuple[float, float]:

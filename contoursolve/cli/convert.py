@@ -6,8 +6,8 @@ from contoursolve import api
 from contoursolve.cli.expand import print_bytes, report_left, report_misread, report_told, target_of
 from contoursolve.cli.options import (
     FOUND_ERRORS,
-    CouldNotRunError,
     control_option,
+    naming,
     rules_option,
     settings_of,
     settings_option,
@@ -17,11 +17,9 @@ from contoursolve.cli.printing import say, style_of_output
 from contoursolve.controls import DIALECTS
 from contoursolve.controls.chain import ChainFinder
 from contoursolve.diagnosis.wording import count, join
-from contoursolve.gcode import UnreadableProgramError
-from contoursolve.gcode.files import CannotWriteError, open_tape, write_whole
+from contoursolve.gcode.files import open_tape, write_whole
 from contoursolve.postprocess.expansion_report import Conversion
 from contoursolve.postprocess.post_processors import Post, post_of
-from contoursolve.program.recognise import UnknownControlError
 from contoursolve.reading.dialect import Dialect
 
 _TARGETS = tuple(name for name, dialect in DIALECTS.items() if isinstance(dialect.find, ChainFinder))
@@ -68,38 +66,27 @@ def convert(
     """
     if to is None:
         raise click.UsageError(f"say for which control: --to {'|'.join(_TARGETS)}")
-    target, name = target_of(program, output, is_forced=is_forced), program
-    try:
-        with open_tape(program) as tape:
-            name = tape.name
-            found = api.convert(
-                tape.read(),
-                to,
-                comments=not no_comments,
-                control=control,
-                units=units,
-                rules=rules,
-                settings=settings_of(tape, assignments),
-                name=name,
-            )
-    except UnreadableProgramError as error:
-        raise CouldNotRunError(str(error)) from None
-    except UnknownControlError as error:
-        raise CouldNotRunError(f"{name}: {error}; say which with --control {'|'.join(error.choices)}") from None
-    except ValueError as error:
-        raise CouldNotRunError(f"{name}: {error}") from None
+    target = target_of(program, output, is_forced=is_forced)
+    with open_tape(program) as tape, naming(tape.name):
+        found = api.convert(
+            tape.read(),
+            to,
+            comments=not no_comments,
+            control=control,
+            units=units,
+            rules=rules,
+            settings=settings_of(tape, assignments),
+            name=tape.name,
+        )
     if found.text is None:
-        _report_failure(found, name, to)
+        _report_failure(found, tape.name, to)
         context.exit(FOUND_ERRORS)
     # In the encoding of the old program: what stays as it was does so byte for byte.
     pieces = (tape.mark, tape.encode(found.text))
     if target is None:
         print_bytes(pieces)
     else:
-        try:
-            write_whole(target, pieces, keeps_backup=False)
-        except CannotWriteError as error:
-            raise CouldNotRunError(str(error)) from None
+        write_whole(target, pieces, keeps_backup=False)
         say(f"{target} written", err=True)
     _report(found, to)
 

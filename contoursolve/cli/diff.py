@@ -4,14 +4,15 @@ from collections.abc import Sequence
 
 import click
 
+from contoursolve.api import read_program
 from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
     control_option,
     let_option,
+    naming,
     path_option,
     print_findings,
-    read,
     rules_option,
     settings_of,
     settings_option,
@@ -19,14 +20,13 @@ from contoursolve.cli.options import (
 )
 from contoursolve.cli.printing import print_lines, say
 from contoursolve.controls import DIALECTS, PLAIN
-from contoursolve.diagnosis.examine import Policy
 from contoursolve.diagnostics.finding import Severity
-from contoursolve.execution.subprograms import surroundings_of
 from contoursolve.gcode import Program
 from contoursolve.geometry import Length
 from contoursolve.program.pipeline import Result, run
-from contoursolve.program.project import CONTROL, SettingError, configure
-from contoursolve.program.recognise import UnknownControlError, recognise
+from contoursolve.program.project import CONTROL, configure
+from contoursolve.program.recognise import recognise
+from contoursolve.program.request import request_for
 from contoursolve.reading import ReadIssue
 from contoursolve.reading.dialect import Dialect
 
@@ -98,13 +98,14 @@ def diff(
         raise click.UsageError("only one of OLD and NEW can be standard input")
     sides: list[tuple[Result, Dialect, Length]] = []
     for path, own, unit in ((old, control, units), (new, new_control, new_units or units)):
-        program = read(path)
+        program = read_program(path)
         before = sides[0][1] if sides else None
         is_kept = control is not None and before is not None and _reads_what_shows_others(before, program)
         dialect = _dialect_of(program, own or (before if is_kept else None), before, assignments)
-        around = surroundings_of(program.name, variables, folders)
-        result = run(program, whole(dialect), Length(unit), Policy(rules), around=around)
-        sides.append((result, dialect, Length(unit)))
+        asked = request_for(
+            program.name, whole(dialect), units=unit, rules=rules, variables=variables, folders=folders, strict=True
+        )
+        sides.append((run(program, asked), dialect, asked.unit))
     results = [result for result, _, _ in sides]
     if any(map(_has_no_path, results)):
         if format_ == "json":
@@ -136,17 +137,13 @@ def _dialect_of(
     program: Program, control: str | Dialect | None, otherwise: Dialect | None, assignments: Sequence[str]
 ) -> Dialect:
     """The control of a program: the one that is named, or that it shows, or another."""
-    try:
+    with naming(program.name, "--control or --new-control"):
         settings = settings_of(program, assignments)
         name = control or settings.get(CONTROL)
         named = {**DIALECTS, **PLAIN}[name] if isinstance(name, str) else name
         dialect = named or recognise(program.blocks) or otherwise
         if dialect is not None:
             return configure(dialect, settings)
-    except SettingError as error:
-        raise CouldNotRunError(str(error)) from None
-    except UnknownControlError as error:
-        raise CouldNotRunError(f"{program.name}: {error}; say which with --control or --new-control") from None
     choices = "|".join(_ANY_CONTROL)
     raise CouldNotRunError(f"{program.name}: no block shows the control; say which with --control {choices}")
 

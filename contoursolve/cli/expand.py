@@ -10,14 +10,13 @@ from typing import IO, Any
 import click
 from msgspec.structs import replace
 
-from contoursolve import gcode
 from contoursolve.api import MOST_DECIMALS
 from contoursolve.cli.options import (
     FOUND_ERRORS,
-    CouldNotRunError,
     common_options,
     control_option,
     explaining,
+    naming,
     rules_option,
     settings_of,
     settings_option,
@@ -27,18 +26,13 @@ from contoursolve.cli.printing import say, style_of_output
 from contoursolve.diagnosis.examine import Policy
 from contoursolve.diagnosis.wording import count
 from contoursolve.diagnostics.finding import Severity
-from contoursolve.execution.subprograms import surroundings_of
-from contoursolve.gcode import UnreadableProgramError
-from contoursolve.gcode.files import CannotWriteError, Tape, check_target, open_tape, tape_of, write_whole
-from contoursolve.geometry import Length
+from contoursolve.gcode.files import Tape, check_target, open_tape, tape_of, write_whole
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.listing import without_repeated
 from contoursolve.postprocess.expansion_report import Options, Summary
 from contoursolve.postprocess.post_processors import POSTS, Arcs, Numbering, Post, Risk
-from contoursolve.postprocess.rewrite import Rewritten, rewrite
-from contoursolve.program.pipeline import FactPlaceError
-from contoursolve.program.project import SettingError
-from contoursolve.program.recognise import UnknownControlError
+from contoursolve.postprocess.rewrite import Rewritten, Writer, rewrite
+from contoursolve.program.request import request_for
 
 _BY_HAND = "write by hand what is meant there"
 
@@ -179,10 +173,7 @@ def expand(
         if target is None:
             print_bytes(rewritten.pieces())
         elif summary.replaced or summary.restated or not is_in_place:
-            try:
-                backup = write_whole(target, rewritten.pieces(), keeps_backup=is_in_place)
-            except CannotWriteError as error:
-                raise CouldNotRunError(str(error)) from None
+            backup = write_whole(target, rewritten.pieces(), keeps_backup=is_in_place)
             say(f"{target} written" + (f"; the old one is {backup}" if backup else ""), err=True)
     _report_expansion(summary, wish.post, style_of_output())
     context.exit(FOUND_ERRORS if summary.left else 0)
@@ -238,10 +229,7 @@ def target_of(program: str | None, output: str | None, *, is_forced: bool) -> Pa
     if output in (None, STANDARD):
         return None
     target = Path(str(output))
-    try:
-        check_target(target, source, is_forced=is_forced)
-    except CannotWriteError as error:
-        raise CouldNotRunError(str(error)) from None
+    check_target(target, source, is_forced=is_forced)
     return target
 
 
@@ -267,6 +255,10 @@ def _wish(post: Post, options: Mapping[str, Any]) -> Options:
     return Options(post, arcs, options["decimals"], has_comments, numbering, is_inline)
 
 
+_ASKED = ("units", "rules", "facts", "variables", "folders")
+"""Options that say how a program is examined."""
+
+
 def _rewrite(
     source: AbstractContextManager[Tape],
     body: IO[bytes],
@@ -275,46 +267,27 @@ def _rewrite(
     options: Mapping[str, Any],
     progress: Callable[[float], None],
 ) -> Rewritten:
-    """Expand a program; whatever keeps it from running is told as one line."""
-    name = ""
-    try:
-        with source as tape:
-            name = tape.name
-            making = _formulas(tape, wish, options)
-            return rewrite(
-                tape,
-                body,
-                wish,
-                control=options["control"],
-                unit=Length(options["units"]),
-                policy=Policy(options["rules"]),
-                settings=settings_of(tape, options["assignments"]),
-                start=gcode.parse(start, name, first_line=0) if start is not None else None,
-                facts=[gcode.read_directive(text, -number) for number, text in enumerate(options.get("facts", ()), 1)],
-                around=surroundings_of(tape.name, options.get("variables"), options.get("folders", ())),
-                progress=progress,
-                **making,
-            )
-    except (SettingError, UnreadableProgramError) as error:
-        raise CouldNotRunError(str(error)) from None
-    except UnknownControlError as error:
-        raise CouldNotRunError(f"{name}: {error}; say which with --control {'|'.join(error.choices)}") from None
-    except FactPlaceError as error:
-        raise CouldNotRunError(f"{name}: {error}") from None
+    """Expand a program."""
+    with source as tape, naming(tape.name):
+        return rewrite(
+            tape,
+            body,
+            wish,
+            request_for(tape.name, start=start, **{each: options[each] for each in _ASKED if each in options}),
+            control=options["control"],
+            settings=settings_of(tape, options["assignments"]),
+            progress=progress,
+            writer=_formulas(tape, wish, options) if options.get("has_formulas") else None,
+        )
 
 
-def _formulas(tape: Tape, wish: Options, options: Mapping[str, Any]) -> Mapping[str, Any]:
-    """What writes contours as formulas, if that is asked for."""
-    if not options.get("has_formulas"):
-        return {}
+def _formulas(tape: Tape, wish: Options, options: Mapping[str, Any]) -> Writer:
+    """What writes contours as formulas."""
     from contoursolve.formulas.rewriting import formulas_for  # noqa: PLC0415 - few programs need it
 
-    policy, variables = Policy(options["rules"]), options["variables"]
-    try:
-        making = formulas_for(tape.read(), wish.post, options["scratch"], variables or {}, policy)
-    except ValueError as error:
-        raise CouldNotRunError(str(error)) from None
-    return {"lines_of": making.lines, "expander": making.expander}
+    return formulas_for(
+        tape.read(), wish.post, options["scratch"], options["variables"] or {}, Policy(options["rules"])
+    )
 
 
 @contextmanager

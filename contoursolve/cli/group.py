@@ -7,6 +7,7 @@ from importlib import import_module
 import click
 
 from contoursolve import __version__
+from contoursolve.diagnostics.errors import UserError
 
 _COMMANDS = {
     "check": "solve:check",
@@ -46,6 +47,10 @@ class _Commands(click.Group):
 
             vars(error)["message"] = harmless(error.message)
             raise
+        except UserError as error:
+            from contoursolve.cli.options import CouldNotRunError  # noqa: PLC0415 - the same
+
+            raise CouldNotRunError(str(error)) from None
         except KeyboardInterrupt:
             from contoursolve.cli.printing import say  # noqa: PLC0415 - the same
             from contoursolve.cli.progress import STOPPED, leave_threads  # noqa: PLC0415 - most runs end by themselves

@@ -2,8 +2,7 @@
 
 import click
 
-from contoursolve.cli.options import CouldNotRunError
-from contoursolve.diagnostics.extras import MissingExtraError, importing
+from contoursolve.diagnostics.extras import importing
 
 
 @click.command()
@@ -17,9 +16,6 @@ def lsp() -> None:
     \b
     contoursolve lsp
     """
-    try:
-        with importing("lsp", "the language server"):
-            from contoursolve.lsp.server import server  # noqa: PLC0415 - needs an extra
-    except MissingExtraError as error:
-        raise CouldNotRunError(str(error)) from None
+    with importing("lsp", "the language server"):
+        from contoursolve.lsp.server import server  # noqa: PLC0415 - needs an extra
     server.start_io()

@@ -2,7 +2,8 @@
 
 import re
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import partial
 from glob import glob
 from importlib import import_module
@@ -15,18 +16,19 @@ from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
 from contoursolve import gcode
-from contoursolve.api import UnreadableProgramError, follow_program, read_program
+from contoursolve.api import follow_program, read_program
 from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Policy
+from contoursolve.diagnostics.errors import ProgramError, UserError
 from contoursolve.gcode import STANDARD_INPUT, Program
 from contoursolve.gcode.files import Tape
 from contoursolve.geometry import Length
 from contoursolve.output.findings import EXPLAINING
 from contoursolve.output.listing import lines_of_findings, short_findings
 from contoursolve.output.plain_text import harmless
-from contoursolve.program.pipeline import FactPlaceError, Result, Run
-from contoursolve.program.project import SettingError, find_settings, read_setting, stated_settings
+from contoursolve.program.pipeline import Result, Run
+from contoursolve.program.project import find_settings, read_setting, stated_settings
 from contoursolve.program.recognise import UnknownControlError
 from contoursolve.reading.dialect import Dialect
 
@@ -267,7 +269,7 @@ def load(paths: Sequence[str], blocks: tuple[str, ...]) -> list[Callable[[], Pro
         return [lambda: gcode.parse("\n".join(blocks), "<block>")]
     if not paths:
         raise click.UsageError("missing PROGRAM: name a file, or - for standard input, or use --block")
-    return [partial(read, path) for path in paths]
+    return [partial(read_program, path) for path in paths]
 
 
 def files_named(path: str) -> list[str]:
@@ -277,14 +279,6 @@ def files_named(path: str) -> list[str]:
 
 
 _WILD = re.compile(r"[*?\[]")
-
-
-def read(path: str) -> Program:
-    """The program of a file, or of standard input; one that cannot be read ends the command."""
-    try:
-        return read_program(path)
-    except UnreadableProgramError as error:
-        raise CouldNotRunError(str(error)) from None
 
 
 def named_after(program: str | None, suffix: str) -> Path:
@@ -300,15 +294,20 @@ def examine(program: Program, start: str | None, assignments: Sequence[str], opt
 
 def follow(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Run:
     """The same as a stream."""
+    with naming(program.name):
+        return follow_program(program, start=start, settings=settings_of(program, assignments), **options)
+
+
+@contextmanager
+def naming(program: str = "", options: str = "") -> Iterator[None]:
+    """Errors about a program begin with its name; where its control is not known, they end with how to say it."""
     try:
-        settings = settings_of(program, assignments)
-        return follow_program(program, start=start, settings=settings, **options)
-    except SettingError as error:
-        raise CouldNotRunError(str(error)) from None
-    except UnknownControlError as error:
-        raise CouldNotRunError(f"{program.name}: {error}; say which with --control {'|'.join(error.choices)}") from None
-    except FactPlaceError as error:
-        raise CouldNotRunError(f"{program.name}: {error}") from None
+        yield
+    except ProgramError as error:
+        way = ""
+        if isinstance(error, UnknownControlError):
+            way = f"; say which with {options or '--control ' + '|'.join(error.choices)}"
+        raise UserError(f"{program and program + ': '}{error}{way}") from None
 
 
 def settings_of(program: Program | Tape, assignments: Sequence[str]) -> dict[str, str]:

@@ -20,8 +20,8 @@ from contoursolve.cli.options import (
 from contoursolve.cli.printing import say
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import count
-from contoursolve.diagnostics.extras import MissingExtraError, importing
-from contoursolve.gcode.files import CannotWriteError, check_target, write_whole
+from contoursolve.diagnostics.extras import importing
+from contoursolve.gcode.files import check_target, write_whole
 from contoursolve.output.listing import summary_line
 from contoursolve.pictures import Picture, Theme, draw_answer, draw_result
 from contoursolve.program.pipeline import Result
@@ -43,13 +43,10 @@ def bytes_of(picture: Picture, target: Path) -> bytes:
 
 
 def check_picture(target: Path, *, is_forced: bool) -> None:
-    """Raise CouldNotRunError if a picture cannot be written there."""
+    """Raise CouldNotRunError or CannotWriteError if a picture cannot be written there."""
     if target.suffix.lower() not in (SVG, PNG):
         raise CouldNotRunError(f"{target}: pictures end in .svg or .png")
-    try:
-        check_target(target, None, is_forced=is_forced)
-    except CannotWriteError as error:
-        raise CouldNotRunError(str(error)) from None
+    check_target(target, None, is_forced=is_forced)
 
 
 def _may_replace(target: Path, output: Path | None, *, is_forced: bool) -> bool:
@@ -138,21 +135,18 @@ def plot(
     if is_whole is not None and (kind == _DXF or line is not None or is_each):
         raise click.UsageError("--whole and --half are for a picture of all contours: leave out --line, --each and DXF")
     source = Path(program) if program else None
-    try:
-        if not is_each:
-            check_target(target, source, is_forced=_may_replace(target, output, is_forced=is_forced))
-        result = examine(loader(), start, assignments, options)
-        print_findings(result, program)
-        if kind == _DXF:
-            files = _drawings_for_cad(result, target)
-        else:
-            files = list(_pictures(result, target, line, Theme(theme), is_each=is_each, is_whole=is_whole))
-        for path, _, _ in files if is_each else ():
-            check_target(path, source, is_forced=_may_replace(path, output, is_forced=is_forced))
-        for path, data, _ in files:
-            write_whole(path, [data], keeps_backup=False)
-    except (CannotWriteError, MissingExtraError) as error:
-        raise CouldNotRunError(str(error)) from None
+    if not is_each:
+        check_target(target, source, is_forced=_may_replace(target, output, is_forced=is_forced))
+    result = examine(loader(), start, assignments, options)
+    print_findings(result, program)
+    if kind == _DXF:
+        files = _drawings_for_cad(result, target)
+    else:
+        files = list(_pictures(result, target, line, Theme(theme), is_each=is_each, is_whole=is_whole))
+    for path, _, _ in files if is_each else ():
+        check_target(path, source, is_forced=_may_replace(path, output, is_forced=is_forced))
+    for path, data, _ in files:
+        write_whole(path, [data], keeps_backup=False)
     say(summary_line(result))
     for path, _, content in files:
         say(f"{path}: {content}")
@@ -244,23 +238,20 @@ def report(
     target = output if output is not None else named_after(program, ".html")
     if target.suffix.lower() not in (".html", ".htm"):
         raise CouldNotRunError(f"{target}: pages end in .html")
-    try:
-        with importing("report", "a report"):
-            from contoursolve.output.report import report_page  # noqa: PLC0415 - needs an extra
-        may_replace = _may_replace(target, output, is_forced=is_forced)
-        check_target(target, Path(program) if program else None, is_forced=may_replace)
-        result = examine(loader(), start, assignments, options)
-        if not result.answers:
-            print_findings(result, program)
-            say(f"{summary_line(result)}\n{target}: not written")
-            context.exit(FOUND_ERRORS)
-        with click.progressbar(
-            length=len(result.answers), label="drawing", file=sys.stderr, hidden=not sys.stderr.isatty()
-        ) as bar:
-            pieces = report_page(result, __version__, lambda: bar.update(1))
-            write_whole(target, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)
-    except (CannotWriteError, MissingExtraError) as error:
-        raise CouldNotRunError(str(error)) from None
+    with importing("report", "a report"):
+        from contoursolve.output.report import report_page  # noqa: PLC0415 - needs an extra
+    may_replace = _may_replace(target, output, is_forced=is_forced)
+    check_target(target, Path(program) if program else None, is_forced=may_replace)
+    result = examine(loader(), start, assignments, options)
+    if not result.answers:
+        print_findings(result, program)
+        say(f"{summary_line(result)}\n{target}: not written")
+        context.exit(FOUND_ERRORS)
+    with click.progressbar(
+        length=len(result.answers), label="drawing", file=sys.stderr, hidden=not sys.stderr.isatty()
+    ) as bar:
+        pieces = report_page(result, __version__, lambda: bar.update(1))
+        write_whole(target, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)
     say(summary_line(result, is_explained=True))
     say(f"{target} written")
     context.exit(FOUND_ERRORS if result.has_errors else 0)

@@ -17,6 +17,7 @@ from contoursolve.cli.options import (
     load,
 )
 from contoursolve.cli.printing import print_lines, print_pieces, say, style_of_output
+from contoursolve.diagnostics.errors import UserError
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.output.document import Findings, Shelf, stream_json
 from contoursolve.output.listing import (
@@ -144,8 +145,8 @@ def check(
         for name, loader in zip(names or [""], loaded, strict=True):
             try:
                 run = follow(loader(), start, assignments, options)
-            except CouldNotRunError as error:
-                error.show()
+            except UserError as error:
+                CouldNotRunError(str(error)).show()
                 rows.append((name, None))
                 continue
             own = Totals()

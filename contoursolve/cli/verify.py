@@ -7,7 +7,6 @@ import click
 from contoursolve.cli.options import (
     COULD_NOT_RUN,
     FOUND_ERRORS,
-    CouldNotRunError,
     apart_options,
     control_option,
     units_option,
@@ -62,11 +61,8 @@ def verify(
         raise click.UsageError("with --block, name RESULT.json and no PROGRAM")
     if not blocks and len(inputs) != 2:  # noqa: PLR2004 - the two that the usage names
         raise click.UsageError("name PROGRAM and RESULT.json, or --block and RESULT.json")
-    try:
-        program = verification.document_of_blocks(blocks) if blocks else verification.read_document(inputs[0])
-        receipt = verification.verify(program, verification.read_document(inputs[-1]), start=start, **options)
-    except verification.CannotVerifyError as error:
-        raise CouldNotRunError(str(error)) from None
+    program = verification.document_of_blocks(blocks) if blocks else verification.read_document(inputs[0])
+    receipt = verification.verify(program, verification.read_document(inputs[-1]), start=start, **options)
     if format_ == "json":
         click.echo(verification.to_json(receipt))
     else:

@@ -17,6 +17,7 @@ from contoursolve.gcode import Block, Macro, Program, Word
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.program.calls import machine_for
 from contoursolve.program.pipeline import Examiner, Result
+from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Step as Passed
 from contoursolve.reading import Code, Effect, Lexicon, State, WithoutPoint, advance, apply_modes, codes_of, leave
 from contoursolve.reading.dialect import Dialect
@@ -55,8 +56,8 @@ def follow(result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...]
     if machine is None:
         steps = follower.walk(result.program, result.answers)
     else:
-        examiner = Examiner(dialect, unit, result.policy, Depth.VERDICT)
-        steps = follower.run(examiner.steps(machine.run_all_alone(), result.start))
+        examiner = Examiner(Request(dialect, unit, result.policy, Depth.VERDICT, result.start))
+        steps = follower.run(examiner.steps(machine.run_all_alone()))
     return Path(result.program.name, dialect.name, axes, tuple(steps))
 
 

@@ -6,8 +6,10 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
+from contoursolve.diagnostics.errors import UserError
 
-class MissingExtraError(ImportError):
+
+class MissingExtraError(UserError, ImportError):
     """A package of an extra is missing, or a font for it; the message says what needs it and what to install."""
 
 

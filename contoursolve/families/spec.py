@@ -17,12 +17,14 @@ from contoursolve import gcode
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Answer, Depth, Policy
 from contoursolve.diagnostics.choices import choice_of
+from contoursolve.diagnostics.errors import UserError
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.gcode import FACT, Directive, Program, Word, call, spell
 from contoursolve.geometry import Length
 from contoursolve.numeric.columns import Array
 from contoursolve.program.pipeline import Result, run
 from contoursolve.program.recognise import UnknownControlError, choose
+from contoursolve.program.request import Request
 from contoursolve.reading import ReadIssue
 from contoursolve.reading.dialect import Dialect
 from contoursolve.tolerance import LARGEST
@@ -33,7 +35,7 @@ LONGEST = 262_144
 """Values of one word of a grid that are prepared once for all rows; of more, a stretch at a time."""
 
 
-class FamilyError(ValueError):
+class FamilyError(UserError, ValueError):
     """A family that cannot be evaluated; the message says why, and what to do."""
 
 
@@ -225,7 +227,9 @@ class Template(Struct, frozen=True, eq=False):
 
     def examined(self, depth: Depth = Depth.FULL) -> Result:
         """All that `solve` says of the block as it stands, with every repair."""
-        return run(self.program, self.dialect, self.unit, self.policy, depth, self.start, self.facts)
+        return run(
+            self.program, Request(self.dialect, self.unit, self.policy, depth, self.start, self.facts, is_strict=True)
+        )
 
     def filled(self, values: Mapping[str, float]) -> "Template":
         """The block with these values written in it, and no word free."""
@@ -382,7 +386,7 @@ class SweepSpec(Struct, frozen=True):
         start = gcode.parse(self.start, "<start>", first_line=0) if self.start is not None else None
         dialect = choose(self.control, program, dict(self.settings))
         if dialect is None:
-            unread = run(program, None, unit, policy, start=start)
+            unread = run(program, Request(None, unit, policy, start=start, is_strict=True))
             if any(each.about is not ReadIssue.NO_CONTOUR for each in errors_of(unread)):
                 raise RefusedError(unread)
             raise UnknownControlError(f"the block does not show its control: {' or '.join(DIALECTS)}")

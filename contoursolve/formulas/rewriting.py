@@ -11,7 +11,7 @@ from contoursolve.controls import HAAS_MILL, HEIDENHAIN, SIEMENS_840D
 from contoursolve.diagnosis.examine import Policy
 from contoursolve.formulas.expander import FormulaExpander
 from contoursolve.formulas.lines import FormulaLines
-from contoursolve.formulas.scratch import Scratch, read_scratch
+from contoursolve.formulas.scratch import NoFormulasError, Scratch, read_scratch
 from contoursolve.formulas.targets import TARGETS
 from contoursolve.postprocess.post_processors import POSTS, Post, find_post, post_of
 from contoursolve.reading.dialect import Dialect
@@ -42,13 +42,13 @@ class Formulas(Struct, frozen=True, eq=False):
         """The lines of a program on their way."""
         return FormulaLines(*args, lets=self.lets, **options)
 
-    def expander(self, dialect: Dialect, *args: Any) -> FormulaExpander:
+    def expander(self, *args: Any) -> FormulaExpander:
         """The pass over a program."""
+        dialect: Dialect = args[0]
         own = {"haas": "haas", "siemens": "sinumerik", "heidenhain": "klartext"}
         name = own.get(dialect.name.partition("-")[0], "fanuc") if self.target == "same" else self.target
         scratch = self.scratch or read_scratch(TARGETS[name].scratch)
         return FormulaExpander(
-            dialect,
             *args,
             target=TARGETS[name],
             scratch=scratch,
@@ -68,10 +68,10 @@ def post_of_formulas(post: str | Post) -> Post:
 
 
 def formulas_for(text: str, post: Post, scratch: str | None, lets: Mapping[str, float], policy: Policy) -> Formulas:
-    """The formulas of a program for a target. Raises ValueError for a range of variables that is none."""
+    """The formulas of a program for a target. Raises NoFormulasError for a range of variables that is none."""
     used = frozenset(re.sub(r"\s+", "", each).upper() for each in _VARIABLES.findall(text))
     numbers = [int(each) for each in _LABELS.findall(text)]
     label = max([_FIRST_LABEL, *(number + 1 for number in numbers if number >= _FIRST_LABEL)])
     if post.name not in ("same", *TARGETS):
-        raise ValueError(f"{post.title} has no formulas; choose from {', '.join(POST_NAMES)}")
+        raise NoFormulasError(f"{post.title} has no formulas; choose from {', '.join(POST_NAMES)}")
     return Formulas(post.name, read_scratch(scratch) if scratch else None, lets, policy, used, label)

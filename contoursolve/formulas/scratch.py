@@ -7,6 +7,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
+from contoursolve.diagnostics.errors import UserError
 from contoursolve.execution.evaluate import variables_of
 from contoursolve.execution.language import Apply, Assign, Term, Variable, When
 from contoursolve.formulas.contour import Choose, Leg, Said, Statement, Stop
@@ -14,6 +15,10 @@ from contoursolve.formulas.given import FormulaError
 from contoursolve.numeric.formulas import COMMON
 
 _RANGE = re.compile(r"\s*([^\d\s-]+)(\d+)\s*-\s*(?:[^\d\s-]+)?(\d+)\s*")
+
+
+class NoFormulasError(UserError, ValueError):
+    """Formulas were asked for that there are not; the message says what there is."""
 
 
 class Scratch(Struct, frozen=True):
@@ -24,10 +29,10 @@ class Scratch(Struct, frozen=True):
 
 
 def read_scratch(text: str) -> Scratch:
-    """A range such as `#140-#160`, `R50-R99`, `Q40-Q60`. Raises ValueError."""
+    """A range such as `#140-#160`, `R50-R99`, `Q40-Q60`. Raises NoFormulasError."""
     found = _RANGE.fullmatch(text.upper())
     if found is None or int(found[2]) > int(found[3]):
-        raise ValueError(f"{text!r} is no range of variables, such as #140-#160")
+        raise NoFormulasError(f"{text!r} is no range of variables, such as #140-#160")
     return Scratch(text, tuple(f"{found[1]}{number}" for number in range(int(found[2]), int(found[3]) + 1)))
 
 

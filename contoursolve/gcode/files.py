@@ -11,6 +11,7 @@ from typing import BinaryIO
 
 from msgspec import Struct
 
+from contoursolve.diagnostics.errors import UserError
 from contoursolve.gcode.contents import encoding_of
 from contoursolve.gcode.text import (
     STANDARD_INPUT,
@@ -26,7 +27,7 @@ _IN_MEMORY = 1 << 22
 """Bytes of standard input that are held in memory."""
 
 
-class CannotWriteError(ValueError):
+class CannotWriteError(UserError, ValueError):
     """A target that cannot be written; the message says why and what to do."""
 
 
@@ -41,12 +42,14 @@ class Tape(Struct, frozen=True):
     """The byte order mark that it begins with, if any."""
     stamp: object = None
     """What tells whether the file was changed since it was opened; None for what is no file."""
+    errors: str = "strict"
+    """How what is no character of the encoding is read, as `codecs` names it."""
 
     def lines(self) -> Iterator[str]:
         """Its lines from the first, each with its end, one at a time. Raises UnreadableProgramError at the last one if
         the file was changed since it was opened."""
         self.data.seek(len(self.mark))
-        text = io.TextIOWrapper(self.data, self.encoding, newline="")
+        text = io.TextIOWrapper(self.data, self.encoding, self.errors, newline="")
         try:
             for line in text:  # noqa: UP028 - `yield from` would close the file when it is not read to its end
                 yield line
@@ -59,12 +62,12 @@ class Tape(Struct, frozen=True):
     def encode(self, text: str) -> bytes:
         """The bytes of a text that takes the place of its lines. Remarks may quote a fact of the command line, with
         characters that the program's encoding lacks; they become question marks."""
-        return text.encode(self.encoding, "replace")
+        return text.encode(self.encoding, "replace" if self.errors == "strict" else self.errors)
 
     def read(self) -> str:
         """All of it."""
         self.data.seek(len(self.mark))
-        return self.data.read().decode(self.encoding)
+        return self.data.read().decode(self.encoding, self.errors)
 
     @property
     def share(self) -> float:
@@ -113,6 +116,16 @@ def tape_of(text: str, name: str) -> Iterator[Tape]:
     # A terminal's bytes need not be UTF-8.
     encoding, _ = encoding_of([data], name)
     yield Tape(name, io.BytesIO(data), len(data), encoding, b"")
+
+
+def tape_in_memory(text: str, name: str) -> Tape:
+    """Any text as if it were in a file; its bytes are in `ANY_TEXT`."""
+    data = text.encode(*ANY_TEXT)
+    return Tape(name, io.BytesIO(data), len(data), ANY_TEXT[0], b"", errors=ANY_TEXT[1])
+
+
+ANY_TEXT = ("utf-8", "surrogatepass")
+"""An encoding of every text that Python holds."""
 
 
 def _spool() -> BinaryIO:

@@ -6,10 +6,12 @@ import sys
 from pathlib import Path
 from typing import BinaryIO
 
+from contoursolve.diagnostics.errors import UserError
+
 STANDARD_INPUT = "-"
 
 
-class UnreadableProgramError(ValueError):
+class UnreadableProgramError(UserError, ValueError):
     """A file that is missing, is no file, or is no program; the message says which."""
 
 

@@ -1,11 +1,12 @@
 """A program with its contours written as plain G-code, or in plain words of its control."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
-from contoursolve.diagnosis.examine import Depth, Policy
+from msgspec.structs import replace as replace_fields
+
+from contoursolve.diagnosis.examine import Depth
 from contoursolve.execution.events import ProgramEvent
-from contoursolve.execution.subprograms import Surroundings
 from contoursolve.gcode import Directive, Program
 from contoursolve.geometry import Length
 from contoursolve.postprocess.expander import OPENING, Expander
@@ -17,29 +18,28 @@ from contoursolve.program.batch import Batch
 from contoursolve.program.calls import machine_for
 from contoursolve.program.lines import Lines
 from contoursolve.program.pipeline import attach, walk
+from contoursolve.program.request import Request
 from contoursolve.program.stream import Line, each_block
 from contoursolve.reading.dialect import Dialect
 
 __all__ = ["OPENING", "expand_lines", "lines_of_facts", "opening_of"]
 
 
-def expand_lines(  # noqa: PLR0913 - takes what `rewrite` takes
+def expand_lines(
     lines: Lines,
     dialect: Dialect,
+    asked: Request,
     options: Options,
     summary: Summary,
     *,
-    unit: Length = Length.MM,
-    policy: Policy = Policy.ENFORCE,
-    start: Program | None = None,
     numbers: Numbers | None = None,
-    around: Surroundings | None = None,
+    is_run: bool = False,
     expander: Callable[..., Expander] | None = None,
 ) -> Iterator[str | object]:
-    """The lines of a program (each with its end) with every contour replaced, and `OPENING` once.
+    """The lines of a program for a control (each with its end) with every contour replaced, and `OPENING` once.
 
-    `numbers` are those of the whole program, where every line is to have one. `around` is for a program that calls or
-    computes, which is read as a whole; `expander` makes another pass than the usual one. Unless the control of the
+    `numbers` are those of the whole program, where every line is to have one. A program that calls or computes `is_run`
+    and is read as a whole; `expander` makes another pass than the usual one. Unless the control of the
     lines is certain, raises UnknownControlError if some block is for another one.
     """
     writing, kind = dialect.writing, Expander
@@ -47,12 +47,12 @@ def expand_lines(  # noqa: PLR0913 - takes what `rewrite` takes
         kind = InOwnWords
     elif writing is not None:
         kind, dialect = InGCodes, replace(dialect, find=writing.find)
-    together = Batch(dialect, policy, is_proven=False)
+    together = Batch(dialect, asked.policy, is_proven=False)
     blocks: Iterable[Line] = lines.blocks()
     machine = None
-    if around is not None:
+    if is_run:
         whole = tuple(each_block([*blocks], 0))
-        blocks, machine = whole, machine_for(Program("", "", whole, dialect.modes.syntax), dialect, around)
+        blocks, machine = whole, machine_for(Program("", "", whole, dialect.modes.syntax), dialect, asked.around)
 
     def leave(event: ProgramEvent) -> None:
         if kind is not InGCodes:  # which tells of each block that it cannot write
@@ -60,18 +60,15 @@ def expand_lines(  # noqa: PLR0913 - takes what `rewrite` takes
             summary.left.append(Left((event.line,), told, (), {}))
 
     telling = leave if options.is_inline or kind is InGCodes else None
-    steps = walk(blocks, dialect, unit, policy, Depth.PATH, start, together, machine, telling)
+    asked = replace_fields(asked, dialect=dialect, depth=Depth.PATH)
+    steps = walk(blocks, asked, together, machine, telling)
     yield from (expander or kind)(dialect, options, summary, lines, numbers).expand(steps)
 
 
-def lines_of_facts(
-    program: Program, dialect: Dialect, unit: Length, start: Program | None, facts: Sequence[Directive]
-) -> dict[int, tuple[Directive, ...]]:
-    """Facts that were stated apart from a program, by the line of its only contour. Raises FactPlaceError."""
-    if not facts:
-        return {}
-    attached, worded = attach(program, dialect, unit, start, facts)
-    return {block.line: worded for block in attached.blocks if worded[0] in block.directives}
+def lines_of_facts(program: Program, asked: Request) -> dict[int, tuple[Directive, ...]]:
+    """The facts that were stated apart from a program, by the line of its only contour. Raises FactPlaceError."""
+    attached, worded = attach(program, asked)
+    return {block.line: worded for block in attached.blocks if worded and worded[0] in block.directives}
 
 
 def opening_of(options: Options, dialect: Dialect, unit: Length, summary: Summary) -> str:

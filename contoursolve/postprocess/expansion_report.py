@@ -5,6 +5,7 @@ from typing import Any
 
 from msgspec import Struct, field
 
+from contoursolve.diagnostics.errors import ProgramError
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.gcode import Block, FaultKind
 from contoursolve.geometry import Length
@@ -80,6 +81,10 @@ class Expansion(Struct, frozen=True):
     text: str | None
     control: str | None
     summary: Summary
+
+
+class ConversionError(ProgramError, ValueError):
+    """A program cannot be written for a control at all."""
 
 
 class Conversion(Struct, frozen=True):

@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import IO
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import IO, Any, Protocol
 
 from msgspec import Struct
+from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Policy
 from contoursolve.execution.machine import needs_running
-from contoursolve.execution.subprograms import ALONE, Surroundings
-from contoursolve.gcode import Block, Directive, Program, parse, parse_block
+from contoursolve.gcode import Block, parse, parse_block
 from contoursolve.gcode.files import Tape
-from contoursolve.geometry import Length
 from contoursolve.postprocess.expander import Expander
 from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_facts, opening_of
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
 from contoursolve.postprocess.numbering import numbers_of
 from contoursolve.postprocess.post_processors import Numbering
 from contoursolve.program.lines import Lines
-from contoursolve.program.project import configure
+from contoursolve.program.project import check_settings, configure
 from contoursolve.program.recognise import Recogniser, named_control
+from contoursolve.program.request import Request
 from contoursolve.reading.dialect import Dialect
 
 _BATCH = 1 << 16
@@ -29,6 +28,16 @@ _BATCH = 1 << 16
 _CHUNK = 1 << 20
 _REPORTED = 0.01
 """Share of a program after which the progress is told again."""
+
+
+class Writer(Protocol):
+    """Another way to read and write a program."""
+
+    def lines(self, *args: Any, **options: Any) -> Lines:
+        """The lines of the program on their way; arguments as for `Lines`."""
+
+    def expander(self, *args: Any) -> Expander:
+        """The pass over the program; arguments as for `Expander`."""
 
 
 class Rewritten(Struct, frozen=True):
@@ -49,24 +58,19 @@ class Rewritten(Struct, frozen=True):
             yield chunk
 
 
-def rewrite(  # noqa: PLR0913 - takes what the command takes
+def rewrite(
     tape: Tape,
     body: IO[bytes],
     options: Options,
+    asked: Request,
     *,
     control: str | Dialect | None = None,
-    unit: Length = Length.MM,
-    policy: Policy = Policy.ENFORCE,
     settings: Mapping[str, str] | None = None,
-    start: Program | None = None,
-    facts: Sequence[Directive] = (),
-    around: Surroundings = ALONE,
     progress: Callable[[float], None] = lambda _: None,
-    lines_of: Callable[..., Lines] = Lines,
-    expander: Callable[..., Expander] | None = None,
+    writer: Writer | None = None,
 ) -> Rewritten:
-    """Expand a program into `body`; `progress` is told which share of it has been read; `lines_of` and `expander` read
-    and write it in another way.
+    """Expand a program into `body`, for the control of this name, or that it shows, with these settings; `progress` is
+    told which share of it has been read; a `writer` reads and writes it in another way.
 
     Raises UnknownControlError, SettingError and FactPlaceError, as `solve` does. With facts, all of the program is
     held in memory, to see which contour they are about.
@@ -78,23 +82,23 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
     summary = Summary()
     body.write(tape.mark)
     if dialect is None:
+        check_settings(settings or {})
         summary.left += unread
         lines: Iterable[str | object] = tape.lines()
     else:
         dialect = configure(dialect, settings)
-        places = lines_of_facts(parse(tape.read(), tape.name), dialect, unit, start, facts) if facts else {}
+        asked = replace(asked, dialect=dialect)
+        places = lines_of_facts(parse(tape.read(), tape.name), asked) if asked.facts else {}
         is_certain = bool(named or recogniser.begun) or not recogniser.is_sure
         lines = expand_lines(
-            lines_of(tape.lines(), dialect, places, is_certain=is_certain),
+            (writer.lines if writer else Lines)(tape.lines(), dialect, places, is_certain=is_certain),
             dialect,
+            asked,
             options,
             summary,
-            unit=unit,
-            policy=policy,
-            start=start,
             numbers=numbers_of(tape.lines(), dialect) if options.numbering is Numbering.ALL else None,
-            around=around if expander is None and needs_running(tape.lines(), dialect.modes.language) else None,
-            expander=expander,
+            is_run=writer is None and needs_running(tape.lines(), dialect.modes.language),
+            expander=writer.expander if writer else None,
         )
     held: list[str] = []
     size, place, told = 0, len(tape.mark), 0.0
@@ -112,7 +116,7 @@ def rewrite(  # noqa: PLR0913 - takes what the command takes
                 told = tape.share
                 progress(told)
     body.write(tape.encode("".join(held)))
-    opening = opening_of(options, dialect, unit, summary) if dialect else ""
+    opening = opening_of(options, dialect, asked.unit, summary) if dialect else ""
     return Rewritten(body, place, tape.encode(opening), dialect.name if dialect else None, summary)
 
 

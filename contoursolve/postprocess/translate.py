@@ -9,12 +9,13 @@ from decimal import Decimal
 from math import cos, radians, sin
 
 from contoursolve.controls.chain import ChainFinder, Joining, Language
-from contoursolve.diagnosis.examine import Answer, Depth, Policy
+from contoursolve.diagnosis.examine import Answer, Depth
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import parse, spell
 from contoursolve.geometry import Arc, Corner, CornerShape, Heading, Line, Profile, Unit
 from contoursolve.postprocess.emit import Format, Move, emit
 from contoursolve.program.pipeline import run
+from contoursolve.program.request import Request
 from contoursolve.reading import Diameter, WithoutPoint
 from contoursolve.reading.dialect import Dialect
 from contoursolve.solving import Point
@@ -196,5 +197,5 @@ def _is_accepted(moves: Moves, answer: Answer, target: Dialect, here: Point, for
     absolute = ["G90"] if sense else []
     head = " ".join(("G00", unit, answer.plane.code, side, *absolute, start))
     text = "\n".join([head, *sense, *lines])
-    result = run(parse(text, syntax=target.modes.syntax), target, form.unit, Policy.ENFORCE, Depth.VERDICT)
+    result = run(parse(text, syntax=target.modes.syntax), Request(target, form.unit, depth=Depth.VERDICT))
     return all(each.severity is not Severity.ERROR for each in result.diagnostics)

@@ -21,7 +21,7 @@ from typing import Any, overload
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer, Depth, Policy, rank
+from contoursolve.diagnosis.examine import Answer, Policy, rank
 from contoursolve.diagnostics.choices import choice_of
 from contoursolve.diagnostics.finding import Diagnostic, Fix, Severity
 from contoursolve.diagnostics.source import Span
@@ -34,6 +34,7 @@ from contoursolve.program.outside import Outside
 from contoursolve.program.pipeline import Checkpoint, Examiner, Result, run
 from contoursolve.program.project import CONTROL, FIRST_LINES, SettingError, stated_settings
 from contoursolve.program.recognise import PLANE, Recogniser, UnknownControlError, choose, shown_by
+from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Step
 from contoursolve.program.tape_markers import Marks
 from contoursolve.reading.dialect import Dialect
@@ -168,7 +169,7 @@ class OpenProgram:
         self.trouble = ""
         """Why the control cannot be told, if it cannot."""
         self._control, self._settings = control, dict(settings or {})
-        self._unit, self._policy = choice_of(Length, units, "units"), choice_of(Policy, rules, "rules")
+        self._asked = Request(None, choice_of(Length, units, "units"), choice_of(Policy, rules, "rules"))
         self._lines = _Lines(_split(text))
         self._shown: Counter[str] | None = None
         """How many lines show what of the control; None where they are not asked."""
@@ -305,8 +306,8 @@ class OpenProgram:
             self._lines.spell(self.dialect.modes.syntax)
         # A program that calls or computes is examined as a whole.
         if self.dialect is not None and not needs_running(self._lines.texts, self.dialect.modes.language):
-            self._examiner = Examiner(self.dialect, self._unit, self._policy, Depth.FULL, goes_on=True)
-            known = self._examiner.begin(None)
+            self._examiner = Examiner(replace(self._asked, dialect=self.dialect), goes_on=True)
+            known = self._examiner.begin()
             self._parts = [_Part(known, len(self._lines), is_stale=True), _Part(known, 0)]
 
     def _make_stale(self, first: int, last: int, more: int) -> None:
@@ -346,7 +347,7 @@ class OpenProgram:
             line = sum(part.count for part in parts[:index])
             self._bring_up(parts[index])
             known, begin = parts[index].known, index
-            walk = examiner.resume(self._lines, line, known, None)
+            walk = examiner.resume(self._lines, line, known)
             while parts[index].count or parts[index].is_stale:
                 here = parts[index]
                 if not here.count:
@@ -435,8 +436,8 @@ class OpenProgram:
     def _whole(self) -> Result:
         """All that is known of a program that is not examined in parts."""
         if self._unread is None:
-            program, around = parse(self.text, self.name), surroundings_of(self.name)
-            self._unread = run(program, self.dialect, self._unit, self._policy, around=around, is_strict=False)
+            asked = replace(self._asked, dialect=self.dialect, around=surroundings_of(self.name))
+            self._unread = run(parse(self.text, self.name), asked)
         return self._unread
 
     @property
@@ -462,7 +463,7 @@ class OpenProgram:
                     return None
                 if part.answer_age != len(self._moves):
                     self._bring_up(part)
-                    step, _, _ = next(self._examiner.resume(self._lines, start, part.known, None))
+                    step, _, _ = next(self._examiner.resume(self._lines, start, part.known))
                     part.answer, part.answer_age = step.answer, len(self._moves)
                 return part.answer
             start += part.count

@@ -24,6 +24,7 @@ from contoursolve.diagnosis.spelling import (
 )
 from contoursolve.diagnosis.wording import either
 from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnostics.errors import ProgramError
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.execution.events import EventKind, ProgramEvent
@@ -47,6 +48,7 @@ from contoursolve.program.calls import in_text_order, machine_for
 from contoursolve.program.outside import Outside
 from contoursolve.program.profiles import CycleProfile
 from contoursolve.program.recognise import begins_for_another, first_signs, what_shows
+from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Pending, Previous, Queue, Step, Together
 from contoursolve.program.stream import Line, View, each_block, go_on, pass_plainly
 from contoursolve.program.tape_markers import Marks
@@ -109,17 +111,18 @@ class Result(Shown, Struct, frozen=True):
         return block.span if block else Span(1, 1, 2)
 
 
-class FactPlaceError(ValueError):
+class FactPlaceError(ProgramError, ValueError):
     """Facts were stated apart from a program with several contours; the message says what to do."""
 
 
-def attach(
-    program: Program, dialect: Dialect, unit: Length, start: Program | None, facts: Sequence[Directive]
-) -> tuple[Program, tuple[Directive, ...]]:
-    """The program with further facts in the last block of its only contour, or else of its last block; and the facts,
-    those that are no texts in words. Raises FactPlaceError if there are several contours."""
-    before, program = dialect.initial_state(unit), spelled(program, dialect.modes.syntax)
-    contours = [each for each, _ in contours_of(program.blocks, dialect.find, dialect.modes, before, start)]
+def attach(program: Program, asked: Request) -> tuple[Program, tuple[Directive, ...]]:
+    """The program with the further facts in the last block of its only contour, or else of its last block; and the
+    facts, those that are no texts in words. Raises FactPlaceError if there are several contours."""
+    dialect = asked.dialect
+    if dialect is None or not asked.facts:
+        return program, asked.facts
+    before, program = dialect.initial_state(asked.unit), spelled(program, dialect.modes.syntax)
+    contours = [each for each, _ in contours_of(program.blocks, dialect.find, dialect.modes, before, asked.start)]
     if len(contours) > 1:
         lines = ", ".join(str(each.blocks[0].line) for each in contours)
         raise FactPlaceError(
@@ -127,7 +130,7 @@ def attach(
             "about, as a comment (contoursolve: ...)"
         )
     state, own = (contours[0].after, contours[0].blocks) if contours else (before, ())
-    worded = tuple(_in_words(fact, state.plane, state.unit) for fact in facts)
+    worded = tuple(_in_words(fact, state.plane, state.unit) for fact in asked.facts)
     return state_facts(program, own, worded), worded
 
 
@@ -141,61 +144,31 @@ def _in_words(fact: Directive, plane: Plane, unit: Length) -> Directive:
     return replace(fact, text=text, span=Span(fact.span.line, 1, len(text) + 1))
 
 
-def run(  # noqa: PLR0913 - takes what `solve` takes
-    program: Program,
-    dialect: Dialect | None,
-    unit: Length,
-    policy: Policy,
-    depth: Depth = Depth.FULL,
-    start: Program | None = None,
-    facts: Sequence[Directive] = (),
-    together: Together | None = None,
-    around: Surroundings = ALONE,
-    *,
-    is_strict: bool = True,
-) -> Result:
-    """Examine every block of a program and solve every contour, one by one or `together`.
-
-    `start` is a block that states the start point apart from the program, `facts` are further facts about its
-    only contour; raises FactPlaceError if it has several. Without a dialect only the characters of the program are
-    examined. If it is strict, it tells of every line, else of what contours depend on. `around` tells the values of
-    variables and where subprograms are.
-    """
-    return Run(program, dialect, unit, policy, depth, start, facts, together, around, is_strict=is_strict).collect()
+def run(program: Program, asked: Request, together: Together | None = None) -> Result:
+    """Examine every block of a program and solve every contour, one by one or `together`. Raises FactPlaceError."""
+    return Run(program, asked, together).collect()
 
 
 class Run:
     """The same as a stream: contours, and findings about other blocks, as they are found. `frame` is the result without
     them. Raises FactPlaceError."""
 
-    def __init__(  # noqa: PLR0913 - the same
-        self,
-        program: Program,
-        dialect: Dialect | None,
-        unit: Length,
-        policy: Policy,
-        depth: Depth = Depth.FULL,
-        start: Program | None = None,
-        facts: Sequence[Directive] = (),
-        together: Together | None = None,
-        around: Surroundings = ALONE,
-        *,
-        is_strict: bool = False,
-    ) -> None:
+    def __init__(self, program: Program, asked: Request, together: Together | None = None) -> None:
+        dialect, start = asked.dialect, asked.start
         if dialect is not None:
             syntax = dialect.modes.syntax
             program, start = spelled(program, syntax), start and spelled(start, syntax)
-        if facts and dialect is not None:
-            program, facts = attach(program, dialect, unit, start, facts)
+            asked = replace(asked, start=start)
+        program, facts = attach(program, asked)
         control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
-        self.frame = Result(program, control, (), (), start, tuple(facts), settings, policy, around=around)
-        goes_on = depth is Depth.FULL
-        self._examiner = Examiner(dialect, unit, policy, depth, together, goes_on=goes_on, is_strict=is_strict)
-        self._machine = machine_for(program, dialect, around) if dialect is not None else None
+        self.frame = Result(program, control, (), (), start, facts, settings, asked.policy, around=asked.around)
+        self._asked = asked
+        self._examiner = Examiner(asked, together, goes_on=asked.depth is Depth.FULL)
+        self._machine = machine_for(program, dialect, asked.around) if dialect is not None else None
 
     def __iter__(self) -> Iterator[Answer | Diagnostic]:
         program, examiner, is_told = self.frame.program, self._examiner, False
-        own = examiner.dialect
+        own = self._asked.dialect
         if own is not None and not self.is_strict and begins_for_another(program.blocks, own):
             yield examiner.nothing_to_solve(program.blocks)
             return
@@ -209,17 +182,17 @@ class Run:
             yield examiner.nothing_to_solve(program.blocks)
 
     def _steps(self) -> Iterator[Step]:
-        blocks, start = self.frame.program.blocks, self.frame.start
+        blocks = self.frame.program.blocks
         if self._machine is not None:
-            return self._examiner.steps_as_run(self._machine.main.blocks, self._machine, start)
+            return self._examiner.steps_as_run(self._machine.main.blocks, self._machine)
         # Blocks that are not kept are read as they are needed.
         is_whole = isinstance(blocks, tuple) or self.frame.control is None
-        return self._examiner.steps(blocks if is_whole else iter(blocks), start)
+        return self._examiner.steps(blocks if is_whole else iter(blocks))
 
     @property
     def is_strict(self) -> bool:
         """Whether it tells of every line."""
-        return self._examiner.outside.is_strict
+        return self._asked.is_strict
 
     def collect(self) -> Result:
         """All of it."""
@@ -232,13 +205,9 @@ class Run:
         return replace(self.frame, answers=tuple(answers), diagnostics=found, profiles=profiles)
 
 
-def walk(  # noqa: PLR0913 - all that a program is read by
+def walk(
     blocks: Iterable[Line],
-    dialect: Dialect,
-    unit: Length,
-    policy: Policy,
-    depth: Depth,
-    start: Program | None = None,
+    asked: Request,
     together: Together | None = None,
     machine: Machine | None = None,
     told: Callable[[ProgramEvent], None] | None = None,
@@ -247,12 +216,12 @@ def walk(  # noqa: PLR0913 - all that a program is read by
     so that a program of any length takes no more memory than some thousand lines, or its longest contour. Plain lines
     are read into words only where that matters. Contours are solved one by one, or `together`; where a machine runs the
     program, `blocks` are those that it has; with `told`, its calls are written out."""
-    examiner = Examiner(dialect, unit, policy, depth, together)
+    examiner = Examiner(asked, together)
     if machine is not None and told is not None:
-        return examiner.steps_alone(machine, start, told)
+        return examiner.steps_alone(machine, told)
     if machine is not None:
-        return examiner.steps_as_run(cast("Sequence[Block]", blocks), machine, start)
-    return examiner.steps(blocks, start)
+        return examiner.steps_as_run(cast("Sequence[Block]", blocks), machine)
+    return examiner.steps(blocks)
 
 
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
@@ -303,49 +272,33 @@ class Checkpoint(Struct, frozen=True):
 class Examiner:
     """One pass over one program: the modal state as it goes, and the findings outside contours."""
 
-    def __init__(
-        self,
-        dialect: Dialect | None,
-        unit: Length,
-        policy: Policy,
-        depth: Depth,
-        together: Together | None = None,
-        *,
-        goes_on: bool = False,
-        is_strict: bool = False,
-    ) -> None:
-        self.dialect = dialect
-        self.outside = Outside(dialect, is_strict=is_strict)
-        self.unit = unit
-        self.policy = policy
-        self.depth = depth
-        self.rules = dialect.rules if dialect else DIALECTS["yasnac-lx3"].rules
+    def __init__(self, asked: Request, together: Together | None = None, *, goes_on: bool = False) -> None:
+        self.asked, self.dialect, self.rules = asked, asked.dialect, asked.rules
+        self.outside = Outside(asked.dialect, is_strict=asked.is_strict)
         self.together = together
         self.diagnostics: list[Diagnostic] = []
-        self.marks = Marks(Context(self.rules, unit))
+        self.marks = Marks(Context(self.rules, asked.unit))
         self.previous: Previous | None = None
         """The last contour or block that says something, and the state before it: with a comma in the next block, it
         may be part of the contour there."""
-        self.start_unit = unit
+        self.start_unit = asked.unit
         """In which a start point that is stated apart counts, until a contour has another unit."""
         self.start_counts: bool | None = None
         """Whether X of a start point that is stated apart counted diameters, where codes switch that."""
-        self.start: Program | None = None
-        """What states the start point apart."""
         self.profiles: list[CycleProfile] = []
         """The profiles of cycles that ran, known at the end."""
         self.kept = Kept()
         self.faulty: Counter[tuple[str, int]] | None = None
         """Of a program that runs: how often the contour at a line of a file was wrong. In a loop, each pass may be."""
-        self.queue = Queue(dialect or DIALECTS["yasnac-lx3"], together, self._examine, goes_on=goes_on)
+        self.queue = Queue(self.dialect or DIALECTS["yasnac-lx3"], together, self._examine, goes_on=goes_on)
 
-    def steps(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step]:
+    def steps(self, blocks: Iterable[Line]) -> Iterator[Step]:
         """Every block and every contour, in order; without a dialect, only what is found."""
         window: list[Step | Pending] = []
         size, most = (_WHOLE, _WHOLE) if isinstance(blocks, Sequence) else (_FIRST, _WINDOW)
         if self.together is None:
             size, most = 1, 1
-        for each in self._walk(blocks, start):
+        for each in self._walk(blocks):
             window.append(each)
             if len(window) >= size:
                 yield from self._told(window)
@@ -362,19 +315,17 @@ class Examiner:
             told = tuple(self.outside.take(step.findings, line, blocks, step.answer, step.before))
             yield step if told == step.findings else replace(step, findings=told)
 
-    def steps_as_run(self, blocks: Sequence[Block], machine: Machine, start: Program | None) -> Iterator[Step]:
+    def steps_as_run(self, blocks: Sequence[Block], machine: Machine) -> Iterator[Step]:
         """The same of a program that calls or computes: as it runs, told in the order in which it is written."""
         self.marks.is_done, self.faulty = True, Counter()
         marks = Marks(self.marks.context)
         told = [*(finding for block in blocks for finding in marks.look(block)), *marks.finish()]
-        steps = self.steps(machine.run(), start)
+        steps = self.steps(machine.run())
         outside = told if self.outside.is_strict else []
-        first = cast("Dialect", self.dialect).initial_state(self.unit)
+        first = cast("Dialect", self.dialect).initial_state(self.asked.unit)
         yield from in_text_order(blocks, steps, machine.passed_over, self.rules, outside, self.profiles, first)
 
-    def steps_alone(
-        self, machine: Machine, start: Program | None, told: Callable[[ProgramEvent], None]
-    ) -> Iterator[Step]:
+    def steps_alone(self, machine: Machine, told: Callable[[ProgramEvent], None]) -> Iterator[Step]:
         """The same as one program without calls; `told` is called where it is not known what runs."""
         self.marks.is_done, self.faulty = True, Counter()
 
@@ -387,15 +338,13 @@ class Examiner:
                         told(each)
                 yield each
 
-        yield from self.steps(watched(), start)
+        yield from self.steps(watched())
 
     def checkpoint(self, state: State) -> Checkpoint:
         """What is known before a block, in a state."""
         return Checkpoint(state, self.previous, copy(self.marks), self.start_unit, self.start_counts)
 
-    def resume(
-        self, blocks: Sequence[Block], index: int, known: Checkpoint, start: Program | None
-    ) -> Iterator[tuple[Step, int, Checkpoint]]:
+    def resume(self, blocks: Sequence[Block], index: int, known: Checkpoint) -> Iterator[tuple[Step, int, Checkpoint]]:
         """The steps of a program that is at hand from a block on, one by one, each with the number of lines from its
         first one on that it rests on, one more than there are where it rests on the end; and what is known behind it.
         Contours are not solved together."""
@@ -404,26 +353,26 @@ class Examiner:
         while index < len(blocks):
             view = View(blocks, index)
             found, after = self._find(view, known.state)
-            taken, leave = self._take(view, found, after, known.state, start)
+            taken, leave = self._take(view, found, after, known.state)
             known, index = self.checkpoint(leave()), index + after
             yield taken.step if isinstance(taken, Pending) else taken, view.reach, known
 
-    def begin(self, start: Program | None) -> Checkpoint:
+    def begin(self) -> Checkpoint:
         """What is known before a program, behind the block that states its start point apart."""
-        return self.checkpoint(self._begin(cast("Dialect", self.dialect), start))
+        return self.checkpoint(self._begin(cast("Dialect", self.dialect)))
 
     def _happen(self, dialect: Dialect, event: ProgramEvent, state: State) -> State:
         """The state behind a event of the program."""
         self.previous = None
         if event.kind is EventKind.STOPPED:
-            context = Context(self.rules, self.unit, place=Span(event.line, 1, 2))
+            context = Context(self.rules, self.asked.unit, place=Span(event.line, 1, 2))
             row = context.row(ReadIssue.NOT_FOLLOWED)
             self.diagnostics.append(report(context, row, Basis.RULE, [], reason=event.reason))
-        return behind_event(state, event, self.kept, partial(self._begin, dialect, self.start), dialect.modes)
+        return behind_event(state, event, self.kept, partial(self._begin, dialect), dialect.modes)
 
-    def _begin(self, dialect: Dialect, start: Program | None) -> State:
+    def _begin(self, dialect: Dialect) -> State:
         """The modal state before a program, behind the block that states its start point apart."""
-        state, self.start = dialect.initial_state(self.unit), start
+        state, start = dialect.initial_state(self.asked.unit), self.asked.start
         for block in start.blocks if start else ():
             self._check_block(block)
             state = advance(state, block, dialect.modes)
@@ -438,7 +387,7 @@ class Examiner:
         if self.diagnostics:
             yield Step((), state, findings=self._findings())
 
-    def _look_at_all(self, blocks: Sequence[Block], start: Program | None) -> Step:
+    def _look_at_all(self, blocks: Sequence[Block]) -> Step:
         """What is found without a control."""
         is_shown = False
         for index, block in enumerate(blocks):
@@ -449,18 +398,18 @@ class Examiner:
             if self.outside.is_strict or block.directives or is_torn or is_unread:
                 self._check_block(block)
             # One line is enough: with that mended, the control is known.
-            is_shown = is_shown or (is_torn and self._check_letters_of_any(blocks, index, start))
+            is_shown = is_shown or (is_torn and self._check_letters_of_any(blocks, index))
         self.diagnostics += self.marks.finish()
-        none = DIALECTS["yasnac-lx3"].initial_state(self.unit)
+        none = DIALECTS["yasnac-lx3"].initial_state(self.asked.unit)
         return Step((), none, findings=self._findings())
 
-    def _walk(self, blocks: Iterable[Line], start: Program | None) -> Iterator[Step | Pending]:
+    def _walk(self, blocks: Iterable[Line]) -> Iterator[Step | Pending]:
         """Every block and every contour, in order, contours as they are found."""
         if self.dialect is None:
-            yield self._look_at_all(cast("Sequence[Block]", blocks), start)
+            yield self._look_at_all(cast("Sequence[Block]", blocks))
             return
         dialect = self.dialect
-        state = self._begin(dialect, start)
+        state = self._begin(dialect)
         is_whole, index, size = isinstance(blocks, Sequence), 0, _FIRST
         held: list[Line] = list(blocks) if is_whole else []
         rest = iter(() if is_whole else blocks)
@@ -500,7 +449,7 @@ class Examiner:
                 more = list(islice(rest, _BATCH))
                 held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
-            taken, leave = self._take(view, found, after, state, start)
+            taken, leave = self._take(view, found, after, state)
             yield taken
             state = leave()
             held, index = go_on(held, index, after)
@@ -512,7 +461,7 @@ class Examiner:
         return found, reach_of(found, view) if isinstance(found, ParsedContour) else 1
 
     def _take(
-        self, view: View, found: ParsedContour | None, after: int, state: State, start: Program | None
+        self, view: View, found: ParsedContour | None, after: int, state: State
     ) -> tuple[Step | Pending, Callable[[], State]]:
         """The step of so many blocks, and what gives the state behind it."""
         dialect = cast("Dialect", self.dialect)
@@ -521,7 +470,7 @@ class Examiner:
         self.diagnostics += (finding for each in blocks for finding in self.marks.look(each))
         if isinstance(found, ParsedContour) and found.form.is_contour:
             self._check_arc_before(view)
-            self._check_units(start, found)
+            self._check_units(found)
             step = Step(blocks, state, findings=self._findings())
             pending = self.queue.add(found, step, view, after, self.previous)
             self.previous = found.blocks, state
@@ -531,7 +480,7 @@ class Examiner:
             ends = behind.motion in _ARCS and any(map(block.find, (*behind.plane.axes, *behind.plane.centers)))
             if self.outside.is_strict or not ends or dialect.signs(block):
                 self._check_arc(found, Pending(found, Step((), state), view, after))
-            self._check_units(start, found)
+            self._check_units(found)
         else:
             self._check_block(block)
             self._check_slips(view, (state, behind))
@@ -559,9 +508,9 @@ class Examiner:
     def _check_slips(self, blocks: Sequence[Block], states: tuple[State, State]) -> None:
         """Whether the first of some lines would be a contour without a slip."""
         block, dialect = blocks[0], self.dialect
-        if dialect is None or self.depth is Depth.VERDICT:
+        if dialect is None or self.asked.depth is Depth.VERDICT:
             return
-        context = Context(self.rules, self.unit, place=block.span)
+        context = Context(self.rules, self.asked.unit, place=block.span)
         if any(f",{word.address}" in dialect.modes.lexicon.addresses for word in block.words):
             from contoursolve.diagnosis.other_readings import explain_commas  # noqa: PLC0415 - few programs need it
 
@@ -581,17 +530,18 @@ class Examiner:
         block = blocks[0]
         own = [each for each in self.diagnostics if each.span.line == block.line]
         others = [each for each in self.diagnostics if each.span.line != block.line]
-        context = Context(self.rules, self.unit, place=block.span)
+        context = Context(self.rules, self.asked.unit, place=block.span)
         self.diagnostics = [*others, *explain_letters(context, dialect, blocks, before, own)]
 
-    def _check_letters_of_any(self, blocks: Sequence[Block], index: int, start: Program | None) -> bool:
+    def _check_letters_of_any(self, blocks: Sequence[Block], index: int) -> bool:
         """The same for a line of a program that shows no control, by the control that shows if they are digits; whether
         there is one."""
         meant = parse_block(" ".join(each.new for each in find_lookalikes(blocks[index])), blocks[index].line)
         dialect = next((each for each in DIALECTS.values() if each.signs(meant)), None)
         if dialect is None:
             return False
-        state = dialect.initial_state(self.unit)
+        state = dialect.initial_state(self.asked.unit)
+        start = self.asked.start
         for block in (*(start.blocks if start else ()), *islice(blocks, index)):
             state = advance(state, block, dialect.modes)
         self._check_letters(dialect, blocks[index : index + _NEAR], state)
@@ -608,7 +558,9 @@ class Examiner:
         if dialect is None:
             raise ValueError("without a control there is no contour")
         behind = islice(blocks, after, None)
-        answer = examine(found, self.rules, self.policy, lambda: next_place(behind, found, dialect.modes), self.depth)
+        answer = examine(
+            found, self.rules, self.asked.policy, lambda: next_place(behind, found, dialect.modes), self.asked.depth
+        )
         if answer.contour is not None and any(value.value is not None for value in answer.answers):
             from contoursolve.diagnosis.fill import fill_in  # noqa: PLC0415 - few blocks ask for a value
 
@@ -620,16 +572,16 @@ class Examiner:
             note = f"only the first {MOST_EXPLAINED} wrong results of a contour are explained; this is a later one"
             diagnostics = (replace(each, notes=(*each.notes, note)) for each in answer.diagnostics)
             answer = replace(answer, diagnostics=tuple(diagnostics))
-        elif has_findings and self.depth is not Depth.VERDICT:
+        elif has_findings and self.asked.depth is not Depth.VERDICT:
             # Most programs need no diagnosis, and none should wait for its import.
             from contoursolve.diagnosis.diagnose import diagnose  # noqa: PLC0415
 
-            answer = diagnose(answer, dialect, self.policy, blocks[after : after + _BEHIND], pending.previous)
-            if self.depth is Depth.FULL and any(each.about is ReadIssue.VARIABLE for each in answer.diagnostics):
+            answer = diagnose(answer, dialect, self.asked.policy, blocks[after : after + _BEHIND], pending.previous)
+            if self.asked.depth is Depth.FULL and any(each.about is ReadIssue.VARIABLE for each in answer.diagnostics):
                 from contoursolve.program.open_values import tell_values  # noqa: PLC0415 - few contours need it
 
-                answer = tell_values(answer, dialect, self.policy)
-        elif self.depth is not Depth.VERDICT and any(
+                answer = tell_values(answer, dialect, self.asked.policy)
+        elif self.asked.depth is not Depth.VERDICT and any(
             each.about is ReadIssue.POINT_MISSING for each in answer.diagnostics
         ):
             from contoursolve.diagnosis.diagnose import mend_points  # noqa: PLC0415
@@ -644,8 +596,9 @@ class Examiner:
         self.faulty[first.file, first.line] += 1
         return self.faulty[first.file, first.line] <= MOST_EXPLAINED
 
-    def _check_units(self, start: Program | None, found: ParsedContour) -> None:
+    def _check_units(self, found: ParsedContour) -> None:
         """Whether a contour is in the units in which the start point was stated apart from the program."""
+        start = self.asked.start
         if start and found.after.unit is not self.start_unit:
             place = Context(self.rules, self.start_unit, place=start.blocks[0].span)
             self.diagnostics.append(explain_start_units(place, found.after.unit, start.blocks[0]))
@@ -664,17 +617,19 @@ class Examiner:
     def nothing_to_solve(self, blocks: Sequence[Block]) -> Diagnostic:
         """The finding that a program has no contour block: a warning where nothing in it looks like one."""
         own = self.dialect.name if self.dialect else None
-        if self.dialect is None and self.depth is not Depth.VERDICT:
+        if self.dialect is None and self.asked.depth is not Depth.VERDICT:
             looked_at = blocks[:_LOOKED_AT]
             for name, dialect in DIALECTS.items():
                 for slip in self._slips_as(dialect, looked_at):
-                    context = Context(self.rules, self.unit, place=slip.span)
+                    context = Context(self.rules, self.asked.unit, place=slip.span)
                     row = context.row(ReadIssue.CONTROL_UNKNOWN)
                     return report(context, row, Basis.RULE, [], control=name, finding=slip.message)
         controls = (self.dialect,) if self.dialect else DIALECTS.values()
         triggers = [f"of {each.name}: {each.contours}" for each in controls]
         shown = (
-            what_shows(blocks, self.dialect) if self.dialect and _lacks_motion(self.dialect, blocks, self.unit) else ""
+            what_shows(blocks, self.dialect)
+            if self.dialect and _lacks_motion(self.dialect, blocks, self.asked.unit)
+            else ""
         )
         by_sign: dict[str, list[str]] = {}
         for name, sign in ({} if shown or own is None else first_signs(blocks, own)).items():
@@ -685,7 +640,7 @@ class Examiner:
         ]
         if shown:
             notes.insert(0, f"no G code of a motion is in force at {shown}: write G01")
-        context = Context(self.rules, self.unit)
+        context = Context(self.rules, self.asked.unit)
         row = context.row(ReadIssue.NO_CONTOUR)
         finding = report(context, row, Basis.RULE, [], triggers="; ".join(triggers))
         slight = Severity.WARNING if self.outside.is_strict else Severity.INFO
@@ -695,7 +650,7 @@ class Examiner:
         """The words that make a contour for a control with their comma, in the first lines of a program."""
         from contoursolve.diagnosis.other_readings import explain_commas  # noqa: PLC0415 - few programs need it
 
-        state, tries = dialect.initial_state(self.unit), _TRIES
+        state, tries = dialect.initial_state(self.asked.unit), _TRIES
         lacking = {each[1:] for each in dialect.modes.lexicon.addresses if each.startswith(",")}
         for index, block in enumerate(blocks):
             before, state = state, advance(state, block, dialect.modes)
@@ -706,20 +661,20 @@ class Examiner:
                 return
             if lacking & stated:
                 tries -= 1
-                context = Context(dialect.rules, self.unit, place=block.span)
+                context = Context(dialect.rules, self.asked.unit, place=block.span)
                 found = explain_commas(context, dialect, blocks[index : index + _NEAR], (before, state))
                 yield from (each for each in found if each.fixes)
 
     def _check_block(self, block: Block) -> None:
         if self.dialect and _is_clean(block, self.dialect):
             return
-        context = Context(self.rules, self.unit, place=block.span)
+        context = Context(self.rules, self.asked.unit, place=block.span)
         for finding in explain_faults(context, block):
             is_slight = finding.about in _FAULTS_OF_NO_CONSEQUENCE
             self.diagnostics.append(replace(finding, severity=Severity.WARNING) if is_slight else finding)
         self.diagnostics += explain_unmarked(context, block)
         for directive in block.directives:
-            place = Context(self.rules, self.unit, place=directive.span)
+            place = Context(self.rules, self.asked.unit, place=directive.span)
             self.diagnostics.append(report(place, place.row(ReadIssue.FACT_NOWHERE), Basis.RULE, []))
         self.diagnostics += explain_asked_outside(context, block) if self.dialect else ()
         if self.dialect:

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from contoursolve.controls import DIALECTS
+from contoursolve.diagnostics.errors import UserError
 from contoursolve.gcode import split_lines
 from contoursolve.reading.dialect import Dialect
 
@@ -29,7 +30,7 @@ CONTROL = "control"
 """The name of what is no setting of a control, but names the control for which programs are."""
 
 
-class SettingError(ValueError):
+class SettingError(UserError, ValueError):
     """A setting that there is not, or a project file that cannot be read; the message says what there is."""
 
 

@@ -5,13 +5,14 @@ from itertools import islice
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.wording import either, join
+from contoursolve.diagnostics.errors import ProgramError
 from contoursolve.gcode import Block, Program, Word
 from contoursolve.program.project import CONTROL, FIRST_LINES, check_settings, configure, stated_settings
 from contoursolve.reading import plain_lines, words_of
 from contoursolve.reading.dialect import Dialect
 
 
-class UnknownControlError(ValueError):
+class UnknownControlError(ProgramError, ValueError):
     """The program does not tell which control it is for; the message lists the choices, and so does `choices`."""
 
     def __init__(self, message: str, choices: Iterable[str] = DIALECTS) -> None:

@@ -10,6 +10,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from contoursolve import gcode
+from contoursolve.diagnostics.errors import UserError
 from contoursolve.gcode import STANDARD_INPUT, Program, UnreadableProgramError
 from contoursolve.gcode.contents import decode
 
@@ -27,7 +28,7 @@ Point = tuple[Number, Number]
 LineNumber = Annotated[int, Meta(ge=0, le=int(FARTHEST))]
 
 
-class CannotVerifyError(ValueError):
+class CannotVerifyError(UserError, ValueError):
     """An input that cannot be read, or is not what it should be; the message says which and why."""
 
 

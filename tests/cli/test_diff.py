@@ -16,9 +16,9 @@ from contoursolve.api import read_program
 from contoursolve.cli import main
 from contoursolve.comparison import follow
 from contoursolve.controls.plain import LINUXCNC as LINUXCNC_CONTROL
-from contoursolve.diagnosis.examine import Policy
 from contoursolve.geometry import Length
 from contoursolve.program.pipeline import run
+from contoursolve.program.request import Request
 
 PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
 SHAFT, PLATE = (PROGRAMS.joinpath(name).read_text() for name in ("shaft.nc", "plate.nc"))
@@ -472,5 +472,5 @@ def at(step, place):
 
 
 def steps_of(file):
-    result = run(read_program(file), LINUXCNC_CONTROL, Length.MM, Policy.ENFORCE)
+    result = run(read_program(file), Request(LINUXCNC_CONTROL))
     return follow(result, LINUXCNC_CONTROL, Length.MM, ("X", "Y", "Z")).steps

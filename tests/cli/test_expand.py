@@ -21,7 +21,7 @@ from contoursolve.cli import main
 from contoursolve.comparison import compare, follow
 from contoursolve.controls import DIALECTS, YASNAC_LX3
 from contoursolve.controls import PLAIN as TARGET_CONTROLS
-from contoursolve.diagnosis.examine import Depth, Policy
+from contoursolve.diagnosis.examine import Depth
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import parse
 from contoursolve.geometry import Length, Plane, Turn
@@ -30,6 +30,7 @@ from contoursolve.postprocess.post_processors import LINUXCNC, POSTS, Arcs, Mach
 from contoursolve.program.lines import Lines
 from contoursolve.program.pipeline import run as solved
 from contoursolve.program.pipeline import walk
+from contoursolve.program.request import Request
 from contoursolve.reading import Effect
 from contoursolve.solving.contour import ArcSegment, LineSegment
 
@@ -193,7 +194,7 @@ def test_with_few_decimals_every_arc_is_still_one(post, arcs, decimals, unit):
         if written.summary.misread:
             continue
         dialect = (DIALECTS | TARGET_CONTROLS)[TARGETS[post][written.control == "nct-99m"]]
-        result = solved(parse(written.text), dialect, Length(unit), Policy.ENFORCE)
+        result = solved(parse(written.text), Request(dialect, Length(unit)))
         reasons = [each.reason for each in follow(result, dialect, Length(unit), dialect.modes.axes).unfollowed]
         assert [each for each in reasons if "radius of the arc is" in each or "too small" in each] == []
 
@@ -681,7 +682,7 @@ def test_a_program_that_is_read_as_a_stream_has_the_same_contours(program, batch
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("contoursolve.program.pipeline._BATCH", batch)
         blocks = Lines([line + "\n" for line in lines], dialect, {}, is_certain=True).blocks()
-        steps = list(walk(blocks, dialect, Length.MM, Policy.ENFORCE, Depth.VERDICT))
+        steps = list(walk(blocks, Request(dialect, depth=Depth.VERDICT)))
     answers = [step.answer for step in steps if step.answer]
     expected = contoursolve.solve(text, control=control, depth="verdict").answers
     assert [(each.lines, each.start, each.contour) for each in answers] == [
@@ -695,7 +696,7 @@ def test_a_program_that_is_read_as_a_stream_has_the_same_contours(program, batch
 def path_of(text, control):
     """The path of a program; blocks that are not solved are a part of it, with the modes that they rely on."""
     dialect = DIALECTS[control]
-    result = solved(parse(text), dialect, Length.MM, Policy.ENFORCE)
+    result = solved(parse(text), Request(dialect))
     return follow(result, dialect, Length.MM, dialect.modes.axes)
 
 

@@ -16,10 +16,10 @@ from test_interpreted import Drawing, drawings
 
 import contoursolve
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.examine import Depth, Policy
+from contoursolve.diagnosis.examine import Depth
 from contoursolve.gcode import parse
-from contoursolve.geometry import Length
 from contoursolve.program.pipeline import run
+from contoursolve.program.request import Request
 from contoursolve.solving import NoteKind
 from contoursolve.solving.contour import ArcSegment, Contour
 
@@ -103,9 +103,8 @@ def families(form: str) -> list[Family]:
 def solved(family: Family, values: dict[str, float]) -> tuple[list[Contour], bool, bool]:
     """The contours that a single solve of each makes, whether one is refused, and whether the ends of an arc are off
     its circle by as much as the control allows."""
-    result = run(
-        parse(family.typed(values)), DIALECTS[family.drawing.control], Length.MM, Policy.ENFORCE, Depth.VERDICT
-    )
+    asked = Request(DIALECTS[family.drawing.control], depth=Depth.VERDICT)
+    result = run(parse(family.typed(values)), asked)
     found: list[Contour] = []
     is_off = any(each.about is NoteKind.RADIUS_DIFFERS for each in result.diagnostics)
     for answer in result.answers:

@@ -23,10 +23,10 @@ from oracle_mitsubishi import RIGHT, random_block
 import contoursolve
 from contoursolve.comparison import Path, compare, follow
 from contoursolve.controls import DIALECTS, PLAIN
-from contoursolve.diagnosis.examine import Policy
 from contoursolve.gcode import parse
 from contoursolve.geometry import Length
 from contoursolve.program.pipeline import run
+from contoursolve.program.request import Request
 
 LX3, NCT = "yasnac-lx3", "nct-99m"
 AT_LEAST = 200
@@ -290,7 +290,7 @@ def hide(comment: re.Match[str]) -> str:
 
 def path_of(text: str, control: str) -> Path:
     dialect = {**DIALECTS, **PLAIN}[control]
-    result = run(parse(text), dialect, Length.MM, Policy.ENFORCE)
+    result = run(parse(text), Request(dialect))
     return follow(result, dialect, Length.MM, ("X", "Y", "Z"))
 
 

@@ -106,7 +106,7 @@ def alone(monkeypatch):
     def switch():
         walk = pipeline.walk
         monkeypatch.setattr(
-            "contoursolve.postprocess.expansion.walk", lambda *given: walk(*given[:6], None, *given[7:])
+            "contoursolve.postprocess.expansion.walk", lambda *given: walk(*given[:2], None, *given[3:])
         )
         monkeypatch.setattr("contoursolve.api._MANY", 10**9)
 

@@ -17,9 +17,8 @@ from oracle_lx3 import WORD, contours
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.controls import YASNAC_LX3
-from contoursolve.diagnosis.examine import Policy
-from contoursolve.geometry import Length
 from contoursolve.program.pipeline import run
+from contoursolve.program.request import Request
 
 CLOSE = 1e-9
 """mm."""
@@ -272,7 +271,7 @@ def test_arc_that_cannot_run_is_reported_and_not_listed(arc, code):
 
 def configured(values, block):
     program = contoursolve.parse("G00 X40. Z0.\n" + block)
-    return run(program, YASNAC_LX3.configure(values), Length.MM, Policy.ENFORCE).answers[0]
+    return run(program, Request(YASNAC_LX3.configure(values))).answers[0]
 
 
 def test_bevel_by_setback_is_as_long_on_both_sides_of_the_virtual_intersection():

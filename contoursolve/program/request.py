@@ -1,0 +1,77 @@
+"""What is asked of a program besides its text: for which control it is, and how it is examined."""
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.examine import Depth, Policy
+from contoursolve.diagnostics.choices import choice_of
+from contoursolve.execution.subprograms import ALONE, Surroundings, surroundings_of
+from contoursolve.gcode import Directive, Program, parse, read_directive
+from contoursolve.geometry import Length
+from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import Rule
+
+if TYPE_CHECKING:
+    from contoursolve.statements import Statement
+
+
+class Request(Struct, frozen=True):
+    """How a program is examined; made once for each program, where it comes in."""
+
+    dialect: Dialect | None
+    """Its control; None where nothing tells it, so that its characters alone are examined."""
+    unit: Length = Length.MM
+    """Of the numbers before any code that says it."""
+    policy: Policy = Policy.ENFORCE
+    depth: Depth = Depth.FULL
+    start: Program | None = None
+    """A block that states the start point apart from the program; its line is line 0."""
+    facts: tuple[Directive, ...] = ()
+    """Further facts about the only contour; their lines are -1, -2, ..."""
+    around: Surroundings = ALONE
+    """The values of variables, and where subprograms are."""
+    is_strict: bool = False
+    """Whether every line is told of, and not only that on which a contour depends."""
+
+    @property
+    def rules(self) -> tuple[Rule, ...]:
+        """The rules by which findings are told."""
+        return (self.dialect or DIALECTS["yasnac-lx3"]).rules
+
+
+def request_for(  # noqa: PLR0913 - takes what `solve` takes
+    name: str,
+    dialect: Dialect | None = None,
+    *,
+    start: str | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    depth: str = "full",
+    facts: "Iterable[str | Statement]" = (),
+    variables: Mapping[str, float] | None = None,
+    folders: Iterable[str | Path] = (),
+    strict: bool = False,
+) -> Request:
+    """The request that arguments of `solve` state about the program of this name for a control; a text alone is one
+    fact. Raises ValueError where units, rules or depth is none of its choices."""
+    several = [facts] if isinstance(facts, str) else facts
+    return Request(
+        dialect,
+        choice_of(Length, units, "units"),
+        choice_of(Policy, rules, "rules"),
+        choice_of(Depth, depth, "depth"),
+        parse(start, name, first_line=0) if start is not None else None,
+        tuple(_fact(fact, -number) for number, fact in enumerate(several, 1)),
+        surroundings_of(name, variables, folders),
+        strict,
+    )
+
+
+def _fact(fact: "str | Statement", line: int) -> Directive:
+    text = fact if isinstance(fact, str) else str(fact)
+    return replace(read_directive(text, line), statement=None if isinstance(fact, str) else fact)
