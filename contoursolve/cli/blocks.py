@@ -3,7 +3,7 @@
 import csv
 import re
 from array import array
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
@@ -23,6 +23,7 @@ from contoursolve.cli.options import (
     rules_option,
     settings_of,
     settings_option,
+    together,
     units_option,
 )
 from contoursolve.cli.printing import say
@@ -33,29 +34,20 @@ from contoursolve.gcode import parse
 from contoursolve.reading import ReadIssue
 from contoursolve.tolerance import LARGEST
 
-
-def block_options(command: Callable[..., None]) -> Callable[..., None]:
-    """The options that say which block is meant, and how it is read."""
-    for option in reversed(
-        (
-            click.option(
-                "--block", "blocks", multiple=True, required=True, metavar="TEXT", help="The block; may be repeated."
-            ),
-            click.option(
-                "--start",
-                metavar="WORDS",
-                help='The start point, such as "X40. Z0.", in words as the control reads them.',
-            ),
-            let_option,
-            control_option("The control; found from the block without it."),
-            units_option,
-            rules_option,
-            settings_option,
-        )
-    ):
-        command = option(command)
-    return command
-
+block_options = together(
+    click.option("--block", "blocks", multiple=True, required=True, metavar="TEXT", help="The block; may be repeated."),
+    click.option(
+        "--start",
+        metavar="WORDS",
+        help='The start point, such as "X40. Z0.", in words as the control reads them.',
+    ),
+    let_option,
+    control_option("The control; found from the block without it."),
+    units_option,
+    rules_option,
+    settings_option,
+)
+"""The options that say which block is meant, and how it is read."""
 
 format_option = click.option(
     "--format", "format_", type=click.Choice(["text", "json"]), default="text", show_default=True, help="What to print."

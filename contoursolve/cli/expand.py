@@ -20,6 +20,7 @@ from contoursolve.cli.options import (
     rules_option,
     settings_of,
     settings_option,
+    together,
     units_option,
 )
 from contoursolve.cli.printing import say, style_of_output
@@ -40,37 +41,32 @@ STANDARD = "-"
 """Standard input, or standard output."""
 
 
-def wording_options(command: Callable[..., None]) -> Callable[..., None]:
-    """The options about what stands in the place of a block."""
-    for option in reversed(
-        (
-            click.option(
-                "--arcs",
-                type=click.Choice([arcs.value for arcs in Arcs]),
-                default="center",
-                show_default=True,
-                help="The centre of an arc by I J K from where it begins, or by R.",
-            ),
-            click.option(
-                "--decimals",
-                type=click.IntRange(1, MOST_DECIMALS),
-                metavar="COUNT",
-                help="Decimals of an end point; without it, those of the target. I J K and R have at least as many.",
-            ),
-            click.option(
-                "--block-numbers",
-                type=click.Choice([numbering.value for numbering in Numbering]),
-                default="first",
-                show_default=True,
-                help="Which lines have a number in the place of a block that has one. first: the first line, or the "
-                "last one where G70 to G73 end a profile there. all: every line, with numbers that are still free. "
-                "All other lines keep theirs.",
-            ),
-            click.option("--no-comments", is_flag=True, help="Do not keep the original blocks as comments."),
-        )
-    ):
-        command = option(command)
-    return command
+wording_options = together(
+    click.option(
+        "--arcs",
+        type=click.Choice([arcs.value for arcs in Arcs]),
+        default="center",
+        show_default=True,
+        help="The centre of an arc by I J K from where it begins, or by R.",
+    ),
+    click.option(
+        "--decimals",
+        type=click.IntRange(1, MOST_DECIMALS),
+        metavar="COUNT",
+        help="Decimals of an end point; without it, those of the target. I J K and R have at least as many.",
+    ),
+    click.option(
+        "--block-numbers",
+        type=click.Choice([numbering.value for numbering in Numbering]),
+        default="first",
+        show_default=True,
+        help="Which lines have a number in the place of a block that has one. first: the first line, or the "
+        "last one where G70 to G73 end a profile there. all: every line, with numbers that are still free. "
+        "All other lines keep theirs.",
+    ),
+    click.option("--no-comments", is_flag=True, help="Do not keep the original blocks as comments."),
+)
+"""The options about what stands in the place of a block."""
 
 
 @click.command(short_help="Write a program's contours as plain G-code.")

@@ -170,52 +170,55 @@ path_option = click.option(
 )
 
 
-def apart_options(command: Callable[..., None]) -> Callable[..., None]:
-    """The options for what is stated apart from a program file."""
-    for option in reversed(
-        (
-            let_option,
-            path_option,
-            click.option(
-                "--block",
-                "blocks",
-                multiple=True,
-                metavar="TEXT",
-                help="A block to examine instead of a file; may be repeated, one block each.",
-            ),
-            click.option(
-                "--start",
-                metavar="WORDS",
-                help='Where the tool is at first, such as "X40. Z0.", in words as the control reads them, in --units '
-                'unless it says "G20 X2. Z0.". Of a program, it also holds for a subprogram that nothing calls.',
-            ),
-            click.option(
-                "--fact",
-                "facts",
-                multiple=True,
-                metavar="FACT",
-                help='A fact besides the words, such as "length of line 1 = 30", for a program with one contour; may '
-                "be repeated. 'contoursolve facts' lists every kind.",
-            ),
-        )
-    ):
-        command = option(command)
-    return command
+Command = Callable[..., None]
 
 
-def common_options(command: Callable[..., None]) -> Callable[..., None]:
-    """The options that `solve` and `check` share."""
-    for option in reversed(
-        (
-            apart_options,
-            control_option("The control. Without it, contoursolve finds it from the program where that is clear."),
-            units_option,
-            rules_option,
-            settings_option,
-        )
-    ):
-        command = option(command)
-    return command
+def together(*options: Callable[[Command], Command]) -> Callable[[Command], Command]:
+    """Several options as one decorator, in the order of the help."""
+
+    def decorate(command: Command) -> Command:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return decorate
+
+
+apart_options = together(
+    let_option,
+    path_option,
+    click.option(
+        "--block",
+        "blocks",
+        multiple=True,
+        metavar="TEXT",
+        help="A block to examine instead of a file; may be repeated, one block each.",
+    ),
+    click.option(
+        "--start",
+        metavar="WORDS",
+        help='Where the tool is at first, such as "X40. Z0.", in words as the control reads them, in --units '
+        'unless it says "G20 X2. Z0.". Of a program, it also holds for a subprogram that nothing calls.',
+    ),
+    click.option(
+        "--fact",
+        "facts",
+        multiple=True,
+        metavar="FACT",
+        help='A fact besides the words, such as "length of line 1 = 30", for a program with one contour; may '
+        "be repeated. 'contoursolve facts' lists every kind.",
+    ),
+)
+"""The options for what is stated apart from a program file."""
+
+common_options = together(
+    apart_options,
+    control_option("The control. Without it, contoursolve finds it from the program where that is clear."),
+    units_option,
+    rules_option,
+    settings_option,
+)
+"""The options that `solve` and `check` share."""
 
 
 def explain_option(what: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
