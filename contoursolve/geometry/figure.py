@@ -71,7 +71,7 @@ class Fact(Protocol):
         """What must be positive besides, because the equation alone allows the opposite."""
 
     def sense_reads(self) -> tuple[str, ...]:
-        """Names of the scalars that the sense depends on."""
+        """Names of the scalars that the residual and the senses depend on."""
 
     def implied(self, at: Lookup) -> float | None:
         """The value of the given (mm or degrees) that makes the residual zero; None where any does."""

@@ -7,7 +7,7 @@ from typing import Any
 from msgspec import Struct
 
 from contoursolve.geometry.figure import FIRST, SECOND, Lookup, Turn, line_scalars, scalar
-from contoursolve.geometry.system import Equation, both, cross, dot, rotate, step
+from contoursolve.geometry.system import Equation, cross, dot, rotate, step
 from contoursolve.geometry.touching import side_of
 
 
@@ -16,9 +16,6 @@ class UnitDirection(Equation, Struct, frozen=True):
 
     line: str
     given: str = ""
-
-    def reads(self) -> tuple[str, ...]:
-        return line_scalars(self.line)[:2]
 
     def equation(self, at: Lookup) -> Any:
         cosine, sine = at.bearing(self.line)
@@ -33,9 +30,6 @@ class Directed(Equation, Struct, frozen=True):
 
     given: str
     line: str
-
-    def reads(self) -> tuple[str, ...]:
-        return line_scalars(self.line)[:2]
 
     def residual(self, at: Lookup) -> Any:
         return cross(at.bearing(self.line), at.direction(self.given))
@@ -55,9 +49,6 @@ class Through(Equation, Struct, frozen=True):
     point: str
     given: str = ""
 
-    def reads(self) -> tuple[str, ...]:
-        return *line_scalars(self.line), *both(self.point)
-
     def residual(self, at: Lookup) -> Any:
         return left_of(at, self.line, self.point)
 
@@ -75,9 +66,6 @@ class Foot(Equation, Struct, frozen=True):
     corner: str = ""
     way: int = 1
 
-    def reads(self) -> tuple[str, ...]:
-        return *line_scalars(self.line)[:2], *both(self.point, self.center)
-
     def residual(self, at: Lookup) -> Any:
         return dot(at.bearing(self.line), step(at, self.center, self.point))
 
@@ -85,9 +73,6 @@ class Foot(Equation, Struct, frozen=True):
         if not self.corner:
             return ()
         return (self.way * dot(at.bearing(self.line), step(at, self.point, self.corner)),)
-
-    def sense_reads(self) -> tuple[str, ...]:
-        return *self.reads(), *(both(self.corner) if self.corner else ())
 
 
 class Leaving(Equation, Struct, frozen=True):
@@ -98,9 +83,6 @@ class Leaving(Equation, Struct, frozen=True):
     center: str
     turn: Turn
     given: str = ""
-
-    def reads(self) -> tuple[str, ...]:
-        return *line_scalars(self.line)[:2], *both(self.point, self.center)
 
     def residual(self, at: Lookup) -> Any:
         return dot(at.bearing(self.line), step(at, self.center, self.point))
@@ -118,17 +100,11 @@ class Parallel(Equation, Struct, frozen=True):
     advance: tuple[tuple[str, ...], ...]
     given: str = ""
 
-    def reads(self) -> tuple[str, ...]:
-        return (line_scalars(self.line)[1 - self.axis],)
-
     def residual(self, at: Lookup) -> Any:
         return at.scalar(line_scalars(self.line)[1 - self.axis])
 
     def senses(self, at: Lookup) -> tuple[Any, ...]:
         return (at.bearing(self.line)[self.axis] * way(at, self.advance, self.axis),)
-
-    def sense_reads(self) -> tuple[str, ...]:
-        return *line_scalars(self.line)[:2], *_ends(self.advance, self.axis)
 
 
 class ParallelLines(Equation, Struct, frozen=True):
@@ -139,9 +115,6 @@ class ParallelLines(Equation, Struct, frozen=True):
     given: str = ""
     part_of: str = ""
     """The given of a statement that says more than this: if only this repeats others, the statement does not."""
-
-    def reads(self) -> tuple[str, ...]:
-        return *line_scalars(self.first)[:2], *line_scalars(self.second)[:2]
 
     def residual(self, at: Lookup) -> Any:
         return cross(at.bearing(self.first), at.bearing(self.second))
@@ -156,12 +129,6 @@ class TangentLine(Equation, Struct, frozen=True):
     side: str | int
     given: str = ""
 
-    def reads(self) -> tuple[str, ...]:
-        return *line_scalars(self.line), *both(self.center), self.radius
-
-    def sides(self) -> tuple[str, ...]:
-        return (self.side,) if isinstance(self.side, str) else ()
-
     def residual(self, at: Lookup) -> Any:
         return left_of(at, self.line, self.center) - side_of(self.side, at) * at.radius(self.radius)
 
@@ -173,9 +140,6 @@ class Extent(Equation, Struct, frozen=True):
     line: str
     tail: str
     head: str
-
-    def reads(self) -> tuple[str, ...]:
-        return *line_scalars(self.line)[:2], *both(self.tail, self.head)
 
     def residual(self, at: Lookup) -> Any:
         return self._extent(at) - at.amount(self.given)
@@ -204,12 +168,6 @@ class ChamferLeg(Equation, Struct, frozen=True):
     given: str = ""
     share: float = 1
 
-    def reads(self) -> tuple[str, ...]:
-        return scalar(self.begin, self.axis), scalar(self.end, self.axis), self.size
-
-    def sides(self) -> tuple[str, ...]:
-        return (self.side,)
-
     def residual(self, at: Lookup) -> Any:
         extent = at.coordinate(self.end, self.axis) - at.coordinate(self.begin, self.axis)
         return extent - self.share * at.side(self.side) * at.radius(self.size)
@@ -219,19 +177,11 @@ class ChamferLeg(Equation, Struct, frozen=True):
             return (at.side(self.side) * sum(at.bearing(line)[self.axis] for line in self.between),)
         return (at.side(self.side) * way(at, self.advance, self.axis),)
 
-    def sense_reads(self) -> tuple[str, ...]:
-        lines = (name for line in self.between for name in line_scalars(line)[:2])
-        return *self.reads(), *lines, *_ends(self.advance, self.axis)
-
 
 class Along(Struct, frozen=True):
     """The direction of a line."""
 
     line: str
-
-    def reads(self) -> tuple[str, ...]:
-        """Names of the scalars that the direction depends on."""
-        return line_scalars(self.line)[:2]
 
     def vector(self, at: Lookup) -> tuple[Any, Any]:
         """A vector in the direction, 1 mm long."""
@@ -250,10 +200,6 @@ class Tangent(Struct, frozen=True):
     radius: str
     turn: Turn
 
-    def reads(self) -> tuple[str, ...]:
-        """Names of the scalars that the direction depends on."""
-        return *both(self.point, self.center), self.radius
-
     def vector(self, at: Lookup) -> tuple[Any, Any]:
         """A vector in the direction, as long as the radius."""
         first, second = step(at, self.center, self.point)
@@ -269,10 +215,6 @@ class Chord(Struct, frozen=True):
 
     tail: str
     head: str
-
-    def reads(self) -> tuple[str, ...]:
-        """Names of the scalars that the direction depends on."""
-        return both(self.tail, self.head)
 
     def vector(self, at: Lookup) -> tuple[Any, Any]:
         """A vector in the direction, as long as the distance."""
@@ -290,9 +232,6 @@ class TurnBetween(Equation, Struct, frozen=True):
     given: str
     first: Along | Tangent | Chord
     second: Along | Tangent | Chord
-
-    def reads(self) -> tuple[str, ...]:
-        return tuple(dict.fromkeys((*self.first.reads(), *self.second.reads())))
 
     def _vectors(self, at: Lookup) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
         return rotate(self.first.vector(at), at.direction(self.given)), self.second.vector(at)
@@ -343,9 +282,6 @@ class Distance(Equation, Struct, frozen=True):
     tail: str
     head: str
 
-    def reads(self) -> tuple[str, ...]:
-        return both(self.tail, self.head)
-
     def equation(self, at: Lookup) -> Any:
         between = step(at, self.tail, self.head)
         return dot(between, between) - at.amount(self.given) * at.amount(self.given)
@@ -363,9 +299,6 @@ class EqualDistances(Equation, Struct, frozen=True):
     given: str
     first: tuple[str, str]
     second: tuple[str, str]
-
-    def reads(self) -> tuple[str, ...]:
-        return tuple(dict.fromkeys(both(*self.first, *self.second)))
 
     def equation(self, at: Lookup) -> Any:
         first, second = step(at, *self.first), step(at, *self.second)

@@ -5,8 +5,8 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import Lookup, scalar
-from contoursolve.geometry.system import Equation, both, cross, dot, step
+from contoursolve.geometry.figure import Lookup
+from contoursolve.geometry.system import Equation, cross, dot, step
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 
@@ -16,9 +16,6 @@ class Coordinate(Equation, Struct, frozen=True):
     given: str
     point: str
     axis: int
-
-    def reads(self) -> tuple[str, ...]:
-        return (scalar(self.point, self.axis),)
 
     def residual(self, at: Lookup) -> Any:
         return at.coordinate(self.point, self.axis) - at.amount(self.given)
@@ -35,9 +32,6 @@ class Offset(Equation, Struct, frozen=True):
     origin: str
     axis: int
 
-    def reads(self) -> tuple[str, ...]:
-        return scalar(self.point, self.axis), scalar(self.origin, self.axis)
-
     def residual(self, at: Lookup) -> Any:
         return at.coordinate(self.point, self.axis) - at.coordinate(self.origin, self.axis) - at.amount(self.given)
 
@@ -53,9 +47,6 @@ class Level(Equation, Struct, frozen=True):
     axis: int
     given: str = ""
 
-    def reads(self) -> tuple[str, ...]:
-        return scalar(self.point, self.axis), scalar(self.origin, self.axis)
-
     def residual(self, at: Lookup) -> Any:
         return at.coordinate(self.point, self.axis) - at.coordinate(self.origin, self.axis)
 
@@ -67,9 +58,6 @@ class Collinear(Equation, Struct, frozen=True):
     through: str
     point: str
     given: str = ""
-
-    def reads(self) -> tuple[str, ...]:
-        return both(self.tail, self.through, self.point)
 
     def equation(self, at: Lookup) -> Any:
         return cross(step(at, self.tail, self.through), step(at, self.tail, self.point))
@@ -85,9 +73,6 @@ class Heading(Equation, Struct, frozen=True):
     given: str
     tail: str
     head: str
-
-    def reads(self) -> tuple[str, ...]:
-        return both(self.tail, self.head)
 
     def residual(self, at: Lookup) -> Any:
         cosine, sine = at.direction(self.given)
@@ -122,11 +107,8 @@ class OnCircle(Equation, Struct, frozen=True):
         """Without the slack, which is no part of the equation: equations are told apart by their texts."""
         return f"OnCircle(point={self.point!r}, center={self.center!r}, radius={self.radius!r}, given={self.given!r})"
 
-    def reads(self) -> tuple[str, ...]:
-        return *both(self.point, self.center), self.radius
-
     def equation(self, at: Lookup) -> Any:
-        spoke, radius = step(at, self.center, self.point), at.radius(self.radius)
+        spoke, radius = step(at, self.point, self.center), at.radius(self.radius)
         return dot(spoke, spoke) - radius * radius
 
     def residual(self, at: Lookup) -> Any:
@@ -138,9 +120,6 @@ class Radius(Equation, Struct, frozen=True):
 
     given: str
     radius: str
-
-    def reads(self) -> tuple[str, ...]:
-        return (self.radius,)
 
     def residual(self, at: Lookup) -> Any:
         return at.radius(self.radius) - at.amount(self.given)

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from msgspec import Struct, field
 
@@ -12,12 +12,10 @@ from contoursolve.geometry.profile import Layout, Profile
 
 
 class Equation:
-    """A fact whose residual is a polynomial already, that holds in one sense only and on no open side."""
+    """A fact whose residual is a polynomial already, and that holds in one sense only; what it depends on is what its
+    residual and its senses ask for."""
 
     __slots__ = ()
-
-    def sides(self) -> tuple[str, ...]:
-        return ()
 
     def equation(self, at: Lookup) -> Any:
         return self.residual(at)
@@ -28,11 +26,14 @@ class Equation:
     def senses(self, _at: Lookup) -> tuple[Any, ...]:
         return ()
 
-    def sense_reads(self) -> tuple[str, ...]:
-        return self.reads()
-
     def reads(self) -> tuple[str, ...]:
-        raise NotImplementedError
+        return _dependence(self).residual
+
+    def sense_reads(self) -> tuple[str, ...]:
+        return _dependence(self).senses
+
+    def sides(self) -> tuple[str, ...]:
+        return _dependence(self).sides
 
     def implied(self, _at: Lookup) -> float | None:
         return None
@@ -45,10 +46,8 @@ def both(*points: str) -> tuple[str, ...]:
 
 def step(at: Lookup, tail: str, head: str) -> tuple[Any, Any]:
     """From one point to another, mm along each axis."""
-    return (
-        at.coordinate(head, FIRST) - at.coordinate(tail, FIRST),
-        at.coordinate(head, SECOND) - at.coordinate(tail, SECOND),
-    )
+    first, second = at.coordinate(tail, FIRST), at.coordinate(tail, SECOND)
+    return at.coordinate(head, FIRST) - first, at.coordinate(head, SECOND) - second
 
 
 def dot(a: tuple[Any, Any], b: tuple[Any, Any]) -> Any:
@@ -68,6 +67,67 @@ def rotate(vector: tuple[Any, Any], by: tuple[Any, Any]) -> tuple[Any, Any]:
 
 def _may_vanish(value: Any) -> bool:
     return bool(value != 0) is False
+
+
+class _Reader:
+    """A lookup that notes the names of the scalars that an equation asks for; its numbers are no special ones."""
+
+    def __init__(self) -> None:
+        self.names: dict[str, float] = {}
+        self.sides: list[str] = []
+
+    def scalar(self, name: str) -> float:
+        return self.names.setdefault(name, (len(self.names) + 1) ** 1.5)
+
+    def coordinate(self, point: str, axis: int) -> float:
+        return self.scalar(scalar(point, axis))
+
+    def radius(self, name: str) -> float:
+        return self.scalar(name)
+
+    def amount(self, _given: str) -> float:
+        return 0.5
+
+    def direction(self, _given: str) -> tuple[float, float]:
+        return 0.6, 0.8
+
+    def bearing(self, name: str) -> tuple[float, float]:
+        cosine, sine, _ = line_scalars(name)
+        return self.scalar(cosine), self.scalar(sine)
+
+    def line(self, name: str) -> tuple[float, float, float]:
+        return *self.bearing(name), self.scalar(line_scalars(name)[2])
+
+    def side(self, name: str) -> int:
+        self.sides.append(name)
+        return 1
+
+    def rotation(self, angle: float) -> tuple[float, float]:
+        return math.cos(angle), math.sin(angle)
+
+    def vanishes(self, _value: float) -> bool:
+        return False
+
+    def root(self, value: float) -> float:
+        return math.sqrt(value)
+
+
+class _Dependence(NamedTuple):
+    """The names of the scalars on which the residual of a fact depends, those with what its senses depend on, and the
+    names of its open sides."""
+
+    residual: tuple[str, ...]
+    senses: tuple[str, ...]
+    sides: tuple[str, ...]
+
+
+@lru_cache(maxsize=65536)
+def _dependence(fact: Equation) -> _Dependence:
+    at = _Reader()
+    fact.residual(at)
+    residual = tuple(at.names)
+    fact.senses(at)
+    return _Dependence(residual, tuple(at.names), tuple(dict.fromkeys(at.sides)))
 
 
 class Functions(Struct, frozen=True):

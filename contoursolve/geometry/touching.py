@@ -5,8 +5,8 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import Lookup, Turn, line_scalars, scalar
-from contoursolve.geometry.system import Equation, both, cross, dot, rotate, step
+from contoursolve.geometry.figure import Lookup, Turn
+from contoursolve.geometry.system import Equation, cross, dot, rotate, step
 
 
 class EqualRadii(Equation, Struct, frozen=True):
@@ -15,9 +15,6 @@ class EqualRadii(Equation, Struct, frozen=True):
     given: str
     first: str
     second: str
-
-    def reads(self) -> tuple[str, ...]:
-        return self.first, self.second
 
     def residual(self, at: Lookup) -> Any:
         return at.radius(self.first) - at.radius(self.second)
@@ -29,9 +26,6 @@ class RadiusStep(Equation, Struct, frozen=True):
     given: str
     radius: str
     origin: str
-
-    def reads(self) -> tuple[str, ...]:
-        return self.radius, self.origin
 
     def residual(self, at: Lookup) -> Any:
         return at.radius(self.radius) - at.radius(self.origin) - at.amount(self.given)
@@ -49,9 +43,6 @@ class Spoke(Equation, Struct, frozen=True):
     radius: str
     axis: int
     quarters: int = 0
-
-    def reads(self) -> tuple[str, ...]:
-        return scalar(self.center, self.axis), scalar(self.point, self.axis), self.radius
 
     def residual(self, at: Lookup) -> Any:
         first, second = at.direction(self.given)
@@ -77,12 +68,6 @@ class TangentCircles(Equation, Struct, frozen=True):
     second: tuple[str, str]
     side: str | int
     given: str = ""
-
-    def reads(self) -> tuple[str, ...]:
-        return *both(self.first[0], self.second[0]), self.first[1], self.second[1]
-
-    def sides(self) -> tuple[str, ...]:
-        return (self.side,) if isinstance(self.side, str) else ()
 
     def equation(self, at: Lookup) -> Any:
         between, side = step(at, self.first[0], self.second[0]), side_of(self.side, at)
@@ -116,9 +101,6 @@ class Contact(Equation, Struct, frozen=True):
     side: int
     given: str = ""
 
-    def reads(self) -> tuple[str, ...]:
-        return both(self.point, self.first, self.second)
-
     def equation(self, at: Lookup) -> Any:
         return cross(step(at, self.first, self.point), step(at, self.first, self.second))
 
@@ -146,9 +128,6 @@ class ArcLength(Equation, Struct, frozen=True):
     center: str
     radius: str
     turn: Turn
-
-    def reads(self) -> tuple[str, ...]:
-        return *both(self.tail, self.head, self.center), self.radius
 
     def _spokes(self, at: Lookup) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
         cosine, sine = at.rotation(at.amount(self.given) / at.radius(self.radius))
@@ -189,12 +168,6 @@ class TangentArc(Equation, Struct, frozen=True):
     side: str | int
     given: str = ""
 
-    def reads(self) -> tuple[str, ...]:
-        return *both(self.arc[0], self.center), self.arc[1], self.radius
-
-    def sides(self) -> tuple[str, ...]:
-        return (self.side,) if isinstance(self.side, str) else ()
-
     def equation(self, at: Lookup) -> Any:
         between, own, radius = step(at, self.arc[0], self.center), at.radius(self.arc[1]), at.radius(self.radius)
         # Expanded with side**2 = 1, as in `TangentCircles`.
@@ -220,9 +193,6 @@ class ArcContact(Equation, Struct, frozen=True):
     way: int
     given: str = ""
 
-    def reads(self) -> tuple[str, ...]:
-        return both(self.point, self.arc[0], self.center)
-
     def equation(self, at: Lookup) -> Any:
         return cross(step(at, self.arc[0], self.point), step(at, self.arc[0], self.center))
 
@@ -237,9 +207,6 @@ class ArcContact(Equation, Struct, frozen=True):
         ahead = cross(spoke, step(at, self.arc[0], self.corner))
         return reach * dot(spoke, between), self.way * self.turn.sign * ahead
 
-    def sense_reads(self) -> tuple[str, ...]:
-        return *self.reads(), self.arc[1], self.radius, *both(self.corner)
-
 
 class Setback(Equation, Struct, frozen=True):
     """`point`, which lies on the line, is `size` before the `corner` (`way` +1) or after it (-1)."""
@@ -250,9 +217,6 @@ class Setback(Equation, Struct, frozen=True):
     size: str
     way: int
     given: str = ""
-
-    def reads(self) -> tuple[str, ...]:
-        return *line_scalars(self.line)[:2], *both(self.point, self.corner), self.size
 
     def residual(self, at: Lookup) -> Any:
         ahead = dot(at.bearing(self.line), step(at, self.point, self.corner))
@@ -271,9 +235,6 @@ class ChordSetback(Equation, Struct, frozen=True):
     way: int
     given: str = ""
 
-    def reads(self) -> tuple[str, ...]:
-        return *both(self.point, self.corner), self.size
-
     def equation(self, at: Lookup) -> Any:
         chord, size = step(at, self.point, self.corner), at.radius(self.size)
         return dot(chord, chord) - size * size
@@ -285,6 +246,3 @@ class ChordSetback(Equation, Struct, frozen=True):
         return (
             self.way * self.turn.sign * cross(step(at, self.center, self.point), step(at, self.center, self.corner)),
         )
-
-    def sense_reads(self) -> tuple[str, ...]:
-        return *self.reads(), *both(self.center)
