@@ -53,7 +53,16 @@ from contoursolve.geometry.profile import (
     Unit,
     least_increments,
 )
-from contoursolve.geometry.system import FLOATS, Functions, System, Values, assemble, build_system, headed_lines
+from contoursolve.geometry.system import (
+    FLOATS,
+    Created,
+    Functions,
+    System,
+    Values,
+    assemble,
+    build_system,
+    headed_lines,
+)
 from contoursolve.geometry.touching import (
     ArcContact,
     ArcLength,
@@ -87,6 +96,7 @@ __all__ = [
     "Coordinate",
     "Corner",
     "CornerShape",
+    "Created",
     "Directed",
     "Distance",
     "EqualDistances",

@@ -69,67 +69,6 @@ def _may_vanish(value: Any) -> bool:
     return bool(value != 0) is False
 
 
-class _Reader:
-    """A lookup that notes the names of the scalars that an equation asks for; its numbers are no special ones."""
-
-    def __init__(self) -> None:
-        self.names: dict[str, float] = {}
-        self.sides: list[str] = []
-
-    def scalar(self, name: str) -> float:
-        return self.names.setdefault(name, (len(self.names) + 1) ** 1.5)
-
-    def coordinate(self, point: str, axis: int) -> float:
-        return self.scalar(scalar(point, axis))
-
-    def radius(self, name: str) -> float:
-        return self.scalar(name)
-
-    def amount(self, _given: str) -> float:
-        return 0.5
-
-    def direction(self, _given: str) -> tuple[float, float]:
-        return 0.6, 0.8
-
-    def bearing(self, name: str) -> tuple[float, float]:
-        cosine, sine, _ = line_scalars(name)
-        return self.scalar(cosine), self.scalar(sine)
-
-    def line(self, name: str) -> tuple[float, float, float]:
-        return *self.bearing(name), self.scalar(line_scalars(name)[2])
-
-    def side(self, name: str) -> int:
-        self.sides.append(name)
-        return 1
-
-    def rotation(self, angle: float) -> tuple[float, float]:
-        return math.cos(angle), math.sin(angle)
-
-    def vanishes(self, _value: float) -> bool:
-        return False
-
-    def root(self, value: float) -> float:
-        return math.sqrt(value)
-
-
-class _Dependence(NamedTuple):
-    """The names of the scalars on which the residual of a fact depends, those with what its senses depend on, and the
-    names of its open sides."""
-
-    residual: tuple[str, ...]
-    senses: tuple[str, ...]
-    sides: tuple[str, ...]
-
-
-@lru_cache(maxsize=65536)
-def _dependence(fact: Equation) -> _Dependence:
-    at = _Reader()
-    fact.residual(at)
-    residual = tuple(at.names)
-    fact.senses(at)
-    return _Dependence(residual, tuple(at.names), tuple(dict.fromkeys(at.sides)))
-
-
 class Functions(Struct, frozen=True):
     """What equations need beyond arithmetic, for one kind of number."""
 
@@ -141,6 +80,25 @@ class Functions(Struct, frozen=True):
 
 
 FLOATS = Functions()
+
+
+class Created(Mapping[str, Any]):
+    """A mapping that makes what is asked for, whatever the name."""
+
+    def __init__(self, make: Callable[[str], Any]) -> None:
+        self._make = make
+
+    def __getitem__(self, name: str) -> Any:
+        return self._make(name)
+
+    def __contains__(self, _name: object) -> bool:
+        return True
+
+    def __iter__(self) -> Any:
+        raise TypeError("what is made when it is asked for cannot be listed")
+
+    def __len__(self) -> int:
+        raise TypeError("what is made when it is asked for cannot be counted")
 
 
 class Values(Struct, frozen=True):
@@ -196,6 +154,28 @@ class Values(Struct, frozen=True):
 
     def root(self, value: Any) -> Any:
         return self.functions.root(value)
+
+
+class _Dependence(NamedTuple):
+    """The names of the scalars on which the residual of a fact depends, those with what its senses depend on, and the
+    names of its open sides."""
+
+    residual: tuple[str, ...]
+    senses: tuple[str, ...]
+    sides: tuple[str, ...]
+
+
+@lru_cache(maxsize=65536)
+def _dependence(fact: Equation) -> _Dependence:
+    """What a fact asks for, at numbers that are no special ones."""
+    names, sides = dict[str, float](), dict[str, int]()
+    scalars = Created(lambda name: names.setdefault(name, (len(names) + 1) ** 1.5))
+    given, turned = Created(lambda _: 0.5), Created(lambda _: (0.6, 0.8))
+    at = Values(scalars, given, turned, signs=Created(lambda name: sides.setdefault(name, 1)))
+    fact.residual(at)
+    residual = tuple(names)
+    fact.senses(at)
+    return _Dependence(residual, tuple(names), tuple(sides))
 
 
 def headed_lines(figure: Figure) -> dict[str, tuple[str, str]]:

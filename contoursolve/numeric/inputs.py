@@ -1,9 +1,10 @@
 """A lookup whose values are inputs by name: of a CasADi function under construction, or numbers that stand for them."""
 
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, Protocol
 
-from contoursolve.geometry import Functions, System, Values
+from contoursolve.geometry import Created, Functions, System, Values
 from contoursolve.numeric import expressions
 
 COSINE, SINE, SIDE = ":cos", ":sin", "side:"
@@ -19,41 +20,23 @@ class Tape(Protocol):
         """The value of an input."""
 
 
-class Inputs(Mapping[str, Any]):
+def named_inputs(tape: Tape, symbols: Mapping[str, Any] = MappingProxyType({}), prefix: str = "") -> Created:
     """Numbers by name as inputs of a tape, created when a formula asks for them; some are symbols already."""
-
-    def __init__(self, tape: Tape, symbols: Mapping[str, Any], prefix: str = "") -> None:
-        self._tape = tape
-        self._symbols = symbols
-        self._prefix = prefix
-
-    def __getitem__(self, name: str) -> Any:
-        return self._symbols[name] if name in self._symbols else self._tape.input(self._prefix + name)
-
-    def __contains__(self, _name: object) -> bool:
-        return True
-
-    def __iter__(self) -> Any:
-        raise TypeError("inputs are created by asking for them")
-
-    def __len__(self) -> int:
-        raise TypeError("inputs are created by asking for them")
+    return Created(lambda name: symbols[name] if name in symbols else tape.input(prefix + name))
 
 
-class Directions(Inputs):
+def given_directions(tape: Tape) -> Created:
     """Given angles as pairs of inputs."""
-
-    def __getitem__(self, name: str) -> Any:
-        return self._tape.input(name + COSINE), self._tape.input(name + SINE)
+    return Created(lambda name: (tape.input(name + COSINE), tape.input(name + SINE)))
 
 
 def lookup(system: System, tape: Tape, symbols: Mapping[str, Any], functions: Functions = _SYMBOLS) -> Values:
     """A lookup whose values are symbols, or inputs of a tape."""
     return Values(
-        Inputs(tape, symbols),
-        Inputs(tape, {}),
-        Directions(tape, {}),
+        named_inputs(tape, symbols),
+        named_inputs(tape),
+        given_directions(tape),
         system.headed,
-        Inputs(tape, {}, SIDE),
+        named_inputs(tape, prefix=SIDE),
         functions,
     )

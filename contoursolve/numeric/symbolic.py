@@ -1,14 +1,14 @@
 """Sympy: the exact, generic properties of a system's equations."""
 
 import random
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import sympy
 from sympy.polys.domains import QQ
 from sympy.polys.matrices import DomainMatrix
 
-from contoursolve.geometry import Functions, Values
+from contoursolve.geometry import Created, Functions, Values
 from contoursolve.numeric.modular_rank import ExactRank
 
 
@@ -31,11 +31,11 @@ class Symbols:
     def lookup(self, headed: Mapping[str, tuple[str, str]]) -> Values:
         """A lookup of these symbols; `headed` are the lines of given direction."""
         return Values(
-            _Created(self.scalar),
-            _Created(self.scalar),
-            _Created(self.direction),
+            Created(self.scalar),
+            Created(self.scalar),
+            Created(self.direction),
             headed,
-            _Created(self.scalar),
+            Created(self.scalar),
             Functions(sympy.sqrt, sympy.cos, sympy.sin),
         )
 
@@ -59,25 +59,6 @@ class Symbols:
             else:
                 point[symbol] = sympy.Rational(draw.randint(1, 99_999), draw.randint(1, 999))
         return point
-
-
-class _Created(Mapping[str, Any]):
-    """A mapping that makes what is asked for."""
-
-    def __init__(self, make: Callable[[str], Any]) -> None:
-        self._make = make
-
-    def __getitem__(self, name: str) -> Any:
-        return self._make(name)
-
-    def __contains__(self, _name: object) -> bool:
-        return True
-
-    def __iter__(self) -> Any:
-        raise TypeError("symbols are created by asking for them")
-
-    def __len__(self) -> int:
-        raise TypeError("symbols are created by asking for them")
 
 
 def jacobian(residuals: Sequence[Any], unknowns: Sequence[Any]) -> Any:

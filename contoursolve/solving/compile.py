@@ -42,7 +42,7 @@ from contoursolve.numeric.expressions import (
 )
 from contoursolve.numeric.expressions import cosine as cosine_of
 from contoursolve.numeric.expressions import sine as sine_of
-from contoursolve.numeric.inputs import Directions, Inputs
+from contoursolve.numeric.inputs import given_directions, named_inputs
 from contoursolve.numeric.interpreter import Replay
 from contoursolve.solving.compare import half_circle_allowance
 from contoursolve.solving.corners import Edge, Pair, build_corner, drop_straight, unit
@@ -71,8 +71,8 @@ class _Builder:
         """By how much stated radii of half circles are less than their points say."""
         self.rooms: dict[str, Any] = {}
         """What the corners leave of each element."""
-        self.amounts = Inputs(self.tape, {})
-        self.directions = Directions(self.tape, {})
+        self.amounts = named_inputs(self.tape)
+        self.directions = given_directions(self.tape)
 
     def at(self, scalars: dict[str, Any]) -> Values:
         return Values(scalars, self.amounts, self.directions, self.system.headed, functions=_FUNCTIONS)
