@@ -10,8 +10,8 @@ from click.testing import CliRunner
 
 from contoursolve.cli import main
 
-OPTIONS = 50_000
-SHARDS = 10
+OPTIONS = 30_000
+SHARDS = 6
 """A failing shard names its seed, so that one failure is repeated in seconds."""
 
 LONGEST = 20.0

@@ -188,7 +188,7 @@ def test_data_that_agree_are_accepted_with_a_note_and_others_are_told_by_how_muc
 
 # Chains drawn forwards ------------------------------------------------------------------------------------------
 
-CHAINS, SHARE, FAST = 500, 50, 15
+CHAINS, SHARE, FAST = 300, 50, 15
 PATIENCE = 120
 """Seconds after which a chain counts as missed; the longest known one takes 15."""
 WITHIN = 1e-3
