@@ -3,12 +3,15 @@
 They end the rules of a control: rows of its own about the same events stand before them, and win.
 """
 
+from dataclasses import replace
 from enum import Enum
+from typing import Unpack
 
+from contoursolve.controls.common import COMMON_RULES
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.diagnostics.source import OWN, Evidence, Source
 from contoursolve.reading import ReadIssue
-from contoursolve.reading.rules import Rule
+from contoursolve.reading.rules import Besides, Rule, examples
 from contoursolve.solving import NoteKind, RefusalKind
 
 _SOURCE = Source(OWN, "the geometry of lines, arcs and corners", Evidence.ASSUMED)
@@ -222,3 +225,23 @@ GEOMETRY_RULES = (
     ),
     COMMA_MISSING,
 )
+
+
+class Otherwise(Besides, total=False):
+    """What a control may say otherwise, or besides."""
+
+    message: str
+    help: str
+    source: Source
+
+
+_GENERAL = {rule.about: rule for rule in (*COMMON_RULES, *GEOMETRY_RULES)}
+
+
+def told(
+    code: str, about: Enum, good: str | tuple[str, ...], *bad: str | tuple[str, str], **otherwise: Unpack[Otherwise]
+) -> Rule:
+    """The general row about an event as a control tells it: with a code and examples of its own, as `row` takes them,
+    and with what its manual says otherwise."""
+    accepted, rejected = examples(good, bad)
+    return replace(_GENERAL[about], code=code, accepted=accepted, rejected=rejected, **otherwise)
