@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from decimal import Decimal
 from typing import Any
 
 from contoursolve.diagnostics.finding import Severity
@@ -50,6 +51,33 @@ def first_motion_setting(source: Source) -> Setting:
         source,
         changes={"none": lambda dialect: replace(dialect, motion=None)},
     )
+
+
+def angle_sense_setting(source: Source, name: str = "angle-sense", line: str = "a line") -> Setting:
+    """Whether lines must run as their angles say."""
+    return setting(
+        name,
+        f"whether {line} may run against its angle",
+        {
+            "line": "it may: the angle is that of the line, either way",
+            "ray": "it may not: the angle is the direction of travel",
+        },
+        source,
+    )
+
+
+def arc_chamfer_setting(what: str, source: Source, corner: str = "corner") -> Setting:
+    """How the size of a chamfer is measured on an arc."""
+    values = {
+        "chord": f"straight from the {corner}",
+        "arc_length": "along the arc; contoursolve does not compute this",
+    }
+    return setting("chamfer-on-arc", f"how {what} is measured on an arc", values, source)
+
+
+def length_setting(name: str, meaning: str, default: str, source: Source, most: int = 1) -> Setting:
+    """One whose value is a number of mm, up to so many."""
+    return Setting(name, meaning, {default: "mm"}, default, source, bounds=(Decimal("0.001"), Decimal(most)))
 
 
 _WITHOUT_POINT = {"increment": WithoutPoint.LEAST_INCREMENTS, "calculator": WithoutPoint.AS_WRITTEN}

@@ -54,58 +54,57 @@ class Condition:
 
 
 @dataclass(frozen=True, slots=True)
-class Both(Condition):
-    """Two conditions at once."""
+class _Joined(Condition):
+    """Two conditions as one."""
 
     first: Condition
     second: Condition
 
     @property
+    def parts(self) -> tuple[Condition, Condition]:
+        return self.first, self.second
+
+    @property
     def reads_values(self) -> bool:  # type: ignore[override]
-        return self.first.reads_values or self.second.reads_values
+        return any(part.reads_values for part in self.parts)
+
+    def offenders(self, stated: Stated) -> tuple[str, ...]:
+        holding = [part for part in self.parts if part.holds(stated)]
+        return tuple(dict.fromkeys(name for part in holding for name in part.offenders(stated)))
+
+    def limits(self, name: str, stated: Stated) -> tuple[Decimal, ...]:
+        return self.first.limits(name, stated) + self.second.limits(name, stated)
+
+    def compared(self, stated: Stated) -> tuple[tuple[str, str], ...]:
+        return self.first.compared(stated) + self.second.compared(stated)
+
+
+class Both(_Joined):
+    """Two conditions at once."""
+
+    __slots__ = ()
 
     def holds(self, stated: Stated) -> bool:
         return self.first.holds(stated) and self.second.holds(stated)
 
-    def offenders(self, stated: Stated) -> tuple[str, ...]:
-        return tuple(dict.fromkeys(self.first.offenders(stated) + self.second.offenders(stated)))
-
     def limits(self, name: str, stated: Stated) -> tuple[Decimal, ...]:
-        parts = (self.first, self.second)
-        if any(not part.reads_values and not part.holds(stated) for part in parts):
-            return ()
-        return self.first.limits(name, stated) + self.second.limits(name, stated)
+        return () if self._fails_by_names(stated) else super().limits(name, stated)
 
     def compared(self, stated: Stated) -> tuple[tuple[str, str], ...]:
-        parts = (self.first, self.second)
-        if any(not part.reads_values and not part.holds(stated) for part in parts):
-            return ()
-        return self.first.compared(stated) + self.second.compared(stated)
+        return () if self._fails_by_names(stated) else super().compared(stated)
+
+    def _fails_by_names(self, stated: Stated) -> bool:
+        """Whether it does not hold, whatever the values are."""
+        return any(not part.reads_values and not part.holds(stated) for part in self.parts)
 
 
-@dataclass(frozen=True, slots=True)
-class Either(Condition):
+class Either(_Joined):
     """One of two conditions, or both."""
 
-    first: Condition
-    second: Condition
-
-    @property
-    def reads_values(self) -> bool:  # type: ignore[override]
-        return self.first.reads_values or self.second.reads_values
+    __slots__ = ()
 
     def holds(self, stated: Stated) -> bool:
         return self.first.holds(stated) or self.second.holds(stated)
-
-    def offenders(self, stated: Stated) -> tuple[str, ...]:
-        parts = [part for part in (self.first, self.second) if part.holds(stated)]
-        return tuple(dict.fromkeys(name for part in parts for name in part.offenders(stated)))
-
-    def limits(self, name: str, stated: Stated) -> tuple[Decimal, ...]:
-        return self.first.limits(name, stated) + self.second.limits(name, stated)
-
-    def compared(self, stated: Stated) -> tuple[tuple[str, str], ...]:
-        return self.first.compared(stated) + self.second.compared(stated)
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,9 +151,7 @@ class Value(Condition):
     most: Decimal = Decimal("Infinity")
     excluding: Decimal | None = None
 
-    @property
-    def reads_values(self) -> bool:  # type: ignore[override]
-        return True
+    reads_values = True
 
     def holds(self, stated: Stated) -> bool:
         for name in self.names:
@@ -179,9 +176,7 @@ class Along(Condition):
     direction: int
     within: Decimal
 
-    @property
-    def reads_values(self) -> bool:  # type: ignore[override]
-        return True
+    reads_values = True
 
     def holds(self, stated: Stated) -> bool:
         return bool(self.offenders(stated))
@@ -204,9 +199,7 @@ class Parallel(Condition):
     names: tuple[str, str]
     within: Decimal
 
-    @property
-    def reads_values(self) -> bool:  # type: ignore[override]
-        return True
+    reads_values = True
 
     def holds(self, stated: Stated) -> bool:
         first, second = (stated.get(name) for name in self.names)
