@@ -42,7 +42,7 @@ _BESIDE = tuple(f"beside-{axis}" for axis in "XYZA")
 _GUARD = Decimal("0.9999999")
 """Degrees: less than 1."""
 _LINES, _ARCS = (LINE, OVER_LINE), (ARC, OVER_CIRCLE)
-_ANY, _PAIRS = (*_LINES, *_ARCS), (LINE_LINE, LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE)
+_ANY = (*_LINES, *_ARCS)
 _CORNER, _FIRST, _SECOND = (",C", ",R"), ("first", "first-step"), ("second", "second-step")
 _BOOK = BOOK.printed("linear angle command, p. 375")
 
