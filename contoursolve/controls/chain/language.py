@@ -176,14 +176,15 @@ def _no_guard(_: Modes) -> float:
 class Language:
     """How a control writes lines and arcs in a row.
 
-    `planes` by their G code; `allowed` are the addresses that may stand in a block of a contour; `corners` the shape
-    that each corner word gives the corner behind its block. `titles` are those of forms, by role or form name.
+    `planes` by their G code, where a parallel axis may stand for an axis of them; `allowed` are the addresses that may
+    stand in a block of a contour; `corners` the shape that each corner word gives the corner behind its block. `titles`
+    are those of forms, by role or form name.
     """
 
     lexicon: Lexicon
-    planes: Mapping[str, Plane]
     allowed: frozenset[str]
     joining: Joining
+    planes: Mapping[str, Plane] = field(default_factory=dict)
     titles: Mapping[str, str] = field(default_factory=lambda: TITLES)
     angle: str = ",A"
     angle_words: tuple[str, ...] = ()

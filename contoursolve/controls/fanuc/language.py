@@ -14,11 +14,10 @@ from contoursolve.controls.fanuc.lexicon import (
     HAAS,
     HAAS_LATHE_WORDS,
     HAAS_MILL_WORDS,
-    LATHE_PLANES,
     LATHE_WORDS,
     MILL_WORDS,
 )
-from contoursolve.controls.plain import LATHE, PLANES
+from contoursolve.controls.plain import LATHE
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.geometry import CornerShape
 from contoursolve.reading import Modes, Sample, Setting, State
@@ -176,7 +175,6 @@ _ON_LATHE, _ON_MILL = "G00 X20. Z0.", "G17 G90 G00 X0 Y0"
 
 FANUC_LATHE_LANGUAGE = Language(
     lexicon=LATHE_WORDS,
-    planes={plane.code: plane for plane in LATHE_PLANES.values()},
     allowed=frozenset({*_COMMON, "X", "Z", "U", "W", ",A"}),
     joining=Joining.OPEN,
     samples={
@@ -199,7 +197,6 @@ FANUC_LATHE_LANGUAGE = Language(
 )
 FANUC_MILL_LANGUAGE = Language(
     lexicon=MILL_WORDS,
-    planes={plane.code: plane for plane in PLANES.values()},
     allowed=frozenset({*_COMMON, "X", "Y", "Z"}),
     joining=Joining.OPEN,
     angle="",

@@ -50,7 +50,6 @@ _START = "G17 G90 G0 X0 Y0"
 
 LANGUAGE = Language(
     lexicon=MODES.lexicon,
-    planes={},
     allowed=frozenset({*"NGFSTMDHXYZIJKR", "#ANG", "#RND", "#CHR", "#CHF", "#FRC"}),
     joining=Joining.OPEN,
     angle="#ANG",

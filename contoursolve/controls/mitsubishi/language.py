@@ -127,9 +127,18 @@ def _conventions(form: ContourForm, _: Collection[str], modes: Modes) -> Iterato
 
 _MILL = "G17 G90 G00 X0 Y0"
 
+_ASSUMPTIONS = (
+    Assumption("h-missing", "a crossing without H is the one with the shorter line",
+               BOOK.assumed("not described"), (LINE_CIRCLE, CIRCLE_LINE),
+               some("1:center-first", "1:center-at-first", "2:center-first") & ~some("1:H", "2:H")),
+    Assumption("one-of-center", "of the two of I, J and K that belong to the plane, one that is left out is 0",
+               BOOK.assumed("not described"), (ARC, OVER_CIRCLE), some(ONE_CENTER)),
+    Assumption("radius-of-contact", "a positive R is the arc of at most 180 deg, a negative one the other",
+               BOOK.assumed("not described"), (LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE), some("1:R", "2:R")),
+)  # fmt: skip
+
 LANGUAGE = Language(
     lexicon=MODES.lexicon,
-    planes={},
     allowed=frozenset({*"NGFSTMDHEXYZIJKRAPQ", ",A", ",C", ",R"}),
     joining=Joining.PAIRED,
     titles={
@@ -146,29 +155,7 @@ LANGUAGE = Language(
     angle_words=("A", ",A"),
     picks="H",
     centers=("P", "Q"),
-    assumptions=(
-        Assumption(
-            "h-missing",
-            "a crossing without H is the one with the shorter line",
-            BOOK.assumed("not described"),
-            (LINE_CIRCLE, CIRCLE_LINE),
-            some("1:center-first", "1:center-at-first", "2:center-first") & ~some("1:H", "2:H"),
-        ),
-        Assumption(
-            "one-of-center",
-            "of the two of I, J and K that belong to the plane, one that is left out is 0",
-            BOOK.assumed("not described"),
-            (ARC, OVER_CIRCLE),
-            some(ONE_CENTER),
-        ),
-        Assumption(
-            "radius-of-contact",
-            "a positive R is the arc of at most 180 deg, a negative one the other",
-            BOOK.assumed("not described"),
-            (LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE),
-            some("1:R", "2:R"),
-        ),
-    ),
+    assumptions=_ASSUMPTIONS,
     samples={
         (A_LINE,): Sample(_MILL, ("G01 {X40.} {Y23.094} A30.",)),
         (A_LINE, A_LINE): Sample(_MILL, ("G01 {X40.} {Y0} {A0} {,C6.} ,R5.", "{X60.} {Y20.} {A45.}")),

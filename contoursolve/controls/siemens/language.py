@@ -102,7 +102,6 @@ _START = "G17 G90 G0 X0 Y0"
 
 LANGUAGE = Language(
     lexicon=MODES.lexicon,
-    planes={},
     allowed=frozenset({*"NGFSTMDHXYZIJK", "ANG", "RND", "CHR", "CHF", "CR", "RNDM", "FRC", "FRCM"})
     | {f"{axis}={way}" for axis in "XYZ" for way in ("AC", "IC")},
     joining=Joining.OPEN,
