@@ -9,6 +9,7 @@ from contoursolve.diagnostics.finding import Severity
 from contoursolve.diagnostics.source import OWN, Evidence, Source
 from contoursolve.gcode import FaultKind
 from contoursolve.reading import ReadIssue, Setting, WithoutPoint
+from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import row
 from contoursolve.solving import NoteKind, RefusalKind
 
@@ -38,8 +39,19 @@ def setting(
 
 def number_setting(values: Mapping[str, str], source: Source) -> Setting:
     """What numbers without a point are, `increment` or `calculator`; the first of them is in force."""
-    found = setting("number", "what a number without a decimal point means", values, source)
-    return replace(found, without_point=_WITHOUT_POINT)
+    changes = {"increment": _reading(WithoutPoint.LEAST_INCREMENTS), "calculator": _reading(WithoutPoint.AS_WRITTEN)}
+    return setting("number", "what a number without a decimal point means", values, source, changes)
+
+
+def _reading(meant: WithoutPoint) -> Callable[[Dialect], Dialect]:
+    """From a control to the one for which a number without a point means this."""
+
+    def change(dialect: Dialect) -> Dialect:
+        lexicon = dialect.modes.lexicon
+        words = replace(lexicon, numbers=replace(lexicon.numbers, without_point=meant))
+        return replace(dialect, modes=replace(dialect.modes, lexicon=words))
+
+    return change
 
 
 def first_motion_setting(source: Source) -> Setting:
@@ -79,8 +91,6 @@ def length_setting(name: str, meaning: str, default: str, source: Source, most: 
     """One whose value is a number of mm, up to so many."""
     return Setting(name, meaning, {default: "mm"}, default, source, bounds=(Decimal("0.001"), Decimal(most)))
 
-
-_WITHOUT_POINT = {"increment": WithoutPoint.LEAST_INCREMENTS, "calculator": WithoutPoint.AS_WRITTEN}
 
 _GRAMMAR = _own("grammar of a word: an address and a number")
 _READING = _own("modal state of a program")
