@@ -124,6 +124,16 @@ MILL_CODES = merge(
 )
 """Those of mills as Fanuc, Mitsubishi and NCT have them."""
 
+LATHE_CODES: dict[Effect, dict[int, str]] = {
+    Effect.MOTION: {32: "thread", 34: "thread of variable lead"},
+    Effect.NO_MOTION: {22: "stored limit on", 23: "stored limit off"},
+    Effect.SINGLE: {27: "reference point check", 31: "skip", 36: "tool offset X", 37: "tool offset Z"}
+    | {65: "macro call", 66: "modal macro call", 67: "end of modal macro call"},
+    Effect.CYCLE: {90: "turning cycle", 92: "thread cycle", 94: "facing cycle"},
+    Effect.PRESET: {50: "coordinate setting or spindle limit"},
+}
+"""Those of lathes as Fanuc and YASNAC have them, but for their cycles."""
+
 _LINUXCNC_CODES = code_rows(
     LINUXCNC_MANUAL,
     merge(

@@ -23,14 +23,7 @@ from contoursolve.gcode.lookalikes import (
     with_digits,
 )
 from contoursolve.gcode.syntax import ISO, Syntax, long_parts
-from contoursolve.gcode.text import (
-    STANDARD_INPUT,
-    UnreadableProgramError,
-    is_folder,
-    read_bytes,
-    reason_of,
-    standard_input,
-)
+from contoursolve.gcode.text import STANDARD_INPUT, UnreadableProgramError, read_bytes
 from contoursolve.gcode.word import (
     FACT,
     Block,
@@ -67,11 +60,9 @@ __all__ = [
     "UnreadableProgramError",
     "Word",
     "call",
-    "decode",
     "find_lookalikes",
     "find_words",
     "has_lookalike_code",
-    "is_folder",
     "long_parts",
     "lookalike_at",
     "mended",
@@ -80,11 +71,9 @@ __all__ = [
     "parse_block",
     "read_bytes",
     "read_directive",
-    "reason_of",
     "spell",
     "spelled",
     "split_lines",
-    "standard_input",
     "with_digits",
     "words_as",
 ]

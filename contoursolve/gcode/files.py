@@ -13,14 +13,7 @@ from msgspec import Struct
 
 from contoursolve.diagnostics.errors import UserError
 from contoursolve.gcode.contents import encoding_of
-from contoursolve.gcode.text import (
-    STANDARD_INPUT,
-    UnreadableProgramError,
-    is_folder,
-    no_such_file,
-    reason_of,
-    standard_input,
-)
+from contoursolve.gcode.text import STANDARD_INPUT, UnreadableProgramError, opening, standard_input
 
 _CHUNK = 1 << 20
 _IN_MEMORY = 1 << 22
@@ -82,14 +75,8 @@ def open_tape(path: str | Path) -> Iterator[Tape]:
     Raises UnreadableProgramError if there is no such file, or it is no program.
     """
     name = str(path)
-    try:
+    with opening(name, "a program file"):
         data = _spool() if name == STANDARD_INPUT else Path(path).open("rb")  # noqa: SIM115 - closed below
-    except FileNotFoundError:
-        raise UnreadableProgramError(no_such_file(name)) from None
-    except (OSError, ValueError) as error:
-        if is_folder(name):  # Windows answers "permission denied" for a directory
-            raise UnreadableProgramError(f"{name} is a directory, not a program file") from None
-        raise UnreadableProgramError(f"{name} cannot be read: {reason_of(error)}") from None
     with data:
         stamp = _stamp_of(data) if name != STANDARD_INPUT else None
         encoding, mark = encoding_of(iter(partial(data.read, _CHUNK), b""), name)

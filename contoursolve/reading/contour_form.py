@@ -23,7 +23,6 @@ from contoursolve.geometry import (
     Through,
     UnitDirection,
 )
-from contoursolve.reading.lexicon import WithoutPoint
 from contoursolve.reading.rules import Condition, Stated
 
 
@@ -41,8 +40,6 @@ class Setting:
     default: str
     source: Source
     bounds: tuple[Decimal, Decimal] | None = None
-    without_point: Mapping[str, WithoutPoint] = field(default_factory=dict)
-    """Where it decides what a number without a decimal point means: that, by its value."""
     changes: Mapping[str, Callable[[Any], Any]] = field(default_factory=dict)
     """Where a value is about more than its contours: from the control to the control with it, by the value."""
 

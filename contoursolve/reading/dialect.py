@@ -83,7 +83,7 @@ class Dialect:
 
         Raises ValueError, naming what there is, if there is no such setting or no such value.
         """
-        known, lexicon = {setting.name: setting for setting in self.settings}, self.modes.lexicon
+        known = {setting.name: setting for setting in self.settings}
         for name, value in values.items():
             if name not in known:
                 names = ", ".join(known) or "none"
@@ -91,11 +91,7 @@ class Dialect:
             choices = known[name].choices(value)
             if choices:
                 raise ValueError(f"{self.name}.{name} cannot be {value!r}; {choices}")
-            if value in known[name].without_point:
-                numbers = replace(lexicon.numbers, without_point=known[name].without_point[value])
-                lexicon = replace(lexicon, numbers=numbers)
-        modes = replace(self.modes, lexicon=lexicon, settings={**self.modes.settings, **values})
-        changed = replace(self, modes=modes)
+        changed = replace(self, modes=replace(self.modes, settings={**self.modes.settings, **values}))
         for name, value in values.items():
             changed = known[name].changes.get(value, _unchanged)(changed)
         return changed

@@ -319,25 +319,13 @@ def positions(state: State, words: list[Word], modes: Modes, is_skippable: bool)
     for word in words:
         axis = _axis(word, modes)
         is_step = modes.lexicon.addresses[word.address].is_step(is_incremental=state.is_incremental)
-        moved[axis] = _led(word, axis in moved, state.axes[axis] if is_step else None, state, modes, is_skippable)
+        twice = Position(None, f"{axis} is given twice", word.span) if axis in moved else None
+        moved[axis] = twice or _led(word, state.axes[axis] if is_step else None, state, modes, is_skippable)
     return moved
 
 
-def absolute_positions(words: list[Word], state: State, modes: Modes) -> dict[str, Position]:
-    """Where absolute axis words lead."""
-    moved: dict[str, Position] = {}
-    for word in words:
-        axis = _axis(word, modes)
-        moved[axis] = _led(word, axis in moved, None, state, modes, is_skippable=False)
-    return moved
-
-
-def _led(
-    word: Word, is_second: bool, before: Position | None, state: State, modes: Modes, is_skippable: bool
-) -> Position:
+def _led(word: Word, before: Position | None, state: State, modes: Modes, is_skippable: bool) -> Position:
     """Where an axis word leads; `before` is where an increment counts from, None for a coordinate."""
-    if is_second:
-        return Position(None, f"{_axis(word, modes)} is given twice", word.span)
     value = modes.words(state).value(word, state.unit)
     if value is None:
         return Position(None, f"{word.text} depends on a variable", word.span)
@@ -466,5 +454,6 @@ class _Moved:
         """Its end on an axis that it programs."""
         if self.positions is None:
             words = find_words(self.text.rstrip("\r\n"), self.line, self.modes.axes)
-            self.positions = absolute_positions(words, self.state, self.modes)
+            # Increments are not in force where lines are plain.
+            self.positions = positions(self.state, words, self.modes, is_skippable=False)
         return self.positions[axis]

@@ -1,11 +1,12 @@
 """A rule is a row: a condition on the words of a block, what it says, its source, alarm and examples."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
+from typing import TypedDict, Unpack
 
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Alarm, Severity
@@ -53,58 +54,57 @@ class Condition:
 
 
 @dataclass(frozen=True, slots=True)
-class Both(Condition):
-    """Two conditions at once."""
+class _Joined(Condition):
+    """Two conditions as one."""
 
     first: Condition
     second: Condition
 
     @property
+    def parts(self) -> tuple[Condition, Condition]:
+        return self.first, self.second
+
+    @property
     def reads_values(self) -> bool:  # type: ignore[override]
-        return self.first.reads_values or self.second.reads_values
+        return any(part.reads_values for part in self.parts)
+
+    def offenders(self, stated: Stated) -> tuple[str, ...]:
+        holding = [part for part in self.parts if part.holds(stated)]
+        return tuple(dict.fromkeys(name for part in holding for name in part.offenders(stated)))
+
+    def limits(self, name: str, stated: Stated) -> tuple[Decimal, ...]:
+        return self.first.limits(name, stated) + self.second.limits(name, stated)
+
+    def compared(self, stated: Stated) -> tuple[tuple[str, str], ...]:
+        return self.first.compared(stated) + self.second.compared(stated)
+
+
+class Both(_Joined):
+    """Two conditions at once."""
+
+    __slots__ = ()
 
     def holds(self, stated: Stated) -> bool:
         return self.first.holds(stated) and self.second.holds(stated)
 
-    def offenders(self, stated: Stated) -> tuple[str, ...]:
-        return tuple(dict.fromkeys(self.first.offenders(stated) + self.second.offenders(stated)))
-
     def limits(self, name: str, stated: Stated) -> tuple[Decimal, ...]:
-        parts = (self.first, self.second)
-        if any(not part.reads_values and not part.holds(stated) for part in parts):
-            return ()
-        return self.first.limits(name, stated) + self.second.limits(name, stated)
+        return () if self._fails_by_names(stated) else super().limits(name, stated)
 
     def compared(self, stated: Stated) -> tuple[tuple[str, str], ...]:
-        parts = (self.first, self.second)
-        if any(not part.reads_values and not part.holds(stated) for part in parts):
-            return ()
-        return self.first.compared(stated) + self.second.compared(stated)
+        return () if self._fails_by_names(stated) else super().compared(stated)
+
+    def _fails_by_names(self, stated: Stated) -> bool:
+        """Whether it does not hold, whatever the values are."""
+        return any(not part.reads_values and not part.holds(stated) for part in self.parts)
 
 
-@dataclass(frozen=True, slots=True)
-class Either(Condition):
+class Either(_Joined):
     """One of two conditions, or both."""
 
-    first: Condition
-    second: Condition
-
-    @property
-    def reads_values(self) -> bool:  # type: ignore[override]
-        return self.first.reads_values or self.second.reads_values
+    __slots__ = ()
 
     def holds(self, stated: Stated) -> bool:
         return self.first.holds(stated) or self.second.holds(stated)
-
-    def offenders(self, stated: Stated) -> tuple[str, ...]:
-        parts = [part for part in (self.first, self.second) if part.holds(stated)]
-        return tuple(dict.fromkeys(name for part in parts for name in part.offenders(stated)))
-
-    def limits(self, name: str, stated: Stated) -> tuple[Decimal, ...]:
-        return self.first.limits(name, stated) + self.second.limits(name, stated)
-
-    def compared(self, stated: Stated) -> tuple[tuple[str, str], ...]:
-        return self.first.compared(stated) + self.second.compared(stated)
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,9 +151,7 @@ class Value(Condition):
     most: Decimal = Decimal("Infinity")
     excluding: Decimal | None = None
 
-    @property
-    def reads_values(self) -> bool:  # type: ignore[override]
-        return True
+    reads_values = True
 
     def holds(self, stated: Stated) -> bool:
         for name in self.names:
@@ -178,9 +176,7 @@ class Along(Condition):
     direction: int
     within: Decimal
 
-    @property
-    def reads_values(self) -> bool:  # type: ignore[override]
-        return True
+    reads_values = True
 
     def holds(self, stated: Stated) -> bool:
         return bool(self.offenders(stated))
@@ -203,9 +199,7 @@ class Parallel(Condition):
     names: tuple[str, str]
     within: Decimal
 
-    @property
-    def reads_values(self) -> bool:  # type: ignore[override]
-        return True
+    reads_values = True
 
     def holds(self, stated: Stated) -> bool:
         first, second = (stated.get(name) for name in self.names)
@@ -298,6 +292,47 @@ class Rule(Shown):
     def advice(self) -> str:
         """What to do, with its fields shown as gaps."""
         return _FIELD.sub(_gap, self.help)
+
+
+class Besides(TypedDict, total=False):
+    """What a row may say besides."""
+
+    roles: tuple[str, ...]
+    ignores: str
+    alarm: Alarm | None
+    severity: Severity
+    note: str
+    is_about_geometry: bool
+
+
+def row(
+    code: str,
+    message: str,
+    help_: str,
+    source: Source,
+    found: Condition | Enum,
+    good: str | tuple[str, ...],
+    *bad: str | tuple[str, str],
+    about: Enum | None = None,
+    **besides: Unpack[Besides],
+) -> Rule:
+    """A row of the catalogue: what it says, where that stands, what it finds, and examples.
+
+    It finds a condition on words, or an event. Of the examples, `good` are right; what is wrong is a program, or two
+    texts, of which the second stands for the first in the first right program. `about` names an event beside a
+    condition.
+    """
+    when, event = (found, about) if isinstance(found, Condition) else (None, found)
+    accepted, rejected = examples(good, bad)
+    return Rule(code, message, help_, source, accepted, rejected, when=when, about=event, **besides)
+
+
+def examples(
+    good: str | tuple[str, ...], bad: Iterable[str | tuple[str, str]]
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The right and the wrong programs of a row, as it states them."""
+    accepted = (good,) if isinstance(good, str) else good
+    return accepted, tuple(each if isinstance(each, str) else accepted[0].replace(*each) for each in bad)
 
 
 _FIELD = re.compile(r"\{(\w+)(?::([^}]*))?\}")

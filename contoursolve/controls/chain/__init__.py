@@ -6,9 +6,23 @@ its forms go out. Begin with `language`.
 
 from contoursolve.controls.chain.find import ChainFinder, reading
 from contoursolve.controls.chain.form import compose, forms_of
-from contoursolve.controls.chain.language import Element, Joining, Language, Member, pair_role
+from contoursolve.controls.chain.language import (
+    A_LINE,
+    AN_ARC,
+    CLOSING_LINE,
+    OPEN_LINE,
+    Element,
+    Joining,
+    Language,
+    Member,
+    pair_role,
+)
 
 __all__ = [
+    "AN_ARC",
+    "A_LINE",
+    "CLOSING_LINE",
+    "OPEN_LINE",
     "ChainFinder",
     "Element",
     "Joining",

@@ -110,7 +110,7 @@ class ChainFinder:
         here = self._apply(before, block, modes)
         is_smooth = self.language.tangent_arc is not None and here.motion == self.language.tangent_arc
         turn = Turn.CCW if is_smooth else _TURNS.get(here.motion or 0)
-        element = Element(turn, is_over, is_followed=False, is_smooth=is_smooth)
+        element = Element(turn, is_over, is_smooth=is_smooth)
         is_signed = not self.language.is_signed_by_shape and bool(self._signed_words(block, here))
         return Member(block, element, before, here, is_signed=is_signed)
 

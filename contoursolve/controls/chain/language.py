@@ -1,14 +1,14 @@
 """How a control writes lines and arcs in a row, and the names that its rules and assumptions use."""
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 
 from msgspec import Struct
 
 from contoursolve.gcode import Block
-from contoursolve.geometry import CornerShape, Plane, Side, Turn
-from contoursolve.reading import Assumption, ContourForm, Convention, Lexicon, Modes, Sample, State
+from contoursolve.geometry import CornerShape, Heading, Plane, Side, Turn
+from contoursolve.reading import Assumption, ContourForm, Convention, Lexicon, Modes, Sample, Setting, State
 
 LINE, ARC = "line", "arc"
 OVER_LINE, OVER_CIRCLE = "over-defined line", "over-defined circle"
@@ -71,9 +71,9 @@ class Element(Struct, frozen=True):
     `is_over` tells that it begins in a computed intersection or contact, `is_followed` that it ends in one.
     """
 
-    turn: Turn | None
-    is_over: bool
-    is_followed: bool
+    turn: Turn | None = None
+    is_over: bool = False
+    is_followed: bool = False
     touches: bool = False
     """Whether it touches the element before it where it begins."""
     is_smooth: bool = False
@@ -87,6 +87,12 @@ class Element(Struct, frozen=True):
         if self.turn is None:
             return OVER_LINE if self.is_over else LINE
         return OVER_CIRCLE if self.is_over else ARC
+
+
+A_LINE, AN_ARC = Element(), Element(Turn.CCW)
+OPEN_LINE, OPEN_ARC = Element(is_followed=True), Element(Turn.CCW, is_followed=True)
+CLOSING_LINE, CLOSING_ARC = Element(is_over=True), Element(Turn.CCW, is_over=True)
+"""Those of which samples are made: between known points, with an end that is computed, and behind one of these."""
 
 
 def pair_role(first: Element, second: Element) -> str:
@@ -143,6 +149,13 @@ TITLES: Mapping[str, str] = {
 """What forms are called, by the role of two blocks or the name of the form."""
 
 
+def sense_conventions(sense: Setting, form: ContourForm, modes: Modes) -> Iterator[Convention]:
+    """Whether a line may run against its angle: where there is one, and if that was set."""
+    convention = modes.convention(sense)
+    if convention.value == "ray" and any(isinstance(row.fact, Heading) for row in form.facts):
+        yield convention
+
+
 def _nothing(*_: object) -> Iterable[str]:
     return ()
 
@@ -155,10 +168,6 @@ def _never(_: Modes) -> bool:
     return False
 
 
-def _always(_: Modes) -> bool:
-    return True
-
-
 def _no_guard(_: Modes) -> float:
     return 0.0
 
@@ -167,14 +176,15 @@ def _no_guard(_: Modes) -> float:
 class Language:
     """How a control writes lines and arcs in a row.
 
-    `planes` by their G code; `allowed` are the addresses that may stand in a block of a contour; `corners` the shape
-    that each corner word gives the corner behind its block. `titles` are those of forms, by role or form name.
+    `planes` by their G code, where a parallel axis may stand for an axis of them; `allowed` are the addresses that may
+    stand in a block of a contour; `corners` the shape that each corner word gives the corner behind its block. `titles`
+    are those of forms, by role or form name.
     """
 
     lexicon: Lexicon
-    planes: Mapping[str, Plane]
     allowed: frozenset[str]
     joining: Joining
+    planes: Mapping[str, Plane] = field(default_factory=dict)
     titles: Mapping[str, str] = field(default_factory=lambda: TITLES)
     angle: str = ",A"
     angle_words: tuple[str, ...] = ()
@@ -210,8 +220,9 @@ class Language:
     """(role of two blocks, whether the selector is negative, modes) to the intersection that it chooses."""
     counts_clockwise: Callable[[Modes], bool] = _never
     """Whether the intersections of two circles count clockwise along the first."""
-    is_ray: Callable[[Modes], bool] = _always
-    """Whether an angle is the direction of travel; else a line may run against it, too."""
+    sense: Setting | None = None
+    """What decides whether an angle is the direction of travel (`ray`), or a line may run against it, too; without such
+    a setting it is."""
     guard: Callable[[Modes], float] = _no_guard
     """Sine of the change of direction up to which the control makes no corner."""
     refuses: Callable[[Modes], bool] = _never
@@ -246,6 +257,10 @@ class Language:
 
     centers: tuple[str, str] | tuple[()] = ()
     """The addresses of the coordinates of a centre, of an arc without an end: for I and J, for I and K, or J and K."""
+
+    def is_ray(self, modes: Modes) -> bool:
+        """Whether an angle is the direction of travel."""
+        return self.sense is None or modes.convention(self.sense).value == "ray"
 
     def centers_at(self, plane: Plane) -> Mapping[str, str]:
         """What these are called in a plane."""

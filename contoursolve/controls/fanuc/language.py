@@ -1,28 +1,26 @@
 """Fanuc and Haas as languages of lines and arcs in a row, with their settings."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace as replace_fields
 from decimal import Decimal
 from math import radians, sin
 
-from msgspec.structs import replace
-
-from contoursolve.controls.chain import Element, Joining, Language, Member, reading
-from contoursolve.controls.common import number_setting, setting
+from contoursolve.controls.chain import A_LINE, AN_ARC, CLOSING_LINE, OPEN_LINE, Joining, Language, Member, reading
+from contoursolve.controls.chain.language import sense_conventions
+from contoursolve.controls.common import angle_sense_setting, arc_chamfer_setting, number_setting, setting
 from contoursolve.controls.fanuc.lexicon import (
     CORNERS,
     DRAWING,
     HAAS,
     HAAS_LATHE_WORDS,
     HAAS_MILL_WORDS,
-    LATHE_PLANES,
     LATHE_WORDS,
     MILL_WORDS,
 )
-from contoursolve.controls.plain import LATHE, PLANES
+from contoursolve.controls.plain import LATHE
 from contoursolve.diagnostics.source import Evidence, Source
-from contoursolve.geometry import CornerShape, Heading, Turn
-from contoursolve.reading import ContourForm, Convention, Modes, Sample, Setting, State
+from contoursolve.geometry import CornerShape
+from contoursolve.reading import Modes, Sample, Setting, State
 
 GUARD = Decimal(1)
 """Degrees: the angles within which a control computes no vertex and makes no corner."""
@@ -45,18 +43,6 @@ def _number(manual: str) -> Setting:
             "calculator": "mm, inches and degrees, as with a point",
         },
         _assumed(manual, "a machine parameter"),
-    )
-
-
-def _angle_sense(manual: str) -> Setting:
-    return setting(
-        "angle-sense",
-        "whether a line may run against its angle",
-        {
-            "line": "it may: the angle is that of the line, either way",
-            "ray": "it may not: the angle is the direction of travel",
-        },
-        _assumed(manual, "not described"),
     )
 
 
@@ -125,23 +111,20 @@ ANGLE = setting(
     {"normal": "the angle itself", "supplementary": "180 deg minus the angle; contoursolve does not compute this"},
     _assumed(DRAWING, "another bit of parameter 3405, recalled"),
 )
-ARC_CHAMFER = setting(
-    "chamfer-on-arc",
-    "how ,C is measured on an arc",
-    {"chord": "straight from the corner", "arc_length": "along the arc; contoursolve does not compute this"},
-    _assumed(CORNERS, "not described"),
-)
+ARC_CHAMFER = arc_chamfer_setting(",C", _assumed(CORNERS, "not described"))
+SENSE = angle_sense_setting(_assumed(DRAWING, "not described"))
 LATHE_SETTINGS = (
-    *(_number(DRAWING), _angle_sense(DRAWING), _guard(DRAWING), _guard_corner(DRAWING)),
+    *(_number(DRAWING), SENSE, _guard(DRAWING), _guard_corner(DRAWING)),
     *(REDUNDANT_ANGLE, LATHE_CORNER_WORDS, ANGLE),
 )
 MILL_SETTINGS = (_number(CORNERS), _guard(CORNERS), _guard_corner(CORNERS), MILL_CORNER_WORDS, ARC_CHAMFER)
-HAAS_LATHE_SETTINGS = (_number(HAAS), _angle_sense(HAAS), _guard(HAAS), _guard_corner(HAAS))
+HAAS_LATHE_SETTINGS = (
+    _number(HAAS),
+    angle_sense_setting(_assumed(HAAS, "not described")),
+    _guard(HAAS),
+    _guard_corner(HAAS),
+)
 HAAS_MILL_SETTINGS = (_number(HAAS), _guard(HAAS), _guard_corner(HAAS), ARCS)
-
-
-def _is_ray(modes: Modes) -> bool:
-    return modes.settings.get("angle-sense") == "ray"
 
 
 def _guarded(modes: Modes) -> bool:
@@ -186,34 +169,27 @@ def _haas_mill_circumstances(member: Member, states: Sequence[State], modes: Mod
         yield STRAIGHT_ONLY
 
 
-def _lathe_conventions(form: ContourForm, _: Collection[str], modes: Modes) -> Iterator[Convention]:
-    """Whether a line may run against its angle matters where there is one."""
-    if any(isinstance(row.fact, Heading) for row in form.facts) and _is_ray(modes):
-        yield Convention(LATHE_SETTINGS[1], "ray")
-
-
 _COMMON = ("N", "G", "F", "S", "T", "M", "D", "H", "P", "E", "R", "I", "J", "K", ",C", ",R")
 
-_LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)
-_OPEN, _CLOSING = replace(_LINE, is_followed=True), replace(_LINE, is_over=True)
 _ON_LATHE, _ON_MILL = "G00 X20. Z0.", "G17 G90 G00 X0 Y0"
 
 FANUC_LATHE_LANGUAGE = Language(
     lexicon=LATHE_WORDS,
-    planes={plane.code: plane for plane in LATHE_PLANES.values()},
     allowed=frozenset({*_COMMON, "X", "Z", "U", "W", ",A"}),
     joining=Joining.OPEN,
     samples={
-        (_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} ,A150.",)),
-        (_LINE, _LINE): Sample(_ON_LATHE, ("G01 {X30.} {Z-20.} {,A165.96} {,C2.} ,R3.", "{X50.} {Z-21.} {,A95.7}")),
-        (_OPEN, _CLOSING): Sample(_ON_LATHE, ("G01 {X20.} {Z-20.} ,A180. {,C2.} {,R3.}", "{X60.} {Z-47.} {,A120.}")),
-        (_OPEN, _CLOSING, _LINE): Sample(
+        (A_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} ,A150.",)),
+        (A_LINE, A_LINE): Sample(_ON_LATHE, ("G01 {X30.} {Z-20.} {,A165.96} {,C2.} ,R3.", "{X50.} {Z-21.} {,A95.7}")),
+        (OPEN_LINE, CLOSING_LINE): Sample(
+            _ON_LATHE, ("G01 {X20.} {Z-20.} ,A180. {,C2.} {,R3.}", "{X60.} {Z-47.} {,A120.}")
+        ),
+        (OPEN_LINE, CLOSING_LINE, A_LINE): Sample(
             _ON_LATHE, ("G01 ,A180. {,C2.} {,R3.}", "X60. Z-47. ,A120. {,C1.} ,R2.", "{Z-60.} {X60.0}")
         ),
     },
     circumstances=_straight_circumstances,
-    conventions=_lathe_conventions,
-    is_ray=_is_ray,
+    conventions=lambda form, _, modes: sense_conventions(SENSE, form, modes),
+    sense=SENSE,
     guard=_guard_sine,
     refuses=_refuses,
     signed={"I": _SETBACK, "K": _SETBACK, "R": _FILLET},
@@ -221,13 +197,12 @@ FANUC_LATHE_LANGUAGE = Language(
 )
 FANUC_MILL_LANGUAGE = Language(
     lexicon=MILL_WORDS,
-    planes={plane.code: plane for plane in PLANES.values()},
     allowed=frozenset({*_COMMON, "X", "Y", "Z"}),
     joining=Joining.OPEN,
     angle="",
     samples={
-        (_LINE, _LINE): Sample(_ON_MILL, ("G01 {X40.} {Y0} {,C6.} ,R5.", "{X60.} {Y20.}")),
-        (_LINE, _ARC): Sample(_ON_MILL, ("G01 {X40.} {Y0} {,C6.} ,R5.", "G03 {X60.} {Y20.} {I0} {J20.} {R20.}")),
+        (A_LINE, A_LINE): Sample(_ON_MILL, ("G01 {X40.} {Y0} {,C6.} ,R5.", "{X60.} {Y20.}")),
+        (A_LINE, AN_ARC): Sample(_ON_MILL, ("G01 {X40.} {Y0} {,C6.} ,R5.", "G03 {X60.} {Y20.} {I0} {J20.} {R20.}")),
     },
     circumstances=_circumstances,
     guard=_guard_sine,
@@ -242,8 +217,8 @@ HAAS_LATHE_LANGUAGE = replace_fields(
     angle="A",
     allowed=FANUC_LATHE_LANGUAGE.allowed - {",A"} | {"A"},
     samples={
-        (_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} A150.",)),
-        (_LINE, _LINE): Sample(_ON_LATHE, ("G01 {X30.} {Z-20.} {A165.96} {,C2.} ,R3.", "{X50.} {Z-21.} {A95.7}")),
+        (A_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} A150.",)),
+        (A_LINE, A_LINE): Sample(_ON_LATHE, ("G01 {X30.} {Z-20.} {A165.96} {,C2.} ,R3.", "{X50.} {Z-21.} {A95.7}")),
     },
 )
 HAAS_MILL_LANGUAGE = replace_fields(

@@ -5,6 +5,7 @@ from msgspec.structs import replace
 from contoursolve.controls.plain import (
     CALLS,
     LATHE,
+    LATHE_CODES,
     MILL_CODES,
     PLANES,
     code_rows,
@@ -27,19 +28,7 @@ LATHE_PLANES = {17: replace(LATHE, code="G17"), 18: LATHE, 19: replace(LATHE, co
 """A lathe has Z and X alone, whatever plane is selected."""
 
 _LATHE_CODES = code_rows(
-    FANUC_MANUAL,
-    merge(
-        {
-            Effect.MOTION: {32: "thread", 34: "thread of variable lead"},
-            Effect.NO_MOTION: {22: "stored limit on", 23: "stored limit off"},
-            Effect.SINGLE: {27: "reference point check", 31: "skip", 36: "tool offset X", 37: "tool offset Z"}
-            | {65: "macro call", 66: "modal macro call", 67: "end of modal macro call"}
-            | dict.fromkeys(range(70, 77), "cycle"),
-            Effect.CYCLE: {90: "turning cycle", 92: "thread cycle", 94: "facing cycle"},
-            Effect.PRESET: {50: "coordinate setting or spindle limit"},
-        }
-    ),
-    LATHE_PLANES,
+    FANUC_MANUAL, merge(LATHE_CODES, {Effect.SINGLE: dict.fromkeys(range(70, 77), "cycle")}), LATHE_PLANES
 )
 _MILL_CODES = code_rows(FANUC_MANUAL, MILL_CODES, PLANES)
 

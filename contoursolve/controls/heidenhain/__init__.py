@@ -5,9 +5,8 @@ Its words, elements and rules come in; a control goes out. Begin with `elements`
 
 from contoursolve.controls.heidenhain.find import find
 from contoursolve.controls.heidenhain.follow import follow
-from contoursolve.controls.heidenhain.lexicon import CODES, LEXICON, SYNTAX, shown_by
+from contoursolve.controls.heidenhain.lexicon import CODES, LEXICON, SETTINGS, SYNTAX, shown_by
 from contoursolve.controls.heidenhain.rules import RULES
-from contoursolve.controls.heidenhain.settings import SETTINGS
 from contoursolve.controls.heidenhain.writer import WRITING
 from contoursolve.controls.plain import PLANES
 from contoursolve.execution.klartext import klartext

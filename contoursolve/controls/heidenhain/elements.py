@@ -1,8 +1,9 @@
 """The elements of a chain of lines and arcs, and what each word states about them: one row of facts a word."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import lru_cache
 from itertools import pairwise
+from operator import attrgetter
 
 from msgspec import Struct
 
@@ -151,54 +152,38 @@ class Chain(Struct, frozen=True):
         return self.at(counted[word]) if word in counted else place.tail
 
 
-Facts = Callable[[Chain, Place, str], Iterator[Fact]]
+Facts = Callable[[Chain, Place, str], Iterable[Fact]]
 """(chain, element, name of the word) to what the word states."""
 
 
-def _coordinate(of: str, axis: int) -> Facts:
-    def facts(_: Chain, place: Place, given: str) -> Iterator[Fact]:
-        yield Coordinate(given, getattr(place, of), axis)
+def _placing(of: str, mark: str) -> Iterator[tuple[str, Facts]]:
+    """The words that place the end of an element, or its centre: the same, but for a mark in their names."""
+    point = attrgetter(of)
 
-    return facts
+    def coordinate(axis: int) -> Facts:
+        return lambda _, place, given: [Coordinate(given, point(place), axis)]
 
+    def step(axis: int, word: str) -> Facts:
+        return lambda chain, place, given: [Offset(given, point(place), chain.counted_from(place, word), axis)]
 
-def _step(of: str, axis: int, word: str) -> Facts:
-    def facts(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
-        yield Offset(given, getattr(place, of), chain.counted_from(place, word), axis)
-
-    return facts
-
-
-def _polar_distance(of: str) -> Facts:
-    def facts(_: Chain, place: Place, given: str) -> Iterator[Fact]:
-        yield Distance(given, place.element.pole, getattr(place, of))
-
-    return facts
-
-
-def _polar_angle(of: str) -> Facts:
-    def facts(_: Chain, place: Place, given: str) -> Iterator[Fact]:
-        yield Ray(given, place.element.pole, getattr(place, of))
-
-    return facts
-
-
-def _farther(of: str, word: str) -> Facts:
-    def facts(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
-        origin, point, pole = chain.counted_from(place, word), getattr(place, of), place.element.pole
-        radii = [f"{given} {each}" for each in ("from", "to")]
-        yield from (OnCircle(each, pole, radius) for each, radius in zip((origin, point), radii, strict=True))
+    def farther(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
+        pole, radii = place.element.pole, [f"{given} {each}" for each in ("from", "to")]
+        yield OnCircle(chain.counted_from(place, f"I{mark}PR"), pole, radii[0])
+        yield OnCircle(point(place), pole, radii[1])
         yield RadiusStep(given, radii[1], radii[0])
 
-    return facts
-
-
-def _turned(of: str, word: str) -> Facts:
-    def facts(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
+    def turned(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
         pole = place.element.pole
-        yield TurnBetween(given, Chord(pole, chain.counted_from(place, word)), Chord(pole, getattr(place, of)))
+        before = Chord(pole, chain.counted_from(place, f"I{mark}PA"))
+        yield TurnBetween(given, before, Chord(pole, point(place)))
 
-    return facts
+    for axis, letter in enumerate("XY"):
+        yield mark + letter, coordinate(axis)
+        yield f"I{mark}{letter}", step(axis, f"I{mark}{letter}")
+    yield f"{mark}PR", lambda _, place, given: [Distance(given, place.element.pole, point(place))]
+    yield f"{mark}PA", lambda _, place, given: [Ray(given, place.element.pole, point(place))]
+    yield f"I{mark}PR", farther
+    yield f"I{mark}PA", turned
 
 
 def _direction(_: Chain, place: Place, given: str) -> Iterator[Fact]:
@@ -220,14 +205,6 @@ def _length(_: Chain, place: Place, given: str) -> Iterator[Fact]:
         yield Extent(given, place.name, place.tail, place.head)
     else:
         yield Distance(given, place.tail, place.head)
-
-
-def _radius(_: Chain, place: Place, given: str) -> Iterator[Fact]:
-    yield Radius(given, place.radius)
-
-
-def _end_angle(_: Chain, place: Place, given: str) -> Iterator[Fact]:
-    yield from _spokes(given, place, place.head)
 
 
 def _spokes(given: str, place: Place, point: str, quarters: int = 0) -> Iterator[Fact]:
@@ -292,27 +269,13 @@ ALONG = "along"
 """The direction of a line that begins where CCA ends an arc: a quarter of a turn from that."""
 
 WORDS: Mapping[str, Facts] = {
-    "X": _coordinate("head", FIRST),
-    "Y": _coordinate("head", SECOND),
-    "IX": _step("head", FIRST, "IX"),
-    "IY": _step("head", SECOND, "IY"),
-    "PR": _polar_distance("head"),
-    "PA": _polar_angle("head"),
-    "IPR": _farther("head", "IPR"),
-    "IPA": _turned("head", "IPA"),
+    **dict(_placing("head", "")),
+    **dict(_placing("center", "CC")),
     "AN": _direction,
     "IAN": _angle_to,
     "LEN": _length,
-    "CCX": _coordinate("center", FIRST),
-    "CCY": _coordinate("center", SECOND),
-    "CCPR": _polar_distance("center"),
-    "CCPA": _polar_angle("center"),
-    "ICCX": _step("center", FIRST, "ICCX"),
-    "ICCY": _step("center", SECOND, "ICCY"),
-    "ICCPR": _farther("center", "ICCPR"),
-    "ICCPA": _turned("center", "ICCPA"),
-    "R": _radius,
-    "CCA": _end_angle,
+    "R": lambda _, place, given: [Radius(given, place.radius)],
+    "CCA": lambda _, place, given: _spokes(given, place, place.head),
     "CLSD-": _closes,
     TANGENCY: _touches_before,
 }

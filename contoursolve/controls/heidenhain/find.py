@@ -32,21 +32,22 @@ from contoursolve.controls.heidenhain.follow import (
     TOOL_AXIS,
     begins_chain,
     pole_of,
+    senses,
     set_pole,
 )
 from contoursolve.controls.heidenhain.lexicon import (
+    AMBIGUOUS,
     CHAMFER,
     FREE,
     LEXICON,
     MOVES,
     REFERRED,
     ROUNDING,
+    SELECTION,
     STRAIGHT,
     TANGENT,
     function_of,
 )
-from contoursolve.controls.heidenhain.settings import AMBIGUOUS, SELECTION
-from contoursolve.controls.heidenhain.tangents import senses
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Choice, Given, Pick, Side, Turn, Unit, assemble
 from contoursolve.reading import Convention, Modes, ParsedContour, State, apply_modes, read

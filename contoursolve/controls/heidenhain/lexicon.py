@@ -1,8 +1,9 @@
-"""Klartext: how its blocks are spelled, its words, and its functions."""
+"""Klartext: how its blocks are spelled, its words, its functions, and conventions on which the manuals are silent."""
 
 import re
 from collections.abc import Mapping
 
+from contoursolve.controls.common import setting
 from contoursolve.diagnostics.source import Book, Source
 from contoursolve.gcode import Block, Syntax, Word, words_as
 from contoursolve.geometry import Unit
@@ -203,3 +204,20 @@ def shown_by(block: Block) -> tuple[Word, ...]:
 
 _SHOWS = re.compile(r"BEGIN|F[LC]T?[ \t\r\n]|F[LC]T?$", re.IGNORECASE)
 _BEGIN = re.compile(r"[ \t\ufeff]*+\d*+[ \t]*+BEGIN[ \t]++PGM\b", re.IGNORECASE)
+
+SELECTION = setting(
+    "fselect",
+    "which of several solutions FSELECT takes",
+    {
+        "own_order": "by travel: the nearer end along the element first, then the smaller turn to the left",
+        "ignore": "none: what the program says besides must choose",
+    },
+    BOOK.assumed("the order is on no page"),
+)
+AMBIGUOUS = setting(
+    "ambiguous",
+    "what comes of several solutions without FSELECT",
+    {"error": "it is refused, with all of them", "first": "the first one is taken, in the order of FSELECT"},
+    BOOK.assumed("an open contour cannot be run"),
+)
+SETTINGS = (SELECTION, AMBIGUOUS)

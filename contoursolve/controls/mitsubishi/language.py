@@ -2,23 +2,23 @@
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace as replace_fields
-from decimal import Decimal
 
 from msgspec.structs import replace
 
-from contoursolve.controls.chain import Element, Joining, Language, Member, reading
+from contoursolve.controls.chain import A_LINE, CLOSING_LINE, OPEN_LINE, Joining, Language, Member, reading
 from contoursolve.controls.chain.language import (
     ARC,
     CIRCLE_CIRCLE,
     CIRCLE_LINE,
+    CLOSING_ARC,
     LINE_CIRCLE,
     LINE_LINE,
     ONE_CENTER,
+    OPEN_ARC,
     OVER_CIRCLE,
 )
-from contoursolve.controls.common import number_setting, setting
+from contoursolve.controls.common import arc_chamfer_setting, length_setting, number_setting, setting
 from contoursolve.controls.mitsubishi.lexicon import BOOK, MODES, TURNED_PLANES, turned
-from contoursolve.geometry import Turn
 from contoursolve.reading import Assumption, ContourForm, Convention, Modes, Sample, Setting, State
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import some
@@ -70,13 +70,8 @@ _PICK = setting(
     {"0": "as with H0: the one with the shorter line", "error": "H must be there"},
     BOOK.assumed("not described"),
 )
-CONTACT = Setting(
-    "contact-tol",
-    "by how much two arcs about known centres may miss a contact",
-    {"0.01": "mm"},
-    "0.01",
-    BOOK.assumed("not described"),
-    bounds=(Decimal("0.001"), Decimal(1)),
+CONTACT = length_setting(
+    "contact-tol", "by how much two arcs about known centres may miss a contact", "0.01", BOOK.assumed("not described")
 )
 _SENSE = setting(
     "angle-sense",
@@ -90,12 +85,7 @@ _CORNER = setting(
     {"II": "beside lines and arcs", "I": "between two lines alone"},
     BOOK.assumed("corner chamfering I and II: options"),
 )
-_ARC_CHAMFER = setting(
-    "chamfer-on-arc",
-    "how the size of a chamfer is measured on an arc",
-    {"chord": "straight from the virtual corner", "arc_length": "along the arc; contoursolve does not compute this"},
-    BOOK.assumed("not described"),
-)
+_ARC_CHAMFER = arc_chamfer_setting("the size of a chamfer", BOOK.assumed("not described"), "virtual corner")
 _GUARD = setting(
     "guard-deg",
     "how close the directions of two lines may come",
@@ -135,14 +125,20 @@ def _conventions(form: ContourForm, _: Collection[str], modes: Modes) -> Iterato
     return (modes.convention(setting) for setting, is_here in about if is_here and _is(setting, modes))
 
 
-_LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)
-_TO_LINE, _TO_ARC = replace(_LINE, is_followed=True), replace(_ARC, is_followed=True)
-_OVER_LINE, _OVER_ARC = replace(_LINE, is_over=True), replace(_ARC, is_over=True)
 _MILL = "G17 G90 G00 X0 Y0"
+
+_ASSUMPTIONS = (
+    Assumption("h-missing", "a crossing without H is the one with the shorter line",
+               BOOK.assumed("not described"), (LINE_CIRCLE, CIRCLE_LINE),
+               some("1:center-first", "1:center-at-first", "2:center-first") & ~some("1:H", "2:H")),
+    Assumption("one-of-center", "of the two of I, J and K that belong to the plane, one that is left out is 0",
+               BOOK.assumed("not described"), (ARC, OVER_CIRCLE), some(ONE_CENTER)),
+    Assumption("radius-of-contact", "a positive R is the arc of at most 180 deg, a negative one the other",
+               BOOK.assumed("not described"), (LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE), some("1:R", "2:R")),
+)  # fmt: skip
 
 LANGUAGE = Language(
     lexicon=MODES.lexicon,
-    planes={},
     allowed=frozenset({*"NGFSTMDHEXYZIJKRAPQ", ",A", ",C", ",R"}),
     joining=Joining.PAIRED,
     titles={
@@ -159,41 +155,19 @@ LANGUAGE = Language(
     angle_words=("A", ",A"),
     picks="H",
     centers=("P", "Q"),
-    assumptions=(
-        Assumption(
-            "h-missing",
-            "a crossing without H is the one with the shorter line",
-            BOOK.assumed("not described"),
-            (LINE_CIRCLE, CIRCLE_LINE),
-            some("1:center-first", "1:center-at-first", "2:center-first") & ~some("1:H", "2:H"),
-        ),
-        Assumption(
-            "one-of-center",
-            "of the two of I, J and K that belong to the plane, one that is left out is 0",
-            BOOK.assumed("not described"),
-            (ARC, OVER_CIRCLE),
-            some(ONE_CENTER),
-        ),
-        Assumption(
-            "radius-of-contact",
-            "a positive R is the arc of at most 180 deg, a negative one the other",
-            BOOK.assumed("not described"),
-            (LINE_CIRCLE, CIRCLE_LINE, CIRCLE_CIRCLE),
-            some("1:R", "2:R"),
-        ),
-    ),
+    assumptions=_ASSUMPTIONS,
     samples={
-        (_LINE,): Sample(_MILL, ("G01 {X40.} {Y23.094} A30.",)),
-        (_LINE, _LINE): Sample(_MILL, ("G01 {X40.} {Y0} {A0} {,C6.} ,R5.", "{X60.} {Y20.} {A45.}")),
-        (_TO_LINE, _OVER_LINE): Sample(_MILL, ("G01 A70. {,C2.} {,R2.}", "{X80.} {Y25.} {A-30.}")),
-        (_TO_LINE, _OVER_ARC): Sample(_MILL, ("G01 A10.", "G03 {X60.} {Y15.} I-20. J-25. {R32.} {H1}")),
-        (_TO_LINE, replace(_OVER_ARC, touches=True)): Sample(_MILL, ("G01 A15.", "G03 {X70.} {Y50.} {R30.}")),
-        (_TO_ARC, _OVER_LINE): Sample(_MILL, ("G03 I30. {J0} {H0}", "G01 {X20.} {Y-60.} {A-90.}")),
-        (_TO_ARC, replace(_OVER_ARC, touches=True)): Sample(_MILL, ("G03 I0 J30.", "G03 {X15.} {Y20.} {R10.}")),
-        (_TO_ARC, replace(_OVER_LINE, touches=True)): Sample(_MILL, ("G03 R30.", "G01 {X-20.} {Y76.} {A150.}")),
+        (A_LINE,): Sample(_MILL, ("G01 {X40.} {Y23.094} A30.",)),
+        (A_LINE, A_LINE): Sample(_MILL, ("G01 {X40.} {Y0} {A0} {,C6.} ,R5.", "{X60.} {Y20.} {A45.}")),
+        (OPEN_LINE, CLOSING_LINE): Sample(_MILL, ("G01 A70. {,C2.} {,R2.}", "{X80.} {Y25.} {A-30.}")),
+        (OPEN_LINE, CLOSING_ARC): Sample(_MILL, ("G01 A10.", "G03 {X60.} {Y15.} I-20. J-25. {R32.} {H1}")),
+        (OPEN_LINE, replace(CLOSING_ARC, touches=True)): Sample(_MILL, ("G01 A15.", "G03 {X70.} {Y50.} {R30.}")),
+        (OPEN_ARC, CLOSING_LINE): Sample(_MILL, ("G03 I30. {J0} {H0}", "G01 {X20.} {Y-60.} {A-90.}")),
+        (OPEN_ARC, replace(CLOSING_ARC, touches=True)): Sample(_MILL, ("G03 I0 J30.", "G03 {X15.} {Y20.} {R10.}")),
+        (OPEN_ARC, replace(CLOSING_LINE, touches=True)): Sample(_MILL, ("G03 R30.", "G01 {X-20.} {Y76.} {A150.}")),
     },
     circumstances=_circumstances,
     conventions=_conventions,
     contact=lambda modes: float(modes.convention(CONTACT).value),
-    is_ray=lambda modes: _is(_SENSE, modes),
+    sense=_SENSE,
 )

@@ -29,12 +29,7 @@ def _words(*, is_diameter: bool) -> Lexicon:
     rows = (
         Address("A", _ANGLE, Unit.DEGREE, _PLACE),
         Address(",A", _ANGLE, Unit.DEGREE, _PLACE),
-        Address(
-            ",C",
-            "chamfer: the distance of both its ends from the virtual corner",
-            Unit.MM,
-            _CHAMFER,
-        ),
+        Address(",C", "chamfer: the distance of both its ends from the virtual corner", Unit.MM, _CHAMFER),
         Address(",R", "rounding", Unit.MM, BOOK.assumed("corner chamfering")),
         Address("P", "centre of an arc without an end, a coordinate in place of I (in G19 of J)", Unit.MM, _CENTER),
         Address("Q", "centre of an arc without an end, a coordinate in place of K (in G17 of J)", Unit.MM, _CENTER),

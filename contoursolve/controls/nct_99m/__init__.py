@@ -1,7 +1,8 @@
 """The NCT 99M and 2000M milling controls, from chapter 16 of their Programmer's Manual."""
 
+from contoursolve.controls.chain import ChainFinder, forms_of
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.nct_99m.language import FIND, FORMS, SETTINGS
+from contoursolve.controls.nct_99m.language import LANGUAGE, SETTINGS
 from contoursolve.controls.nct_99m.lexicon import CODES, MODES, XY, YZ, ZX
 from contoursolve.controls.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES
 from contoursolve.gcode import Block, Word
@@ -41,9 +42,9 @@ NCT_99M = Dialect(
     title="NCT 99M and 2000M milling controls",
     modes=MODES,
     plane=XY,
-    forms=FORMS,
+    forms=forms_of(LANGUAGE, MODES),
     rules=COMMON_RULES + COMBINATION_RULES + GEOMETRY_RULES,
-    find=FIND,
+    find=ChainFinder(LANGUAGE),
     signs=_signs,
     contours="blocks with ,A ,C or ,R, arcs with R, and blocks over-defined by ,A or by end, centre and R",
     settings=SETTINGS,

@@ -1,12 +1,28 @@
 """NCT chapter 16 as a language of lines and arcs in a row: what meets, what Q chooses, and its settings."""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from decimal import Decimal
 
 from msgspec.structs import replace
 
-from contoursolve.controls.chain import ChainFinder, Element, Joining, Language, Member, forms_of
-from contoursolve.controls.chain.language import CIRCLE_CIRCLE, CIRCLE_LINE, LINE_CIRCLE, LINE_LINE
+from contoursolve.controls.chain import (
+    A_LINE,
+    AN_ARC,
+    CLOSING_LINE,
+    OPEN_LINE,
+    Element,
+    Joining,
+    Language,
+    Member,
+)
+from contoursolve.controls.chain.language import (
+    CIRCLE_CIRCLE,
+    CIRCLE_LINE,
+    CLOSING_ARC,
+    LINE_CIRCLE,
+    LINE_LINE,
+    OPEN_ARC,
+)
+from contoursolve.controls.common import length_setting, setting
 from contoursolve.controls.nct_99m.lexicon import (
     ASSUMPTIONS,
     AXES,
@@ -19,8 +35,8 @@ from contoursolve.controls.nct_99m.lexicon import (
 )
 from contoursolve.controls.plain import PLANES
 from contoursolve.diagnostics.source import Evidence, Source
-from contoursolve.geometry import OnCircle, Side, Turn
-from contoursolve.reading import ContourForm, Convention, Modes, Sample, Setting, State
+from contoursolve.geometry import OnCircle, Side
+from contoursolve.reading import ContourForm, Convention, Modes, Sample, State
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 ALLOWED = frozenset({"N", "G", "F", "S", "T", "M", "D", "H", *AXES, "I", "J", "K", "R", ",A", ",C", ",R", "Q"})
@@ -45,37 +61,34 @@ SELECTS = {
 
 CLOCKWISE = "first-met-clockwise"
 
-CIRCLE_CIRCLE_Q = Setting(
-    name="circle-circle-q",
-    meaning="which intersection of two circles Q chooses",
-    values={
+CIRCLE_CIRCLE_Q = setting(
+    "circle-circle-q",
+    "which intersection of two circles Q chooses",
+    {
         "left-is-negative": "Q<0 the point left of the way from the first centre to the second, Q>0 the one right",
         "right-is-negative": "Q<0 the point right of the way from the first centre to the second, Q>0 the one left",
         CLOCKWISE: "Q<0 the point met first, clockwise along the first circle from its arc's start, Q>0 the one met "
         "second",
     },
-    default="left-is-negative",
-    source=Source(MANUAL, "16.3.4: the page has not been seen", Evidence.ASSUMED),
+    Source(MANUAL, "16.3.4: the page has not been seen", Evidence.ASSUMED),
 )
 
-COMPENSATION = Setting(
-    name="compensation",
-    meaning="whether intersections are computed without G41 or G42",
-    values={
+COMPENSATION = setting(
+    "compensation",
+    "whether intersections are computed without G41 or G42",
+    {
         "required": "G41 or G42 must be active before the first of two blocks that meet in an intersection",
         "free": "intersections are computed without G41 and G42, too",
     },
-    default="required",
-    source=Source(MANUAL, "16.3: every format and example has it; the sentence is on no page seen", Evidence.ASSUMED),
+    Source(MANUAL, "16.3: every format and example has it; the sentence is on no page seen", Evidence.ASSUMED),
 )
 
-RADIUS_DIFFERENCES = Setting(
-    name="radius-difference",
-    meaning="how much the radii at two points of an arc may differ (machine parameter RADDIFF)",
-    values={str(RADIUS_DIFFERENCE): "mm"},
-    default=str(RADIUS_DIFFERENCE),
-    source=Source(MANUAL, "p. 26 (4.3): alarm 3011; the value is one of each machine", Evidence.ASSUMED),
-    bounds=(Decimal("0.001"), Decimal(10)),
+RADIUS_DIFFERENCES = length_setting(
+    "radius-difference",
+    "how much the radii at two points of an arc may differ (machine parameter RADDIFF)",
+    str(RADIUS_DIFFERENCE),
+    Source(MANUAL, "p. 26 (4.3): alarm 3011; the value is one of each machine", Evidence.ASSUMED),
+    most=10,
 )
 
 SETTINGS = (CIRCLE_CIRCLE_Q, COMPENSATION, RADIUS_DIFFERENCES)
@@ -118,25 +131,22 @@ def _conventions(form: ContourForm, circumstances: Collection[str], modes: Modes
         yield modes.convention(CIRCLE_CIRCLE_Q)
 
 
-_LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)
-_TO_LINE, _TO_ARC = replace(_LINE, is_followed=True), replace(_ARC, is_followed=True)
-_OVER_LINE, _OVER_CIRCLE = replace(_LINE, is_over=True), replace(_ARC, is_over=True)
 _FROM = "G17 G90 G41 G0 X50 Y0"
 
 _N1_ARC = "G3 {X-50.0} {Y0} {I-50} {J0} {R50} {,C2} {,R2}"
 
 SAMPLES: Mapping[tuple[Element, ...], Sample] = {
-    (_LINE,): Sample(_FROM, ("G1 {X90} {Y40.0} ,A45",)),
-    (_LINE, _ARC): Sample(_FROM, ("G1 {X80} {Y0} {,A0} {,C2} ,R8", "G3 X50 {Y30} {I-30} {J0} {R30}")),
-    (_TO_LINE, _OVER_LINE): Sample(
+    (A_LINE,): Sample(_FROM, ("G1 {X90} {Y40.0} ,A45",)),
+    (A_LINE, AN_ARC): Sample(_FROM, ("G1 {X80} {Y0} {,A0} {,C2} ,R8", "G3 X50 {Y30} {I-30} {J0} {R30}")),
+    (OPEN_LINE, CLOSING_LINE): Sample(
         "G17 G90 G41 G0 X90 Y10", ("G1 {X50} {Y33.094} {,A150} {,C2} {,R2}", "G1 X10 Y20 ,A225 {Q1}")
     ),
-    (_TO_LINE, _OVER_CIRCLE): Sample(
+    (OPEN_LINE, CLOSING_ARC): Sample(
         "G17 G90 G42 G0 X100 Y20", ("G1 {X-30} {Y-20} {,A197.103} {,C2} {,R2}", "G3 X20 Y40 I20 J-10 R50 {Q-1}")
     ),
-    (_TO_ARC, _OVER_LINE): Sample(_FROM, (_N1_ARC, "G1 X-50 Y42.857 ,A171.87 {Q-1}")),
-    (_TO_ARC, _OVER_CIRCLE): Sample(_FROM, (_N1_ARC, "G3 X-40 Y60 I-40 J20 R40 {Q-1}")),
-    (_TO_LINE, replace(_OVER_LINE, is_followed=True), _OVER_CIRCLE): Sample(
+    (OPEN_ARC, CLOSING_LINE): Sample(_FROM, (_N1_ARC, "G1 X-50 Y42.857 ,A171.87 {Q-1}")),
+    (OPEN_ARC, CLOSING_ARC): Sample(_FROM, (_N1_ARC, "G3 X-40 Y60 I-40 J20 R40 {Q-1}")),
+    (OPEN_LINE, replace(CLOSING_LINE, is_followed=True), CLOSING_ARC): Sample(
         "G17 G90 G41 G0 X90 Y10",
         ("G1 {X50} {Y33.094} {,A150} {,R2}", "G1 X10 Y20 ,A225 {Q1.0} {,C2}", "G3 X-40 Y-20 I-20 J-20 R20 {Q1}"),
     ),
@@ -161,5 +171,3 @@ LANGUAGE = Language(
     choose_side=_choose_side,
     counts_clockwise=_counts_clockwise,
 )
-FORMS = forms_of(LANGUAGE, MODES)
-FIND = ChainFinder(LANGUAGE)

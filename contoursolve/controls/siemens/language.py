@@ -3,13 +3,12 @@
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace as replace_fields
 
-from msgspec.structs import replace
-
-from contoursolve.controls.chain import Element, Joining, Language, Member, reading
-from contoursolve.controls.common import first_motion_setting, setting
+from contoursolve.controls.chain import A_LINE, AN_ARC, CLOSING_LINE, OPEN_LINE, Joining, Language, Member, reading
+from contoursolve.controls.chain.language import sense_conventions
+from contoursolve.controls.common import angle_sense_setting, arc_chamfer_setting, first_motion_setting, setting
 from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.lexicon import BOOK, MODES, TANGENT_ARC
-from contoursolve.geometry import CornerShape, Heading, Turn
+from contoursolve.geometry import CornerShape
 from contoursolve.reading import ContourForm, Convention, Diameter, Modes, Sample, State
 from contoursolve.reading.dialect import Dialect
 
@@ -48,15 +47,7 @@ DIAMETER = setting(
         "DIAM90": _counting(Diameter.ABSOLUTE),
     },
 )
-SENSE = setting(
-    "angle-sense",
-    "whether a line may run against its angle",
-    {
-        "line": "it may: the angle is that of the line, either way",
-        "ray": "it may not: the angle is the direction of travel",
-    },
-    BOOK.assumed("not described"),
-)
+SENSE = angle_sense_setting(BOOK.assumed("not described"))
 REDUNDANT = setting(
     "redundant-angle",
     "an angle beside both coordinates, behind a line that has an end",
@@ -69,12 +60,7 @@ CLOSING = setting(
     {"allow": "it may: they count from where the first line starts", "error": "it must not"},
     BOOK.assumed("not described"),
 )
-ARC_CHAMFER = setting(
-    "chamfer-on-arc",
-    "how CHR is measured on an arc",
-    {"chord": "straight from the corner", "arc_length": "along the arc; contoursolve does not compute this"},
-    BOOK.assumed("not described"),
-)
+ARC_CHAMFER = arc_chamfer_setting("CHR", BOOK.assumed("not described"))
 ANGLE_NAME = setting(
     "name-angle",
     "which word states an angle",
@@ -89,10 +75,6 @@ CHAMFER_NAME = setting(
     BOOK.printed("p. 214: the names are machine data"),
     changes={"CHF": reading({"CHF": "CHR"}, corners={"CHR": CornerShape.CHAMFER_SETBACK, "RND": CornerShape.FILLET})},
 )
-
-
-def _is_ray(modes: Modes) -> bool:
-    return modes.convention(SENSE).value == "ray"
 
 
 def _circumstances(member: Member, _: Sequence[State], modes: Modes) -> Iterator[str]:
@@ -110,25 +92,21 @@ def _conventions(form: ContourForm, circumstances: Collection[str], modes: Modes
     """What X is, where only the plane tells; and whether a line may run against its angle, if that was set."""
     if any(name.endswith("@by-plane") for name in circumstances):
         yield modes.convention(DIAMETER)
-    if _is_ray(modes) and any(isinstance(row.fact, Heading) for row in form.facts):
-        yield modes.convention(SENSE)
+    yield from sense_conventions(SENSE, form, modes)
 
 
 FIRST_MOTION = first_motion_setting(BOOK.assumed("as samples without G1 show"))
 SETTINGS = (MACHINE, DIAMETER, SENSE, REDUNDANT, CLOSING, ARC_CHAMFER, ANGLE_NAME, CHAMFER_NAME, FIRST_MOTION)
 
-_LINE, _ARC = Element(None, False, False), Element(Turn.CCW, False, False)
-_OPEN, _CLOSING = replace(_LINE, is_followed=True), replace(_LINE, is_over=True)
 _START = "G17 G90 G0 X0 Y0"
 
 LANGUAGE = Language(
     lexicon=MODES.lexicon,
-    planes={},
     allowed=frozenset({*"NGFSTMDHXYZIJK", "ANG", "RND", "CHR", "CHF", "CR", "RNDM", "FRC", "FRCM"})
     | {f"{axis}={way}" for axis in "XYZ" for way in ("AC", "IC")},
     joining=Joining.OPEN,
     angle="ANG",
-    names={"CR": "R"},
+    names={MODES.radius: "R"},
     corners={
         "CHR": CornerShape.CHAMFER_SETBACK,
         "CHF": CornerShape.CHAMFER_FACE,
@@ -140,12 +118,12 @@ LANGUAGE = Language(
     between=3,
     runs_in_rapid=True,
     samples={
-        (_LINE,): Sample(_START, ("G1 {X40} {Y23.094} {ANG=30}",)),
-        (_LINE, _LINE): Sample(_START, ("G1 {X40} {Y0} {ANG=0} {CHR=6} RND=5", "{X60} {Y20} {ANG=45}")),
-        (_LINE, _ARC): Sample(_START, ("G1 {X40} {Y0} {CHR=6} RND=5", "G3 {X60} {Y20} {I0} {J20} {CR=20}")),
-        (_OPEN, _CLOSING): Sample(_START, ("G1 ANG=70 {CHF=2} {RND=2}", "{X80} {Y25} {ANG=-30}")),
+        (A_LINE,): Sample(_START, ("G1 {X40} {Y23.094} {ANG=30}",)),
+        (A_LINE, A_LINE): Sample(_START, ("G1 {X40} {Y0} {ANG=0} {CHR=6} RND=5", "{X60} {Y20} {ANG=45}")),
+        (A_LINE, AN_ARC): Sample(_START, ("G1 {X40} {Y0} {CHR=6} RND=5", "G3 {X60} {Y20} {I0} {J20} {CR=20}")),
+        (OPEN_LINE, CLOSING_LINE): Sample(_START, ("G1 ANG=70 {CHF=2} {RND=2}", "{X80} {Y25} {ANG=-30}")),
     },
     circumstances=_circumstances,
     conventions=_conventions,
-    is_ray=_is_ray,
+    sense=SENSE,
 )

@@ -1,12 +1,13 @@
 """The YASNAC LX3 lathe control, from section 2.8.30 and pages 31-32 of its Instruction Manual."""
 
 from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.plain import LATHE
 from contoursolve.controls.yasnac_lx3.arc import ARC_FORMS, ARC_RULES
 from contoursolve.controls.yasnac_lx3.find import find, follow
 from contoursolve.controls.yasnac_lx3.g111 import G111, G111_RULES
 from contoursolve.controls.yasnac_lx3.g112 import G112_FORMS, G112_RULES
 from contoursolve.controls.yasnac_lx3.leaving import LEAVING_FORMS, LEAVING_RULES
-from contoursolve.controls.yasnac_lx3.lexicon import BEVEL, LATHE, MODES, MOTION_AFTER
+from contoursolve.controls.yasnac_lx3.lexicon import BEVEL, MODES, MOTION_AFTER
 from contoursolve.gcode import Block, Word
 from contoursolve.reading.dialect import Dialect
 

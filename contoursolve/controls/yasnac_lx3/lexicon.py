@@ -2,11 +2,12 @@
 
 from decimal import Decimal
 
-from contoursolve.controls.plain import coming_back
+from contoursolve.controls.common import setting
+from contoursolve.controls.plain import LATHE_CODES, code_rows, merge
 from contoursolve.diagnostics.finding import Alarm
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.execution.fanuc import fanuc
-from contoursolve.geometry import Length, Plane, Unit
+from contoursolve.geometry import Unit
 from contoursolve.reading import (
     AT_ITS_LIMIT,
     Address,
@@ -16,7 +17,6 @@ from contoursolve.reading import (
     Lexicon,
     Modes,
     NumberFormat,
-    Setting,
     WithoutPoint,
 )
 from contoursolve.reading.rules import Value, all_of, at_most, some
@@ -38,7 +38,7 @@ def alarms(evidence: Evidence) -> tuple[Alarm, Alarm, Alarm]:
 TABLE = manual("2.8.30, Table 2.33")
 SENSE = manual("2.8.30, Table 2.33; zero and sense p. 140 (vii)")
 DIAMETER = manual("2.8.30, Table 2.33; diameter from G11 and the G112 example", Evidence.DERIVED)
-LATHE_CODES = manual("list of G codes of the LX3 family", Evidence.ASSUMED)
+LISTED = manual("list of G codes of the LX3 family", Evidence.ASSUMED)
 
 ADDRESSES = (
     Address("X", "absolute X of the end point (diameter)", Unit.MM, DIAMETER, axis="X", is_diameter=True),
@@ -60,118 +60,71 @@ ADDRESSES = (
 
 NUMBERS = NumberFormat(WithoutPoint.LEAST_INCREMENTS, TABLE)
 
-LATHE = Plane("G18", ("Z", "X"), ("K", "I"), (False, True))
-
-
-def _codes(effect: Effect, meanings: dict[int, str], evidence: Source = LATHE_CODES) -> tuple[Code, ...]:
-    return tuple(coming_back(Code(number, effect, meaning, evidence)) for number, meaning in meanings.items())
-
-
-CODES = (
-    *_codes(Effect.MOTION, {0: "positioning", 1: "line", 2: "arc clockwise", 3: "arc counter-clockwise"}),
-    *_codes(Effect.MOTION, {32: "thread", 34: "thread of variable lead"}),
-    Code(20, Effect.UNITS, "inches", LATHE_CODES, unit=Length.INCH),
-    Code(21, Effect.UNITS, "millimetres", LATHE_CODES, unit=Length.MM),
-    *_codes(
-        Effect.COMPENSATION, {40: "no nose radius compensation", 41: "compensation left", 42: "compensation right"}
-    ),
-    *_codes(Effect.NO_MOTION, {4: "dwell", 10: "data setting", 22: "stored limit on", 23: "stored limit off"}),
-    *_codes(
-        Effect.SINGLE, {27: "reference point check", 28: "reference point return", 29: "return from reference point"}
-    ),
-    *_codes(Effect.SINGLE, {30: "second reference point return", 31: "skip", 36: "tool offset X", 37: "tool offset Z"}),
-    *_codes(Effect.SINGLE, {53: "machine coordinates", 65: "macro call", 66: "modal macro call"}),
-    *_codes(Effect.SINGLE, {67: "end of modal macro call"}),
-    *_codes(
-        Effect.SINGLE,
-        {
-            70: "finishing cycle",
-            71: "roughing cycle along Z",
-            72: "roughing cycle along X",
-            73: "pattern cycle",
-            74: "face drilling cycle",
-            75: "grooving cycle",
-            76: "threading cycle",
-        },
-    ),
-    *_codes(Effect.CYCLE, {90: "turning cycle", 92: "thread cycle", 94: "facing cycle"}),
-    *_codes(Effect.PRESET, {50: "coordinate setting or spindle limit"}),
-    *_codes(Effect.SHIFT, dict.fromkeys(range(54, 60), "work coordinate system")),
-    *_codes(
-        Effect.NONE, {96: "constant surface speed", 97: "spindle speed", 98: "feed a minute", 99: "feed a revolution"}
-    ),
-    *_codes(Effect.NONE, {18: "plane Z X"}),
-    *_codes(Effect.CONTOUR, {111: "taper multiple cornering"}, TABLE),
-    *_codes(Effect.CONTOUR, {112: "circular-arc multiple cornering"}, manual("2.8.30, p. 144")),
-    *_codes(Effect.CYCLE, {11: "bevelling", 12: "rounding"}, manual("p. 31-32")),
-)
+_OWN_NAMES: dict[Effect, dict[int, str]] = {
+    Effect.COMPENSATION: {40: "no nose radius compensation"},
+    Effect.SINGLE: {29: "return from reference point", 30: "second reference point return"}
+    | {70: "finishing cycle", 71: "roughing cycle along Z", 72: "roughing cycle along X", 73: "pattern cycle"}
+    | {74: "face drilling cycle", 75: "grooving cycle", 76: "threading cycle"},
+    Effect.NONE: {18: "plane Z X", 98: "feed a minute", 99: "feed a revolution"},
+}
+CODES = code_rows(LISTED, merge(LATHE_CODES, _OWN_NAMES), {}) | {
+    code: Code(code, effect, meaning, source)
+    for code, effect, meaning, source in (
+        (111, Effect.CONTOUR, "taper multiple cornering", TABLE),
+        (112, Effect.CONTOUR, "circular-arc multiple cornering", manual("2.8.30, p. 144")),
+        (11, Effect.CYCLE, "bevelling", manual("p. 31-32")),
+        (12, Effect.CYCLE, "rounding", manual("p. 31-32")),
+    )
+}
 
 AXIS_45, LENGTH_45, SETBACK = "axis-45", "length", "setback"
 
-BEVEL = Setting(
-    name="bevel",
-    meaning="what the amount of a bevel C or D measures",
-    values={
+BEVEL = setting(
+    "bevel",
+    "what the amount of a bevel C or D measures",
+    {
         AXIS_45: "a segment at 45 degrees to the axes; the amount is its extent along Z and along X as radius",
         LENGTH_45: "a segment at 45 degrees to the axes; the amount is the length of the segment itself",
         SETBACK: "a segment between two points that are both as far from the virtual intersection as the amount",
     },
-    default=AXIS_45,
-    source=manual("2.8.30, p. 140 Note 3, on the 45 degree lines; the quadrants, p. 137", Evidence.DERIVED),
+    manual("2.8.30, p. 140 Note 3, on the 45 degree lines; the quadrants, p. 137", Evidence.DERIVED),
 )
 
 UNCHANGED, G01 = "unchanged", "g01"
 
-MOTION_AFTER = Setting(
-    name="motion-after",
-    meaning="which motion is in force after G111 and G112, which are not modal",
-    values={
+MOTION_AFTER = setting(
+    "motion-after",
+    "which motion is in force after G111 and G112, which are not modal",
+    {
         UNCHANGED: "the one that was in force before the block",
         G01: "G01, whatever was in force before the block",
     },
-    default=UNCHANGED,
-    source=manual("2.8.30: G111 is not modal; what is in force behind it is not said", Evidence.ASSUMED),
+    manual("2.8.30: G111 is not modal; what is in force behind it is not said", Evidence.ASSUMED),
 )
 
 _CORNERING = ("G111", "G112")
 
 ASSUMPTIONS = (
-    Assumption(
-        "no-corner-word",
-        "no corner word means a sharp corner",
-        manual("2.8.30, Tables 2.34 and 2.40: C or P, D or Q; of neither of them nothing is said", Evidence.ASSUMED),
-        _CORNERING,
-        # Where X(U) and Z(W) give line 2, there is no corner 2 to write a word for.
-        when=~(some("C", "P") & ~(at_most(0, "D", "Q") & ~all_of(("X", "U"), ("Z", "W")))),
-    ),
-    Assumption(
-        "corner-of-zero",
-        "C, P, D or Q of value 0 means no corner",
-        manual("2.8.30, Table 2.33: amount or radius without sign; of 0 nothing is said", Evidence.ASSUMED),
-        _CORNERING,
-        when=Value(("C", "P", "D", "Q"), excluding=Decimal(0)),
-    ),
-    Assumption(
-        "feed-in-block",
-        "F may stand in the block",
-        manual("2.8.30: M, S and T are refused, of F nothing is said", Evidence.ASSUMED),
-        _CORNERING,
-        when=some("F"),
-    ),
-    Assumption(
-        "bevel-at-its-limit",
-        "a bevel may begin or end at the virtual intersection",
-        manual(
-            "2.8.30, p. 140 Note 3: of a virtual intersection on a 45 degree line nothing is said", Evidence.ASSUMED
-        ),
-        _CORNERING,
-        when=some(AT_ITS_LIMIT),
-    ),
-)
+    # Where X(U) and Z(W) give line 2, there is no corner 2 to write a word for.
+    Assumption("no-corner-word", "no corner word means a sharp corner",
+               manual("2.8.30, Tables 2.34 and 2.40: C or P, D or Q; of neither of them nothing is said",
+                      Evidence.ASSUMED),
+               _CORNERING, ~(some("C", "P") & ~(at_most(0, "D", "Q") & ~all_of(("X", "U"), ("Z", "W"))))),
+    Assumption("corner-of-zero", "C, P, D or Q of value 0 means no corner",
+               manual("2.8.30, Table 2.33: amount or radius without sign; of 0 nothing is said", Evidence.ASSUMED),
+               _CORNERING, Value(("C", "P", "D", "Q"), excluding=Decimal(0))),
+    Assumption("feed-in-block", "F may stand in the block",
+               manual("2.8.30: M, S and T are refused, of F nothing is said", Evidence.ASSUMED),
+               _CORNERING, some("F")),
+    Assumption("bevel-at-its-limit", "a bevel may begin or end at the virtual intersection",
+               manual("2.8.30, p. 140 Note 3: of a virtual intersection on a 45 degree line nothing is said",
+                      Evidence.ASSUMED),
+               _CORNERING, some(AT_ITS_LIMIT)),
+)  # fmt: skip
 
 MODES = Modes(
     lexicon=Lexicon({row.address: row for row in ADDRESSES}, NUMBERS),
-    codes={code.number: code for code in CODES},
+    codes=CODES,
     axes=("Z", "X"),
     calls=frozenset({98, 99}),
     language=fanuc(),
