@@ -10,11 +10,13 @@ from msgspec.structs import replace
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Directive, Word
 from contoursolve.geometry import Corner, Profile, Question, Radius, Unit
-from contoursolve.statements.draft import Draft, Meeting, MeetsLine, StatementError
+from contoursolve.statements.draft import Draft, StatementError
 from contoursolve.statements.grammar import GrammarError, Vocabulary, read_statement
 from contoursolve.statements.statement import (
     ANGLES,
     DirectionIs,
+    Meeting,
+    MeetsLine,
     ParallelTo,
     PassesBeside,
     PassesThrough,
