@@ -7,8 +7,8 @@ from itertools import combinations, product
 
 from contoursolve.analysis import analyse
 from contoursolve.diagnosis.attempt import Before, examine_edited, find_edited
-from contoursolve.diagnosis.drafts import change, drop, marked, mended_words, missing_points, unreadable, variants
-from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
+from contoursolve.diagnosis.drafts import marked, mended_words, missing_points, unreadable, variants
+from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, add, change, drop, write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue
 from contoursolve.diagnosis.examples import sampled
 from contoursolve.diagnostics.finding import Diagnostic, Severity
@@ -162,11 +162,7 @@ def _additions(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     facts = [row.fact for row in claim.form.facts if row.fact.given in claim.vocabulary]
     asked = {_coordinate(fact) for fact in facts if fact.given in claim.words and claim.words[fact.given].is_asked}
     names = [fact.given for fact in facts if _coordinate(fact) is None or _coordinate(fact) not in asked]
-    absent = [name for name in dict.fromkeys(names) if name not in claim.words]
-    edits = []
-    for name in absent:
-        address, index = claim.vocabulary[name]
-        edits.append(Edit(EditKind.ADD, address, text=spell(address, PLACEHOLDER), line=claim.blocks[index].line))
+    edits = [add(claim, name) for name in dict.fromkeys(names) if name not in claim.words]
     for size in range(1, MOST_ADDED + 1):
         yield from combinations(edits, size)
 
@@ -180,12 +176,8 @@ def _completing(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tu
         system = assemble(read(found, frozenset())) if found else None
         return len(system.unknowns) - analyse(system).rank if system else len(claim.vocabulary)
 
-    names = [name for name in claim.form.usual if name not in claim.words and name in claim.vocabulary]
-    places = [claim.vocabulary[name] for name in names]
-    edits = [
-        Edit(EditKind.ADD, address, text=spell(address, PLACEHOLDER), line=claim.blocks[index].line)
-        for address, index in places
-    ]
+    absent = [name for name in claim.form.usual if name not in claim.words and name in claim.vocabulary]
+    edits = [add(claim, name) for name in absent]
     open_ = freedom(())
     helping = [edit for edit in edits if freedom((edit,)) < open_][:MOST_HELPING]
     for size in range(1, MOST_ADDED + 1):
@@ -262,7 +254,7 @@ def _lawful(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tuple[
         if name in claim.words or line not in lines or row is None:
             continue
         numbers = ("+1", "-1") if row.unit is Unit.SIGN else (PLACEHOLDER,)
-        edits = (Edit(EditKind.ADD, address, text=spell(address, number), line=line) for number in numbers)
+        edits = (add(claim, name, spell(address, number)) for number in numbers)
         yield from ((edit,) for edit in edits if _is_lawful(answer, dialect, (edit,), before))
     for each in offences:
         edits = (drop(claim.words[name]) for name in each.names if name in claim.words)

@@ -10,9 +10,20 @@ from msgspec import Struct
 
 from contoursolve.diagnosis.wording import shorten
 from contoursolve.diagnostics.source import Evidence, Source, Span
-from contoursolve.gcode import FACT, Block, Directive, Syntax, number_of, parse_block, read_directive, spell
+from contoursolve.gcode import (
+    FACT,
+    Block,
+    Directive,
+    Lookalike,
+    Syntax,
+    Word,
+    number_of,
+    parse_block,
+    read_directive,
+    spell,
+)
 from contoursolve.geometry import Length, Unit
-from contoursolve.reading import Lexicon, WithoutPoint
+from contoursolve.reading import Lexicon, ParsedContour, WithoutPoint
 from contoursolve.reading.modal_dependence import restate
 
 PLACEHOLDER = "?"
@@ -149,6 +160,27 @@ class Edit:
     def is_placeholder(self) -> bool:
         """Whether it adds a word whose number is still to be chosen."""
         return self.kind is EditKind.ADD and self.text.endswith(PLACEHOLDER)
+
+
+def drop(word: Word) -> Edit:
+    """A word, or a fact as a word, taken out."""
+    return Edit(EditKind.DROP, word.address, word.span, word.text)
+
+
+def change(word: Word, text: str, why: Why = Why.OTHER) -> Edit:
+    """A word, or a fact as a word, written with another text."""
+    return Edit(EditKind.CHANGE, word.address, word.span, word.text, text, why=why)
+
+
+def mend(word: Lookalike) -> Edit:
+    """What is almost a word, written as the word that it is meant to be."""
+    return Edit(EditKind.CHANGE, word.address, word.span, word.old, word.new)
+
+
+def add(claim: ParsedContour, name: str, text: str = "") -> Edit:
+    """The word for a name added, with its number still to be chosen unless its text is given."""
+    address, index = claim.vocabulary[name]
+    return Edit(EditKind.ADD, address, text=text or spell(address, PLACEHOLDER), line=claim.blocks[index].line)
 
 
 _REASONS = {EditKind.DROP: Why.NOT_NEEDED, EditKind.ADD: Why.MISSING, EditKind.MOVE: Why.AGREES}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
@@ -17,12 +17,10 @@ from contoursolve.diagnosis.explain import (
     Context,
     context_of,
     explain_beyond,
-    explain_crossing,
-    explain_dropped,
     explain_ignored,
     explain_missing,
     explain_offence,
-    explain_opposite,
+    explain_path,
     explain_result,
     explain_singular,
     report,
@@ -38,7 +36,6 @@ from contoursolve.diagnosis.spelling import (
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import Word
 from contoursolve.geometry import Length, Plane, Profile, Question, Side, Start, System, assemble
 from contoursolve.reading import AT_ITS_LIMIT, Assumption, ParsedContour, ReadIssue, read, unused_words
 from contoursolve.reading.rules import Offence, Rule, check
@@ -212,7 +209,7 @@ def examine(
     for word in unused_words(claim, profile) if is_whole and not is_refused else ():
         # Whatever the rules say of it: nothing is dropped without a word.
         if word.span not in explained:
-            notebook.add(report(context, context.row(ReadIssue.WORD_UNUSED), Basis.RULE, [word], form=claim.form.name))
+            notebook.add(report(context, ReadIssue.WORD_UNUSED, Basis.RULE, [word], form=claim.form.name))
     if is_readable:
         solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)
     else:
@@ -226,9 +223,7 @@ def examine(
     is_path = bool(solution.points) and notebook.status in (Status.SOLVED, Status.OVERDETERMINED)
     contour = trace(profile, solution) if is_path else None
     if contour is not None:
-        notebook.findings += explain_crossing(context, profile, contour)
-        notebook.findings += explain_opposite(context, profile, contour)
-        notebook.findings += explain_dropped(context, profile, solution)
+        notebook.findings += explain_path(context, profile, solution, contour)
         notebook.findings += explain_beyond(context, profile, solution, contour) if claim.directives else ()
     touching = {remark.subject for remark in solution.remarks if remark.kind is NoteKind.TOUCHES}
     shown = {*profile.intersections} - touching
@@ -327,8 +322,9 @@ def _state_more(
     extended, faults = apply_statements(profile, claim.directives, next_place)
     kinds = {Flaw.UNREADABLE: ReadIssue.FACT_UNREADABLE, Flaw.IMPOSSIBLE: ReadIssue.FACT_IMPOSSIBLE}
     for fault in faults:
-        rule = context.row(kinds[fault.flaw])
-        notebook.add(report(context, rule, Basis.RULE, [fault.word], reason=fault.message), Status.REJECTED)
+        notebook.add(
+            report(context, kinds[fault.flaw], Basis.RULE, [fault.word], reason=fault.message), Status.REJECTED
+        )
     # With a fact that cannot be used, the others may speak of what is not drawn.
     return profile if faults else extended, not faults
 
@@ -350,7 +346,7 @@ def _examine_words(context: Context, claim: ParsedContour, notebook: _Notebook) 
     stated = (*claim.words.values(), *in_force.values())
     variables = [word for word in stated if word.number is None and not word.is_asked]
     if variables:
-        notebook.add(report(context, context.row(ReadIssue.VARIABLE), Basis.RULE, variables), Status.UNDERDETERMINED)
+        notebook.add(report(context, ReadIssue.VARIABLE, Basis.RULE, variables), Status.UNDERDETERMINED)
 
 
 def _examine_geometry(
@@ -438,24 +434,19 @@ def _examine_system(context: Context, claim: ParsedContour, profile: Profile) ->
         yield Status.UNDERDETERMINED, explain_missing(context, profile, verdict, claim)
     by_name: dict[str, list[str]] = {}
     for corner in profile.figure.corners:
+        # A size that stays in force has no word in the contour.
+        own = [context.words.get(corner.size)]
         by_name.setdefault(corner.name, []).append(corner.size)
         if corner.size in profile.givens and profile.givens[corner.size].value < 0:
-            rule, word = context.row(ReadIssue.CORNER_NEGATIVE), _words_of(context, [corner.size])
-            yield Status.NO_SOLUTION, report(context, rule, Basis.NUMERICAL, word, subject=corner.name)
+            finding = report(context, ReadIssue.CORNER_NEGATIVE, Basis.NUMERICAL, own, subject=corner.name)
+            yield Status.NO_SOLUTION, finding
         if corner.after is None and corner.lands_parallel_to is None and corner.lands_on is None:
-            rule = context.row(ReadIssue.CORNER_NOWHERE)
-            word = _words_of(context, [corner.size])
-            yield Status.UNDERDETERMINED, report(context, rule, Basis.STRUCTURAL, word, subject=corner.name)
+            finding = report(context, ReadIssue.CORNER_NOWHERE, Basis.STRUCTURAL, own, subject=corner.name)
+            yield Status.UNDERDETERMINED, finding
     for name, sizes in by_name.items():
         if len(sizes) > 1:
-            words = _words_of(context, sizes)
-            rule = context.row(ReadIssue.CORNER_TWICE)
-            yield Status.CONFLICTING, report(context, rule, Basis.STRUCTURAL, words, subject=name)
-
-
-def _words_of(context: Context, sizes: Iterable[str]) -> list[Word]:
-    """The words that state sizes; a size that stays in force has none in the contour."""
-    return [context.words[size] for size in sizes if size in context.words]
+            words = map(context.words.get, sizes)
+            yield Status.CONFLICTING, report(context, ReadIssue.CORNER_TWICE, Basis.STRUCTURAL, words, subject=name)
 
 
 def rank(finding: Diagnostic) -> tuple[int, int, bool, Span, str]:

@@ -23,12 +23,12 @@ def without_point(context: Context, claim: ParsedContour, findings: Iterable[Dia
     together where none has and the values are hardly meant like this."""
     counted = _counted(context, claim)
     words = list(counted)
-    rule = context.row(ReadIssue.POINT_MISSING)
+    about = ReadIssue.POINT_MISSING
     if any(given.word and given.word.number and given.word.has_point for given in claim.givens.values()):
         for word, value in counted.items():
-            yield report(context, rule, Basis.RULE, [word], actual=value)
+            yield report(context, about, Basis.RULE, [word], actual=value)
     elif words and _is_slip(claim, words, has_error=any(each.severity is Severity.ERROR for each in findings)):
-        yield report(context, rule, Basis.RULE, words, actual=join(list(counted.values())))
+        yield report(context, about, Basis.RULE, words, actual=join(list(counted.values())))
 
 
 def start_without_point(context: Context, claim: ParsedContour, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
@@ -69,7 +69,7 @@ def _start_counted(context: Context, claim: ParsedContour, words: Sequence[Word]
     actual, expected, same = zip(*(readings(word, claim.lexicon, claim.before.unit) for word in words), strict=True)
     return report(
         context,
-        context.row(ReadIssue.START_IN_INCREMENTS),
+        ReadIssue.START_IN_INCREMENTS,
         Basis.RULE,
         words,
         actual=join(actual),

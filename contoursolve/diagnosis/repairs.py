@@ -13,9 +13,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs, examine_edited
 from contoursolve.diagnosis.drafts import (
     OF_CORNERS,
-    change,
     commas,
-    drop,
     fitting,
     has_faults,
     marked,
@@ -25,7 +23,7 @@ from contoursolve.diagnosis.drafts import (
     unreadable,
     variants,
 )
-from contoursolve.diagnosis.edits import AT_LEAST, PLACEHOLDER, Edit, EditKind, Why, write_word
+from contoursolve.diagnosis.edits import AT_LEAST, Edit, EditKind, Why, add, change, drop, write_word
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine
 from contoursolve.diagnosis.spelling import torn_codes
 from contoursolve.diagnosis.subsets import (
@@ -50,7 +48,7 @@ from contoursolve.diagnosis.typo_fixes import (
     suspects,
 )
 from contoursolve.diagnostics.finding import Diagnostic, Severity
-from contoursolve.gcode import Block, FaultKind, Word, number_of, spell
+from contoursolve.gcode import Block, FaultKind, Word, number_of
 from contoursolve.geometry import Given, Profile, Radius, Role, Unit
 from contoursolve.reading import ContourForm, ParsedContour, ReadIssue, State, read
 from contoursolve.reading.dialect import Dialect
@@ -308,14 +306,14 @@ def _corrections(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, 
 
 def _additions(claim: ParsedContour, name: str, geometries: Iterable[_Geometry]) -> list[Edit]:
     """A word added: with the value that the geometry fixes, each sign of a choice, or a placeholder."""
-    address, index = claim.vocabulary[name]
-    texts = [f"{address}-1", f"{address}1"] if name in claim.form.choices else [spell(address, PLACEHOLDER)]
+    address, _ = claim.vocabulary[name]
+    texts = [f"{address}-1", f"{address}1"] if name in claim.form.choices else [""]
     for geometry in geometries:
         value = geometry.implied(claim, name)
         if value is not None:
             texts = [write_word(address, value, claim.lexicon, claim.after.unit)]
             break
-    return [Edit(EditKind.ADD, address, text=text, line=claim.blocks[index].line) for text in texts]
+    return [add(claim, name, text) for text in texts]
 
 
 def _other_corners(claim: ParsedContour, at_fault: list[str]) -> Iterator[tuple[Edit, ...]]:

@@ -1,7 +1,7 @@
 """Findings about characters, words and positions, before the equations are looked at."""
 
 from bisect import bisect_right
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from decimal import Decimal
 from difflib import get_close_matches
 
@@ -40,24 +40,22 @@ def explain_spelling(context: Context, claim: ParsedContour) -> Iterator[Diagnos
 def explain_unmarked(context: Context, block: Block) -> Iterator[Diagnostic]:
     """Comments that look like facts and are not read as such."""
     for directive in block.unmarked:
-        rule = context.row(ReadIssue.FACT_UNMARKED)
-        yield report(replace(context, place=directive.span), rule, Basis.RULE, [], fact=directive.text)
+        place = replace(context, place=directive.span)
+        yield report(place, ReadIssue.FACT_UNMARKED, Basis.RULE, [], fact=directive.text)
 
 
 def explain_asked_outside(context: Context, block: Block) -> Iterator[Diagnostic]:
     """Words that ask for something in a block that is no contour."""
     for word in (word for word in block.words if word.is_asked):
-        yield report(
-            context, context.row(ReadIssue.ASKED_NOTHING), Basis.RULE, [word], allowed="words of contour blocks"
-        )
+        yield report(context, ReadIssue.ASKED_NOTHING, Basis.RULE, [word], allowed="words of contour blocks")
 
 
 def explain_start_units(context: Context, unit: Length, block: Block) -> Diagnostic:
     """A start point in another unit than that of the contour."""
-    rule, units = context.row(ReadIssue.START_UNITS), {Length.MM: "mm", Length.INCH: "inches"}
+    units = {Length.MM: "mm", Length.INCH: "inches"}
     codes = {Length.MM: "G21", Length.INCH: "G20"}
     fields = {"was": units[context.unit], "unit": units[unit], "code": codes[unit], "start": block.text.strip()}
-    return report(context, rule, Basis.RULE, [], None, (), **fields)
+    return report(context, ReadIssue.START_UNITS, Basis.RULE, [], None, (), **fields)
 
 
 def explain_start_diameter(context: Context, state: State, code: str, block: Block) -> Diagnostic:
@@ -65,14 +63,14 @@ def explain_start_diameter(context: Context, state: State, code: str, block: Blo
     meanings = ("a diameter", "a radius")
     now, was = meanings if state.counts_diameters() else reversed(meanings)
     fields = {"was": was, "now": now, "code": code, "start": block.text.strip()}
-    return report(context, context.row(ReadIssue.START_DIAMETER), Basis.RULE, [], None, (), **fields)
+    return report(context, ReadIssue.START_DIAMETER, Basis.RULE, [], None, (), **fields)
 
 
 def _explain_asked(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
     for word in unanswerable(claim):
         names = _answerable(claim)
         allowed = ", ".join(dict.fromkeys(claim.vocabulary[name][0] for name in claim.vocabulary if name in names))
-        yield report(context, context.row(ReadIssue.ASKED_NOTHING), Basis.RULE, [word], allowed=allowed)
+        yield report(context, ReadIssue.ASKED_NOTHING, Basis.RULE, [word], allowed=allowed)
 
 
 def unanswerable(claim: ParsedContour) -> list[Word]:
@@ -104,7 +102,7 @@ def explain_faults(context: Context, block: Block) -> Iterator[Diagnostic]:
 def _explain_fault(context: Context, fault: Fault, meant: Lookalike | None) -> Diagnostic:
     """Characters of a block that are not a word."""
     shown = Word(fault.text[:1], None, False, fault.text.strip(), fault.span)
-    finding = report(context, context.row(fault.kind), Basis.RULE, [shown])
+    finding = report(context, fault.kind, Basis.RULE, [shown])
     finding = replace(finding, addresses=(fault.address,) if fault.address else ())
     if meant is None:
         return finding
@@ -163,6 +161,13 @@ def meant_words(claim: ParsedContour) -> tuple[Lookalike, ...]:
     return tuple(found[span] for span in sorted(found))
 
 
+def meant_in(block: Block, unread: Iterable[Span]) -> list[Lookalike]:
+    """The words that are meant in a block as G codes, and where something cannot be read."""
+    alike = find_lookalikes(block)
+    torn = {each.span for each in (lookalike_at(alike, span) for span in unread) if each}
+    return [each for each in alike if each.is_code or each.span in torn]
+
+
 def _comma_behind(number: Word | None, word: Word) -> Lookalike | None:
     """The number that the comma of a word stands right behind, with what the comma means there, as in `A180, K-30.`"""
     if number is None or number.number is None:
@@ -199,12 +204,12 @@ def explain_words(
         same = [word for word in words if word.address == address and word.span.line == line]
         if address == "G":
             same = [word for word in same if word.number in numbers]
-        yield report(context, context.row(ReadIssue.REPEATED_ADDRESS), Basis.RULE, same)
+        yield report(context, ReadIssue.REPEATED_ADDRESS, Basis.RULE, same)
     for word in words:
         value = lexicon.value(word, context.unit) if word.address in lexicon.addresses else None
         if value is not None and abs(value) > _LARGEST:
             limit = length_text(LARGEST, context.unit)
-            yield report(context, context.row(ReadIssue.VALUE_TOO_LARGE), Basis.RULE, [word], limit=limit)
+            yield report(context, ReadIssue.VALUE_TOO_LARGE, Basis.RULE, [word], limit=limit)
 
 
 def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
@@ -218,7 +223,7 @@ def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnos
         here = lookalike_at(torn, word.span)
         if any(each.span.line == word.span.line and each is not here for each in torn):
             continue
-        rule, other = context.row(ReadIssue.UNKNOWN_ADDRESS), respelled(word, form.allowed)
+        other = respelled(word, form.allowed)
         meant = lookalike_at(mendable, word.span)
         other = "" if meant else other
         sizes = _roundings(claim) if word.address == "R" else []
@@ -226,7 +231,7 @@ def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnos
         ways = [*texts, *filter(None, [other]), *([f"{meant.new} for {meant.old}"] if meant else [])]
         do = f"write {' or '.join(ways)}" if ways else "delete it"
         name = form.name if form.name.startswith("G") else form.title
-        finding = report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, advice=do)
+        finding = report(context, ReadIssue.UNKNOWN_ADDRESS, Basis.RULE, [word], form=name, allowed=allowed, advice=do)
         if texts and not meant:
             finding = replace(finding, message=f"{word.text.strip()}: {name} has no R; roundings are {join(sizes)}")
         yield replace(finding, message=_ask(meant)) if meant else finding
@@ -266,7 +271,7 @@ def explain_start(context: Context, claim: ParsedContour) -> Diagnostic:
         reasons["G91 is active, and an increment from an unknown position gives none"] = None
     finding = report(
         context,
-        context.row(ReadIssue.POSITION_UNKNOWN),
+        ReadIssue.POSITION_UNKNOWN,
         Basis.RULE,
         [],
         axes=" and ".join(unknown),
@@ -287,4 +292,4 @@ def explain_skippable(context: Context, claim: ParsedContour) -> Iterator[Diagno
     """A contour that depends on whether a block is skipped."""
     skippable = {block.is_skippable for block in claim.blocks}
     if len(skippable) > 1 or any(claim.before.axes[axis].is_skippable for axis in claim.before.plane.axes):
-        yield report(context, context.row(ReadIssue.SKIPPABLE_START), Basis.RULE, [])
+        yield report(context, ReadIssue.SKIPPABLE_START, Basis.RULE, [])

@@ -8,8 +8,8 @@ from decimal import Decimal
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.drafts import change, has_faults, missing_points, unreadable
-from contoursolve.diagnosis.edits import Edit, EditKind
+from contoursolve.diagnosis.drafts import has_faults, missing_points, unreadable
+from contoursolve.diagnosis.edits import Edit, EditKind, change
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.spelling import meant_words
 from contoursolve.diagnostics.finding import Severity
