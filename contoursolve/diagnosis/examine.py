@@ -317,14 +317,12 @@ def _state_more(
     if not profile.is_extended:
         return profile, True
     # Few blocks state more than their words.
-    from contoursolve.statements import Flaw, apply_statements  # noqa: PLC0415
+    from contoursolve.statements import apply_statements  # noqa: PLC0415
 
     extended, faults = apply_statements(profile, claim.directives, next_place)
-    kinds = {Flaw.UNREADABLE: ReadIssue.FACT_UNREADABLE, Flaw.IMPOSSIBLE: ReadIssue.FACT_IMPOSSIBLE}
     for fault in faults:
-        notebook.add(
-            report(context, kinds[fault.flaw], Basis.RULE, [fault.word], reason=fault.message), Status.REJECTED
-        )
+        about = ReadIssue.FACT_IMPOSSIBLE if fault.is_readable else ReadIssue.FACT_UNREADABLE
+        notebook.add(report(context, about, Basis.RULE, [fault.word], reason=fault.message), Status.REJECTED)
     # With a fact that cannot be used, the others may speak of what is not drawn.
     return profile if faults else extended, not faults
 

@@ -3,7 +3,7 @@
 A text such as `length of line 1 = 30` comes in, facts of a profile go out. Begin with `statement`.
 """
 
-from contoursolve.statements.apply import Fault, Flaw, apply_statements
+from contoursolve.statements.apply import Fault, apply_statements
 from contoursolve.statements.draft import Draft, StatementError
 from contoursolve.statements.grammar import GrammarError, Vocabulary, read_statement, write_statement
 from contoursolve.statements.statement import (
@@ -36,7 +36,6 @@ __all__ = [
     "EqualLengths",
     "EqualSizes",
     "Fault",
-    "Flaw",
     "GrammarError",
     "LengthIs",
     "LineAt",
