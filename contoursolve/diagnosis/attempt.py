@@ -13,6 +13,8 @@ from contoursolve.analysis import analyse, order
 from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
 from contoursolve.diagnosis.examples import ends, propose, sampled
+from contoursolve.diagnosis.explain import told
+from contoursolve.diagnosis.spelling import shapes_of
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnosis.typo_fixes import (
     FEW,
@@ -249,19 +251,12 @@ def _is_alike(repair: Repair, other: Repair) -> bool:
 _STRONG = (Why.ROUNDED, Why.SLIP, Why.FITS)
 _SEVERAL, _DECIMALS, _LONG = 5, 3, 6
 _LARGE = "more than twice as large"
-_ACROSS = "across the spindle axis"
 
 
 def _size(contour: Contour) -> float:
     """The larger side of the rectangle around the points of a path, mm."""
     points = [contour.start, *(element.end for element in contour.elements)]
     return max(max(each[axis] for each in points) - min(each[axis] for each in points) for axis in (0, 1))
-
-
-def _drawbacks(contour: Contour, reference: Contour | None) -> Iterator[str]:
-    """What the path does that hardly anybody means, unless it did so before."""
-    if contour.crossing is not None and (reference is None or reference.crossing is None):
-        yield _ACROSS
 
 
 def _try(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Repair | None:
@@ -293,11 +288,11 @@ def _solve_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...
     if answer is None:
         paths = (_path_in_parts, _path_beside_arcs) if _is_about_corners(edits, claim) else ()
         contour = next(filter(None, (path(claim, dialect, edits) for path in paths)), None)
-        return _without_corners(edits, replacement, contour, before) if contour else None
+        return _making(contour, edits, replacement, before) if contour else None
     if answer.contour is None or not _is_settled(answer, edits):
         return None
     # No change of the block moves its start.
-    findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO and not _is_before(each)]
+    findings = [each for each in told(answer.diagnostics) if each.about is not ReadIssue.START_IN_INCREMENTS]
     rules = [each for each in findings if (answer.profile.is_extended and _is_rule(each)) or _is_crossing(each)]
     if all(edit.kind is EditKind.ADD and edit.address in _choices(claim) for edit in edits):
         # Either sign makes the contour where two elements only touch.
@@ -306,16 +301,13 @@ def _solve_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...
         return None
     if answer.contour.crossing is not None and before.codes == {each.code for each in rules if _is_crossing(each)}:
         return None
-    reference = before.contour
-    deviation = answer.contour.deviation(reference) if reference else float("inf")
-    is_same = reference is not None and answer.contour.is_alike(reference) and deviation <= AGREEMENT
-    is_safe = is_same and not any(_drops_more(edit, claim) for edit in edits)
-    applicability = Applicability.SAFE if is_safe else Applicability.CHANGES_CONTOUR
-    warnings = sum(each.code not in before.codes for each in rules)
-    drawbacks = tuple(_drawbacks(answer.contour, reference))
-    is_exact = all(each.about is not NoteKind.RADIUS_DIFFERS for each in answer.diagnostics)
-    return Repair(
-        edits, replacement, applicability, answer.contour, deviation, warnings, is_exact=is_exact, drawbacks=drawbacks
+    repair = _making(answer.contour, edits, replacement, before)
+    is_safe = repair.applicability is Applicability.SAFE and not any(_drops_more(edit, claim) for edit in edits)
+    return replace(
+        repair,
+        applicability=Applicability.SAFE if is_safe else Applicability.CHANGES_CONTOUR,
+        warnings=sum(each.code not in before.codes for each in rules),
+        is_exact=all(each.about is not NoteKind.RADIUS_DIFFERS for each in answer.diagnostics),
     )
 
 
@@ -326,7 +318,7 @@ def _choices(claim: ParsedContour) -> set[str]:
 
 def _is_about_corners(edits: tuple[Edit, ...], claim: ParsedContour) -> bool:
     """Whether all that is done is to leave out corners, and the angles of lines whose ends are stated."""
-    sizes = {name for row in claim.form.corners for name in row.shapes if name in claim.words}
+    sizes = (name for name in shapes_of(claim) if name in claim.words)
     spans = {claim.words[name].span for name in (*sizes, *_spare_angles(claim))}
     return all(edit.kind is EditKind.DROP and edit.span in spans for edit in edits)
 
@@ -345,13 +337,17 @@ def _spare_angles(claim: ParsedContour) -> Iterator[str]:
                 yield given
 
 
-def _without_corners(edits: tuple[Edit, ...], replacement: str, contour: Contour, before: Before) -> Repair:
-    """The repair that parts a contour into several, and lines between them."""
-    deviation = contour.deviation(before.contour) if before.contour else float("inf")
-    drawbacks = tuple(_drawbacks(contour, before.contour))
-    is_same = before.contour is not None and contour.is_alike(before.contour) and deviation <= AGREEMENT
+def _making(contour: Contour, edits: tuple[Edit, ...], replacement: str, before: Before) -> Repair:
+    """The repair that makes a contour, which may be parted into several, and lines between them."""
+    reference = before.contour
+    deviation = contour.deviation(reference) if reference else float("inf")
+    is_same = reference is not None and contour.is_alike(reference) and deviation <= AGREEMENT
+    # Hardly anybody means a path across the spindle axis, unless it was there before.
+    is_across = contour.crossing is not None and (reference is None or reference.crossing is None)
     applicability = Applicability.SAFE if is_same else Applicability.CHANGES_CONTOUR
-    return Repair(edits, replacement, applicability, contour, deviation, drawbacks=drawbacks)
+    return Repair(
+        edits, replacement, applicability, contour, deviation, drawbacks=("across the spindle axis",) * is_across
+    )
 
 
 def _path_in_parts(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...]) -> Contour | None:
@@ -367,8 +363,7 @@ def _path_in_parts(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ..
         part = dialect.find(blocks, index, state, dialect.modes)
         if isinstance(part, ParsedContour):
             answer = examine(part, dialect.rules, Policy.ENFORCE, lambda: None)
-            is_sound = all(each.severity is Severity.INFO for each in answer.diagnostics)
-            if not (part.form.is_contour and is_sound and answer.status is Status.SOLVED and answer.contour):
+            if not (part.form.is_contour and _is_sound(answer) and answer.contour):
                 return None
             elements += answer.contour.elements
             state, index = leave(part, answer.contour.end, dialect.modes), index + len(part.blocks)
@@ -388,8 +383,11 @@ def _path_beside_arcs(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit,
     words = {name: word for name, word in claim.words.items() if word.span not in spans}
     givens = {name: each for name, each in claim.givens.items() if name in words or name not in claim.words}
     answer = examine(dataclasses.replace(claim, words=words, givens=givens), dialect.rules, Policy.ENFORCE)
-    is_sound = answer.status is Status.SOLVED and all(each.severity is Severity.INFO for each in answer.diagnostics)
-    return answer.contour if is_sound else None
+    return answer.contour if _is_sound(answer) else None
+
+
+def _is_sound(answer: Answer) -> bool:
+    return answer.status is Status.SOLVED and not told(answer.diagnostics)
 
 
 _LINE = 1
@@ -417,11 +415,6 @@ def _is_settled(answer: Answer, edits: tuple[Edit, ...]) -> bool:
             return True
         return answer.profile.is_extended and any(edit.kind is EditKind.CHANGE for edit in edits)
     return answer.status is Status.SOLVED
-
-
-def _is_before(finding: Diagnostic) -> bool:
-    """Whether it is about what stands before the contour."""
-    return finding.about is ReadIssue.START_IN_INCREMENTS
 
 
 def _is_crossing(finding: Diagnostic) -> bool:

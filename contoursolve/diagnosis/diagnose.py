@@ -8,9 +8,10 @@ from contoursolve.analysis import analyse, decompose
 from contoursolve.diagnosis.attempt import Repair
 from contoursolve.diagnosis.edits import EditKind, apply_edits
 from contoursolve.diagnosis.examine import Answer, Policy
+from contoursolve.diagnosis.explain import spans_of, told
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
-from contoursolve.diagnosis.wording import SHOWN, join, length_text, place_text
+from contoursolve.diagnosis.wording import SHOWN, count, join, length_text, place_text
 from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Fix, Label, Layer, Severity, Tie, Verdict
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Block, FaultKind, Word
@@ -85,7 +86,7 @@ def mend_points(answer: Answer, dialect: Dialect) -> Answer:
     repairs = find_repairs(answer, dialect).repairs
     findings = []
     for finding in answer.diagnostics:
-        spans = {label.span for label in finding.labels if finding.about is ReadIssue.POINT_MISSING}
+        spans = spans_of([finding], ReadIssue.POINT_MISSING)
         own = (repair for repair in repairs if any(edit.span in spans for edit in repair.edits))
         findings.append(replace(finding, fixes=tuple(_fix(answer, repair) for repair in own)))
     return replace(answer, diagnostics=tuple(findings))
@@ -262,11 +263,9 @@ def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:
     whole = read(claim, frozenset(fact.given for fact in answer.profile.ignored))
     whole = answer.profile if whole.is_extended else whole
     grammar = [each for each in answer.diagnostics if each.about in _GRAMMAR]
-    refused = [each for each in answer.diagnostics if each.basis is Basis.RULE and _counts(each.severity)]
-    refused = [
-        each for each in refused if each.about not in _GRAMMAR and each.about is not ReadIssue.START_IN_INCREMENTS
-    ]
-    layers = [_layer("grammar", bool(grammar), f"{_count(claim.blocks, 'block')}, every character")]
+    besides = (*_GRAMMAR, ReadIssue.START_IN_INCREMENTS)
+    refused = [each for each in told(answer.diagnostics) if each.basis is Basis.RULE and each.about not in besides]
+    layers = [_layer("grammar", bool(grammar), f"{count(len(claim.blocks), 'block')}, every character")]
     if any(block.faults for block in claim.blocks):
         layers.append(Layer("rules", Verdict.NOT_RUN, "not every word could be read"))
     elif policy is Policy.OFF:
@@ -295,12 +294,12 @@ _EQUATIONS = ("structure", "generic rank", "values", "geometry")
 
 def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
     parts, verdict = decompose(system), analyse(system)
-    size = f"{_count(system.facts, 'equation')}, {_count(system.unknowns, 'unknown')}"
+    size = f"{count(len(system.facts), 'equation')}, {count(len(system.unknowns), 'unknown')}"
     # A point of a circle may be given besides its centre: the control compares the radii, and so do we.
     spare = [system.facts[index] for index in range(len(system.facts)) if index not in verdict.basis]
     is_over = any(not isinstance(fact, OnCircle) for fact in spare)
     if spare and not is_over:
-        size += f", {_count(tuple(spare), 'check')}"
+        size += f", {count(len(spare), 'check')}"
     layers = [_layer("structure", bool(parts.under_unknowns or (parts.over_facts and is_over)), size)]
     rank = f"rank {verdict.rank} of {len(system.unknowns)}, exact"
     # A condition on points and not on words says nothing to a reader.
@@ -344,11 +343,3 @@ _ABOUT_VALUES = (
 
 def _layer(name: str, has_found: bool, remark: str) -> Layer:
     return Layer(name, Verdict.FOUND if has_found else Verdict.PASSED, remark)
-
-
-def _counts(severity: Severity) -> bool:
-    return severity is not Severity.INFO
-
-
-def _count(things: tuple[object, ...], noun: str) -> str:
-    return f"{len(things)} {noun}{'' if len(things) == 1 else 's'}"

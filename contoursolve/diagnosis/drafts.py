@@ -8,6 +8,7 @@ from math import copysign
 
 from contoursolve.diagnosis.edits import AT_MOST, Edit, EditKind, Why, change, drop, mend, write_word
 from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.spelling import meant_in, meant_words, respelled, unanswerable
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
@@ -24,7 +25,7 @@ _FEW = 8
 def missing_points(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     """Decimal points added to the words that lack them: each alone where others of the block have one, and all."""
     missing = [each for each in answer.diagnostics if each.about is ReadIssue.POINT_MISSING]
-    spans = {label.span for finding in missing for label in finding.labels}
+    spans = spans_of(missing)
     edits = [change(word, word.text + ".") for word in answer.claim.words.values() if word.span in spans]
     if len(missing) == len(spans):
         yield from ((edit,) for edit in edits)
@@ -36,8 +37,7 @@ def commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     """Words that an error is about, with the comma that their address lacks or without the one that it has not: all
     and each alone."""
     claim = answer.claim
-    errors = [each for each in answer.diagnostics if each.severity is Severity.ERROR]
-    blamed = {label.span for finding in errors for label in finding.labels}
+    blamed = spans_of(each for each in answer.diagnostics if each.severity is Severity.ERROR)
     meant = meant_words(claim)
     words = dict.fromkeys(
         (*(word for word in claim.unknown if not lookalike_at(meant, word.span)), *claim.words.values())

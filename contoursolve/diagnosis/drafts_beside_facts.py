@@ -11,6 +11,8 @@ from contoursolve.diagnosis.drafts import marked, mended_words, missing_points, 
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, add, change, drop, write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue
 from contoursolve.diagnosis.examples import sampled
+from contoursolve.diagnosis.explain import spans_of, told
+from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, number_of, spell
@@ -52,7 +54,7 @@ def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator
     """The stages of drafts, simplest first."""
     if answer.claim.form.is_general and answer.status is Status.REJECTED:
         yield _lawful(answer, dialect, before)
-    findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO and each.about is not None]
+    findings = [each for each in told(answer.diagnostics) if each.about is not None]
     if not findings:
         return
     yield mended_words(answer)
@@ -70,7 +72,9 @@ def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator
     yield _corrected(answer, dialect, twice, before)
     yield _swapped(answer, findings)
     yield _slips(answer, findings)
-    yield from _without_corners(answer, [each for each in findings if each.about is ReadIssue.CORNER_NOWHERE])
+    nowhere = spans_of(findings, ReadIssue.CORNER_NOWHERE)
+    # Corners after which nothing says where the path leads.
+    yield [tuple(drop(word) for word in answer.claim.words.values() if word.span in nowhere)] if nowhere else ()
     yield _exchanged(answer, [each for each in findings if each.about in _NOT_TOGETHER])
 
 
@@ -88,13 +92,6 @@ def _picked(answer: Answer) -> Iterator[tuple[Edit, ...]]:
         places = [lines[profile.figure.path[each.element - 1].name] for each in picks]
         texts = [f"\n{spell(word, str(each.number))}" for each in picks]
         yield tuple(Edit(EditKind.ADD, word, text=text, line=line) for text, line in zip(texts, places, strict=True))
-
-
-def _without_corners(answer: Answer, findings: list[Diagnostic]) -> Iterator[list[tuple[Edit, ...]]]:
-    """Corners after which nothing says where the path leads, taken out."""
-    spans = {label.span for each in findings for label in each.labels}
-    if spans:
-        yield [tuple(drop(word) for word in answer.claim.words.values() if word.span in spans)]
 
 
 def next_place_of(profile: Profile) -> tuple[Decimal, Decimal] | None:
@@ -269,9 +266,7 @@ def _is_lawful(answer: Answer, dialect: Dialect, edits: tuple[Edit, ...], before
 
 def _swapped(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
     """One word for another that is often mistaken for it, in the lines that findings are about and beside them."""
-    claim, blamed = answer.claim, {label.span.line for each in findings for label in each.labels}
-    lines = [block.line for block in claim.blocks]
-    near = {line for place, at in enumerate(lines) if at in blamed for line in lines[max(0, place - 1) : place + 2]}
+    claim, near = answer.claim, lines_near(answer.claim, spans_of(findings))
     for word in claim.words.values() if answer.status in _NO_CONTOUR else ():
         other = claim.form.swaps.get(word.text.strip().upper())
         if other and word.span.line in near:
@@ -286,7 +281,7 @@ def _slips(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, .
     if answer.status is not Status.NO_SOLUTION:
         return
     claim, profile, lexicon = answer.claim, answer.profile, answer.claim.lexicon
-    spans = {label.span for each in findings for label in each.labels}
+    spans = spans_of(findings)
     for given in profile.givens.values():
         word = given.word
         if word is None or given.unit is Unit.SIGN or word.span not in spans:

@@ -24,6 +24,7 @@ from contoursolve.diagnosis.explain import (
     explain_result,
     explain_singular,
     report,
+    spans_of,
 )
 from contoursolve.diagnosis.missing_point import start_without_point, tell_points, without_point
 from contoursolve.diagnosis.spelling import (
@@ -203,7 +204,7 @@ def examine(
         notebook.add(explain_start(context, claim), Status.UNDERDETERMINED)
     unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))
     notebook.findings += (*explain_skippable(context, claim), *unmarked)
-    explained = {label.span for finding in notebook.findings for label in finding.labels}
+    explained = spans_of(notebook.findings)
     # What rules refuse of a chain is not solved without a word either.
     is_refused = claim.form.is_general and Status.REJECTED in notebook.statuses
     for word in unused_words(claim, profile) if is_whole and not is_refused else ():

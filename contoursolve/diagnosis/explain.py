@@ -29,7 +29,7 @@ from contoursolve.diagnosis.wording import (
     unknowns_text,
     value_text,
 )
-from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
+from contoursolve.diagnostics.finding import Basis, Diagnostic, Label, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, spell
 from contoursolve.geometry import Arc, Length, ParallelLines, Profile, Radius, Role, Unit, assemble
@@ -161,6 +161,17 @@ def report(
         values=values or {},
         about=rule.about,
     )
+
+
+def told(findings: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """The errors and the warnings."""
+    return [each for each in findings if each.severity is not Severity.INFO]
+
+
+def spans_of(findings: Iterable[Diagnostic], about: Enum | None = None) -> set[Span]:
+    """The places that findings are about, or those about one event."""
+    chosen = (each for each in findings if about is None or each.about is about)
+    return {label.span for each in chosen for label in each.labels}
 
 
 def _named(words: Sequence[Word], names: Mapping[str, Word]) -> Iterable[tuple[str, str]]:

@@ -5,7 +5,7 @@ from decimal import Decimal
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.explain import Context, report
+from contoursolve.diagnosis.explain import Context, report, spans_of
 from contoursolve.diagnosis.spelling import meant_words
 from contoursolve.diagnosis.wording import angle_text, join, length_text
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
@@ -82,12 +82,12 @@ def _start_counted(context: Context, claim: ParsedContour, words: Sequence[Word]
 def tell_points(context: Context, claim: ParsedContour, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
     """Findings, the errors about a word that lacks its point with how it was read, before what else may be done."""
     findings = list(findings)
-    lacking = {label.span for each in findings if each.about is ReadIssue.POINT_MISSING for label in each.labels}
+    lacking = spans_of(findings, ReadIssue.POINT_MISSING)
     counted = (
         {word: value for word, value in _counted(context, claim).items() if word.span in lacking} if lacking else {}
     )
     for finding in findings:
-        spans = {label.span for label in finding.labels}
+        spans = spans_of([finding])
         blamed = {word: value for word, value in counted.items() if word.span in spans}
         if not blamed or finding.severity is Severity.INFO or finding.basis is not Basis.NUMERICAL:
             yield finding

@@ -25,14 +25,15 @@ from contoursolve.diagnosis.drafts import (
 )
 from contoursolve.diagnosis.edits import AT_LEAST, Edit, EditKind, Why, add, change, drop, write_word
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine
-from contoursolve.diagnosis.spelling import torn_codes
+from contoursolve.diagnosis.explain import spans_of, told
+from contoursolve.diagnosis.spelling import shapes_of, torn_codes
 from contoursolve.diagnosis.subsets import (
     LARGEST_ROLE,
+    blamed_spans,
     block_of,
     blocks_at_fault,
     corners_at_fault,
     find_drop_sets,
-    is_blamed,
     words_of,
 )
 from contoursolve.diagnosis.typo_fixes import (
@@ -40,7 +41,6 @@ from contoursolve.diagnosis.typo_fixes import (
     OF_DIGITS,
     SIGN_ADDED,
     SIGN_LOST,
-    blamed_spans,
     explained,
     other_codes,
     point_slips,
@@ -82,7 +82,7 @@ def find_repairs(
         # No change of words closes it, and what leaves a warning is no repair.
         return Repairs((), is_complete=False)
     codes = frozenset(each.code for each in answer.diagnostics)
-    if all(each.severity is Severity.INFO for each in answer.diagnostics):
+    if not told(answer.diagnostics):
         return choose_repairs(claim, dialect, (), Before(codes, answer.contour), point_slips(answer))
     if torn_codes(claim):
         # Without its letters the code is another one, which nobody has written.
@@ -100,7 +100,8 @@ def find_repairs(
     if reference is None and count_choices(answer.profile) <= MOST_CHOICES:
         reference = examine(claim, dialect.rules, Policy.OFF).contour
     drop_sets = find_drop_sets(answer, dialect)
-    alone = tuple(names for names in drop_sets.found if len(names) == 1 and is_blamed(answer, *names))
+    blamed = frozenset(blamed_spans(answer))
+    alone = [each for each in drop_sets.found if len(each) == 1 and {claim.words[name].span for name in each} <= blamed]
     # What makes a refused combination legal is searched for; of a legal one, any word at fault may be too much.
     first, then = _sets(answer, dialect, whole), _dropping(answer, alone)
     changes = (
@@ -111,7 +112,6 @@ def find_repairs(
     )
     spelled = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
     moved = (moving(claim, stage) for stage in changes)
-    blamed = frozenset(blamed_spans(answer))
     is_redundant = answer.status is Status.OVERDETERMINED
     before = Before(codes, reference, None, following, blamed, previous, is_redundant)
     stages = (*spelled, *moved)
@@ -125,8 +125,7 @@ def _slips_of(
 ) -> Iterator[Iterator[tuple[Edit, ...]]]:
     """Slips that may explain what is wrong, those of digits, and those of the radii of circles that are missed."""
     claim = answer.claim
-    told = [each.about for each in answer.diagnostics if each.severity is not Severity.INFO]
-    if all(about is ReadIssue.CORNER_DROPPED for about in told):
+    if all(each.about is ReadIssue.CORNER_DROPPED for each in told(answer.diagnostics)):
         # The path is as the words say: the corner is one too many.
         return
     against = whole.conflicts
@@ -244,7 +243,7 @@ def _legal_sets(
     present, names = frozenset(claim.words), frozenset(claim.vocabulary)
     extra = frozenset({row.fact.given for row in claim.form.facts} | set(claim.form.choices))
     if not whole.is_singular:
-        extra -= present ^ extra if _is_clean_set(claim, dialect.rules) else set()
+        extra -= present ^ extra if is_clean(claim.form, dialect.rules, present, claim.circumstances) else set()
     changes = smallest_changes(claim.form, dialect.rules, present, names & extra, claim.circumstances, blocks)
     corrections = tuple(_corrections(claim, dialect))
     bases: list[tuple[Edit, ...]] = []
@@ -421,10 +420,6 @@ def _smallest(
     return tuple(found)
 
 
-def _is_clean_set(claim: ParsedContour, rules: tuple[Rule, ...]) -> bool:
-    return is_clean(claim.form, rules, frozenset(claim.words), claim.circumstances)
-
-
 def _values(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     """One word with another value: what a finding or the other words ask for."""
     claim, unit, lexicon = answer.claim, answer.claim.after.unit, answer.claim.lexicon
@@ -462,7 +457,7 @@ def _of_circles(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tu
     finding = next((each for each in answer.diagnostics if each.about is RefusalKind.RADIUS_DIFFERENCE), None)
     if finding is None or has_faults(claim):
         return
-    spans = {label.span for label in finding.labels}
+    spans = spans_of([finding])
     for name, word in claim.words.items():
         given = claim.givens.get(name)
         if given is None or word.number is None or word.span not in spans:
@@ -513,14 +508,9 @@ def _slips(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     if is_about_values and any(not finding.values.get("limit") for finding in answer.diagnostics):
         for name, word in claim.words.items():
             given = claim.givens.get(name)
-            if given is not None and given.unit is not Unit.SIGN and name not in _sizes(claim):
+            if given is not None and given.unit is not Unit.SIGN and name not in shapes_of(claim):
                 texts = variants(word, given, lexicon, unit)
                 yield from ((change(word, text),) for text in dict.fromkeys(texts) if text != word.text)
-
-
-def _sizes(claim: ParsedContour) -> set[str]:
-    """The words that give a corner its size."""
-    return {name for row in claim.form.corners for name in row.shapes}
 
 
 def _asked(answer: Answer, word: Word, given: Given) -> Iterator[tuple[str, float]]:

@@ -68,7 +68,7 @@ def explain_start_diameter(context: Context, state: State, code: str, block: Blo
 
 def _explain_asked(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
     for word in unanswerable(claim):
-        names = _answerable(claim)
+        names = answerable(claim)
         allowed = ", ".join(dict.fromkeys(claim.vocabulary[name][0] for name in claim.vocabulary if name in names))
         yield report(context, ReadIssue.ASKED_NOTHING, Basis.RULE, [word], allowed=allowed)
 
@@ -78,14 +78,18 @@ def unanswerable(claim: ParsedContour) -> list[Word]:
     asking = [word for block in claim.blocks for word in block.words if word.is_asked]
     if not asking:
         return []
-    answered = [claim.words[name] for name in _answerable(claim) if name in claim.words]
+    answered = [claim.words[name] for name in answerable(claim) if name in claim.words]
     return [word for word in asking if word not in answered and word not in claim.unknown]
 
 
-def _answerable(claim: ParsedContour) -> set[str]:
+def answerable(claim: ParsedContour) -> set[str]:
     """The names that state facts, sizes or choices."""
-    sizes = {name for row in claim.form.corners for name in row.shapes}
-    return {row.fact.given for row in claim.form.facts} | sizes | set(claim.form.choices)
+    return {row.fact.given or "" for row in claim.form.facts} | {*shapes_of(claim)} | {*claim.form.choices}
+
+
+def shapes_of(claim: ParsedContour) -> dict[str, CornerShape]:
+    """The names of words that give corners a size, each with its shape."""
+    return {name: shape for row in claim.form.corners for name, shape in row.shapes.items()}
 
 
 def explain_faults(context: Context, block: Block) -> Iterator[Diagnostic]:
@@ -239,11 +243,9 @@ def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnos
 
 def _roundings(claim: ParsedContour) -> list[str]:
     """The addresses of roundings of a contour."""
-    shapes = ((name, shape) for row in claim.form.corners for name, shape in row.shapes.items())
     # Under G11 and G12 a corner has the word of a line.
-    return [
-        claim.vocabulary[name][0] for name, shape in shapes if shape is CornerShape.FILLET and name in claim.vocabulary
-    ]
+    names = [name for name, shape in shapes_of(claim).items() if shape is CornerShape.FILLET]
+    return [claim.vocabulary[name][0] for name in names if name in claim.vocabulary]
 
 
 _SHORTEST = 2
