@@ -2,13 +2,13 @@
 
 import re
 from collections.abc import Iterable, Iterator
-from decimal import ROUND_HALF_EVEN, Decimal
+from decimal import Decimal
 from itertools import combinations, product
 
 from contoursolve.analysis import analyse
 from contoursolve.diagnosis.attempt import Before, examine_edited, find_edited
 from contoursolve.diagnosis.drafts import marked, mended_words, missing_points, unreadable, variants
-from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, add, change, drop, write_word
+from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, add, change, drop, rounded, write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue
 from contoursolve.diagnosis.examples import sampled
 from contoursolve.diagnosis.explain import spans_of, told
@@ -16,8 +16,8 @@ from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, number_of, spell
-from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Length, Offset, Profile, Unit, assemble, scalar
-from contoursolve.reading import Lexicon, ReadIssue, read
+from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Offset, Profile, Unit, assemble, scalar
+from contoursolve.reading import ReadIssue, read
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import check
 from contoursolve.solving import NoteKind, RefusalKind, Status
@@ -228,15 +228,8 @@ def _shown(asked: AskedValue, word: Word, answer: Answer) -> str:
         value += 360 * round((float(stated) - value) / 360)
     if word.address != FACT:
         return number_of(write_word(word.address, value, lexicon, answer.unit), word.address)
-    return _number(value * (2 if asked.question.is_diameter else 1), unit, answer.unit, lexicon)
-
-
-def _number(value: float, unit: Unit, length: Length, lexicon: Lexicon) -> str:
-    """A number of a fact, mm or degrees, in the program's unit and to the least increment."""
-    numbers, number = lexicon.numbers, Decimal(repr(value))
-    step = numbers.degree if unit is Unit.DEGREE else numbers.inch if length is Length.INCH else numbers.mm
-    number = (number if unit is Unit.DEGREE else number / length.in_mm).quantize(step, ROUND_HALF_EVEN)
-    text = f"{number + 0:f}"
+    number = rounded(value, unit, lexicon, answer.unit, is_diameter=asked.question.is_diameter)
+    text = f"{number:f}"
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 

@@ -266,14 +266,19 @@ AT_MOST, AT_LEAST = ROUND_DOWN, ROUND_UP
 def write_word(address: str, value: float, lexicon: Lexicon, unit: Length, rounding: str = ROUND_HALF_EVEN) -> str:
     """A word for a value in mm (radius) or degrees, rounded to the control's least increment: a limit (`AT_MOST`,
     `AT_LEAST`) to what is within it."""
-    row, numbers = lexicon.addresses[address], lexicon.numbers
-    number, step = Decimal(repr(value)), numbers.step(row.unit, unit)
-    if row.unit is not Unit.DEGREE:
-        number = number / unit.in_mm * (2 if row.is_diameter else 1)
-    number = number.quantize(step, rounding)
-    if number == 0:
-        number = abs(number)
+    row = lexicon.addresses[address]
+    number = rounded(value, row.unit, lexicon, unit, is_diameter=row.is_diameter, rounding=rounding)
     text = f"{number:f}".rstrip("0")
-    if text.endswith(".") and (numbers.without_point is WithoutPoint.AS_WRITTEN or number == 0):
+    if text.endswith(".") and (lexicon.numbers.without_point is WithoutPoint.AS_WRITTEN or number == 0):
         text = text[:-1]
     return spell(address, text)
+
+
+def rounded(
+    value: float, kind: Unit, lexicon: Lexicon, unit: Length, *, is_diameter: bool, rounding: str = ROUND_HALF_EVEN
+) -> Decimal:
+    """A value in mm (radius) or degrees as a number of the program, to the least increment; no negative zero."""
+    number = Decimal(repr(value))
+    if kind is not Unit.DEGREE:
+        number = number / unit.in_mm * (2 if is_diameter else 1)
+    return number.quantize(lexicon.numbers.step(kind, unit), rounding) + 0

@@ -16,7 +16,6 @@ from contoursolve.analysis import analyse
 from contoursolve.diagnosis.explain import (
     Context,
     context_of,
-    explain_beyond,
     explain_ignored,
     explain_missing,
     explain_offence,
@@ -225,7 +224,10 @@ def examine(
     contour = trace(profile, solution) if is_path else None
     if contour is not None:
         notebook.findings += explain_path(context, profile, solution, contour)
-        notebook.findings += explain_beyond(context, profile, solution, contour) if claim.directives else ()
+        if claim.directives:
+            from contoursolve.diagnosis.off_path import explain_beyond  # noqa: PLC0415 - few blocks state more
+
+            notebook.findings += explain_beyond(context, profile, solution, contour)
     touching = {remark.subject for remark in solution.remarks if remark.kind is NoteKind.TOUCHES}
     shown = {*profile.intersections} - touching
     chosen = (choice for choice in profile.choices if choice.given in claim.words)

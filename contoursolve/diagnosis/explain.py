@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
-from functools import lru_cache, partial
+from functools import lru_cache
 from math import asin, degrees
 from typing import TYPE_CHECKING, Any
 
@@ -47,7 +47,7 @@ from contoursolve.solving import (
     scalars_of,
 )
 from contoursolve.solving.compare import allowance, increments_of
-from contoursolve.solving.contour import Contour, LineSegment, against_angles, dropped_corners
+from contoursolve.solving.contour import Contour, against_angles, dropped_corners
 from contoursolve.tolerance import AGREEMENT
 
 if TYPE_CHECKING:
@@ -333,7 +333,7 @@ def explain_result(
     if is_word and givens[0].is_diameter:
         values |= {name: 2 * values[name] for name in compared}
     in_degrees = event.kind in _IN_DEGREES or (is_word and givens[0].unit is Unit.DEGREE)
-    write = angle_text if in_degrees else partial(_length, context.unit)
+    write = angle_text if in_degrees else lambda value, more: length_text(value, context.unit, more)
     fields |= zip(compared, tell_apart([values[name] for name in compared], write), strict=True)
     fields |= {name: length_text(values[name], context.unit) for name in ("radius", "distance") if name in values}
     if "off_by_mm" in values:
@@ -419,10 +419,6 @@ def _with_what_helps(
         advice = f"change {join(causes) or 'another word'}: the value follows from there"
         finding = replace(finding, help=advice, labels=tuple(replace(each, text="") for each in finding.labels))
     return finding
-
-
-def _length(unit: Length, value: float, more: int) -> str:
-    return length_text(value, unit, more)
 
 
 def _room(event: Refusal, values: Mapping[str, float], profile: Profile) -> tuple[dict[str, str], list[str]]:
@@ -561,13 +557,3 @@ def explain_path(context: Context, profile: Profile, solution: Solution, contour
         word, values, shown = profile.givens[corner.size].word, {"actual": abs(turn)}, angle_text(abs(turn))
         about = ReadIssue.CORNER_DROPPED
         yield report(context, about, Basis.NUMERICAL, [word], values, subject=corner.name, actual=shown)
-
-
-def explain_beyond(context: Context, profile: Profile, solution: Solution, contour: Contour) -> Iterator[Diagnostic]:
-    """Facts about a whole line or circle that hold where the path does not reach."""
-    from contoursolve.diagnosis.off_path import facts_beyond  # noqa: PLC0415 - few blocks state more than their words
-
-    for given, element, at in facts_beyond(profile, solution, contour):
-        word, place = profile.givens[given].word, place_text(profile, scalars_of({"": at}))
-        whole, about = "line" if isinstance(element, LineSegment) else "circle", ReadIssue.FACT_BEYOND
-        yield report(context, about, Basis.NUMERICAL, [word], element=element.name, whole=whole, place=place)
