@@ -25,13 +25,15 @@ from contoursolve.diagnosis.explain import (
     report,
     spans_of,
 )
-from contoursolve.diagnosis.missing_point import start_without_point, tell_points, without_point
 from contoursolve.diagnosis.spelling import (
     explain_skippable,
     explain_spelling,
     explain_start,
     explain_unmarked,
     meant_words,
+    start_without_point,
+    tell_points,
+    without_point,
 )
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Severity

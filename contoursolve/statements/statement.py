@@ -170,9 +170,9 @@ class PassesThrough(Statement, frozen=True):
         place = draft.place(f"{name}.place", self.place)
         if isinstance(draft.element(self.element), Line):
             draft.line(self.element)
-            return _named(draft, name, Through(self.element, place, name))
+            return _named(draft, Through(self.element, place, name))
         form = draft.round(self.element)
-        return _named(draft, name, OnCircle(place, form.center, form.radius, name))
+        return _named(draft, OnCircle(place, form.center, form.radius, name))
 
 
 class PassesBeside(Statement, frozen=True):
@@ -195,9 +195,9 @@ class PassesBeside(Statement, frozen=True):
         side = f"{name}.side"
         if form is None:
             draft.line(self.element)
-            return _named(draft, name, TangentLine(self.element, around.center, around.radius, side, name))
+            return _named(draft, TangentLine(self.element, around.center, around.radius, side, name))
         circles = (around.center, around.radius), (form.center, form.radius)
-        return _named(draft, name, PointBeside(*circles, side, name))
+        return _named(draft, PointBeside(*circles, side, name))
 
 
 class ParallelTo(Statement, frozen=True):
@@ -215,7 +215,7 @@ class ParallelTo(Statement, frozen=True):
             raise StatementError(f"{self.line} is one line, and parallel to itself")
         line, other = draft.line(self.line), draft.line(self.other)
         if self.distance is None:
-            return _named(draft, name, ParallelLines(self.line, self.other, name))
+            return _named(draft, ParallelLines(self.line, self.other, name))
         _check_distance(self.distance)
         meeting = {line.tail, line.head} & {other.tail, other.head} - {""}
         if self.distance and meeting:
@@ -226,9 +226,9 @@ class ParallelTo(Statement, frozen=True):
         draft.add(ParallelLines(self.line, self.other, part_of=parallel))
         point = draft.point_on(self.line)
         if not self.distance:
-            return _named(draft, name, Through(self.other, point, name))
+            return _named(draft, Through(self.other, point, name))
         around = draft.around(name, point, self.distance)
-        return _named(draft, name, TangentLine(self.other, around.center, around.radius, f"{name}.side", name))
+        return _named(draft, TangentLine(self.other, around.center, around.radius, f"{name}.side", name))
 
 
 class ChordIs(Statement, frozen=True):
@@ -294,7 +294,7 @@ class Touches(Statement, frozen=True):
         first, second = draft.element(self.first), draft.element(str(self.second))
         if isinstance(first, Arc) and isinstance(second, Arc):
             side = 1 if first.turn is not second.turn else -1
-            return _named(draft, name, Contact(at, first.center, second.center, side, name))
+            return _named(draft, Contact(at, first.center, second.center, side, name))
         if isinstance(first, Line) and isinstance(second, Line):
             straight = draft.give(name, Decimal(0), Unit.DEGREE)
             draft.line(self.first)
@@ -308,7 +308,7 @@ class Touches(Statement, frozen=True):
         draft.line(line.name)
         draft.leave(at, arc)
         draft.add(Foot(line.name, at, arc.center))
-        return _named(draft, name, TangentLine(line.name, arc.center, arc.radius, arc.turn.sign, name))
+        return _named(draft, TangentLine(line.name, arc.center, arc.radius, arc.turn.sign, name))
 
     def _touch(self, draft: Draft, name: str, other: str | Round) -> Fact:
         """Elements that are not neighbours: the side is open."""
@@ -321,11 +321,11 @@ class Touches(Statement, frozen=True):
             line, circle = (self.first, other) if isinstance(first, Line) else (str(other), self.first)
             form = draft.round(circle) if isinstance(circle, str) else circle
             draft.line(line)
-            return _named(draft, name, TangentLine(line, form.center, form.radius, side, name))
+            return _named(draft, TangentLine(line, form.center, form.radius, side, name))
         one = draft.round(self.first)
         second = draft.round(other) if isinstance(other, str) else other
         circles = (one.center, one.radius), (second.center, second.radius)
-        return _named(draft, name, TangentCircles(*circles, side, name))
+        return _named(draft, TangentCircles(*circles, side, name))
 
 
 class EqualLengths(Statement, frozen=True):
@@ -342,7 +342,7 @@ class EqualLengths(Statement, frozen=True):
                 raise StatementError(f"{each} is not a line")
             _check_ends(line)
             ends.append((line.tail, line.head))
-        return _named(draft, name, EqualDistances(name, *ends))
+        return _named(draft, EqualDistances(name, *ends))
 
 
 class EqualSizes(Statement, frozen=True):
@@ -360,7 +360,7 @@ class EqualSizes(Statement, frozen=True):
                 radii.append(f"{each}.radius")
             else:
                 radii.append(draft.round(each).radius)
-        return _named(draft, name, EqualRadii(name, *radii))
+        return _named(draft, EqualRadii(name, *radii))
 
 
 class Meeting(Struct, frozen=True):
@@ -427,9 +427,9 @@ def _stated(draft: Draft, fact: Fact, value: Decimal | None, unit: Unit) -> Fact
     return fact
 
 
-def _named(draft: Draft, name: str, fact: Fact) -> Fact:
+def _named(draft: Draft, fact: Fact) -> Fact:
     """A fact without a value of its own; the given keeps the words that state it."""
-    draft.give(name, Decimal(0), Unit.SIGN)
+    draft.give(fact.given, Decimal(0), Unit.SIGN)
     draft.add(fact)
     return fact
 
