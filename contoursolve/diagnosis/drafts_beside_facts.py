@@ -6,7 +6,7 @@ from decimal import Decimal
 from itertools import combinations, product
 
 from contoursolve.analysis import analyse
-from contoursolve.diagnosis.attempt import Before, examine_edited, find_edited
+from contoursolve.diagnosis.attempt import Trial
 from contoursolve.diagnosis.drafts import marked, mended_words, missing_points, unreadable, variants
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, add, change, drop, rounded, write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue
@@ -18,7 +18,6 @@ from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, number_of, spell
 from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Offset, Profile, Unit, assemble, scalar
 from contoursolve.reading import ReadIssue, read
-from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import check
 from contoursolve.solving import NoteKind, RefusalKind, Status
 from contoursolve.solving.alternatives import choose
@@ -50,10 +49,10 @@ _DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
 _VALUE = re.compile(r"=\s*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))\s*+$")
 
 
-def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator[Iterable[tuple[Edit, ...]]]:
+def further_drafts(answer: Answer, trial: Trial) -> Iterator[Iterable[tuple[Edit, ...]]]:
     """The stages of drafts, simplest first."""
     if answer.claim.form.is_general and answer.status is Status.REJECTED:
-        yield _lawful(answer, dialect, before)
+        yield _lawful(answer, trial)
     findings = [each for each in told(answer.diagnostics) if each.about is not None]
     if not findings:
         return
@@ -65,11 +64,11 @@ def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator
     yield _decimal_commas(answer)
     yield _useless(answer, findings)
     twice = [each for each in findings if each.about in _TWICE]
-    ways = _completing(answer, dialect, before) if answer.claim.form.is_general else _additions(answer)
+    ways = _completing(answer, trial) if answer.claim.form.is_general else _additions(answer)
     missing = list(ways) if any(each.about is ReadIssue.UNDERDETERMINED for each in findings) else [()]
     drops = [[(drop(word),) for word in _blamed(answer, each)] for each in twice]
     yield [tuple(dict.fromkeys(sum(choice, ()))) for choice in product(*drops, missing) if any(choice)]
-    yield _corrected(answer, dialect, twice, before)
+    yield _corrected(answer, twice, trial)
     yield _swapped(answer, findings)
     yield _slips(answer, findings)
     nowhere = spans_of(findings, ReadIssue.CORNER_NOWHERE)
@@ -164,12 +163,12 @@ def _additions(answer: Answer) -> Iterator[tuple[Edit, ...]]:
         yield from combinations(edits, size)
 
 
-def _completing(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tuple[Edit, ...]]:
+def _completing(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """Words that determine a chain in which any may stand, the usual ones first: each alone, or else two."""
     claim = answer.claim
 
     def freedom(edits: tuple[Edit, ...]) -> int:
-        found = find_edited(claim, dialect, sampled(edits), before)
+        found = trial.find(sampled(edits))
         system = assemble(read(found, frozenset())) if found else None
         return len(system.unknowns) - analyse(system).rank if system else len(claim.vocabulary)
 
@@ -198,14 +197,14 @@ def _exchanged(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edi
             yield from ((drop(words[span]), *added) for added in _additions(answer) if len(added) == 1)
 
 
-def _corrected(answer: Answer, dialect: Dialect, twice: list[Diagnostic], before: Before) -> Iterator[tuple[Edit, ...]]:
+def _corrected(answer: Answer, twice: list[Diagnostic], trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """One word or fact of those that disagree with the value that the others give it: it is asked for instead."""
     for finding in twice if any(each.severity is Severity.ERROR for each in twice) else ():
         for word in _blamed(answer, finding):
             asking = _with_value(word, PLACEHOLDER)
             if not asking:
                 continue
-            other = examine_edited(answer.claim, dialect, (change(word, asking),), before)
+            other = trial.examine((change(word, asking),))
             for asked in other.answers if other else ():
                 if asked.value is not None and asked.question.word.text == asking:
                     yield (change(word, _with_value(word, _shown(asked, word, answer))),)
@@ -233,10 +232,10 @@ def _shown(asked: AskedValue, word: Word, answer: Answer) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
-def _lawful(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tuple[Edit, ...]]:
+def _lawful(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """A word that the rules ask for in a line that they refuse, or one that they refuse taken out."""
     claim = answer.claim
-    offences = check(dialect.rules, claim.form.roles, claim.stated())
+    offences = check(trial.dialect.rules, claim.form.roles, claim.stated())
     lines = {claim.blocks[claim.vocabulary[name][1]].line for name in claim.vocabulary for each in offences
              if name.startswith(each.role.prefixes)}  # fmt: skip
     for name, (address, index) in claim.vocabulary.items():
@@ -245,16 +244,16 @@ def _lawful(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tuple[
             continue
         numbers = ("+1", "-1") if row.unit is Unit.SIGN else (PLACEHOLDER,)
         edits = (add(claim, name, spell(address, number)) for number in numbers)
-        yield from ((edit,) for edit in edits if _is_lawful(answer, dialect, (edit,), before))
+        yield from ((edit,) for edit in edits if _is_lawful((edit,), trial))
     for each in offences:
         edits = (drop(claim.words[name]) for name in each.names if name in claim.words)
-        yield from ((edit,) for edit in edits if _is_lawful(answer, dialect, (edit,), before))
+        yield from ((edit,) for edit in edits if _is_lawful((edit,), trial))
 
 
-def _is_lawful(answer: Answer, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> bool:
+def _is_lawful(edits: tuple[Edit, ...], trial: Trial) -> bool:
     """Whether no rule refuses the edited blocks."""
-    found = find_edited(answer.claim, dialect, sampled(edits), before)
-    return found is not None and not found.unknown and not check(dialect.rules, found.form.roles, found.stated())
+    found = trial.find(sampled(edits))
+    return found is not None and not found.unknown and not check(trial.dialect.rules, found.form.roles, found.stated())
 
 
 def _swapped(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:

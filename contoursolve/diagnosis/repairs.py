@@ -10,7 +10,7 @@ from math import copysign, sqrt
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs, examine_edited
+from contoursolve.diagnosis.attempt import Repairs, Trial, choose_repairs
 from contoursolve.diagnosis.drafts import (
     OF_CORNERS,
     commas,
@@ -83,17 +83,17 @@ def find_repairs(
         return Repairs((), is_complete=False)
     codes = frozenset(each.code for each in answer.diagnostics)
     if not told(answer.diagnostics):
-        return choose_repairs(claim, dialect, (), Before(codes, answer.contour), point_slips(answer))
+        return choose_repairs(Trial(claim, dialect, codes, answer.contour), (), point_slips(answer))
     if torn_codes(claim):
         # Without its letters the code is another one, which nobody has written.
-        repairs = choose_repairs(claim, dialect, [mended_words(answer)], Before(codes, None, following=following))
+        repairs = choose_repairs(Trial(claim, dialect, codes, None, following=following), [mended_words(answer)])
         return replace(repairs, is_complete=False)
     if answer.profile.is_extended:
         # Few blocks state more than their words.
         from contoursolve.diagnosis.drafts_beside_facts import further_drafts, next_place_of  # noqa: PLC0415
 
-        before = Before(codes, answer.contour, next_place_of(answer.profile))
-        repairs = choose_repairs(claim, dialect, further_drafts(answer, dialect, before), before)
+        trial = Trial(claim, dialect, codes, answer.contour, next_place_of(answer.profile))
+        repairs = choose_repairs(trial, further_drafts(answer, trial))
         return replace(repairs, is_complete=False)
     whole = _Geometry.of(claim)
     reference = answer.contour
@@ -113,16 +113,14 @@ def find_repairs(
     spelled = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
     moved = (moving(claim, stage) for stage in changes)
     is_redundant = answer.status is Status.OVERDETERMINED
-    before = Before(codes, reference, None, following, blamed, previous, is_redundant)
+    trial = Trial(claim, dialect, codes, reference, None, following, blamed, previous, is_redundant)
     stages = (*spelled, *moved)
-    repairs = choose_repairs(claim, dialect, stages, before, *_slips_of(answer, dialect, whole, before))
+    repairs = choose_repairs(trial, stages, *_slips_of(answer, whole, trial))
     is_complete = repairs.is_complete and drop_sets.is_complete and not has_faults(claim)
     return replace(repairs, is_complete=is_complete)
 
 
-def _slips_of(
-    answer: Answer, dialect: Dialect, whole: "_Geometry", before: Before
-) -> Iterator[Iterator[tuple[Edit, ...]]]:
+def _slips_of(answer: Answer, whole: "_Geometry", trial: Trial) -> Iterator[Iterator[tuple[Edit, ...]]]:
     """Slips that may explain what is wrong, those of digits, and those of the radii of circles that are missed."""
     claim = answer.claim
     if all(each.about is ReadIssue.CORNER_DROPPED for each in told(answer.diagnostics)):
@@ -136,13 +134,13 @@ def _slips_of(
         names = frozenset.intersection(*(frozenset(fact.given or "" for fact in each.facts) for each in against))
         yield chain.from_iterable(_agreeing(claim, name) for name in claim.words if name in names)
         return
-    offences = [each.rule.when for each in check(dialect.rules, claim.form.roles, claim.stated())]
+    offences = [each.rule.when for each in check(trial.dialect.rules, claim.form.roles, claim.stated())]
     is_about_values = all(when is None or when.reads_values for when in offences)
     if answer.status not in (Status.NO_SOLUTION, Status.CONFLICTING, Status.SOLVED) and not (
         offences and is_about_values
     ):
         of_addresses = [slip for slip in FEW if not slip.is_of_numbers]
-        yield chain(slips(answer, of_addresses, words), other_codes(answer, dialect.modes))
+        yield chain(slips(answer, of_addresses, words), other_codes(answer, trial.dialect.modes))
         return
     blamed = blamed_spans(answer)
     is_missed = any(each.about is RefusalKind.CIRCLE_MISSED for each in answer.diagnostics)
@@ -150,9 +148,9 @@ def _slips_of(
     near = [word for word in words if word.span in blamed]
     if len(claim.blocks) > MOST_BLOCKS:
         signs = slips(answer, (SIGN_LOST, SIGN_ADDED), _against_neighbours(words, claim))
-        yield chain(_of_circles(answer, dialect, before), signs, slips(answer, FEW, near))
+        yield chain(_of_circles(answer, trial), signs, slips(answer, FEW, near))
         return
-    yield chain(_of_circles(answer, dialect, before), slips(answer, FEW, words))
+    yield chain(_of_circles(answer, trial), slips(answer, FEW, words))
     yield slips(answer, OF_DIGITS, near or words[:1])
     yield slips(answer, OF_DIGITS, [claim.words[name] for name in claim.words if name in sizes and is_missed])
 
@@ -450,7 +448,7 @@ def _values(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
         yield (*forced, *asked_together)
 
 
-def _of_circles(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tuple[Edit, ...]]:
+def _of_circles(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """Words that place a circle twice, each with the value that agrees with the others, or with what a slip makes of
     about this value."""
     claim, unit, lexicon = answer.claim, answer.claim.after.unit, answer.claim.lexicon
@@ -464,7 +462,7 @@ def _of_circles(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tu
             continue
         value = float(given.value)
         texts = [write_word(word.address, value + step, lexicon, unit) for step in (-_STEP, 0.0, _STEP)]
-        gaps = [_gap(examine_edited(claim, dialect, (change(word, text),), before)) for text in texts]
+        gaps = [_gap(trial.examine((change(word, text),))) for text in texts]
         for step in _zeros([gap for gap in gaps if gap is not None]):
             text = write_word(word.address, value + step, lexicon, unit)
             slips = list(explained(word, value + step, claim))
