@@ -147,7 +147,10 @@ class Trial(Struct, frozen=True):
             return None
         # No change of the block moves its start.
         findings = [each for each in told(answer.diagnostics) if each.about is not ReadIssue.START_IN_INCREMENTS]
-        rules = [each for each in findings if (answer.profile.is_extended and _is_rule(each)) or _is_crossing(each)]
+        rules = [each for each in findings if _is_crossing(each)]
+        if answer.profile.is_extended:
+            # Rules of the manual only warn where more is stated or asked than the control reads.
+            rules += [each for each in findings if each.about is None and each.severity is Severity.WARNING]
         if all(edit.kind is EditKind.ADD and edit.address in _choices(claim) for edit in edits):
             # Either sign makes the contour where two elements only touch.
             rules += [each for each in findings if each.about is NoteKind.TOUCHES]
@@ -370,11 +373,6 @@ def _is_settled(answer: Answer, edits: tuple[Edit, ...]) -> bool:
 def _is_crossing(finding: Diagnostic) -> bool:
     """Whether the path crosses the spindle axis, which may be meant."""
     return finding.about is ReadIssue.AXIS_CROSSED
-
-
-def _is_rule(finding: Diagnostic) -> bool:
-    """Whether it is a rule of the manual, which only warns where more is stated or asked than the control reads."""
-    return finding.about is None and finding.severity is Severity.WARNING
 
 
 def _is_comma(edit: Edit) -> bool:

@@ -8,7 +8,7 @@ from contoursolve.analysis import analyse, decompose
 from contoursolve.diagnosis.attempt import Repair
 from contoursolve.diagnosis.edits import EditKind, apply_edits
 from contoursolve.diagnosis.examine import Answer, Policy
-from contoursolve.diagnosis.explain import spans_of, told
+from contoursolve.diagnosis.explain import facts_at, spans_of, told
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.wording import SHOWN, count, join, length_text, place_text
@@ -38,10 +38,12 @@ def diagnose(
     circuits, is_every_tie = affine.circuits() if affine and is_readable else NO_CIRCUITS
     freedoms = affine.freedoms() if affine and is_readable else ()
     repairs = find_repairs(answer, dialect, tuple(following), previous)
+    # Of facts that are not all about lines between points, findings show ties.
+    other_ties = _further_ties if profile.is_extended else _circle_ties
     diagnosis = Diagnosis(
         layers=list_layers(answer, policy),
         freedoms=freedoms,
-        ties=tuple(_tie(answer, affine, each) for each in circuits if affine) or tuple(_other_ties(answer)),
+        ties=tuple(_tie(answer, affine, each) for each in circuits if affine) or tuple(other_ties(answer)),
         ties_complete=is_readable and is_every_tie and answer.start.is_known and not profile.is_extended,
         repairs_complete=repairs.is_complete,
     )
@@ -141,11 +143,6 @@ def _address(word: Word) -> str:
     return word.text if word.address == FACT else word.address
 
 
-def _other_ties(answer: Answer) -> Iterator[Tie]:
-    """What findings show of ties between facts that are not all about lines between points."""
-    return _further_ties(answer) if answer.profile.is_extended else _circle_ties(answer)
-
-
 def _further_ties(answer: Answer) -> Iterator[Tie]:
     """For each word or fact that says again what others say, those others and itself."""
     from contoursolve.solving.ambiguity import tied_with  # noqa: PLC0415 - few blocks state more than their words
@@ -153,15 +150,11 @@ def _further_ties(answer: Answer) -> Iterator[Tie]:
     profile = answer.profile
     system = assemble(profile)
     for finding in answer.diagnostics:
-        for fact in profile.facts if finding.about in _SAID_AGAIN else ():
-            word = profile.givens[fact.given].word if fact.given else None
-            if word is None or word.span != finding.span:
-                continue
+        for fact in facts_at(profile, finding.span)[:1] if finding.about in _SAID_AGAIN else ():
             words = (profile.givens[name].word for name in tied_with(system, fact))
             addresses = (_address(each) for each in words if each)
             is_conflict = finding.severity is Severity.ERROR
             yield Tie(tuple(dict.fromkeys(addresses)), "", finding.values.get("off_by_mm", 0.0), is_conflict)
-            break
 
 
 _SAID_AGAIN = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, NoteKind.WORDS_AGREE)

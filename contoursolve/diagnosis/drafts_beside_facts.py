@@ -11,7 +11,7 @@ from contoursolve.diagnosis.drafts import marked, mended_words, missing_points, 
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, add, change, drop, rounded, write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue
 from contoursolve.diagnosis.examples import sampled
-from contoursolve.diagnosis.explain import spans_of, told
+from contoursolve.diagnosis.explain import facts_at, spans_of, told
 from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
@@ -140,15 +140,10 @@ def _blamed(answer: Answer, finding: Diagnostic) -> list[Word]:
     """The words and facts that say something twice, the one that the finding is about first."""
     profile = answer.profile
     system = assemble(profile)
-    stated = [fact for fact in profile.facts if fact.given and _is_at(profile, fact.given, finding.span)]
+    stated = facts_at(profile, finding.span)
     names = dict.fromkeys(name for fact in stated for name in (fact.given, *tied_with(system, fact)))
     words = (profile.givens[name].word for name in names)
     return list({word.span: word for word in words if word is not None}.values())
-
-
-def _is_at(profile: Profile, name: str, span: Span) -> bool:
-    word = profile.givens[name].word
-    return word is not None and word.span == span
 
 
 def _additions(answer: Answer) -> Iterator[tuple[Edit, ...]]:

@@ -168,15 +168,11 @@ class _Notebook:
         return next(status for status in Status if status in self.statuses)
 
 
-def _no_place() -> None:
-    """The next block is not known."""
-
-
 def examine(
     claim: ParsedContour,
     rules: tuple[Rule, ...],
     policy: Policy,
-    next_place: Callable[[], tuple[Decimal, Decimal] | None] = _no_place,
+    next_place: Callable[[], tuple[Decimal, Decimal] | None] = lambda: None,
     depth: Depth = Depth.FULL,
 ) -> Answer:
     """Everything there is to say about one contour, and its path if there is one.
@@ -363,7 +359,8 @@ def _examine_geometry(
     is_refused = bool(notebook.statuses & {Status.REJECTED, Status.NO_SOLUTION})
     structure = list(_examine_system(context, claim, profile))
     for status, finding in structure:
-        notebook.add(_secondary(finding, is_refused), status)
+        # What the equations say of a block that a rule has refused already explains, and counts once.
+        notebook.add(replace(finding, severity=Severity.INFO) if is_refused else finding, status)
     is_solvable = not structure and profile.start.is_known
     is_open = is_solvable and is_refused and not profile.is_extended and _has_choice(profile)
     is_long = is_open and count_choices(profile) > MOST_CHOICES
@@ -422,11 +419,6 @@ _ABOUT_WORDS = (
     RefusalKind.LINES_PARALLEL,
     NoteKind.WORDS_AGREE,
 )
-
-
-def _secondary(finding: Diagnostic, is_refused: bool) -> Diagnostic:
-    """What the equations say of a block that a rule has refused already explains, and counts once."""
-    return replace(finding, severity=Severity.INFO) if is_refused else finding
 
 
 def _examine_system(context: Context, claim: ParsedContour, profile: Profile) -> Iterator[tuple[Status, Diagnostic]]:

@@ -32,7 +32,7 @@ from contoursolve.diagnosis.wording import (
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Label, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, spell
-from contoursolve.geometry import Arc, Length, ParallelLines, Profile, Radius, Role, Unit, assemble
+from contoursolve.geometry import Arc, Fact, Length, ParallelLines, Profile, Radius, Role, Unit, assemble
 from contoursolve.reading import ParsedContour, ReadIssue
 from contoursolve.reading.rules import VERBS, Offence, Rule
 from contoursolve.solving import (
@@ -172,6 +172,12 @@ def spans_of(findings: Iterable[Diagnostic], about: Enum | None = None) -> set[S
     """The places that findings are about, or those about one event."""
     chosen = (each for each in findings if about is None or each.about is about)
     return {label.span for each in chosen for label in each.labels}
+
+
+def facts_at(profile: Profile, place: Span) -> list[Fact]:
+    """The facts that the word at a place states."""
+    words = {name: given.word for name, given in profile.givens.items() if given.word}
+    return [fact for fact in profile.facts if fact.given in words and words[fact.given].span == place]
 
 
 def _named(words: Sequence[Word], names: Mapping[str, Word]) -> Iterable[tuple[str, str]]:
@@ -360,8 +366,10 @@ def explain_result(
     if event.kind is RefusalKind.CORNERS_OVERLAP:
         rooms = _rooms(event, values, words, profile)
         labels = [label for _, label in rooms]
-        smaller = _smaller([advice for advice, _ in rooms if advice], values, profile) if rooms else ""
-        fields["smaller"] = smaller or f"make the corners smaller, to need {fields['off']} less together"
+        advice = [advice for advice, _ in rooms if advice]
+        if rooms and not any(each.startswith("write") for each in advice):
+            advice += _for_both(values, profile.unit)
+        fields["smaller"] = ", or ".join(advice) or f"make the corners smaller, to need {fields['off']} less together"
     finding = report(context, event.kind, Basis.NUMERICAL, words, values, labels, **fields)
     if isinstance(event, Refusal):
         finding = _with_what_helps(finding, event, values, asked, profile)
@@ -385,12 +393,6 @@ def _counted(event: Refusal | Note) -> dict[str, str]:
         numbers = "1" if count == 1 else f"a number from 1 to {count}"
         return {"limit_count": f"{count} solution{'s' * (count != 1)}", "numbers": numbers}
     return {}
-
-
-def _smaller(told: list[str], values: Mapping[str, float], profile: Profile) -> str:
-    """How to make corners that overlap smaller: one of them, or both."""
-    is_told = any(advice.startswith("write") for advice in told)
-    return ", or ".join([*told, *(() if is_told else _for_both(values, profile.unit))])
 
 
 def _with_what_helps(

@@ -103,7 +103,8 @@ def find_repairs(
     blamed = frozenset(blamed_spans(answer))
     alone = [each for each in drop_sets.found if len(each) == 1 and {claim.words[name].span for name in each} <= blamed]
     # What makes a refused combination legal is searched for; of a legal one, any word at fault may be too much.
-    first, then = _sets(answer, dialect, whole), _dropping(answer, alone)
+    first = chain.from_iterable(_legal_sets(answer, dialect, whole, forced) for forced in unreadable(claim))
+    then = _dropping(answer, alone)
     changes = (
         _values(answer, whole),
         *((first, then) if answer.status is Status.REJECTED else (then, first)),
@@ -211,13 +212,6 @@ class _Geometry(Struct, frozen=True):
         return None
 
 
-def _sets(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
-    """Words to drop and to add: every smallest set that makes the combination legal, and for a legal one
-    what may be dropped or exchanged."""
-    for forced in unreadable(answer.claim):
-        yield from _legal_sets(answer, dialect, whole, forced)
-
-
 def _dropping(answer: Answer, sets: Iterable[frozenset[str]]) -> Iterator[tuple[Edit, ...]]:
     """The words of each set dropped, besides what must be dropped or corrected in any case."""
     claim = answer.claim
@@ -233,6 +227,8 @@ def _dropping(answer: Answer, sets: Iterable[frozenset[str]]) -> Iterator[tuple[
 def _legal_sets(
     answer: Answer, dialect: Dialect, whole: _Geometry, forced: tuple[Edit, ...]
 ) -> Iterator[tuple[Edit, ...]]:
+    """Words to drop and to add besides what is done in any case: every smallest set that makes the combination legal,
+    and for a legal one what may be dropped or exchanged."""
     claim, blocks = answer.claim, blocks_at_fault(answer)
     if forced:
         yield forced

@@ -142,15 +142,8 @@ def _typed_twice(typed: Typed) -> Iterator[str]:
             yield typed.with_number(text[:at] + text[at + 1 :])
 
 
-def _beside(typed: Typed) -> Iterator[str]:
-    yield from _exchanged(typed, lambda digit: _NEAR[digit])
-
-
-def _other_digit(typed: Typed) -> Iterator[str]:
-    yield from _exchanged(typed, lambda _: _NEAR)
-
-
 def _exchanged(typed: Typed, others: Callable[[str], Iterable[str]]) -> Iterator[str]:
+    """Each digit with each of some others for it."""
     text = typed.number
     for at, digit in enumerate(text):
         if digit.isdigit():
@@ -163,18 +156,7 @@ def _digit_lost(typed: Typed) -> Iterator[str]:
         yield from (typed.with_number(text[:at] + digit + text[at:]) for digit in _NEAR)
 
 
-def _digit_added(typed: Typed) -> Iterator[str]:
-    text = typed.number
-    for at, digit in enumerate(text):
-        if digit.isdigit():
-            yield typed.with_number(text[:at] + text[at + 1 :])
-
-
-def _mended(typed: Typed) -> Iterator[str]:
-    yield mended(typed.word.text)
-
-
-UNREADABLE = Slip("", _mended)
+UNREADABLE = Slip("", lambda typed: iter([mended(typed.word.text)]))
 """Letters for digits, commas for points, two points or signs: told by the finding itself."""
 POINT_LOST = Slip("", _point_lost)
 SIGN_LOST = Slip("a lost minus sign", _sign_lost, is_of_digits=False)
@@ -196,10 +178,10 @@ FEW = (
 """Kinds that leave few texts of each word."""
 
 OF_DIGITS = (
-    Slip("a key beside", _beside),
+    Slip("a key beside", lambda typed: _exchanged(typed, _NEAR.__getitem__)),
     Slip("a lost digit", _digit_lost),
-    Slip("a digit too many", _digit_added),
-    Slip("another digit", _other_digit),
+    Slip("a digit too many", lambda typed: _exchanged(typed, lambda _: [""])),
+    Slip("another digit", lambda typed: _exchanged(typed, lambda _: _NEAR)),
 )
 """Kinds that leave dozens."""
 
