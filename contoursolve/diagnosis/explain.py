@@ -163,7 +163,7 @@ def report(
     )
 
 
-def told(findings: Iterable[Diagnostic]) -> list[Diagnostic]:
+def errors_and_warnings(findings: Iterable[Diagnostic]) -> list[Diagnostic]:
     """The errors and the warnings."""
     return [each for each in findings if each.severity is not Severity.INFO]
 

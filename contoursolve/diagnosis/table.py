@@ -129,9 +129,8 @@ def _faults(profile: Profile) -> Iterator[str]:
     corners = profile.figure.corners
     names = [corner.name for corner in corners]
     yield from (f"{name} given twice" for name in dict.fromkeys(names) if names.count(name) > 1)
-    nowhere = {
-        corner.name for corner in corners if not (corner.after or corner.lands_on) and corner.lands_parallel_to is None
-    }
+    last = (corner for corner in corners if corner.after is None and corner.lands_on is None)
+    nowhere = {corner.name for corner in last if corner.lands_parallel_to is None}
     yield from (f"{name} lands nowhere" for name in sorted(nowhere))
     if not verdict.free and is_closed(system):
         chosen = {choice.point for choice in profile.choices}
