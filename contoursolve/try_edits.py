@@ -6,7 +6,7 @@ from msgspec import Struct
 
 from contoursolve import gcode
 from contoursolve.api import solve
-from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits
+from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, change, drop
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.gcode import Program
 from contoursolve.program.pipeline import Result
@@ -66,8 +66,7 @@ def _edit(program: Program, address: str, text: str) -> Edit:
     words = [word for block in program.blocks for word in block.words if word.address == address.upper()]
     if len(words) != 1:
         raise ValueError(f"the block has {len(words)} words {address}; exactly one can be dropped or changed")
-    kind = EditKind.CHANGE if text else EditKind.DROP
-    return Edit(kind, words[0].address, words[0].span, words[0].text, text)
+    return change(words[0], text) if text else drop(words[0])
 
 
 def completions(

@@ -13,6 +13,8 @@ from contoursolve.analysis import analyse, order
 from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
 from contoursolve.diagnosis.examples import ends, propose, sampled
+from contoursolve.diagnosis.explain import errors_and_warnings
+from contoursolve.diagnosis.spelling import shapes_of
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnosis.typo_fixes import (
     FEW,
@@ -58,22 +60,6 @@ SLOW = 15
 """Drafts that one with a step between these counts for; it can take a second."""
 
 
-class Before(Struct, frozen=True):
-    """The contour before its repair: its codes, its path if there is one, and where the next block's line ends."""
-
-    codes: frozenset[str]
-    contour: Contour | None
-    next_place: tuple[Decimal, Decimal] | None = None
-    following: tuple[Block, ...] = ()
-    """The blocks after it, of which a corner needs one."""
-    blamed: frozenset[Span] = frozenset()
-    """The words that findings are about."""
-    previous: tuple[Sequence[Block], State] | None = None
-    """What is before it, and the state before that: with its commas in place, it may be the end of it."""
-    is_redundant: bool = False
-    """Whether its words say something twice, and agree."""
-
-
 class Repair(Struct, frozen=True):
     """A change of a block that the control accepts, with the block that it makes.
 
@@ -114,11 +100,304 @@ class Repairs(Struct, frozen=True):
     is_complete: bool
 
 
+class Trial(Struct, frozen=True):
+    """The contour that edits are tried on, as it is before: its codes, its path if there is one, and where the next
+    block's line ends."""
+
+    claim: ParsedContour
+    dialect: Dialect
+    codes: frozenset[str]
+    contour: Contour | None
+    next_place: tuple[Decimal, Decimal] | None = None
+    following: tuple[Block, ...] = ()
+    """The blocks after it, of which a corner needs one."""
+    blamed: frozenset[Span] = frozenset()
+    """The words that findings are about."""
+    previous: tuple[Sequence[Block], State] | None = None
+    """What is before it, and the state before that: with its commas in place, it may be the end of it."""
+    is_redundant: bool = False
+    """Whether its words say something twice, and agree."""
+
+    def repair(self, edits: tuple[Edit, ...]) -> Repair | None:
+        """The repair with the reasons for it, if it is one."""
+        repair = self._solve(edits)
+        if repair is None:
+            return None
+        found = tuple(recognise(edit, self.claim) or (ROUND if _is_round(edit) else None) for edit in edits)
+        reason = max(Why.SLIP if slip else edit.reason for edit, slip in zip(edits, found, strict=True))
+        is_blamed = not self.blamed or any(edit.span in self.blamed for edit in edits)
+        return replace(repair, reason=reason, slips=found, is_blamed=is_blamed)
+
+    def _solve(self, edits: tuple[Edit, ...]) -> Repair | None:
+        """The repair, if the changed block is read as the same form, accepted, and solved without a finding."""
+        claim = self.claim
+        texts = apply_edits(claim.blocks, edits)
+        if texts == tuple(block.text for block in claim.blocks) and all(edit.is_in_block for edit in edits):
+            return None
+        replacement = "\n".join(texts)
+        if any(edit.is_placeholder for edit in edits):
+            example, kind = self._example(edits), Applicability.PLACEHOLDER
+            return Repair(edits, replacement, kind, None, 0.0, example=example) if example else None
+        answer = self.examine(edits)
+        if answer is None:
+            paths = (self._path_in_parts, self._path_beside_arcs) if _is_about_corners(edits, claim) else ()
+            contour = next(filter(None, (path(edits) for path in paths)), None)
+            return self._making(contour, edits, replacement) if contour else None
+        if answer.contour is None or not _is_settled(answer, edits):
+            return None
+        # No change of the block moves its start.
+        findings = [
+            each for each in errors_and_warnings(answer.diagnostics) if each.about is not ReadIssue.START_IN_INCREMENTS
+        ]
+        rules = [each for each in findings if _is_crossing(each)]
+        if answer.profile.is_extended:
+            # Rules of the manual only warn where more is stated or asked than the control reads.
+            rules += [each for each in findings if each.about is None and each.severity is Severity.WARNING]
+        if all(edit.kind is EditKind.ADD and edit.address in _choices(claim) for edit in edits):
+            # Either sign makes the contour where two elements only touch.
+            rules += [each for each in findings if each.about is NoteKind.TOUCHES]
+        if not all(each in rules or self._now_agrees(each) for each in findings):
+            return None
+        if answer.contour.crossing is not None and self.codes == {each.code for each in rules if _is_crossing(each)}:
+            return None
+        repair = self._making(answer.contour, edits, replacement)
+        is_safe = repair.applicability is Applicability.SAFE and not any(_drops_more(edit, claim) for edit in edits)
+        return replace(
+            repair,
+            applicability=Applicability.SAFE if is_safe else Applicability.CHANGES_CONTOUR,
+            warnings=sum(each.code not in self.codes for each in rules),
+            is_exact=all(each.about is not NoteKind.RADIUS_DIFFERS for each in answer.diagnostics),
+        )
+
+    def _making(self, contour: Contour, edits: tuple[Edit, ...], replacement: str) -> Repair:
+        """The repair that makes a contour, which may be parted into several, and lines between them."""
+        reference = self.contour
+        deviation = contour.deviation(reference) if reference else float("inf")
+        is_same = reference is not None and contour.is_alike(reference) and deviation <= AGREEMENT
+        # Hardly anybody means a path across the spindle axis, unless it was there before.
+        is_across = contour.crossing is not None and (reference is None or reference.crossing is None)
+        applicability = Applicability.SAFE if is_same else Applicability.CHANGES_CONTOUR
+        return Repair(
+            edits, replacement, applicability, contour, deviation, drawbacks=("across the spindle axis",) * is_across
+        )
+
+    def _path_in_parts(self, edits: tuple[Edit, ...]) -> Contour | None:
+        """The path of blocks that are several contours, or plain lines, without the corners that are dropped. None
+        where one of them is not sound, or more than lines and contours is left."""
+        claim, dialect = self.claim, self.dialect
+        blocks = [
+            parse_block(text, block.line, block.syntax)
+            for text, block in zip(apply_edits(claim.blocks, edits), claim.blocks, strict=True)
+        ]
+        state, index, elements = claim.before, 0, list[Segment]()
+        start = here = _place(state)
+        while index < len(blocks) and here is not None:
+            part = dialect.find(blocks, index, state, dialect.modes)
+            if isinstance(part, ParsedContour):
+                answer = examine(part, dialect.rules, Policy.ENFORCE, lambda: None)
+                if not (part.form.is_contour and _is_sound(answer) and answer.contour):
+                    return None
+                elements += answer.contour.elements
+                state, index = leave(part, answer.contour.end, dialect.modes), index + len(part.blocks)
+            else:
+                state, index = advance(state, blocks[index], dialect.modes), index + 1
+                there = _place(state)
+                if there is None or state.motion != _LINE:
+                    return None
+                elements += [LineSegment(f"line {index}", here, there)] if there != here else []
+            here = _place(state)
+        return Contour(start, here, {}, tuple(elements), claim.before.plane) if start and here else None
+
+    def _path_beside_arcs(self, edits: tuple[Edit, ...]) -> Contour | None:
+        """The path of the same elements, arcs among them, without the words that are dropped, if it is sound."""
+        claim, spans = self.claim, {edit.span for edit in edits}
+        words = {name: word for name, word in claim.words.items() if word.span not in spans}
+        givens = {name: each for name, each in claim.givens.items() if name in words or name not in claim.words}
+        answer = examine(dataclasses.replace(claim, words=words, givens=givens), self.dialect.rules, Policy.ENFORCE)
+        return answer.contour if _is_sound(answer) else None
+
+    def _now_agrees(self, finding: Diagnostic) -> bool:
+        """Whether a finding that the block did not have before says only that a word now agrees."""
+        is_new = finding.code not in self.codes and not self.is_redundant and finding.severity is Severity.WARNING
+        return is_new and finding.values.get("off_by_mm", float("inf")) <= AGREEMENT
+
+    def examine(self, edits: tuple[Edit, ...]) -> Answer | None:
+        """The answer to the edited blocks; None where they are not read as the same contour any more."""
+        found = self.find(edits)
+        if found is None or self._largest_step(found) > LARGEST_STEP:
+            return None
+        return examine(found, self.dialect.rules, Policy.ENFORCE, lambda: self.next_place, Depth.TRIAL)
+
+    def extra(self, edits: tuple[Edit, ...]) -> int:
+        """How many more drafts trying these edits counts for."""
+        found = self.find(edits) if self.claim.directives else None
+        return SLOW - 1 if found and EASY_STEP < self._largest_step(found) <= LARGEST_STEP else 0
+
+    def _largest_step(self, found: ParsedContour) -> int:
+        """The number of unknowns that further facts make one step determine together; 0 for ordinary words."""
+        profile = self._stated(found)
+        if profile is None or not profile.is_extended:
+            return 0
+        system = assemble(profile)
+        verdict = analyse(system)
+        if not verdict.is_determined:
+            return 0
+        return max(len(group.unknowns) for group in order(system, [system.facts[index] for index in verdict.basis]))
+
+    def find(self, edits: tuple[Edit, ...]) -> ParsedContour | None:
+        """The edited blocks as they are read; None where they are not the same contour any more."""
+        claim, dialect = self.claim, self.dialect
+        texts = apply_edits(claim.blocks, edits)
+        lines = [
+            (part, block.line) for text, block in zip(texts, claim.blocks, strict=True) for part in text.split("\n")
+        ]
+        ahead, blocks, behind = _parted([parse_block(*line, dialect.modes.syntax) for line in lines], edits)
+        state = claim.before
+        for block in ahead:
+            state = advance(state, block, dialect.modes)
+        apart = edit_facts([each for each in claim.directives if each.span.line < 0], edits)
+        blocks[-1] = replace(blocks[-1], directives=(*blocks[-1].directives, *apart))
+        is_about_commas = all(map(_is_comma, edits))
+        more = self.following if is_about_commas else ()
+        if is_about_commas and self.previous and self.previous[0][-1].line < blocks[0].line:
+            whole = dialect.find([*self.previous[0], *blocks, *more], 0, self.previous[1], dialect.modes)
+            if isinstance(whole, ParsedContour) and whole.blocks[-1].line >= blocks[-1].line:
+                return whole
+        found = dialect.find([*blocks, *more], 0, state, dialect.modes)
+        others = (dialect.find([*ahead, *behind], index, state, dialect.modes) for index in range(len(ahead + behind)))
+        if not isinstance(found, ParsedContour) or any(isinstance(each, ParsedContour) for each in others):
+            return None
+        return found if len(found.blocks) == len(blocks) or (more and len(found.blocks) > len(blocks)) else None
+
+    def _example(self, edits: tuple[Edit, ...]) -> tuple[Edit, ...] | None:
+        """The edits with a number for every placeholder that makes a contour; as they are where further facts determine
+        a drawing that has no closed form. None if nothing is found."""
+        found = self.find(sampled(edits))
+        profile = self._stated(found) if found else None
+        if found is None or profile is None:
+            return None
+        if profile.is_extended:
+            system = assemble(profile)
+            if not analyse(system).is_determined:
+                return None
+            if not is_closed(system):
+                return edits
+        affine = affine_facts(profile, profile.facts)
+        if affine is not None and affine.freedoms():
+            return None
+        return next((each for each in propose(found, profile, edits) if self.repair(each)), None)
+
+    def with_ends(self, repair: Repair) -> Repair:
+        """A repair with a placeholder, with the numbers between which that of its example stands."""
+        found = self.find(repair.example) if repair.example != repair.edits else None
+        if found is None:
+            return repair
+
+        def is_accepted(edits: tuple[Edit, ...]) -> bool:
+            return self.repair(edits) is not None
+
+        profile = self._stated(found)
+        return replace(repair, ends=tuple(ends(found, profile, repair.edits, is_accepted))) if profile else repair
+
+    def _stated(self, claim: ParsedContour) -> Profile | None:
+        """The profile of a contour with its further facts; None if one of them cannot be used."""
+        profile = read(claim, frozenset())
+        if not profile.is_extended:
+            return profile
+        from contoursolve.statements import apply_statements  # noqa: PLC0415 - few blocks state more than their words
+
+        profile, faults = apply_statements(profile, claim.directives, lambda: self.next_place)
+        return None if faults else profile
+
+
+def _is_round(edit: Edit) -> bool:
+    """Whether a word gets a round number from the others, which hardly happens by chance."""
+    return edit.why is Why.AGREES and len(edit.text.partition(".")[2]) <= 1 and edit.kind is EditKind.CHANGE
+
+
+def _choices(claim: ParsedContour) -> set[str]:
+    """The addresses of words of which only the sign counts."""
+    return {claim.vocabulary[name][0] for name in claim.form.choices if name in claim.vocabulary}
+
+
+def _is_about_corners(edits: tuple[Edit, ...], claim: ParsedContour) -> bool:
+    """Whether all that is done is to leave out corners, and the angles of lines whose ends are stated."""
+    sizes = (name for name in shapes_of(claim) if name in claim.words)
+    spans = {claim.words[name].span for name in (*sizes, *_spare_angles(claim))}
+    return all(edit.kind is EditKind.DROP and edit.span in spans for edit in edits)
+
+
+def _spare_angles(claim: ParsedContour) -> Iterator[str]:
+    """The angles of lines that have both coordinates of their end, and begin where the block before ends."""
+    prefixes = {role.prefixes[0] for role in claim.form.roles if role.name == "line"}
+    for row in claim.form.facts:
+        given = row.fact.given or ""
+        prefix = given[: given.find(":") + 1]
+        if isinstance(row.fact, Heading) and given in claim.words and prefix in prefixes:
+            stated = {
+                name.removeprefix(prefix).removesuffix("-step") for name in claim.words if name.startswith(prefix)
+            }
+            if stated >= {"first", "second"}:
+                yield given
+
+
+def _is_sound(answer: Answer) -> bool:
+    return answer.status is Status.SOLVED and not errors_and_warnings(answer.diagnostics)
+
+
+_LINE = 1
+"""The motion code of a line."""
+
+
+def _place(state: State) -> Point | None:
+    """Where the tool is in the plane, mm, if that is known."""
+    first, second = state.start().values
+    return None if first is None or second is None else (float(first), float(second))
+
+
+def _drops_more(edit: Edit, claim: ParsedContour) -> bool:
+    """Whether a word is dropped that does something besides the contour, or moves an axis outside the plane: the
+    contour is the same, what the machine does is not."""
+    row = claim.lexicon.addresses.get(edit.address)
+    is_beside = row is not None and bool(row.axis) and row.axis not in claim.before.plane.axes
+    return edit.kind is EditKind.DROP and (is_beside or edit.errand is not None)
+
+
+def _is_settled(answer: Answer, edits: tuple[Edit, ...]) -> bool:
+    """Whether it is solved. A value that was corrected may then say what the others say."""
+    if answer.status is Status.OVERDETERMINED:
+        if answer.claim.form.is_general:
+            return True
+        return answer.profile.is_extended and any(edit.kind is EditKind.CHANGE for edit in edits)
+    return answer.status is Status.SOLVED
+
+
+def _is_crossing(finding: Diagnostic) -> bool:
+    """Whether the path crosses the spindle axis, which may be meant."""
+    return finding.about is ReadIssue.AXIS_CROSSED
+
+
+def _is_comma(edit: Edit) -> bool:
+    """Whether the address gets a comma or loses it, or becomes another one of several letters."""
+    if edit.kind is not EditKind.CHANGE or edit.text == edit.old:
+        return False
+    is_long = len(edit.address.lstrip(",")) > 1 and not edit.text.upper().startswith(edit.address)
+    return is_long or edit.text.strip(", ") == edit.old.strip(", ")
+
+
+def _parted(blocks: list[Block], edits: tuple[Edit, ...]) -> tuple[list[Block], list[Block], list[Block]]:
+    """Blocks as those of words that were moved before the contour, its own, and those of words moved behind it."""
+    sides = [edit.errand.side for edit in edits if edit.kind is EditKind.MOVE and edit.errand]
+    first, last = sides.count(Side.BEFORE), len(blocks) - sides.count(Side.BEHIND)
+    return blocks[:first], blocks[first:last], blocks[last:]
+
+
+# Ranking -------------------------------------------------------------------------------------------------------------
+
+
 def choose_repairs(
-    claim: ParsedContour,
-    dialect: Dialect,
+    trial: Trial,
     stages: Iterable[Iterable[tuple[Edit, ...]]],
-    before: Before,
     slips: Iterable[tuple[Edit, ...]] = (),
     digits: Iterable[tuple[Edit, ...]] = (),
     radii: Iterable[tuple[Edit, ...]] = (),
@@ -133,7 +412,7 @@ def choose_repairs(
 
     def try_slips(drafts: Iterable[tuple[Edit, ...]], enough: int, *, is_round: bool = False) -> None:
         for edits in islice(drafts, MOST_SLIPS):
-            repair = _try(claim, dialect, edits, before)
+            repair = trial.repair(edits)
             if is_round and repair and not _has_round_points(repair):
                 continue
             if repair and not any(set(other.edits) <= set(edits) for other in found):
@@ -144,7 +423,8 @@ def choose_repairs(
     try_slips(slips, MOST_SLIPS)
     try_slips(radii, MOST_SLIPS, is_round=True)
     spent = 0
-    most = MOST_TRIED if len(claim.blocks) <= LARGEST_ROLE else max(8, 2 * MOST_TRIED // len(claim.blocks))
+    length = len(trial.claim.blocks)
+    most = MOST_TRIED if length <= LARGEST_ROLE else max(8, 2 * MOST_TRIED // length)
     considered = 0
     for edits in chain.from_iterable(stages):
         considered += 1
@@ -152,17 +432,17 @@ def choose_repairs(
             break
         if edits not in tried and not any(set(other.edits) <= set(edits) for other in found):
             tried.add(edits)
-            repair = _try(claim, dialect, edits, before)
+            repair = trial.repair(edits)
             found += [repair] if repair else []
-            spent += _extra(claim, dialect, edits, before)
+            spent += trial.extra(edits)
     if not any(each.reason in _STRONG and each.is_exact and not each.drawbacks for each in found):
         try_slips(digits, MOST_OF_DIGITS)
     found = [repair for repair in found if not any(set(other.edits) < set(repair.edits) for other in found)]
     found.sort(key=_order)
     found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
     is_complete = len(tried) + spent <= most and considered <= MOST_CONSIDERED
-    found = [_with_ends(each, claim, dialect, before) if each.example else each for each in found]
-    return Repairs(tuple(_large_last(found, before)), is_complete=is_complete)
+    found = [trial.with_ends(each) if each.example else each for each in found]
+    return Repairs(tuple(_large_last(found, trial.contour)), is_complete=is_complete)
 
 
 def _order(repair: Repair) -> tuple[object, ...]:
@@ -198,14 +478,14 @@ def _order(repair: Repair) -> tuple[object, ...]:
     )
 
 
-def _large_last(found: list[Repair], before: Before) -> list[Repair]:
+def _large_last(found: list[Repair], before: Contour | None) -> list[Repair]:
     """Repairs in order, behind the others those that make the contour more than twice as large as it was, or as the
     first one makes it; of several by the same slip in one word, as the smallest one. A slip that makes it several times
     as large as another slip does goes there, too."""
     sizes = [_size(each.contour) for each in found if each.contour and _is_alike(each, found[0])]
-    if before.contour is None and not sizes:
+    if before is None and not sizes:
         return found
-    largest = 2 * (_size(before.contour) if before.contour else min(sizes))
+    largest = 2 * (_size(before) if before else min(sizes))
     by_slips = [_size(each.contour) for each in found if each.contour and each.reason is Why.SLIP]
     largest = min([largest, *(_SEVERAL * size for size in by_slips)])
     large = [
@@ -249,303 +529,9 @@ def _is_alike(repair: Repair, other: Repair) -> bool:
 _STRONG = (Why.ROUNDED, Why.SLIP, Why.FITS)
 _SEVERAL, _DECIMALS, _LONG = 5, 3, 6
 _LARGE = "more than twice as large"
-_ACROSS = "across the spindle axis"
 
 
 def _size(contour: Contour) -> float:
     """The larger side of the rectangle around the points of a path, mm."""
     points = [contour.start, *(element.end for element in contour.elements)]
     return max(max(each[axis] for each in points) - min(each[axis] for each in points) for axis in (0, 1))
-
-
-def _drawbacks(contour: Contour, reference: Contour | None) -> Iterator[str]:
-    """What the path does that hardly anybody means, unless it did so before."""
-    if contour.crossing is not None and (reference is None or reference.crossing is None):
-        yield _ACROSS
-
-
-def _try(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Repair | None:
-    """The repair with the reasons for it, if it is one."""
-    repair = _solve_edited(claim, dialect, edits, before)
-    if repair is None:
-        return None
-    found = tuple(recognise(edit, claim) or (ROUND if _is_round(edit) else None) for edit in edits)
-    reason = max(Why.SLIP if slip else edit.reason for edit, slip in zip(edits, found, strict=True))
-    is_blamed = not before.blamed or any(edit.span in before.blamed for edit in edits)
-    return replace(repair, reason=reason, slips=found, is_blamed=is_blamed)
-
-
-def _is_round(edit: Edit) -> bool:
-    """Whether a word gets a round number from the others, which hardly happens by chance."""
-    return edit.why is Why.AGREES and len(edit.text.partition(".")[2]) <= 1 and edit.kind is EditKind.CHANGE
-
-
-def _solve_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Repair | None:
-    """The repair, if the changed block is read as the same form, accepted, and solved without a finding."""
-    texts = apply_edits(claim.blocks, edits)
-    if texts == tuple(block.text for block in claim.blocks) and all(edit.is_in_block for edit in edits):
-        return None
-    replacement = "\n".join(texts)
-    if any(edit.is_placeholder for edit in edits):
-        example = _example(claim, dialect, edits, before)
-        return Repair(edits, replacement, Applicability.PLACEHOLDER, None, 0.0, example=example) if example else None
-    answer = examine_edited(claim, dialect, edits, before)
-    if answer is None:
-        paths = (_path_in_parts, _path_beside_arcs) if _is_about_corners(edits, claim) else ()
-        contour = next(filter(None, (path(claim, dialect, edits) for path in paths)), None)
-        return _without_corners(edits, replacement, contour, before) if contour else None
-    if answer.contour is None or not _is_settled(answer, edits):
-        return None
-    # No change of the block moves its start.
-    findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO and not _is_before(each)]
-    rules = [each for each in findings if (answer.profile.is_extended and _is_rule(each)) or _is_crossing(each)]
-    if all(edit.kind is EditKind.ADD and edit.address in _choices(claim) for edit in edits):
-        # Either sign makes the contour where two elements only touch.
-        rules += [each for each in findings if each.about is NoteKind.TOUCHES]
-    if not all(each in rules or _now_agrees(each, before) for each in findings):
-        return None
-    if answer.contour.crossing is not None and before.codes == {each.code for each in rules if _is_crossing(each)}:
-        return None
-    reference = before.contour
-    deviation = answer.contour.deviation(reference) if reference else float("inf")
-    is_same = reference is not None and answer.contour.is_alike(reference) and deviation <= AGREEMENT
-    is_safe = is_same and not any(_drops_more(edit, claim) for edit in edits)
-    applicability = Applicability.SAFE if is_safe else Applicability.CHANGES_CONTOUR
-    warnings = sum(each.code not in before.codes for each in rules)
-    drawbacks = tuple(_drawbacks(answer.contour, reference))
-    is_exact = all(each.about is not NoteKind.RADIUS_DIFFERS for each in answer.diagnostics)
-    return Repair(
-        edits, replacement, applicability, answer.contour, deviation, warnings, is_exact=is_exact, drawbacks=drawbacks
-    )
-
-
-def _choices(claim: ParsedContour) -> set[str]:
-    """The addresses of words of which only the sign counts."""
-    return {claim.vocabulary[name][0] for name in claim.form.choices if name in claim.vocabulary}
-
-
-def _is_about_corners(edits: tuple[Edit, ...], claim: ParsedContour) -> bool:
-    """Whether all that is done is to leave out corners, and the angles of lines whose ends are stated."""
-    sizes = {name for row in claim.form.corners for name in row.shapes if name in claim.words}
-    spans = {claim.words[name].span for name in (*sizes, *_spare_angles(claim))}
-    return all(edit.kind is EditKind.DROP and edit.span in spans for edit in edits)
-
-
-def _spare_angles(claim: ParsedContour) -> Iterator[str]:
-    """The angles of lines that have both coordinates of their end, and begin where the block before ends."""
-    prefixes = {role.prefixes[0] for role in claim.form.roles if role.name == "line"}
-    for row in claim.form.facts:
-        given = row.fact.given or ""
-        prefix = given[: given.find(":") + 1]
-        if isinstance(row.fact, Heading) and given in claim.words and prefix in prefixes:
-            stated = {
-                name.removeprefix(prefix).removesuffix("-step") for name in claim.words if name.startswith(prefix)
-            }
-            if stated >= {"first", "second"}:
-                yield given
-
-
-def _without_corners(edits: tuple[Edit, ...], replacement: str, contour: Contour, before: Before) -> Repair:
-    """The repair that parts a contour into several, and lines between them."""
-    deviation = contour.deviation(before.contour) if before.contour else float("inf")
-    drawbacks = tuple(_drawbacks(contour, before.contour))
-    is_same = before.contour is not None and contour.is_alike(before.contour) and deviation <= AGREEMENT
-    applicability = Applicability.SAFE if is_same else Applicability.CHANGES_CONTOUR
-    return Repair(edits, replacement, applicability, contour, deviation, drawbacks=drawbacks)
-
-
-def _path_in_parts(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...]) -> Contour | None:
-    """The path of blocks that are several contours, or plain lines, without the corners that are dropped. None where
-    one of them is not sound, or more than lines and contours is left."""
-    blocks = [
-        parse_block(text, block.line, block.syntax)
-        for text, block in zip(apply_edits(claim.blocks, edits), claim.blocks, strict=True)
-    ]
-    state, index, elements = claim.before, 0, list[Segment]()
-    start = here = _place(state)
-    while index < len(blocks) and here is not None:
-        part = dialect.find(blocks, index, state, dialect.modes)
-        if isinstance(part, ParsedContour):
-            answer = examine(part, dialect.rules, Policy.ENFORCE, lambda: None)
-            is_sound = all(each.severity is Severity.INFO for each in answer.diagnostics)
-            if not (part.form.is_contour and is_sound and answer.status is Status.SOLVED and answer.contour):
-                return None
-            elements += answer.contour.elements
-            state, index = leave(part, answer.contour.end, dialect.modes), index + len(part.blocks)
-        else:
-            state, index = advance(state, blocks[index], dialect.modes), index + 1
-            there = _place(state)
-            if there is None or state.motion != _LINE:
-                return None
-            elements += [LineSegment(f"line {index}", here, there)] if there != here else []
-        here = _place(state)
-    return Contour(start, here, {}, tuple(elements), claim.before.plane) if start and here else None
-
-
-def _path_beside_arcs(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...]) -> Contour | None:
-    """The path of the same elements without the words that are dropped, arcs among them; None if it is not sound."""
-    spans = {edit.span for edit in edits}
-    words = {name: word for name, word in claim.words.items() if word.span not in spans}
-    givens = {name: each for name, each in claim.givens.items() if name in words or name not in claim.words}
-    answer = examine(dataclasses.replace(claim, words=words, givens=givens), dialect.rules, Policy.ENFORCE)
-    is_sound = answer.status is Status.SOLVED and all(each.severity is Severity.INFO for each in answer.diagnostics)
-    return answer.contour if is_sound else None
-
-
-_LINE = 1
-"""The motion code of a line."""
-
-
-def _place(state: State) -> Point | None:
-    """Where the tool is in the plane, mm, if that is known."""
-    first, second = state.start().values
-    return None if first is None or second is None else (float(first), float(second))
-
-
-def _drops_more(edit: Edit, claim: ParsedContour) -> bool:
-    """Whether a word is dropped that does something besides the contour, or moves an axis outside the plane: the
-    contour is the same, what the machine does is not."""
-    row = claim.lexicon.addresses.get(edit.address)
-    is_beside = row is not None and bool(row.axis) and row.axis not in claim.before.plane.axes
-    return edit.kind is EditKind.DROP and (is_beside or edit.errand is not None)
-
-
-def _is_settled(answer: Answer, edits: tuple[Edit, ...]) -> bool:
-    """Whether it is solved. A value that was corrected may then say what the others say."""
-    if answer.status is Status.OVERDETERMINED:
-        if answer.claim.form.is_general:
-            return True
-        return answer.profile.is_extended and any(edit.kind is EditKind.CHANGE for edit in edits)
-    return answer.status is Status.SOLVED
-
-
-def _is_before(finding: Diagnostic) -> bool:
-    """Whether it is about what stands before the contour."""
-    return finding.about is ReadIssue.START_IN_INCREMENTS
-
-
-def _is_crossing(finding: Diagnostic) -> bool:
-    """Whether the path crosses the spindle axis, which may be meant."""
-    return finding.about is ReadIssue.AXIS_CROSSED
-
-
-def _is_rule(finding: Diagnostic) -> bool:
-    """Whether it is a rule of the manual, which only warns where more is stated or asked than the control reads."""
-    return finding.about is None and finding.severity is Severity.WARNING
-
-
-def _now_agrees(finding: Diagnostic, before: Before) -> bool:
-    """Whether a finding that the block did not have before says only that a word now agrees."""
-    is_new = finding.code not in before.codes and not before.is_redundant and finding.severity is Severity.WARNING
-    return is_new and finding.values.get("off_by_mm", float("inf")) <= AGREEMENT
-
-
-def examine_edited(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> Answer | None:
-    """The answer to the edited blocks; None where they are not read as the same contour any more."""
-    found = find_edited(claim, dialect, edits, before)
-    if found is None or _largest_step(found, before) > LARGEST_STEP:
-        return None
-    return examine(found, dialect.rules, Policy.ENFORCE, lambda: before.next_place, Depth.TRIAL)
-
-
-def _extra(claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> int:
-    """How many more drafts trying these edits counts for."""
-    found = find_edited(claim, dialect, edits, before) if claim.directives else None
-    return SLOW - 1 if found and EASY_STEP < _largest_step(found, before) <= LARGEST_STEP else 0
-
-
-def _largest_step(found: ParsedContour, before: Before) -> int:
-    """The number of unknowns that further facts make one step determine together; 0 for ordinary words."""
-    profile = _stated(found, before)
-    if profile is None or not profile.is_extended:
-        return 0
-    system = assemble(profile)
-    verdict = analyse(system)
-    if not verdict.is_determined:
-        return 0
-    return max(len(group.unknowns) for group in order(system, [system.facts[index] for index in verdict.basis]))
-
-
-def _is_comma(edit: Edit) -> bool:
-    """Whether the address gets a comma or loses it, or becomes another one of several letters."""
-    if edit.kind is not EditKind.CHANGE or edit.text == edit.old:
-        return False
-    is_long = len(edit.address.lstrip(",")) > 1 and not edit.text.upper().startswith(edit.address)
-    return is_long or edit.text.strip(", ") == edit.old.strip(", ")
-
-
-def find_edited(
-    claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before
-) -> ParsedContour | None:
-    """The edited blocks as they are read; None where they are not the same contour any more."""
-    texts = apply_edits(claim.blocks, edits)
-    lines = [(part, block.line) for text, block in zip(texts, claim.blocks, strict=True) for part in text.split("\n")]
-    ahead, blocks, behind = _parted([parse_block(*line, dialect.modes.syntax) for line in lines], edits)
-    state = claim.before
-    for block in ahead:
-        state = advance(state, block, dialect.modes)
-    apart = edit_facts([each for each in claim.directives if each.span.line < 0], edits)
-    blocks[-1] = replace(blocks[-1], directives=(*blocks[-1].directives, *apart))
-    is_about_commas = all(map(_is_comma, edits))
-    more = before.following if is_about_commas else ()
-    if is_about_commas and before.previous and before.previous[0][-1].line < blocks[0].line:
-        whole = dialect.find([*before.previous[0], *blocks, *more], 0, before.previous[1], dialect.modes)
-        if isinstance(whole, ParsedContour) and whole.blocks[-1].line >= blocks[-1].line:
-            return whole
-    found = dialect.find([*blocks, *more], 0, state, dialect.modes)
-    others = (dialect.find([*ahead, *behind], index, state, dialect.modes) for index in range(len(ahead + behind)))
-    if not isinstance(found, ParsedContour) or any(isinstance(each, ParsedContour) for each in others):
-        return None
-    return found if len(found.blocks) == len(blocks) or (more and len(found.blocks) > len(blocks)) else None
-
-
-def _parted(blocks: list[Block], edits: tuple[Edit, ...]) -> tuple[list[Block], list[Block], list[Block]]:
-    """Blocks as those of words that were moved before the contour, its own, and those of words moved behind it."""
-    sides = [edit.errand.side for edit in edits if edit.kind is EditKind.MOVE and edit.errand]
-    first, last = sides.count(Side.BEFORE), len(blocks) - sides.count(Side.BEHIND)
-    return blocks[:first], blocks[first:last], blocks[last:]
-
-
-def _example(
-    claim: ParsedContour, dialect: Dialect, edits: tuple[Edit, ...], before: Before
-) -> tuple[Edit, ...] | None:
-    """The edits with a number for every placeholder that makes a contour; as they are where further facts determine a
-    drawing that has no closed form. None if nothing is found."""
-    found = find_edited(claim, dialect, sampled(edits), Before(frozenset(), None))
-    profile = _stated(found, before) if found else None
-    if found is None or profile is None:
-        return None
-    if profile.is_extended:
-        system = assemble(profile)
-        if not analyse(system).is_determined:
-            return None
-        if not is_closed(system):
-            return edits
-    affine = affine_facts(profile, profile.facts)
-    if affine is not None and affine.freedoms():
-        return None
-    return next((each for each in propose(found, profile, edits) if _try(claim, dialect, each, before)), None)
-
-
-def _with_ends(repair: Repair, claim: ParsedContour, dialect: Dialect, before: Before) -> Repair:
-    """A repair with a placeholder, with the numbers between which that of its example stands."""
-    found = find_edited(claim, dialect, repair.example, before) if repair.example != repair.edits else None
-    if found is None:
-        return repair
-
-    def is_accepted(edits: tuple[Edit, ...]) -> bool:
-        return _try(claim, dialect, edits, before) is not None
-
-    profile = _stated(found, before)
-    return replace(repair, ends=tuple(ends(found, profile, repair.edits, is_accepted))) if profile else repair
-
-
-def _stated(claim: ParsedContour, before: Before) -> Profile | None:
-    """The profile of a contour with its further facts; None if one of them cannot be used."""
-    profile = read(claim, frozenset())
-    if not profile.is_extended:
-        return profile
-    from contoursolve.statements import apply_statements  # noqa: PLC0415 - few blocks state more than their words
-
-    profile, faults = apply_statements(profile, claim.directives, lambda: before.next_place)
-    return None if faults else profile

@@ -8,9 +8,10 @@ from contoursolve.analysis import analyse, decompose
 from contoursolve.diagnosis.attempt import Repair
 from contoursolve.diagnosis.edits import EditKind, apply_edits
 from contoursolve.diagnosis.examine import Answer, Policy
+from contoursolve.diagnosis.explain import errors_and_warnings, facts_at, spans_of
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
-from contoursolve.diagnosis.wording import SHOWN, join, length_text, place_text
+from contoursolve.diagnosis.wording import SHOWN, count, join, length_text, place_text
 from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Fix, Label, Layer, Severity, Tie, Verdict
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Block, FaultKind, Word
@@ -37,10 +38,12 @@ def diagnose(
     circuits, is_every_tie = affine.circuits() if affine and is_readable else NO_CIRCUITS
     freedoms = affine.freedoms() if affine and is_readable else ()
     repairs = find_repairs(answer, dialect, tuple(following), previous)
+    # Of facts that are not all about lines between points, findings show ties.
+    other_ties = _further_ties if profile.is_extended else _circle_ties
     diagnosis = Diagnosis(
         layers=list_layers(answer, policy),
         freedoms=freedoms,
-        ties=tuple(_tie(answer, affine, each) for each in circuits if affine) or tuple(_other_ties(answer)),
+        ties=tuple(_tie(answer, affine, each) for each in circuits if affine) or tuple(other_ties(answer)),
         ties_complete=is_readable and is_every_tie and answer.start.is_known and not profile.is_extended,
         repairs_complete=repairs.is_complete,
     )
@@ -85,7 +88,7 @@ def mend_points(answer: Answer, dialect: Dialect) -> Answer:
     repairs = find_repairs(answer, dialect).repairs
     findings = []
     for finding in answer.diagnostics:
-        spans = {label.span for label in finding.labels if finding.about is ReadIssue.POINT_MISSING}
+        spans = spans_of([finding], ReadIssue.POINT_MISSING)
         own = (repair for repair in repairs if any(edit.span in spans for edit in repair.edits))
         findings.append(replace(finding, fixes=tuple(_fix(answer, repair) for repair in own)))
     return replace(answer, diagnostics=tuple(findings))
@@ -140,11 +143,6 @@ def _address(word: Word) -> str:
     return word.text if word.address == FACT else word.address
 
 
-def _other_ties(answer: Answer) -> Iterator[Tie]:
-    """What findings show of ties between facts that are not all about lines between points."""
-    return _further_ties(answer) if answer.profile.is_extended else _circle_ties(answer)
-
-
 def _further_ties(answer: Answer) -> Iterator[Tie]:
     """For each word or fact that says again what others say, those others and itself."""
     from contoursolve.solving.ambiguity import tied_with  # noqa: PLC0415 - few blocks state more than their words
@@ -152,15 +150,11 @@ def _further_ties(answer: Answer) -> Iterator[Tie]:
     profile = answer.profile
     system = assemble(profile)
     for finding in answer.diagnostics:
-        for fact in profile.facts if finding.about in _SAID_AGAIN else ():
-            word = profile.givens[fact.given].word if fact.given else None
-            if word is None or word.span != finding.span:
-                continue
+        for fact in facts_at(profile, finding.span)[:1] if finding.about in _SAID_AGAIN else ():
             words = (profile.givens[name].word for name in tied_with(system, fact))
             addresses = (_address(each) for each in words if each)
             is_conflict = finding.severity is Severity.ERROR
             yield Tie(tuple(dict.fromkeys(addresses)), "", finding.values.get("off_by_mm", 0.0), is_conflict)
-            break
 
 
 _SAID_AGAIN = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, NoteKind.WORDS_AGREE)
@@ -262,11 +256,13 @@ def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:
     whole = read(claim, frozenset(fact.given for fact in answer.profile.ignored))
     whole = answer.profile if whole.is_extended else whole
     grammar = [each for each in answer.diagnostics if each.about in _GRAMMAR]
-    refused = [each for each in answer.diagnostics if each.basis is Basis.RULE and _counts(each.severity)]
+    besides = (*_GRAMMAR, ReadIssue.START_IN_INCREMENTS)
     refused = [
-        each for each in refused if each.about not in _GRAMMAR and each.about is not ReadIssue.START_IN_INCREMENTS
+        each
+        for each in errors_and_warnings(answer.diagnostics)
+        if each.basis is Basis.RULE and each.about not in besides
     ]
-    layers = [_layer("grammar", bool(grammar), f"{_count(claim.blocks, 'block')}, every character")]
+    layers = [_layer("grammar", bool(grammar), f"{count(len(claim.blocks), 'block')}, every character")]
     if any(block.faults for block in claim.blocks):
         layers.append(Layer("rules", Verdict.NOT_RUN, "not every word could be read"))
     elif policy is Policy.OFF:
@@ -295,12 +291,12 @@ _EQUATIONS = ("structure", "generic rank", "values", "geometry")
 
 def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
     parts, verdict = decompose(system), analyse(system)
-    size = f"{_count(system.facts, 'equation')}, {_count(system.unknowns, 'unknown')}"
+    size = f"{count(len(system.facts), 'equation')}, {count(len(system.unknowns), 'unknown')}"
     # A point of a circle may be given besides its centre: the control compares the radii, and so do we.
     spare = [system.facts[index] for index in range(len(system.facts)) if index not in verdict.basis]
     is_over = any(not isinstance(fact, OnCircle) for fact in spare)
     if spare and not is_over:
-        size += f", {_count(tuple(spare), 'check')}"
+        size += f", {count(len(spare), 'check')}"
     layers = [_layer("structure", bool(parts.under_unknowns or (parts.over_facts and is_over)), size)]
     rank = f"rank {verdict.rank} of {len(system.unknowns)}, exact"
     # A condition on points and not on words says nothing to a reader.
@@ -344,11 +340,3 @@ _ABOUT_VALUES = (
 
 def _layer(name: str, has_found: bool, remark: str) -> Layer:
     return Layer(name, Verdict.FOUND if has_found else Verdict.PASSED, remark)
-
-
-def _counts(severity: Severity) -> bool:
-    return severity is not Severity.INFO
-
-
-def _count(things: tuple[object, ...], noun: str) -> str:
-    return f"{len(things)} {noun}{'' if len(things) == 1 else 's'}"

@@ -6,12 +6,13 @@ from decimal import Decimal
 from itertools import product
 from math import copysign
 
-from contoursolve.diagnosis.edits import AT_MOST, Edit, EditKind, Why, write_word
+from contoursolve.diagnosis.edits import AT_MOST, Edit, EditKind, Why, change, drop, mend, write_word
 from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.spelling import meant_words, respelled, unanswerable
+from contoursolve.diagnosis.explain import spans_of
+from contoursolve.diagnosis.spelling import meant_in, meant_words, respelled, unanswerable
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import FACT, FaultKind, Word, find_lookalikes, lookalike_at, number_of
+from contoursolve.gcode import FACT, FaultKind, Word, lookalike_at, number_of
 from contoursolve.geometry import Given, Length, Unit
 from contoursolve.reading import Lexicon, ParsedContour, ReadIssue
 from contoursolve.solving import BESIDE, RefusalKind
@@ -24,7 +25,7 @@ _FEW = 8
 def missing_points(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     """Decimal points added to the words that lack them: each alone where others of the block have one, and all."""
     missing = [each for each in answer.diagnostics if each.about is ReadIssue.POINT_MISSING]
-    spans = {label.span for finding in missing for label in finding.labels}
+    spans = spans_of(missing)
     edits = [change(word, word.text + ".") for word in answer.claim.words.values() if word.span in spans]
     if len(missing) == len(spans):
         yield from ((edit,) for edit in edits)
@@ -36,8 +37,7 @@ def commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     """Words that an error is about, with the comma that their address lacks or without the one that it has not: all
     and each alone."""
     claim = answer.claim
-    errors = [each for each in answer.diagnostics if each.severity is Severity.ERROR]
-    blamed = {label.span for finding in errors for label in finding.labels}
+    blamed = spans_of(each for each in answer.diagnostics if each.severity is Severity.ERROR)
     meant = meant_words(claim)
     words = dict.fromkeys(
         (*(word for word in claim.unknown if not lookalike_at(meant, word.span)), *claim.words.values())
@@ -58,10 +58,8 @@ def mended_words(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     for block in claim.blocks:
         unread = [fault.span for fault in block.faults]
         unread += [word.span for word in claim.unknown if word.span.line == block.line]
-        alike = find_lookalikes(block)
-        torn = {each.span for each in (lookalike_at(alike, span) for span in unread) if each}
-        meant |= {each.span: each for each in alike if each.is_code or each.span in torn}
-    edits = [Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new) for each in meant.values()]
+        meant |= {each.span: each for each in meant_in(block, unread)}
+    edits = [mend(each) for each in meant.values()]
     if edits:
         yield tuple(edits)
     if 1 < len(edits) <= _FEW:
@@ -140,16 +138,6 @@ def _is_moved(edit: Edit) -> bool:
     return edit.kind is EditKind.DROP and edit.errand is not None and edit.errand.side is not None
 
 
-def drop(word: Word) -> Edit:
-    """A word, or a fact as a word, taken out."""
-    return Edit(EditKind.DROP, word.address, word.span, word.text)
-
-
-def change(word: Word, text: str, why: Why = Why.OTHER) -> Edit:
-    """A word, or a fact as a word, written with another text."""
-    return Edit(EditKind.CHANGE, word.address, word.span, word.text, text, why=why)
-
-
 def has_faults(claim: ParsedContour) -> bool:
     """Whether some characters are no word, so that it is not known which words the block has."""
     return any(fault.kind is not FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for fault in block.faults)
@@ -159,7 +147,7 @@ def unreadable(claim: ParsedContour) -> Iterator[tuple[Edit, ...]]:
     """What every repair must take out or correct: characters, addresses without a meaning, repetitions. Of an
     address that is given twice, either word may be the one that is meant. Letters for digits become these."""
     meant = meant_words(claim)
-    edits = [Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new) for each in meant]
+    edits = [mend(each) for each in meant]
     unknown = [word for word in claim.unknown if not lookalike_at(meant, word.span)]
     edits += [drop(word) for word in (*unknown, *unanswerable(claim))]
     for block in claim.blocks:

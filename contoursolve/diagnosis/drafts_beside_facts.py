@@ -2,21 +2,22 @@
 
 import re
 from collections.abc import Iterable, Iterator
-from decimal import ROUND_HALF_EVEN, Decimal
+from decimal import Decimal
 from itertools import combinations, product
 
 from contoursolve.analysis import analyse
-from contoursolve.diagnosis.attempt import Before, examine_edited, find_edited
-from contoursolve.diagnosis.drafts import change, drop, marked, mended_words, missing_points, unreadable, variants
-from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, write_word
+from contoursolve.diagnosis.attempt import Trial
+from contoursolve.diagnosis.drafts import marked, mended_words, missing_points, unreadable, variants
+from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, add, change, drop, rounded, write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue
 from contoursolve.diagnosis.examples import sampled
+from contoursolve.diagnosis.explain import errors_and_warnings, facts_at, spans_of
+from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, number_of, spell
-from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Length, Offset, Profile, Unit, assemble, scalar
-from contoursolve.reading import Lexicon, ReadIssue, read
-from contoursolve.reading.dialect import Dialect
+from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Offset, Profile, Unit, assemble, scalar
+from contoursolve.reading import ReadIssue, read
 from contoursolve.reading.rules import check
 from contoursolve.solving import NoteKind, RefusalKind, Status
 from contoursolve.solving.alternatives import choose
@@ -48,11 +49,11 @@ _DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
 _VALUE = re.compile(r"=\s*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))\s*+$")
 
 
-def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator[Iterable[tuple[Edit, ...]]]:
+def further_drafts(answer: Answer, trial: Trial) -> Iterator[Iterable[tuple[Edit, ...]]]:
     """The stages of drafts, simplest first."""
     if answer.claim.form.is_general and answer.status is Status.REJECTED:
-        yield _lawful(answer, dialect, before)
-    findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO and each.about is not None]
+        yield _lawful(answer, trial)
+    findings = [each for each in errors_and_warnings(answer.diagnostics) if each.about is not None]
     if not findings:
         return
     yield mended_words(answer)
@@ -63,14 +64,16 @@ def further_drafts(answer: Answer, dialect: Dialect, before: Before) -> Iterator
     yield _decimal_commas(answer)
     yield _useless(answer, findings)
     twice = [each for each in findings if each.about in _TWICE]
-    ways = _completing(answer, dialect, before) if answer.claim.form.is_general else _additions(answer)
+    ways = _completing(answer, trial) if answer.claim.form.is_general else _additions(answer)
     missing = list(ways) if any(each.about is ReadIssue.UNDERDETERMINED for each in findings) else [()]
     drops = [[(drop(word),) for word in _blamed(answer, each)] for each in twice]
     yield [tuple(dict.fromkeys(sum(choice, ()))) for choice in product(*drops, missing) if any(choice)]
-    yield _corrected(answer, dialect, twice, before)
+    yield _corrected(answer, twice, trial)
     yield _swapped(answer, findings)
     yield _slips(answer, findings)
-    yield from _without_corners(answer, [each for each in findings if each.about is ReadIssue.CORNER_NOWHERE])
+    nowhere = spans_of(findings, ReadIssue.CORNER_NOWHERE)
+    # Corners after which nothing says where the path leads.
+    yield [tuple(drop(word) for word in answer.claim.words.values() if word.span in nowhere)] if nowhere else ()
     yield _exchanged(answer, [each for each in findings if each.about in _NOT_TOGETHER])
 
 
@@ -88,13 +91,6 @@ def _picked(answer: Answer) -> Iterator[tuple[Edit, ...]]:
         places = [lines[profile.figure.path[each.element - 1].name] for each in picks]
         texts = [f"\n{spell(word, str(each.number))}" for each in picks]
         yield tuple(Edit(EditKind.ADD, word, text=text, line=line) for text, line in zip(texts, places, strict=True))
-
-
-def _without_corners(answer: Answer, findings: list[Diagnostic]) -> Iterator[list[tuple[Edit, ...]]]:
-    """Corners after which nothing says where the path leads, taken out."""
-    spans = {label.span for each in findings for label in each.labels}
-    if spans:
-        yield [tuple(drop(word) for word in answer.claim.words.values() if word.span in spans)]
 
 
 def next_place_of(profile: Profile) -> tuple[Decimal, Decimal] | None:
@@ -144,15 +140,10 @@ def _blamed(answer: Answer, finding: Diagnostic) -> list[Word]:
     """The words and facts that say something twice, the one that the finding is about first."""
     profile = answer.profile
     system = assemble(profile)
-    stated = [fact for fact in profile.facts if fact.given and _is_at(profile, fact.given, finding.span)]
+    stated = facts_at(profile, finding.span)
     names = dict.fromkeys(name for fact in stated for name in (fact.given, *tied_with(system, fact)))
     words = (profile.givens[name].word for name in names)
     return list({word.span: word for word in words if word is not None}.values())
-
-
-def _is_at(profile: Profile, name: str, span: Span) -> bool:
-    word = profile.givens[name].word
-    return word is not None and word.span == span
 
 
 def _additions(answer: Answer) -> Iterator[tuple[Edit, ...]]:
@@ -162,30 +153,22 @@ def _additions(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     facts = [row.fact for row in claim.form.facts if row.fact.given in claim.vocabulary]
     asked = {_coordinate(fact) for fact in facts if fact.given in claim.words and claim.words[fact.given].is_asked}
     names = [fact.given for fact in facts if _coordinate(fact) is None or _coordinate(fact) not in asked]
-    absent = [name for name in dict.fromkeys(names) if name not in claim.words]
-    edits = []
-    for name in absent:
-        address, index = claim.vocabulary[name]
-        edits.append(Edit(EditKind.ADD, address, text=spell(address, PLACEHOLDER), line=claim.blocks[index].line))
+    edits = [add(claim, name) for name in dict.fromkeys(names) if name not in claim.words]
     for size in range(1, MOST_ADDED + 1):
         yield from combinations(edits, size)
 
 
-def _completing(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tuple[Edit, ...]]:
+def _completing(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """Words that determine a chain in which any may stand, the usual ones first: each alone, or else two."""
     claim = answer.claim
 
     def freedom(edits: tuple[Edit, ...]) -> int:
-        found = find_edited(claim, dialect, sampled(edits), before)
+        found = trial.find(sampled(edits))
         system = assemble(read(found, frozenset())) if found else None
         return len(system.unknowns) - analyse(system).rank if system else len(claim.vocabulary)
 
-    names = [name for name in claim.form.usual if name not in claim.words and name in claim.vocabulary]
-    places = [claim.vocabulary[name] for name in names]
-    edits = [
-        Edit(EditKind.ADD, address, text=spell(address, PLACEHOLDER), line=claim.blocks[index].line)
-        for address, index in places
-    ]
+    absent = [name for name in claim.form.usual if name not in claim.words and name in claim.vocabulary]
+    edits = [add(claim, name) for name in absent]
     open_ = freedom(())
     helping = [edit for edit in edits if freedom((edit,)) < open_][:MOST_HELPING]
     for size in range(1, MOST_ADDED + 1):
@@ -209,14 +192,14 @@ def _exchanged(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edi
             yield from ((drop(words[span]), *added) for added in _additions(answer) if len(added) == 1)
 
 
-def _corrected(answer: Answer, dialect: Dialect, twice: list[Diagnostic], before: Before) -> Iterator[tuple[Edit, ...]]:
+def _corrected(answer: Answer, twice: list[Diagnostic], trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """One word or fact of those that disagree with the value that the others give it: it is asked for instead."""
     for finding in twice if any(each.severity is Severity.ERROR for each in twice) else ():
         for word in _blamed(answer, finding):
             asking = _with_value(word, PLACEHOLDER)
             if not asking:
                 continue
-            other = examine_edited(answer.claim, dialect, (change(word, asking),), before)
+            other = trial.examine((change(word, asking),))
             for asked in other.answers if other else ():
                 if asked.value is not None and asked.question.word.text == asking:
                     yield (change(word, _with_value(word, _shown(asked, word, answer))),)
@@ -239,22 +222,15 @@ def _shown(asked: AskedValue, word: Word, answer: Answer) -> str:
         value += 360 * round((float(stated) - value) / 360)
     if word.address != FACT:
         return number_of(write_word(word.address, value, lexicon, answer.unit), word.address)
-    return _number(value * (2 if asked.question.is_diameter else 1), unit, answer.unit, lexicon)
-
-
-def _number(value: float, unit: Unit, length: Length, lexicon: Lexicon) -> str:
-    """A number of a fact, mm or degrees, in the program's unit and to the least increment."""
-    numbers, number = lexicon.numbers, Decimal(repr(value))
-    step = numbers.degree if unit is Unit.DEGREE else numbers.inch if length is Length.INCH else numbers.mm
-    number = (number if unit is Unit.DEGREE else number / length.in_mm).quantize(step, ROUND_HALF_EVEN)
-    text = f"{number + 0:f}"
+    number = rounded(value, unit, lexicon, answer.unit, is_diameter=asked.question.is_diameter)
+    text = f"{number:f}"
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
-def _lawful(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tuple[Edit, ...]]:
+def _lawful(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """A word that the rules ask for in a line that they refuse, or one that they refuse taken out."""
     claim = answer.claim
-    offences = check(dialect.rules, claim.form.roles, claim.stated())
+    offences = check(trial.dialect.rules, claim.form.roles, claim.stated())
     lines = {claim.blocks[claim.vocabulary[name][1]].line for name in claim.vocabulary for each in offences
              if name.startswith(each.role.prefixes)}  # fmt: skip
     for name, (address, index) in claim.vocabulary.items():
@@ -262,24 +238,22 @@ def _lawful(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tuple[
         if name in claim.words or line not in lines or row is None:
             continue
         numbers = ("+1", "-1") if row.unit is Unit.SIGN else (PLACEHOLDER,)
-        edits = (Edit(EditKind.ADD, address, text=spell(address, number), line=line) for number in numbers)
-        yield from ((edit,) for edit in edits if _is_lawful(answer, dialect, (edit,), before))
+        edits = (add(claim, name, spell(address, number)) for number in numbers)
+        yield from ((edit,) for edit in edits if _is_lawful((edit,), trial))
     for each in offences:
         edits = (drop(claim.words[name]) for name in each.names if name in claim.words)
-        yield from ((edit,) for edit in edits if _is_lawful(answer, dialect, (edit,), before))
+        yield from ((edit,) for edit in edits if _is_lawful((edit,), trial))
 
 
-def _is_lawful(answer: Answer, dialect: Dialect, edits: tuple[Edit, ...], before: Before) -> bool:
+def _is_lawful(edits: tuple[Edit, ...], trial: Trial) -> bool:
     """Whether no rule refuses the edited blocks."""
-    found = find_edited(answer.claim, dialect, sampled(edits), before)
-    return found is not None and not found.unknown and not check(dialect.rules, found.form.roles, found.stated())
+    found = trial.find(sampled(edits))
+    return found is not None and not found.unknown and not check(trial.dialect.rules, found.form.roles, found.stated())
 
 
 def _swapped(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
     """One word for another that is often mistaken for it, in the lines that findings are about and beside them."""
-    claim, blamed = answer.claim, {label.span.line for each in findings for label in each.labels}
-    lines = [block.line for block in claim.blocks]
-    near = {line for place, at in enumerate(lines) if at in blamed for line in lines[max(0, place - 1) : place + 2]}
+    claim, near = answer.claim, lines_near(answer.claim, spans_of(findings))
     for word in claim.words.values() if answer.status in _NO_CONTOUR else ():
         other = claim.form.swaps.get(word.text.strip().upper())
         if other and word.span.line in near:
@@ -294,7 +268,7 @@ def _slips(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, .
     if answer.status is not Status.NO_SOLUTION:
         return
     claim, profile, lexicon = answer.claim, answer.profile, answer.claim.lexicon
-    spans = {label.span for each in findings for label in each.labels}
+    spans = spans_of(findings)
     for given in profile.givens.values():
         word = given.word
         if word is None or given.unit is Unit.SIGN or word.span not in spans:

@@ -10,9 +10,20 @@ from msgspec import Struct
 
 from contoursolve.diagnosis.wording import shorten
 from contoursolve.diagnostics.source import Evidence, Source, Span
-from contoursolve.gcode import FACT, Block, Directive, Syntax, number_of, parse_block, read_directive, spell
+from contoursolve.gcode import (
+    FACT,
+    Block,
+    Directive,
+    Lookalike,
+    Syntax,
+    Word,
+    number_of,
+    parse_block,
+    read_directive,
+    spell,
+)
 from contoursolve.geometry import Length, Unit
-from contoursolve.reading import Lexicon, WithoutPoint
+from contoursolve.reading import Lexicon, ParsedContour, WithoutPoint
 from contoursolve.reading.modal_dependence import restate
 
 PLACEHOLDER = "?"
@@ -151,6 +162,27 @@ class Edit:
         return self.kind is EditKind.ADD and self.text.endswith(PLACEHOLDER)
 
 
+def drop(word: Word) -> Edit:
+    """A word, or a fact as a word, taken out."""
+    return Edit(EditKind.DROP, word.address, word.span, word.text)
+
+
+def change(word: Word, text: str, why: Why = Why.OTHER) -> Edit:
+    """A word, or a fact as a word, written with another text."""
+    return Edit(EditKind.CHANGE, word.address, word.span, word.text, text, why=why)
+
+
+def mend(word: Lookalike) -> Edit:
+    """What is almost a word, written as the word that it is meant to be."""
+    return Edit(EditKind.CHANGE, word.address, word.span, word.old, word.new)
+
+
+def add(claim: ParsedContour, name: str, text: str = "") -> Edit:
+    """The word for a name added, with its number still to be chosen unless its text is given."""
+    address, index = claim.vocabulary[name]
+    return Edit(EditKind.ADD, address, text=text or spell(address, PLACEHOLDER), line=claim.blocks[index].line)
+
+
 _REASONS = {EditKind.DROP: Why.NOT_NEEDED, EditKind.ADD: Why.MISSING, EditKind.MOVE: Why.AGREES}
 
 
@@ -234,14 +266,19 @@ AT_MOST, AT_LEAST = ROUND_DOWN, ROUND_UP
 def write_word(address: str, value: float, lexicon: Lexicon, unit: Length, rounding: str = ROUND_HALF_EVEN) -> str:
     """A word for a value in mm (radius) or degrees, rounded to the control's least increment: a limit (`AT_MOST`,
     `AT_LEAST`) to what is within it."""
-    row, numbers = lexicon.addresses[address], lexicon.numbers
-    number, step = Decimal(repr(value)), numbers.step(row.unit, unit)
-    if row.unit is not Unit.DEGREE:
-        number = number / unit.in_mm * (2 if row.is_diameter else 1)
-    number = number.quantize(step, rounding)
-    if number == 0:
-        number = abs(number)
+    row = lexicon.addresses[address]
+    number = rounded(value, row.unit, lexicon, unit, is_diameter=row.is_diameter, rounding=rounding)
     text = f"{number:f}".rstrip("0")
-    if text.endswith(".") and (numbers.without_point is WithoutPoint.AS_WRITTEN or number == 0):
+    if text.endswith(".") and (lexicon.numbers.without_point is WithoutPoint.AS_WRITTEN or number == 0):
         text = text[:-1]
     return spell(address, text)
+
+
+def rounded(
+    value: float, kind: Unit, lexicon: Lexicon, unit: Length, *, is_diameter: bool, rounding: str = ROUND_HALF_EVEN
+) -> Decimal:
+    """A value in mm (radius) or degrees as a number of the program, to the least increment; no negative zero."""
+    number = Decimal(repr(value))
+    if kind is not Unit.DEGREE:
+        number = number / unit.in_mm * (2 if is_diameter else 1)
+    return number.quantize(lexicon.numbers.step(kind, unit), rounding) + 0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
@@ -16,29 +16,28 @@ from contoursolve.analysis import analyse
 from contoursolve.diagnosis.explain import (
     Context,
     context_of,
-    explain_beyond,
-    explain_crossing,
-    explain_dropped,
     explain_ignored,
     explain_missing,
     explain_offence,
-    explain_opposite,
+    explain_path,
     explain_result,
     explain_singular,
     report,
+    spans_of,
 )
-from contoursolve.diagnosis.missing_point import start_without_point, tell_points, without_point
 from contoursolve.diagnosis.spelling import (
     explain_skippable,
     explain_spelling,
     explain_start,
     explain_unmarked,
     meant_words,
+    start_without_point,
+    tell_points,
+    without_point,
 )
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import Word
 from contoursolve.geometry import Length, Plane, Profile, Question, Side, Start, System, assemble
 from contoursolve.reading import AT_ITS_LIMIT, Assumption, ParsedContour, ReadIssue, read, unused_words
 from contoursolve.reading.rules import Offence, Rule, check
@@ -169,15 +168,11 @@ class _Notebook:
         return next(status for status in Status if status in self.statuses)
 
 
-def _no_place() -> None:
-    """The next block is not known."""
-
-
 def examine(
     claim: ParsedContour,
     rules: tuple[Rule, ...],
     policy: Policy,
-    next_place: Callable[[], tuple[Decimal, Decimal] | None] = _no_place,
+    next_place: Callable[[], tuple[Decimal, Decimal] | None] = lambda: None,
     depth: Depth = Depth.FULL,
 ) -> Answer:
     """Everything there is to say about one contour, and its path if there is one.
@@ -206,13 +201,13 @@ def examine(
         notebook.add(explain_start(context, claim), Status.UNDERDETERMINED)
     unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))
     notebook.findings += (*explain_skippable(context, claim), *unmarked)
-    explained = {label.span for finding in notebook.findings for label in finding.labels}
+    explained = spans_of(notebook.findings)
     # What rules refuse of a chain is not solved without a word either.
     is_refused = claim.form.is_general and Status.REJECTED in notebook.statuses
     for word in unused_words(claim, profile) if is_whole and not is_refused else ():
         # Whatever the rules say of it: nothing is dropped without a word.
         if word.span not in explained:
-            notebook.add(report(context, context.row(ReadIssue.WORD_UNUSED), Basis.RULE, [word], form=claim.form.name))
+            notebook.add(report(context, ReadIssue.WORD_UNUSED, Basis.RULE, [word], form=claim.form.name))
     if is_readable:
         solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)
     else:
@@ -226,10 +221,11 @@ def examine(
     is_path = bool(solution.points) and notebook.status in (Status.SOLVED, Status.OVERDETERMINED)
     contour = trace(profile, solution) if is_path else None
     if contour is not None:
-        notebook.findings += explain_crossing(context, profile, contour)
-        notebook.findings += explain_opposite(context, profile, contour)
-        notebook.findings += explain_dropped(context, profile, solution)
-        notebook.findings += explain_beyond(context, profile, solution, contour) if claim.directives else ()
+        notebook.findings += explain_path(context, profile, solution, contour)
+        if claim.directives:
+            from contoursolve.diagnosis.off_path import explain_beyond  # noqa: PLC0415 - few blocks state more
+
+            notebook.findings += explain_beyond(context, profile, solution, contour)
     touching = {remark.subject for remark in solution.remarks if remark.kind is NoteKind.TOUCHES}
     shown = {*profile.intersections} - touching
     chosen = (choice for choice in profile.choices if choice.given in claim.words)
@@ -322,13 +318,12 @@ def _state_more(
     if not profile.is_extended:
         return profile, True
     # Few blocks state more than their words.
-    from contoursolve.statements import Flaw, apply_statements  # noqa: PLC0415
+    from contoursolve.statements import apply_statements  # noqa: PLC0415
 
     extended, faults = apply_statements(profile, claim.directives, next_place)
-    kinds = {Flaw.UNREADABLE: ReadIssue.FACT_UNREADABLE, Flaw.IMPOSSIBLE: ReadIssue.FACT_IMPOSSIBLE}
     for fault in faults:
-        rule = context.row(kinds[fault.flaw])
-        notebook.add(report(context, rule, Basis.RULE, [fault.word], reason=fault.message), Status.REJECTED)
+        about = ReadIssue.FACT_IMPOSSIBLE if fault.is_readable else ReadIssue.FACT_UNREADABLE
+        notebook.add(report(context, about, Basis.RULE, [fault.word], reason=fault.message), Status.REJECTED)
     # With a fact that cannot be used, the others may speak of what is not drawn.
     return profile if faults else extended, not faults
 
@@ -350,7 +345,7 @@ def _examine_words(context: Context, claim: ParsedContour, notebook: _Notebook) 
     stated = (*claim.words.values(), *in_force.values())
     variables = [word for word in stated if word.number is None and not word.is_asked]
     if variables:
-        notebook.add(report(context, context.row(ReadIssue.VARIABLE), Basis.RULE, variables), Status.UNDERDETERMINED)
+        notebook.add(report(context, ReadIssue.VARIABLE, Basis.RULE, variables), Status.UNDERDETERMINED)
 
 
 def _examine_geometry(
@@ -364,7 +359,8 @@ def _examine_geometry(
     is_refused = bool(notebook.statuses & {Status.REJECTED, Status.NO_SOLUTION})
     structure = list(_examine_system(context, claim, profile))
     for status, finding in structure:
-        notebook.add(_secondary(finding, is_refused), status)
+        # What the equations say of a block that a rule has refused already explains, and counts once.
+        notebook.add(replace(finding, severity=Severity.INFO) if is_refused else finding, status)
     is_solvable = not structure and profile.start.is_known
     is_open = is_solvable and is_refused and not profile.is_extended and _has_choice(profile)
     is_long = is_open and count_choices(profile) > MOST_CHOICES
@@ -425,11 +421,6 @@ _ABOUT_WORDS = (
 )
 
 
-def _secondary(finding: Diagnostic, is_refused: bool) -> Diagnostic:
-    """What the equations say of a block that a rule has refused already explains, and counts once."""
-    return replace(finding, severity=Severity.INFO) if is_refused else finding
-
-
 def _examine_system(context: Context, claim: ParsedContour, profile: Profile) -> Iterator[tuple[Status, Diagnostic]]:
     """Why the facts alone, whatever their values, make no single contour."""
     system = assemble(profile)
@@ -438,24 +429,19 @@ def _examine_system(context: Context, claim: ParsedContour, profile: Profile) ->
         yield Status.UNDERDETERMINED, explain_missing(context, profile, verdict, claim)
     by_name: dict[str, list[str]] = {}
     for corner in profile.figure.corners:
+        # A size that stays in force has no word in the contour.
+        own = [context.words.get(corner.size)]
         by_name.setdefault(corner.name, []).append(corner.size)
         if corner.size in profile.givens and profile.givens[corner.size].value < 0:
-            rule, word = context.row(ReadIssue.CORNER_NEGATIVE), _words_of(context, [corner.size])
-            yield Status.NO_SOLUTION, report(context, rule, Basis.NUMERICAL, word, subject=corner.name)
+            finding = report(context, ReadIssue.CORNER_NEGATIVE, Basis.NUMERICAL, own, subject=corner.name)
+            yield Status.NO_SOLUTION, finding
         if corner.after is None and corner.lands_parallel_to is None and corner.lands_on is None:
-            rule = context.row(ReadIssue.CORNER_NOWHERE)
-            word = _words_of(context, [corner.size])
-            yield Status.UNDERDETERMINED, report(context, rule, Basis.STRUCTURAL, word, subject=corner.name)
+            finding = report(context, ReadIssue.CORNER_NOWHERE, Basis.STRUCTURAL, own, subject=corner.name)
+            yield Status.UNDERDETERMINED, finding
     for name, sizes in by_name.items():
         if len(sizes) > 1:
-            words = _words_of(context, sizes)
-            rule = context.row(ReadIssue.CORNER_TWICE)
-            yield Status.CONFLICTING, report(context, rule, Basis.STRUCTURAL, words, subject=name)
-
-
-def _words_of(context: Context, sizes: Iterable[str]) -> list[Word]:
-    """The words that state sizes; a size that stays in force has none in the contour."""
-    return [context.words[size] for size in sizes if size in context.words]
+            words = map(context.words.get, sizes)
+            yield Status.CONFLICTING, report(context, ReadIssue.CORNER_TWICE, Basis.STRUCTURAL, words, subject=name)
 
 
 def rank(finding: Diagnostic) -> tuple[int, int, bool, Span, str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
-from functools import lru_cache, partial
+from functools import lru_cache
 from math import asin, degrees
 from typing import TYPE_CHECKING, Any
 
@@ -29,10 +29,10 @@ from contoursolve.diagnosis.wording import (
     unknowns_text,
     value_text,
 )
-from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
+from contoursolve.diagnostics.finding import Basis, Diagnostic, Label, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, spell
-from contoursolve.geometry import Arc, Length, ParallelLines, Profile, Radius, Role, Unit, assemble
+from contoursolve.geometry import Arc, Fact, Length, ParallelLines, Profile, Radius, Role, Unit, assemble
 from contoursolve.reading import ParsedContour, ReadIssue
 from contoursolve.reading.rules import VERBS, Offence, Rule
 from contoursolve.solving import (
@@ -47,7 +47,7 @@ from contoursolve.solving import (
     scalars_of,
 )
 from contoursolve.solving.compare import allowance, increments_of
-from contoursolve.solving.contour import Contour, LineSegment, against_angles, dropped_corners
+from contoursolve.solving.contour import Contour, against_angles, dropped_corners
 from contoursolve.tolerance import AGREEMENT
 
 if TYPE_CHECKING:
@@ -125,15 +125,17 @@ def _own_first(rules: tuple[Rule, ...], roles: tuple[Role, ...]) -> tuple[Rule, 
 
 def report(
     context: Context,
-    rule: Rule,
+    about: Rule | Enum,
     basis: Basis,
-    words: Iterable[Word],
+    words: Iterable[Word | None],
     values: Mapping[str, float] | None = None,
     labels: Iterable[str] = (),
     **fields: Any,
 ) -> Diagnostic:
-    """One finding: the row's message with its fields filled in, its words marked."""
-    blamed = sorted(words, key=lambda word: word.span)
+    """One finding: the message of a row, or of the row about an event, with its fields filled in, its words marked; of
+    words that are None, nothing stands in the program."""
+    rule = about if isinstance(about, Rule) else context.row(about)
+    blamed = sorted(filter(None, words), key=lambda word: word.span)
     spans = [word.span for word in blamed] or [context.place]
     typed = context.typed()
     stated = {
@@ -159,6 +161,23 @@ def report(
         values=values or {},
         about=rule.about,
     )
+
+
+def errors_and_warnings(findings: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """The errors and the warnings."""
+    return [each for each in findings if each.severity is not Severity.INFO]
+
+
+def spans_of(findings: Iterable[Diagnostic], about: Enum | None = None) -> set[Span]:
+    """The places that findings are about, or those about one event."""
+    chosen = (each for each in findings if about is None or each.about is about)
+    return {label.span for each in chosen for label in each.labels}
+
+
+def facts_at(profile: Profile, place: Span) -> list[Fact]:
+    """The facts that the word at a place states."""
+    words = {name: given.word for name, given in profile.givens.items() if given.word}
+    return [fact for fact in profile.facts if fact.given in words and words[fact.given].span == place]
 
 
 def _named(words: Sequence[Word], names: Mapping[str, Word]) -> Iterable[tuple[str, str]]:
@@ -251,14 +270,7 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
         usual = [claim.vocabulary[name] for name in claim.form.usual if name in able and name in claim.vocabulary]
         ways = [_adding_by_line(usual[:_MOST_NAMED], open_count, claim)] if usual else []
     completions = "; or ".join(ways) or f"state a fact about {'them' if told.endswith('are still open') else 'it'}"
-    return report(
-        context,
-        context.row(ReadIssue.UNDERDETERMINED),
-        Basis.SYMBOLIC,
-        [],
-        open=told,
-        completions=completions,
-    )
+    return report(context, ReadIssue.UNDERDETERMINED, Basis.SYMBOLIC, [], open=told, completions=completions)
 
 
 _MOST_NAMED = 8
@@ -327,7 +339,7 @@ def explain_result(
     if is_word and givens[0].is_diameter:
         values |= {name: 2 * values[name] for name in compared}
     in_degrees = event.kind in _IN_DEGREES or (is_word and givens[0].unit is Unit.DEGREE)
-    write = angle_text if in_degrees else partial(_length, context.unit)
+    write = angle_text if in_degrees else lambda value, more: length_text(value, context.unit, more)
     fields |= zip(compared, tell_apart([values[name] for name in compared], write), strict=True)
     fields |= {name: length_text(values[name], context.unit) for name in ("radius", "distance") if name in values}
     if "off_by_mm" in values:
@@ -354,9 +366,11 @@ def explain_result(
     if event.kind is RefusalKind.CORNERS_OVERLAP:
         rooms = _rooms(event, values, words, profile)
         labels = [label for _, label in rooms]
-        smaller = _smaller([advice for advice, _ in rooms if advice], values, profile) if rooms else ""
-        fields["smaller"] = smaller or f"make the corners smaller, to need {fields['off']} less together"
-    finding = report(context, context.row(event.kind), Basis.NUMERICAL, words, values, labels, **fields)
+        advice = [advice for advice, _ in rooms if advice]
+        if rooms and not any(each.startswith("write") for each in advice):
+            advice += _for_both(values, profile.unit)
+        fields["smaller"] = ", or ".join(advice) or f"make the corners smaller, to need {fields['off']} less together"
+    finding = report(context, event.kind, Basis.NUMERICAL, words, values, labels, **fields)
     if isinstance(event, Refusal):
         finding = _with_what_helps(finding, event, values, asked, profile)
     return replace(finding, notes=finding.notes + notes)
@@ -379,12 +393,6 @@ def _counted(event: Refusal | Note) -> dict[str, str]:
         numbers = "1" if count == 1 else f"a number from 1 to {count}"
         return {"limit_count": f"{count} solution{'s' * (count != 1)}", "numbers": numbers}
     return {}
-
-
-def _smaller(told: list[str], values: Mapping[str, float], profile: Profile) -> str:
-    """How to make corners that overlap smaller: one of them, or both."""
-    is_told = any(advice.startswith("write") for advice in told)
-    return ", or ".join([*told, *(() if is_told else _for_both(values, profile.unit))])
 
 
 def _with_what_helps(
@@ -413,10 +421,6 @@ def _with_what_helps(
         advice = f"change {join(causes) or 'another word'}: the value follows from there"
         finding = replace(finding, help=advice, labels=tuple(replace(each, text="") for each in finding.labels))
     return finding
-
-
-def _length(unit: Length, value: float, more: int) -> str:
-    return length_text(value, unit, more)
 
 
 def _room(event: Refusal, values: Mapping[str, float], profile: Profile) -> tuple[dict[str, str], list[str]]:
@@ -531,49 +535,27 @@ def _search_notes(profile: Profile, alternatives: Alternatives) -> Iterator[str]
 
 def explain_singular(context: Context, names: Sequence[str], loose: Sequence[str], profile: Profile) -> Diagnostic:
     """Facts that do not fix what they are about at their values, though they would at others."""
-    words = [word for word in (profile.givens[name].word for name in names) if word]
-    rule, free = context.row(ReadIssue.FACTS_SINGULAR), unknowns_text(loose, profile)
-    return report(context, rule, Basis.NUMERICAL, words, free=free)
+    words = [profile.givens[name].word for name in names]
+    return report(context, ReadIssue.FACTS_SINGULAR, Basis.NUMERICAL, words, free=unknowns_text(loose, profile))
 
 
-def explain_crossing(context: Context, profile: Profile, contour: Contour) -> Iterator[Diagnostic]:
-    """A path that goes on across the spindle axis."""
+def explain_path(context: Context, profile: Profile, solution: Solution, contour: Contour) -> Iterator[Diagnostic]:
+    """What a path does that may not be meant: it goes on across the spindle axis, lines run against the angle that
+    states them where that is no direction of travel, and corners are left out where it hardly turns."""
     crossing = contour.crossing
     if crossing is not None:
         (radius,) = (at for at, is_diameter in zip(crossing.at, contour.plane.diameters, strict=True) if is_diameter)
         start, place = (place_text(profile, scalars_of({"": at})) for at in (contour.start, crossing.at))
-        fields: dict[str, Any] = {"subject": crossing.element.name, "start": start, "place": place}
-        values = {"limit": 0.0, "actual": radius, "off_by_mm": abs(radius)}
-        yield report(context, context.row(ReadIssue.AXIS_CROSSED), Basis.NUMERICAL, [], values, **fields)
-
-
-def explain_opposite(context: Context, profile: Profile, contour: Contour) -> Iterator[Diagnostic]:
-    """Lines that run against the angle that states them, on a control on which that is no direction of travel."""
+        values, subject = {"limit": 0.0, "actual": radius, "off_by_mm": abs(radius)}, crossing.element.name
+        about = ReadIssue.AXIS_CROSSED
+        yield report(context, about, Basis.NUMERICAL, [], values, subject=subject, start=start, place=place)
     for name, line in against_angles(profile, contour):
         given = profile.givens[name]
         actual = float(given.value)
         expected = actual - 180 if actual > 0 else actual + 180
-        fields: dict[str, Any] = {"subject": line.name, "expected": angle_text(expected)}
-        rule, words = context.row(ReadIssue.ANGLE_OPPOSITE), [given.word] if given.word else []
-        yield report(context, rule, Basis.NUMERICAL, words, {"actual": actual, "expected": expected}, **fields)
-
-
-def explain_dropped(context: Context, profile: Profile, solution: Solution) -> Iterator[Diagnostic]:
-    """Corners that the control leaves out, because the path hardly turns there."""
+        values, shown, about = {"actual": actual, "expected": expected}, angle_text(expected), ReadIssue.ANGLE_OPPOSITE
+        yield report(context, about, Basis.NUMERICAL, [given.word], values, subject=line.name, expected=shown)
     for corner, turn in dropped_corners(profile, solution):
-        word = profile.givens[corner.size].word
-        fields: dict[str, Any] = {"subject": corner.name, "actual": angle_text(abs(turn))}
-        rule, words = context.row(ReadIssue.CORNER_DROPPED), [word] if word else []
-        yield report(context, rule, Basis.NUMERICAL, words, {"actual": abs(turn)}, **fields)
-
-
-def explain_beyond(context: Context, profile: Profile, solution: Solution, contour: Contour) -> Iterator[Diagnostic]:
-    """Facts about a whole line or circle that hold where the path does not reach."""
-    from contoursolve.diagnosis.off_path import facts_beyond  # noqa: PLC0415 - few blocks state more than their words
-
-    for given, element, at in facts_beyond(profile, solution, contour):
-        word = profile.givens[given].word
-        whole = "line" if isinstance(element, LineSegment) else "circle"
-        place = place_text(profile, scalars_of({"": at}))
-        fields: dict[str, Any] = {"element": element.name, "whole": whole, "place": place}
-        yield report(context, context.row(ReadIssue.FACT_BEYOND), Basis.NUMERICAL, [word] if word else [], **fields)
+        word, values, shown = profile.givens[corner.size].word, {"actual": abs(turn)}, angle_text(abs(turn))
+        about = ReadIssue.CORNER_DROPPED
+        yield report(context, about, Basis.NUMERICAL, [word], values, subject=corner.name, actual=shown)

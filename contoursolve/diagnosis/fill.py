@@ -4,10 +4,9 @@ from math import hypot
 
 from msgspec.structs import replace
 
-from contoursolve import gcode
-from contoursolve.diagnosis.edits import write_word
+from contoursolve.diagnosis.edits import apply_edits, change, write_word
 from contoursolve.diagnosis.examine import Answer, Filled, Policy, examine
-from contoursolve.gcode import FACT
+from contoursolve.gcode import FACT, parse_block
 from contoursolve.reading import ParsedContour, State
 from contoursolve.reading.dialect import Dialect
 from contoursolve.solving.contour import Contour
@@ -21,22 +20,20 @@ def fill_in(answer: Answer, before: State, dialect: Dialect) -> Filled | None:
 
     `before` is the state at the first block. The further facts are left out: the control does not read them.
     """
-    texts = {block.line: block.text for block in answer.claim.blocks}
-    words = [(each.question.word, each.value) for each in answer.answers if each.question.word.address != FACT]
-    for word, value in sorted(words, key=lambda each: each[0].span, reverse=True):
+    own, edits = answer.claim.blocks, []
+    for word, value in ((each.question.word, each.value) for each in answer.answers):
+        if word.address == FACT:
+            continue
         if value is None:
             return None
-        span = word.span
-        written = write_word(word.address, value, answer.claim.lexicon, answer.unit)
-        text = texts[span.line]
-        texts[span.line] = text[: span.column - 1] + written + text[span.end_column - 1 :]
-    first = answer.claim.blocks[0].line
+        edits.append(change(word, write_word(word.address, value, answer.claim.lexicon, answer.unit)))
+    texts = {block.line: text for block, text in zip(own, apply_edits(own, edits), strict=True)}
     blocks = tuple(
-        replace(gcode.parse_block(texts.get(line, ""), line, dialect.modes.syntax), directives=())
-        for line in range(first, answer.claim.blocks[-1].line + 1)
+        replace(parse_block(texts.get(line, ""), line, dialect.modes.syntax), directives=())
+        for line in range(own[0].line, own[-1].line + 1)
     )
     claim = dialect.find(blocks, 0, before, dialect.modes)
-    if not isinstance(claim, ParsedContour) or not words:
+    if not isinstance(claim, ParsedContour) or not edits:
         return None
     again = examine(claim, dialect.rules, Policy.ENFORCE)
     if again.contour is None or answer.contour is None:

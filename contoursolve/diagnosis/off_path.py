@@ -2,8 +2,10 @@
 
 from collections.abc import Iterator
 from math import atan2, hypot, tau
-from typing import NamedTuple
 
+from contoursolve.diagnosis.explain import Context, report
+from contoursolve.diagnosis.wording import place_text
+from contoursolve.diagnostics.finding import Basis, Diagnostic
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -17,20 +19,13 @@ from contoursolve.geometry import (
     Through,
     Values,
 )
+from contoursolve.reading import ReadIssue
 from contoursolve.solving import Point, Solution, lookup, scalars_of
 from contoursolve.solving.contour import Contour, LineSegment, Segment
 from contoursolve.tolerance import AGREEMENT
 
 
-class Beyond(NamedTuple):
-    """A fact, the element of the path that it is about, and the place (mm) where it holds, off what is cut of it."""
-
-    given: str
-    element: Segment
-    at: Point
-
-
-def facts_beyond(profile: Profile, solution: Solution, contour: Contour) -> Iterator[Beyond]:
+def explain_beyond(context: Context, profile: Profile, solution: Solution, contour: Contour) -> Iterator[Diagnostic]:
     """The facts that hold at a place of a line or a circle that the path does not reach."""
     at = lookup(profile, {**solution.scalars, **scalars_of(solution.points), **solution.radii})
     cut = {segment.name: segment for segment in contour.elements}
@@ -48,7 +43,9 @@ def facts_beyond(profile: Profile, solution: Solution, contour: Contour) -> Iter
         for name, place in _places(fact, at):
             segment = cut.get(round_ones.get(name, name))
             if segment is not None and not _is_on(segment, place):
-                yield Beyond(fact.given, segment, place)
+                word, shown = profile.givens[fact.given].word, place_text(profile, scalars_of({"": place}))
+                whole, about = "line" if isinstance(segment, LineSegment) else "circle", ReadIssue.FACT_BEYOND
+                yield report(context, about, Basis.NUMERICAL, [word], element=segment.name, whole=whole, place=shown)
 
 
 def _places(fact: Fact, at: Values) -> Iterator[tuple[str, Point]]:

@@ -5,14 +5,14 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits
+from contoursolve.diagnosis.edits import Edit, apply_edits, change, mend
 from contoursolve.diagnosis.examine import Depth, Policy, examine
 from contoursolve.diagnosis.explain import Context, report
-from contoursolve.diagnosis.spelling import respelled
+from contoursolve.diagnosis.spelling import meant_in, respelled
 from contoursolve.diagnosis.typo_fixes import mistyped_codes
 from contoursolve.diagnosis.wording import join
 from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic, Fix
-from contoursolve.gcode import Block, Word, find_lookalikes, lookalike_at, parse_block
+from contoursolve.gcode import Block, Word, lookalike_at, parse_block
 from contoursolve.reading import Effect, ParsedContour, ReadIssue, State, codes_of
 from contoursolve.reading.dialect import Dialect
 
@@ -48,8 +48,8 @@ def explain_commas(
         text = "" if word.address.startswith(",") else respelled(word, addresses)
         if not text:
             continue
-        finding = report(context, context.row(ReadIssue.COMMA_MISSING), Basis.RULE, [word], meant=text)
-        edit = Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
+        finding = report(context, ReadIssue.COMMA_MISSING, Basis.RULE, [word], meant=text)
+        edit = change(word, text)
         found, replacement = _read(dialect, blocks, [edit], before)
         fixes = tuple(_tried(dialect, found, [edit], replacement))
         if previous and not fixes:
@@ -68,11 +68,11 @@ def explain_codes(
     yield from findings
     for word in blocks[0].words:
         for text in mistyped_codes(word, dialect.modes) if word.number not in dialect.modes.codes else ():
-            edit = Edit(EditKind.CHANGE, word.address, word.span, word.text, text)
+            edit = change(word, text)
             found, replacement = _read(dialect, blocks, [edit], before)
             fixes = tuple(_tried(dialect, found, [edit], replacement))
             if fixes:
-                finding = report(context, context.row(ReadIssue.CODE_MISTYPED), Basis.RULE, [word], meant=text)
+                finding = report(context, ReadIssue.CODE_MISTYPED, Basis.RULE, [word], meant=text)
                 yield replace(finding, fixes=fixes)
 
 
@@ -81,12 +81,8 @@ def explain_letters(
 ) -> Iterator[Diagnostic]:
     """The findings about a block, the first of some, that is a contour if letters of its G code are the digits that
     they look like: with these digits as the fix, if it is solved then. `before` is the state before it."""
-    block = blocks[0]
-    unread = [fault.span for fault in block.faults]
-    alike = find_lookalikes(block)
-    torn = {each.span for each in (lookalike_at(alike, span) for span in unread) if each}
-    meant = [each for each in alike if each.is_code or each.span in torn]
-    edits = [Edit(EditKind.CHANGE, each.address, each.span, each.old, each.new) for each in meant]
+    meant = meant_in(blocks[0], [fault.span for fault in blocks[0].faults])
+    edits = [mend(each) for each in meant]
     found, replacement = _read(dialect, blocks, edits, before)
     if found is None or not any(each.is_code for each in meant):
         yield from findings
@@ -96,8 +92,7 @@ def explain_letters(
     if not blamed:
         words = [Word(each.address, None, False, each.old, each.span) for each in meant]
         text = join([each.new for each in meant])
-        row = context.row(ReadIssue.LETTER_FOR_DIGIT)
-        yield replace(report(context, row, Basis.RULE, words, meant=text), fixes=fixes)
+        yield replace(report(context, ReadIssue.LETTER_FOR_DIGIT, Basis.RULE, words, meant=text), fixes=fixes)
     for each in findings:
         yield replace(each, fixes=fixes) if blamed and each is blamed[0] else each
 

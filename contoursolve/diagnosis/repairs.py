@@ -10,12 +10,10 @@ from math import copysign, sqrt
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.attempt import Before, Repairs, choose_repairs, examine_edited
+from contoursolve.diagnosis.attempt import Repairs, Trial, choose_repairs
 from contoursolve.diagnosis.drafts import (
     OF_CORNERS,
-    change,
     commas,
-    drop,
     fitting,
     has_faults,
     marked,
@@ -25,16 +23,17 @@ from contoursolve.diagnosis.drafts import (
     unreadable,
     variants,
 )
-from contoursolve.diagnosis.edits import AT_LEAST, PLACEHOLDER, Edit, EditKind, Why, write_word
+from contoursolve.diagnosis.edits import AT_LEAST, Edit, EditKind, Why, add, change, drop, write_word
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine
-from contoursolve.diagnosis.spelling import torn_codes
+from contoursolve.diagnosis.explain import errors_and_warnings, spans_of
+from contoursolve.diagnosis.spelling import shapes_of, torn_codes
 from contoursolve.diagnosis.subsets import (
     LARGEST_ROLE,
+    blamed_spans,
     block_of,
     blocks_at_fault,
     corners_at_fault,
     find_drop_sets,
-    is_blamed,
     words_of,
 )
 from contoursolve.diagnosis.typo_fixes import (
@@ -42,7 +41,6 @@ from contoursolve.diagnosis.typo_fixes import (
     OF_DIGITS,
     SIGN_ADDED,
     SIGN_LOST,
-    blamed_spans,
     explained,
     other_codes,
     point_slips,
@@ -50,7 +48,7 @@ from contoursolve.diagnosis.typo_fixes import (
     suspects,
 )
 from contoursolve.diagnostics.finding import Diagnostic, Severity
-from contoursolve.gcode import Block, FaultKind, Word, number_of, spell
+from contoursolve.gcode import Block, FaultKind, Word, number_of
 from contoursolve.geometry import Given, Profile, Radius, Role, Unit
 from contoursolve.reading import ContourForm, ParsedContour, ReadIssue, State, read
 from contoursolve.reading.dialect import Dialect
@@ -84,27 +82,29 @@ def find_repairs(
         # No change of words closes it, and what leaves a warning is no repair.
         return Repairs((), is_complete=False)
     codes = frozenset(each.code for each in answer.diagnostics)
-    if all(each.severity is Severity.INFO for each in answer.diagnostics):
-        return choose_repairs(claim, dialect, (), Before(codes, answer.contour), point_slips(answer))
+    if not errors_and_warnings(answer.diagnostics):
+        return choose_repairs(Trial(claim, dialect, codes, answer.contour), (), point_slips(answer))
     if torn_codes(claim):
         # Without its letters the code is another one, which nobody has written.
-        repairs = choose_repairs(claim, dialect, [mended_words(answer)], Before(codes, None, following=following))
+        repairs = choose_repairs(Trial(claim, dialect, codes, None, following=following), [mended_words(answer)])
         return replace(repairs, is_complete=False)
     if answer.profile.is_extended:
         # Few blocks state more than their words.
         from contoursolve.diagnosis.drafts_beside_facts import further_drafts, next_place_of  # noqa: PLC0415
 
-        before = Before(codes, answer.contour, next_place_of(answer.profile))
-        repairs = choose_repairs(claim, dialect, further_drafts(answer, dialect, before), before)
+        trial = Trial(claim, dialect, codes, answer.contour, next_place_of(answer.profile))
+        repairs = choose_repairs(trial, further_drafts(answer, trial))
         return replace(repairs, is_complete=False)
     whole = _Geometry.of(claim)
     reference = answer.contour
     if reference is None and count_choices(answer.profile) <= MOST_CHOICES:
         reference = examine(claim, dialect.rules, Policy.OFF).contour
     drop_sets = find_drop_sets(answer, dialect)
-    alone = tuple(names for names in drop_sets.found if len(names) == 1 and is_blamed(answer, *names))
+    blamed = frozenset(blamed_spans(answer))
+    alone = [each for each in drop_sets.found if len(each) == 1 and {claim.words[name].span for name in each} <= blamed]
     # What makes a refused combination legal is searched for; of a legal one, any word at fault may be too much.
-    first, then = _sets(answer, dialect, whole), _dropping(answer, alone)
+    first = chain.from_iterable(_legal_sets(answer, dialect, whole, forced) for forced in unreadable(claim))
+    then = _dropping(answer, alone)
     changes = (
         _values(answer, whole),
         *((first, then) if answer.status is Status.REJECTED else (then, first)),
@@ -113,22 +113,18 @@ def find_repairs(
     )
     spelled = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
     moved = (moving(claim, stage) for stage in changes)
-    blamed = frozenset(blamed_spans(answer))
     is_redundant = answer.status is Status.OVERDETERMINED
-    before = Before(codes, reference, None, following, blamed, previous, is_redundant)
+    trial = Trial(claim, dialect, codes, reference, None, following, blamed, previous, is_redundant)
     stages = (*spelled, *moved)
-    repairs = choose_repairs(claim, dialect, stages, before, *_slips_of(answer, dialect, whole, before))
+    repairs = choose_repairs(trial, stages, *_slips_of(answer, whole, trial))
     is_complete = repairs.is_complete and drop_sets.is_complete and not has_faults(claim)
     return replace(repairs, is_complete=is_complete)
 
 
-def _slips_of(
-    answer: Answer, dialect: Dialect, whole: "_Geometry", before: Before
-) -> Iterator[Iterator[tuple[Edit, ...]]]:
+def _slips_of(answer: Answer, whole: "_Geometry", trial: Trial) -> Iterator[Iterator[tuple[Edit, ...]]]:
     """Slips that may explain what is wrong, those of digits, and those of the radii of circles that are missed."""
     claim = answer.claim
-    told = [each.about for each in answer.diagnostics if each.severity is not Severity.INFO]
-    if all(about is ReadIssue.CORNER_DROPPED for about in told):
+    if all(each.about is ReadIssue.CORNER_DROPPED for each in errors_and_warnings(answer.diagnostics)):
         # The path is as the words say: the corner is one too many.
         return
     against = whole.conflicts
@@ -139,13 +135,13 @@ def _slips_of(
         names = frozenset.intersection(*(frozenset(fact.given or "" for fact in each.facts) for each in against))
         yield chain.from_iterable(_agreeing(claim, name) for name in claim.words if name in names)
         return
-    offences = [each.rule.when for each in check(dialect.rules, claim.form.roles, claim.stated())]
+    offences = [each.rule.when for each in check(trial.dialect.rules, claim.form.roles, claim.stated())]
     is_about_values = all(when is None or when.reads_values for when in offences)
     if answer.status not in (Status.NO_SOLUTION, Status.CONFLICTING, Status.SOLVED) and not (
         offences and is_about_values
     ):
         of_addresses = [slip for slip in FEW if not slip.is_of_numbers]
-        yield chain(slips(answer, of_addresses, words), other_codes(answer, dialect.modes))
+        yield chain(slips(answer, of_addresses, words), other_codes(answer, trial.dialect.modes))
         return
     blamed = blamed_spans(answer)
     is_missed = any(each.about is RefusalKind.CIRCLE_MISSED for each in answer.diagnostics)
@@ -153,9 +149,9 @@ def _slips_of(
     near = [word for word in words if word.span in blamed]
     if len(claim.blocks) > MOST_BLOCKS:
         signs = slips(answer, (SIGN_LOST, SIGN_ADDED), _against_neighbours(words, claim))
-        yield chain(_of_circles(answer, dialect, before), signs, slips(answer, FEW, near))
+        yield chain(_of_circles(answer, trial), signs, slips(answer, FEW, near))
         return
-    yield chain(_of_circles(answer, dialect, before), slips(answer, FEW, words))
+    yield chain(_of_circles(answer, trial), slips(answer, FEW, words))
     yield slips(answer, OF_DIGITS, near or words[:1])
     yield slips(answer, OF_DIGITS, [claim.words[name] for name in claim.words if name in sizes and is_missed])
 
@@ -216,13 +212,6 @@ class _Geometry(Struct, frozen=True):
         return None
 
 
-def _sets(answer: Answer, dialect: Dialect, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
-    """Words to drop and to add: every smallest set that makes the combination legal, and for a legal one
-    what may be dropped or exchanged."""
-    for forced in unreadable(answer.claim):
-        yield from _legal_sets(answer, dialect, whole, forced)
-
-
 def _dropping(answer: Answer, sets: Iterable[frozenset[str]]) -> Iterator[tuple[Edit, ...]]:
     """The words of each set dropped, besides what must be dropped or corrected in any case."""
     claim = answer.claim
@@ -238,6 +227,8 @@ def _dropping(answer: Answer, sets: Iterable[frozenset[str]]) -> Iterator[tuple[
 def _legal_sets(
     answer: Answer, dialect: Dialect, whole: _Geometry, forced: tuple[Edit, ...]
 ) -> Iterator[tuple[Edit, ...]]:
+    """Words to drop and to add besides what is done in any case: every smallest set that makes the combination legal,
+    and for a legal one what may be dropped or exchanged."""
     claim, blocks = answer.claim, blocks_at_fault(answer)
     if forced:
         yield forced
@@ -246,7 +237,7 @@ def _legal_sets(
     present, names = frozenset(claim.words), frozenset(claim.vocabulary)
     extra = frozenset({row.fact.given for row in claim.form.facts} | set(claim.form.choices))
     if not whole.is_singular:
-        extra -= present ^ extra if _is_clean_set(claim, dialect.rules) else set()
+        extra -= present ^ extra if is_clean(claim.form, dialect.rules, present, claim.circumstances) else set()
     changes = smallest_changes(claim.form, dialect.rules, present, names & extra, claim.circumstances, blocks)
     corrections = tuple(_corrections(claim, dialect))
     bases: list[tuple[Edit, ...]] = []
@@ -308,14 +299,14 @@ def _corrections(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, 
 
 def _additions(claim: ParsedContour, name: str, geometries: Iterable[_Geometry]) -> list[Edit]:
     """A word added: with the value that the geometry fixes, each sign of a choice, or a placeholder."""
-    address, index = claim.vocabulary[name]
-    texts = [f"{address}-1", f"{address}1"] if name in claim.form.choices else [spell(address, PLACEHOLDER)]
+    address, _ = claim.vocabulary[name]
+    texts = [f"{address}-1", f"{address}1"] if name in claim.form.choices else [""]
     for geometry in geometries:
         value = geometry.implied(claim, name)
         if value is not None:
             texts = [write_word(address, value, claim.lexicon, claim.after.unit)]
             break
-    return [Edit(EditKind.ADD, address, text=text, line=claim.blocks[index].line) for text in texts]
+    return [add(claim, name, text) for text in texts]
 
 
 def _other_corners(claim: ParsedContour, at_fault: list[str]) -> Iterator[tuple[Edit, ...]]:
@@ -423,10 +414,6 @@ def _smallest(
     return tuple(found)
 
 
-def _is_clean_set(claim: ParsedContour, rules: tuple[Rule, ...]) -> bool:
-    return is_clean(claim.form, rules, frozenset(claim.words), claim.circumstances)
-
-
 def _values(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     """One word with another value: what a finding or the other words ask for."""
     claim, unit, lexicon = answer.claim, answer.claim.after.unit, answer.claim.lexicon
@@ -457,21 +444,21 @@ def _values(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
         yield (*forced, *asked_together)
 
 
-def _of_circles(answer: Answer, dialect: Dialect, before: Before) -> Iterator[tuple[Edit, ...]]:
+def _of_circles(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """Words that place a circle twice, each with the value that agrees with the others, or with what a slip makes of
     about this value."""
     claim, unit, lexicon = answer.claim, answer.claim.after.unit, answer.claim.lexicon
     finding = next((each for each in answer.diagnostics if each.about is RefusalKind.RADIUS_DIFFERENCE), None)
     if finding is None or has_faults(claim):
         return
-    spans = {label.span for label in finding.labels}
+    spans = spans_of([finding])
     for name, word in claim.words.items():
         given = claim.givens.get(name)
         if given is None or word.number is None or word.span not in spans:
             continue
         value = float(given.value)
         texts = [write_word(word.address, value + step, lexicon, unit) for step in (-_STEP, 0.0, _STEP)]
-        gaps = [_gap(examine_edited(claim, dialect, (change(word, text),), before)) for text in texts]
+        gaps = [_gap(trial.examine((change(word, text),))) for text in texts]
         for step in _zeros([gap for gap in gaps if gap is not None]):
             text = write_word(word.address, value + step, lexicon, unit)
             slips = list(explained(word, value + step, claim))
@@ -515,14 +502,9 @@ def _slips(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     if is_about_values and any(not finding.values.get("limit") for finding in answer.diagnostics):
         for name, word in claim.words.items():
             given = claim.givens.get(name)
-            if given is not None and given.unit is not Unit.SIGN and name not in _sizes(claim):
+            if given is not None and given.unit is not Unit.SIGN and name not in shapes_of(claim):
                 texts = variants(word, given, lexicon, unit)
                 yield from ((change(word, text),) for text in dict.fromkeys(texts) if text != word.text)
-
-
-def _sizes(claim: ParsedContour) -> set[str]:
-    """The words that give a corner its size."""
-    return {name for row in claim.form.corners for name in row.shapes}
 
 
 def _asked(answer: Answer, word: Word, given: Given) -> Iterator[tuple[str, float]]:

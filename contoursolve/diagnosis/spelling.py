@@ -1,15 +1,15 @@
 """Findings about characters, words and positions, before the equations are looked at."""
 
 from bisect import bisect_right
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from difflib import get_close_matches
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.explain import Context, report
-from contoursolve.diagnosis.wording import join, length_text
-from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
+from contoursolve.diagnosis.explain import Context, report, spans_of
+from contoursolve.diagnosis.wording import angle_text, join, length_text
+from contoursolve.diagnostics.finding import Basis, Diagnostic, Label, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import (
     Block,
@@ -22,8 +22,8 @@ from contoursolve.gcode import (
     number_of,
     spell,
 )
-from contoursolve.geometry import CornerShape, Length
-from contoursolve.reading import Lexicon, ParsedContour, Position, ReadIssue, State
+from contoursolve.geometry import CornerShape, Given, Length, Unit
+from contoursolve.reading import Lexicon, ParsedContour, Position, ReadIssue, State, WithoutPoint
 from contoursolve.tolerance import LARGEST
 
 
@@ -40,24 +40,22 @@ def explain_spelling(context: Context, claim: ParsedContour) -> Iterator[Diagnos
 def explain_unmarked(context: Context, block: Block) -> Iterator[Diagnostic]:
     """Comments that look like facts and are not read as such."""
     for directive in block.unmarked:
-        rule = context.row(ReadIssue.FACT_UNMARKED)
-        yield report(replace(context, place=directive.span), rule, Basis.RULE, [], fact=directive.text)
+        place = replace(context, place=directive.span)
+        yield report(place, ReadIssue.FACT_UNMARKED, Basis.RULE, [], fact=directive.text)
 
 
 def explain_asked_outside(context: Context, block: Block) -> Iterator[Diagnostic]:
     """Words that ask for something in a block that is no contour."""
     for word in (word for word in block.words if word.is_asked):
-        yield report(
-            context, context.row(ReadIssue.ASKED_NOTHING), Basis.RULE, [word], allowed="words of contour blocks"
-        )
+        yield report(context, ReadIssue.ASKED_NOTHING, Basis.RULE, [word], allowed="words of contour blocks")
 
 
 def explain_start_units(context: Context, unit: Length, block: Block) -> Diagnostic:
     """A start point in another unit than that of the contour."""
-    rule, units = context.row(ReadIssue.START_UNITS), {Length.MM: "mm", Length.INCH: "inches"}
+    units = {Length.MM: "mm", Length.INCH: "inches"}
     codes = {Length.MM: "G21", Length.INCH: "G20"}
     fields = {"was": units[context.unit], "unit": units[unit], "code": codes[unit], "start": block.text.strip()}
-    return report(context, rule, Basis.RULE, [], None, (), **fields)
+    return report(context, ReadIssue.START_UNITS, Basis.RULE, [], None, (), **fields)
 
 
 def explain_start_diameter(context: Context, state: State, code: str, block: Block) -> Diagnostic:
@@ -65,14 +63,14 @@ def explain_start_diameter(context: Context, state: State, code: str, block: Blo
     meanings = ("a diameter", "a radius")
     now, was = meanings if state.counts_diameters() else reversed(meanings)
     fields = {"was": was, "now": now, "code": code, "start": block.text.strip()}
-    return report(context, context.row(ReadIssue.START_DIAMETER), Basis.RULE, [], None, (), **fields)
+    return report(context, ReadIssue.START_DIAMETER, Basis.RULE, [], None, (), **fields)
 
 
 def _explain_asked(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
     for word in unanswerable(claim):
-        names = _answerable(claim)
+        names = answerable(claim)
         allowed = ", ".join(dict.fromkeys(claim.vocabulary[name][0] for name in claim.vocabulary if name in names))
-        yield report(context, context.row(ReadIssue.ASKED_NOTHING), Basis.RULE, [word], allowed=allowed)
+        yield report(context, ReadIssue.ASKED_NOTHING, Basis.RULE, [word], allowed=allowed)
 
 
 def unanswerable(claim: ParsedContour) -> list[Word]:
@@ -80,14 +78,18 @@ def unanswerable(claim: ParsedContour) -> list[Word]:
     asking = [word for block in claim.blocks for word in block.words if word.is_asked]
     if not asking:
         return []
-    answered = [claim.words[name] for name in _answerable(claim) if name in claim.words]
+    answered = [claim.words[name] for name in answerable(claim) if name in claim.words]
     return [word for word in asking if word not in answered and word not in claim.unknown]
 
 
-def _answerable(claim: ParsedContour) -> set[str]:
+def answerable(claim: ParsedContour) -> set[str]:
     """The names that state facts, sizes or choices."""
-    sizes = {name for row in claim.form.corners for name in row.shapes}
-    return {row.fact.given for row in claim.form.facts} | sizes | set(claim.form.choices)
+    return {row.fact.given or "" for row in claim.form.facts} | {*shapes_of(claim)} | {*claim.form.choices}
+
+
+def shapes_of(claim: ParsedContour) -> dict[str, CornerShape]:
+    """The names of words that give corners a size, each with its shape."""
+    return {name: shape for row in claim.form.corners for name, shape in row.shapes.items()}
 
 
 def explain_faults(context: Context, block: Block) -> Iterator[Diagnostic]:
@@ -104,7 +106,7 @@ def explain_faults(context: Context, block: Block) -> Iterator[Diagnostic]:
 def _explain_fault(context: Context, fault: Fault, meant: Lookalike | None) -> Diagnostic:
     """Characters of a block that are not a word."""
     shown = Word(fault.text[:1], None, False, fault.text.strip(), fault.span)
-    finding = report(context, context.row(fault.kind), Basis.RULE, [shown])
+    finding = report(context, fault.kind, Basis.RULE, [shown])
     finding = replace(finding, addresses=(fault.address,) if fault.address else ())
     if meant is None:
         return finding
@@ -163,6 +165,13 @@ def meant_words(claim: ParsedContour) -> tuple[Lookalike, ...]:
     return tuple(found[span] for span in sorted(found))
 
 
+def meant_in(block: Block, unread: Iterable[Span]) -> list[Lookalike]:
+    """The words that are meant in a block as G codes, and where something cannot be read."""
+    alike = find_lookalikes(block)
+    torn = {each.span for each in (lookalike_at(alike, span) for span in unread) if each}
+    return [each for each in alike if each.is_code or each.span in torn]
+
+
 def _comma_behind(number: Word | None, word: Word) -> Lookalike | None:
     """The number that the comma of a word stands right behind, with what the comma means there, as in `A180, K-30.`"""
     if number is None or number.number is None:
@@ -199,12 +208,12 @@ def explain_words(
         same = [word for word in words if word.address == address and word.span.line == line]
         if address == "G":
             same = [word for word in same if word.number in numbers]
-        yield report(context, context.row(ReadIssue.REPEATED_ADDRESS), Basis.RULE, same)
+        yield report(context, ReadIssue.REPEATED_ADDRESS, Basis.RULE, same)
     for word in words:
         value = lexicon.value(word, context.unit) if word.address in lexicon.addresses else None
         if value is not None and abs(value) > _LARGEST:
             limit = length_text(LARGEST, context.unit)
-            yield report(context, context.row(ReadIssue.VALUE_TOO_LARGE), Basis.RULE, [word], limit=limit)
+            yield report(context, ReadIssue.VALUE_TOO_LARGE, Basis.RULE, [word], limit=limit)
 
 
 def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
@@ -218,7 +227,7 @@ def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnos
         here = lookalike_at(torn, word.span)
         if any(each.span.line == word.span.line and each is not here for each in torn):
             continue
-        rule, other = context.row(ReadIssue.UNKNOWN_ADDRESS), respelled(word, form.allowed)
+        other = respelled(word, form.allowed)
         meant = lookalike_at(mendable, word.span)
         other = "" if meant else other
         sizes = _roundings(claim) if word.address == "R" else []
@@ -226,7 +235,7 @@ def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnos
         ways = [*texts, *filter(None, [other]), *([f"{meant.new} for {meant.old}"] if meant else [])]
         do = f"write {' or '.join(ways)}" if ways else "delete it"
         name = form.name if form.name.startswith("G") else form.title
-        finding = report(context, rule, Basis.RULE, [word], form=name, allowed=allowed, advice=do)
+        finding = report(context, ReadIssue.UNKNOWN_ADDRESS, Basis.RULE, [word], form=name, allowed=allowed, advice=do)
         if texts and not meant:
             finding = replace(finding, message=f"{word.text.strip()}: {name} has no R; roundings are {join(sizes)}")
         yield replace(finding, message=_ask(meant)) if meant else finding
@@ -234,11 +243,9 @@ def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnos
 
 def _roundings(claim: ParsedContour) -> list[str]:
     """The addresses of roundings of a contour."""
-    shapes = ((name, shape) for row in claim.form.corners for name, shape in row.shapes.items())
     # Under G11 and G12 a corner has the word of a line.
-    return [
-        claim.vocabulary[name][0] for name, shape in shapes if shape is CornerShape.FILLET and name in claim.vocabulary
-    ]
+    names = [name for name, shape in shapes_of(claim).items() if shape is CornerShape.FILLET]
+    return [claim.vocabulary[name][0] for name in names if name in claim.vocabulary]
 
 
 _SHORTEST = 2
@@ -266,7 +273,7 @@ def explain_start(context: Context, claim: ParsedContour) -> Diagnostic:
         reasons["G91 is active, and an increment from an unknown position gives none"] = None
     finding = report(
         context,
-        context.row(ReadIssue.POSITION_UNKNOWN),
+        ReadIssue.POSITION_UNKNOWN,
         Basis.RULE,
         [],
         axes=" and ".join(unknown),
@@ -287,4 +294,109 @@ def explain_skippable(context: Context, claim: ParsedContour) -> Iterator[Diagno
     """A contour that depends on whether a block is skipped."""
     skippable = {block.is_skippable for block in claim.blocks}
     if len(skippable) > 1 or any(claim.before.axes[axis].is_skippable for axis in claim.before.plane.axes):
-        yield report(context, context.row(ReadIssue.SKIPPABLE_START), Basis.RULE, [])
+        yield report(context, ReadIssue.SKIPPABLE_START, Basis.RULE, [])
+
+
+# Numbers without a decimal point: the control counts them in least increments, which is seldom what was meant ---
+
+_FULL_TURN, _MANY_INCREMENTS = 360, 1_000
+"""A number that is no larger says a direction in degrees, or a length under 1 mm in least increments."""
+
+
+def without_point(context: Context, claim: ParsedContour, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+    """Words that are read in least increments because they have no decimal point: each where others have one, and all
+    together where none has and the values are hardly meant like this."""
+    counted = _counted(context, claim)
+    words = list(counted)
+    about = ReadIssue.POINT_MISSING
+    if any(given.word and given.word.number and given.word.has_point for given in claim.givens.values()):
+        for word, value in counted.items():
+            yield report(context, about, Basis.RULE, [word], actual=value)
+    elif words and _is_slip(claim, words, has_error=any(each.severity is Severity.ERROR for each in findings)):
+        yield report(context, about, Basis.RULE, words, actual=join(list(counted.values())))
+
+
+def start_without_point(context: Context, claim: ParsedContour, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+    """The words before a contour that put its start less than 1 mm from zero because they have no decimal point, where
+    other words have one, or those of the contour are hardly meant like this, either."""
+    places = [claim.before.axes[axis] for axis in claim.before.plane.axes]
+    words = {each.word.span: each.word for each in places if each.word and is_counted_start(each, claim.lexicon)}
+    if not words or any(each.value is None for each in places):
+        return
+    stated = (*(given.word for given in claim.givens.values()), *(each.word for each in places))
+    is_suspected = any(each.about is ReadIssue.POINT_MISSING for each in findings)
+    if is_suspected or any(word.has_point for word in stated if word):
+        counted = [words[span] for span in sorted(words)]
+        read = [readings(word, claim.lexicon, claim.before.unit) for word in counted]
+        actual, expected, same = (join(texts) for texts in zip(*read, strict=True))
+        meant, about = join([f"{word.text.strip()}." for word in counted]), ReadIssue.START_IN_INCREMENTS
+        yield report(context, about, Basis.RULE, counted, actual=actual, expected=expected, meant=meant, same=same)
+
+
+def is_counted_start(position: Position, lexicon: Lexicon) -> bool:
+    """Whether a coordinate was set by so few least increments that the number may be meant as it stands."""
+    return position.word is not None and counts_few(position.word, lexicon)
+
+
+def counts_few(word: Word, lexicon: Lexicon) -> bool:
+    """Whether the number of a length counts so few least increments that it may be meant as it stands."""
+    if word.has_point or not word.number or abs(word.number) > _MANY_INCREMENTS:
+        return False
+    return lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS
+
+
+def readings(word: Word, lexicon: Lexicon, unit: Length) -> tuple[str, str, str]:
+    """A length that counts least increments: its value, the value that it has with a point, and the word with a point
+    for the first."""
+    number, step = word.number or Decimal(0), lexicon.numbers.step(Unit.MM, unit)
+    actual, expected = (length_text(float(number * scale * unit.in_mm), unit) for scale in (step, 1))
+    return actual, expected, spell(word.address, f"{number * step:f}".rstrip("0"))
+
+
+def tell_points(context: Context, claim: ParsedContour, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+    """Findings, the errors about a word that lacks its point with how it was read, before what else may be done."""
+    findings = list(findings)
+    lacking = spans_of(findings, ReadIssue.POINT_MISSING)
+    counted = (
+        {word: value for word, value in _counted(context, claim).items() if word.span in lacking} if lacking else {}
+    )
+    for finding in findings:
+        spans = spans_of([finding])
+        blamed = {word: value for word, value in counted.items() if word.span in spans}
+        if not blamed or finding.severity is Severity.INFO or finding.basis is not Basis.NUMERICAL:
+            yield finding
+            continue
+        notes = tuple(f"{word.text} is read as {value}: it has no decimal point" for word, value in blamed.items())
+        meant = join([f"{word.text}." for word in blamed])
+        yield replace(finding, notes=notes + finding.notes, help=f"write {meant} if that is meant; else {finding.help}")
+
+
+def _counted(context: Context, claim: ParsedContour) -> Mapping[Word, str]:
+    """The words of a contour that count least increments, each with its value in the order of the block."""
+    counted = {}
+    pointless = [each for each in claim.givens.values() if each.word and not each.word.has_point]
+    # Such as A18 in A18O.
+    torn = meant_words(claim) if pointless else ()
+    for given in sorted(pointless, key=_place):
+        word = given.word
+        if word is None or not word.number or given.unit is Unit.SIGN or lookalike_at(torn, word.span):
+            continue
+        typed = given.value * 2 if given.is_diameter else given.value
+        if abs(typed) < abs(word.number):
+            is_length = given.unit is Unit.MM
+            counted[word] = length_text(float(typed), context.unit) if is_length else angle_text(float(typed))
+    return counted
+
+
+def _place(given: Given) -> Span:
+    return given.word.span if given.word else Span(0, 0, 0)
+
+
+def _is_slip(claim: ParsedContour, words: Sequence[Word], *, has_error: bool) -> bool:
+    """Whether words without any point mean what they say: their angles would be directions in degrees, or without
+    an angle a block that is refused would have no length of 1 mm."""
+    angles = [word for word in words if claim.lexicon.addresses[word.address].unit is Unit.DEGREE]
+    most = _FULL_TURN if angles else _MANY_INCREMENTS
+    return (bool(angles) or has_error) and all(
+        word.number is None or abs(word.number) <= most for word in angles or words
+    )

@@ -9,7 +9,8 @@ from typing import NamedTuple
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnostics.finding import Severity
+from contoursolve.diagnosis.explain import errors_and_warnings, spans_of
+from contoursolve.diagnosis.spelling import answerable, shapes_of
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Word
 from contoursolve.reading import ParsedContour
@@ -35,26 +36,25 @@ def block_of(name: str) -> str:
 def blocks_at_fault(answer: Answer) -> frozenset[str]:
     """What begins the names of the blocks that a finding is about and of those beside them; of all blocks, where a
     rule can see them at once."""
-    lines = [block.line for block in answer.claim.blocks]
-    blamed = {span.line for span in _blamed(answer)}
-    near = {other for index, line in enumerate(lines) if line in blamed for other in (index - 1, index, index + 1)}
-    is_short = len(lines) <= LARGEST_ROLE or not near
-    places = answer.claim.vocabulary.items()
-    return frozenset(block_of(name) for name, (_, index) in places if is_short or index in near)
+    claim = answer.claim
+    near = lines_near(claim, blamed_spans(answer))
+    is_short = len(claim.blocks) <= LARGEST_ROLE or not near
+    places = claim.vocabulary.items()
+    return frozenset(block_of(name) for name, (_, index) in places if is_short or claim.blocks[index].line in near)
+
+
+def lines_near(claim: ParsedContour, spans: Iterable[Span]) -> set[int]:
+    """The lines of a contour in which some places are, and those beside them."""
+    lines, blamed = [block.line for block in claim.blocks], {span.line for span in spans}
+    return {line for at, own in enumerate(lines) if own in blamed for line in lines[max(0, at - 1) : at + 2]}
 
 
 def corners_at_fault(answer: Answer) -> list[str]:
     """The words of the corners that a finding is about; of all near it, if it is about none. In few blocks, of all."""
-    claim, blocks, blamed = answer.claim, blocks_at_fault(answer), _blamed(answer)
-    stated = [name for row in claim.form.corners for name in row.shapes if name in claim.words]
-    near = [name for name in stated if block_of(name) in blocks]
+    claim, blocks, blamed = answer.claim, blocks_at_fault(answer), blamed_spans(answer)
+    near = [name for name in shapes_of(claim) if name in claim.words and block_of(name) in blocks]
     at_fault = [name for name in near if claim.words[name].span in blamed]
     return near if len(claim.blocks) <= LARGEST_ROLE or not at_fault else at_fault
-
-
-def is_blamed(answer: Answer, name: str) -> bool:
-    """Whether an error or a warning is about the word of a name."""
-    return answer.claim.words[name].span in _blamed(answer)
 
 
 def words_of(claim: ParsedContour, name: str) -> list[Word]:
@@ -64,9 +64,9 @@ def words_of(claim: ParsedContour, name: str) -> list[Word]:
     return [word, *(each for each in again if each.address != "G")]
 
 
-def _blamed(answer: Answer) -> set[Span]:
-    findings = (finding for finding in answer.diagnostics if finding.severity is not Severity.INFO)
-    return {label.span for finding in findings for label in finding.labels}
+def blamed_spans(answer: Answer) -> set[Span]:
+    """The places that errors and warnings are about."""
+    return spans_of(errors_and_warnings(answer.diagnostics))
 
 
 class DropSets(NamedTuple):
@@ -81,9 +81,8 @@ def find_drop_sets(answer: Answer, dialect: Dialect) -> DropSets:
 
     Of a contour of many blocks, each word alone, those that a finding is about first.
     """
-    claim, rules, blamed = answer.claim, dialect.rules, _blamed(answer)
-    stating = {row.fact.given for row in claim.form.facts} | {*claim.form.choices}
-    stating |= {name for row in claim.form.corners for name in row.shapes}
+    claim, rules, blamed = answer.claim, dialect.rules, blamed_spans(answer)
+    stating = answerable(claim)
     names = [name for name, word in claim.words.items() if name in stating or word.span in blamed]
     near = blocks_at_fault(answer)
     droppable = frozenset(name for name in names if block_of(name) in near)

@@ -10,7 +10,7 @@ from contoursolve.analysis import analyse
 from contoursolve.diagnosis.wording import unknowns_text
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import parse, parse_block
-from contoursolve.geometry import Corner, Length, Profile, assemble
+from contoursolve.geometry import Length, Profile, assemble
 from contoursolve.reading import ContourForm, ParsedContour, Sample, advance, read
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import check
@@ -126,14 +126,12 @@ def _faults(profile: Profile) -> Iterator[str]:
     tied = [system.facts[index] for index in verdict.tied]
     if any(fact.given for fact in tied):
         yield f"tied: {', '.join(word.address for word in profile.words_of(tied))}"
-    names = [corner.name for corner in profile.figure.corners]
+    corners = profile.figure.corners
+    names = [corner.name for corner in corners]
     yield from (f"{name} given twice" for name in dict.fromkeys(names) if names.count(name) > 1)
-    nowhere = {corner.name for corner in profile.figure.corners if not (corner.after or _lands(corner))}
+    last = (corner for corner in corners if corner.after is None and corner.lands_on is None)
+    nowhere = {corner.name for corner in last if corner.lands_parallel_to is None}
     yield from (f"{name} lands nowhere" for name in sorted(nowhere))
     if not verdict.free and is_closed(system):
         chosen = {choice.point for choice in profile.choices}
         yield from (f"two solutions for {each}" for each in points_with_two_solutions(system) if each not in chosen)
-
-
-def _lands(corner: Corner) -> bool:
-    return corner.lands_parallel_to is not None or corner.lands_on is not None

@@ -8,11 +8,12 @@ from decimal import Decimal
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.drafts import change, has_faults, missing_points, unreadable
-from contoursolve.diagnosis.edits import Edit, EditKind
+from contoursolve.diagnosis.drafts import has_faults, missing_points, unreadable
+from contoursolve.diagnosis.edits import Edit, EditKind, change
 from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.spelling import meant_words
-from contoursolve.diagnostics.finding import Severity
+from contoursolve.diagnosis.explain import spans_of
+from contoursolve.diagnosis.spelling import meant_words, shapes_of
+from contoursolve.diagnosis.subsets import blamed_spans, lines_near
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, lookalike_at, mended, spell
 from contoursolve.geometry import CornerShape, Unit
@@ -123,8 +124,8 @@ def _neighbour(typed: Typed) -> Iterator[str]:
 
 def _shapes(claim: ParsedContour) -> dict[str, CornerShape]:
     """The addresses that give corners a size, each with its shape."""
-    shapes = {name: shape for row in claim.form.corners for name, shape in row.shapes.items()}
-    return {claim.vocabulary[name][0]: shape for name, shape in shapes.items() if name in claim.vocabulary}
+    shapes = shapes_of(claim).items()
+    return {claim.vocabulary[name][0]: shape for name, shape in shapes if name in claim.vocabulary}
 
 
 def _swapped(typed: Typed) -> Iterator[str]:
@@ -141,15 +142,8 @@ def _typed_twice(typed: Typed) -> Iterator[str]:
             yield typed.with_number(text[:at] + text[at + 1 :])
 
 
-def _beside(typed: Typed) -> Iterator[str]:
-    yield from _exchanged(typed, lambda digit: _NEAR[digit])
-
-
-def _other_digit(typed: Typed) -> Iterator[str]:
-    yield from _exchanged(typed, lambda _: _NEAR)
-
-
 def _exchanged(typed: Typed, others: Callable[[str], Iterable[str]]) -> Iterator[str]:
+    """Each digit with each of some others for it."""
     text = typed.number
     for at, digit in enumerate(text):
         if digit.isdigit():
@@ -162,18 +156,7 @@ def _digit_lost(typed: Typed) -> Iterator[str]:
         yield from (typed.with_number(text[:at] + digit + text[at:]) for digit in _NEAR)
 
 
-def _digit_added(typed: Typed) -> Iterator[str]:
-    text = typed.number
-    for at, digit in enumerate(text):
-        if digit.isdigit():
-            yield typed.with_number(text[:at] + text[at + 1 :])
-
-
-def _mended(typed: Typed) -> Iterator[str]:
-    yield mended(typed.word.text)
-
-
-UNREADABLE = Slip("", _mended)
+UNREADABLE = Slip("", lambda typed: iter([mended(typed.word.text)]))
 """Letters for digits, commas for points, two points or signs: told by the finding itself."""
 POINT_LOST = Slip("", _point_lost)
 SIGN_LOST = Slip("a lost minus sign", _sign_lost, is_of_digits=False)
@@ -195,10 +178,10 @@ FEW = (
 """Kinds that leave few texts of each word."""
 
 OF_DIGITS = (
-    Slip("a key beside", _beside),
+    Slip("a key beside", lambda typed: _exchanged(typed, _NEAR.__getitem__)),
     Slip("a lost digit", _digit_lost),
-    Slip("a digit too many", _digit_added),
-    Slip("another digit", _other_digit),
+    Slip("a digit too many", lambda typed: _exchanged(typed, lambda _: [""])),
+    Slip("another digit", lambda typed: _exchanged(typed, lambda _: _NEAR)),
 )
 """Kinds that leave dozens."""
 
@@ -293,9 +276,7 @@ def suspects(answer: Answer, tied: Collection[str]) -> list[Word]:
         return torn
     contradicting = {claim.words[name].span for name in tied if name in claim.words}
     if len(claim.blocks) > _WHOLE:
-        near = {span.line for span in blamed | contradicting}
-        numbers = [at for at, block in enumerate(claim.blocks) if block.line in near]
-        lines = {block.line for at, block in enumerate(claim.blocks) if any(abs(at - each) <= 1 for each in numbers)}
+        lines = lines_near(claim, blamed | contradicting)
         words = [word for word in words if word.span.line in lines]
     # Of two words for one corner, the later one is that of the corner behind.
     first = {name for row in claim.form.corners[:1] for name in row.shapes}
@@ -309,12 +290,6 @@ _LEADING = re.compile(r"[A-Za-z][ \t]*+[=(]?+[ \t]*+[+-]?0\d")
 
 def _place(word: Word) -> Span:
     return word.span
-
-
-def blamed_spans(answer: Answer) -> set[Span]:
-    """The places that errors and warnings are about."""
-    findings = [each for each in answer.diagnostics if each.severity is not Severity.INFO]
-    return {label.span for each in findings for label in each.labels}
 
 
 def slips(answer: Answer, kinds: Iterable[Slip], words: Iterable[Word]) -> Iterator[tuple[Edit, ...]]:
@@ -332,9 +307,7 @@ def slips(answer: Answer, kinds: Iterable[Slip], words: Iterable[Word]) -> Itera
 def point_slips(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     """Points in the words that are said to lack one: in all of them, then in each."""
     yield from missing_points(answer)
-    lacking = {
-        label.span for each in answer.diagnostics if each.about is ReadIssue.POINT_MISSING for label in each.labels
-    }
+    lacking = spans_of(answer.diagnostics, ReadIssue.POINT_MISSING)
     words = [word for word in answer.claim.words.values() if word.span in lacking]
     yield from slips(answer, (POINT_LOST,), words)
 

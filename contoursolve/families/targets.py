@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis.examine import Answer, Depth, answer_question, count_choices, list_alternatives
-from contoursolve.diagnosis.missing_point import counts_few, readings
+from contoursolve.diagnosis.spelling import counts_few, readings
 from contoursolve.diagnosis.wording import unknowns_text
 from contoursolve.diagnostics.source import Span
 from contoursolve.families.branches import PLACES, Branch

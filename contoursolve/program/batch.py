@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from contoursolve.diagnosis.examine import Answer, Policy
 from contoursolve.diagnosis.explain import context_of
-from contoursolve.diagnosis.missing_point import is_counted_start, without_point
+from contoursolve.diagnosis.spelling import is_counted_start, without_point
 from contoursolve.gcode import Word
 from contoursolve.geometry import Length, Line, Profile, System, assemble
 from contoursolve.numeric.expressions import Compiled, inverse_norms

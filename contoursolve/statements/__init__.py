@@ -3,8 +3,8 @@
 A text such as `length of line 1 = 30` comes in, facts of a profile go out. Begin with `statement`.
 """
 
-from contoursolve.statements.apply import Fault, Flaw, apply_statements
-from contoursolve.statements.draft import Draft, Meeting, MeetsLine, StatementError
+from contoursolve.statements.apply import Fault, apply_statements
+from contoursolve.statements.draft import Draft, StatementError
 from contoursolve.statements.grammar import GrammarError, Vocabulary, read_statement, write_statement
 from contoursolve.statements.statement import (
     ChordIs,
@@ -14,6 +14,8 @@ from contoursolve.statements.statement import (
     EqualSizes,
     LengthIs,
     LineAt,
+    Meeting,
+    MeetsLine,
     ParallelTo,
     PassesBeside,
     PassesThrough,
@@ -34,7 +36,6 @@ __all__ = [
     "EqualLengths",
     "EqualSizes",
     "Fault",
-    "Flaw",
     "GrammarError",
     "LengthIs",
     "LineAt",

@@ -1,7 +1,6 @@
 """Further facts of a block, put into its profile, and as words that findings can show."""
 
 from collections.abc import Callable, Sequence
-from enum import Enum
 from typing import cast
 
 from msgspec import Struct
@@ -9,12 +8,14 @@ from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Directive, Word
-from contoursolve.geometry import Corner, Profile, Question, Radius, Unit
-from contoursolve.statements.draft import Draft, Meeting, MeetsLine, StatementError
+from contoursolve.geometry import Profile, Question, Radius, Unit
+from contoursolve.statements.draft import Draft, StatementError
 from contoursolve.statements.grammar import GrammarError, Vocabulary, read_statement
 from contoursolve.statements.statement import (
     ANGLES,
     DirectionIs,
+    Meeting,
+    MeetsLine,
     ParallelTo,
     PassesBeside,
     PassesThrough,
@@ -38,19 +39,12 @@ _FIRST = (MeetsLine, Touches, DirectionIs, TurnIs, PassesThrough, PassesBeside, 
 """Statements that say what a line is come before those that measure it."""
 
 
-class Flaw(Enum):
-    """What can be wrong with a further fact."""
-
-    UNREADABLE = "unreadable"
-    IMPOSSIBLE = "impossible"
-
-
 class Fault(Struct, frozen=True):
     """A fact that was not used: what is wrong, in words, and where."""
 
-    flaw: Flaw
     message: str
     word: Word
+    is_readable: bool = True
 
 
 def apply_statements(
@@ -74,7 +68,7 @@ def apply_statements(
             # A comment ends with the first ), wherever that stands.
             is_cut = "(" in directive.text and directive.span.line > 0
             hint = "; inside a comment write [ ] for ( )" if is_cut else ""
-            faults.append(Fault(Flaw.UNREADABLE, f"{error}{hint}", word_of(directive, error.begin, error.end)))
+            faults.append(Fault(f"{error}{hint}", word_of(directive, error.begin, error.end), is_readable=False))
     questions = list(profile.questions)
     for name, statement, word in sorted(read, key=lambda each: rank(each[1])):
         draft.word = word
@@ -82,7 +76,7 @@ def apply_statements(
             stated = _resolved(statement, next_place)
             fact = stated.state(draft, name)
         except StatementError as error:
-            faults.append(Fault(Flaw.IMPOSSIBLE, str(error), word))
+            faults.append(Fault(str(error), word))
             continue
         axis = stated.axis if isinstance(stated, PointIs) else None
         is_diameter = axis is not None and profile.plane.diameters[axis]
@@ -114,18 +108,12 @@ def _resolved(statement: Statement, next_place: Callable[[], Place | None]) -> S
 
 def _add_size(draft: Draft, question: Question, faults: list[Fault]) -> None:
     """A corner whose size is asked for is part of the equations."""
-    if not isinstance(question.fact, Radius):
-        return
-    for corner in draft.figure.corners:
-        if corner.size == question.name:
-            _try_corner(draft, corner, question, faults)
-
-
-def _try_corner(draft: Draft, corner: Corner, question: Question, faults: list[Fault]) -> None:
-    try:
-        draft.corner(corner.name)
-    except StatementError as error:
-        faults.append(Fault(Flaw.IMPOSSIBLE, str(error), question.word))
+    for corner in draft.figure.corners if isinstance(question.fact, Radius) else ():
+        try:
+            if corner.size == question.name:
+                draft.corner(corner.name)
+        except StatementError as error:
+            faults.append(Fault(str(error), question.word))
 
 
 def rank(statement: Statement) -> int:

@@ -3,11 +3,12 @@
 import re
 from collections.abc import Callable, Sequence
 from decimal import Decimal
+from functools import partial
 
 from msgspec import Struct
+from msgspec.structs import astuple
 
 from contoursolve.geometry import Length, Plane
-from contoursolve.statements.draft import Meeting, MeetsLine
 from contoursolve.statements.statement import (
     ANGLES,
     ChordIs,
@@ -17,6 +18,8 @@ from contoursolve.statements.statement import (
     EqualSizes,
     LengthIs,
     LineAt,
+    Meeting,
+    MeetsLine,
     ParallelTo,
     PassesBeside,
     PassesThrough,
@@ -60,10 +63,31 @@ class Vocabulary(Struct, frozen=True):
     unit: Length
 
 
+class _Measure(Struct, frozen=True):
+    """What a value is of: the statement of it, how it begins, as it is written first, and the element that follows."""
+
+    kind: type[LengthIs] | type[StraightIs] | type[DirectionIs] | type[RadiusIs] | type[ChordIs]
+    begins: tuple[str, ...]
+    element: str
+    equal: type[EqualLengths] | type[EqualSizes] | None = None
+    """The statement that two of these are equal."""
+
+
+_MEASURES = (
+    _Measure(LengthIs, ("length of",), "an element", EqualLengths),
+    _Measure(StraightIs, ("straight part of",), "a line"),
+    _Measure(DirectionIs, ("direction of",), "a line"),
+    _Measure(RadiusIs, ("radius of", "size of"), "an element", EqualSizes),
+    _Measure(ChordIs, ("chord of",), "an arc"),
+)
+
+
 class _Quantity(Struct, frozen=True):
-    kind: str
-    names: tuple[str, ...]
+    """What stands before an equals sign, or behind one."""
+
     state: Callable[[Decimal | None], Statement]
+    name: str = ""
+    equal: type[EqualLengths] | type[EqualSizes] | None = None
     is_angle: bool = False
     factor: Decimal = Decimal(1)
 
@@ -87,21 +111,18 @@ class _Reader:
         if quantity is not None:
             return self._equation(quantity)
         element = self._element("an element, or a quantity such as `length of`, `radius of`, `Z of`")
-        if self._accept("passes through") or self._accept("through"):
-            return PassesThrough(element, self._place())
-        if self._accept("passes beside") or self._accept("passes"):
-            return PassesBeside(element, self._place(), self._distance())
-        if self._accept("is parallel to") or self._accept("parallel to"):
-            other = self._element("a line")
-            self._skip()
-            return ParallelTo(element, other, self._distance() if self.at < len(self.text) else None)
-        if self._accept("is tangent to") or self._accept("tangent to"):
-            return Touches(element, self._other())
-        if self._accept("meets"):
-            return MeetsLine(element, self._meeting())
+        for row in _RELATIONS:
+            if any(map(self._accept, row.verbs)):
+                return row.kind(element, *(read(self) for read in row.objects))
         raise self._error("`passes through`, `passes beside`, `parallel to`, `tangent to` or `meets`")
 
-    def _distance(self) -> Decimal:
+    def other_line(self) -> str:
+        return self._element("a line")
+
+    def distance_or_end(self) -> Decimal | None:
+        return self.distance() if self._skip() < len(self.text) else None
+
+    def distance(self) -> Decimal:
         if not self._accept("at"):
             raise self._error("`at` and a distance")
         return self._number() * self.words.unit.in_mm
@@ -121,38 +142,24 @@ class _Reader:
         if other is None:
             value = self._number()
             return quantity.state(value if quantity.is_angle else value * quantity.factor * self.words.unit.in_mm)
-        if quantity.kind == other.kind == "length":
-            return EqualLengths(quantity.names[0], other.names[0])
-        if quantity.kind == other.kind == "radius":
-            return EqualSizes(quantity.names[0], other.names[0])
+        if quantity.equal is not None and quantity.equal is other.equal:
+            return quantity.equal(quantity.name, other.name)
         raise GrammarError("only two lengths or two radii can be equal", begin, self.at)
 
     def _quantity(self) -> _Quantity | None:
-        if self._accept("length of"):
-            name = self._element("an element")
-            return _Quantity("length", (name,), lambda value: LengthIs(name, value))
-        if self._accept("straight part of"):
-            name = self._element("a line")
-            return _Quantity("straight part", (name,), lambda value: StraightIs(name, value))
-        if self._accept("direction of"):
-            name = self._element("a line")
-            return _Quantity("direction", (name,), lambda value: DirectionIs(name, value), is_angle=True)
-        if self._accept("radius of") or self._accept("size of"):
-            name = self._element("an element")
-            return _Quantity("radius", (name,), lambda value: RadiusIs(name, value))
-        if self._accept("chord of"):
-            name = self._element("an arc")
-            return _Quantity("chord", (name,), lambda value: ChordIs(name, value))
+        for row in _MEASURES:
+            if any(map(self._accept, row.begins)):
+                name = self._element(row.element)
+                return _Quantity(partial(row.kind, name), name, row.equal, row.kind in ANGLES)
         if self._accept("polar angle of"):
             part = self._part(("begin", "end")) or "end"
-            name = self._element("an arc, or `begin of` or `end of` one")
-            return _Quantity("polar angle", (name,), lambda value: PolarAngleIs(name, value, part), is_angle=True)
+            arc = self._element("an arc, or `begin of` or `end of` one")
+            return _Quantity(partial(PolarAngleIs, arc, part=part), is_angle=True)
         if self._accept("angle from"):
             first = self._element("an element")
             if not self._accept("to"):
                 raise self._error("`to`")
-            second = self._element("an element")
-            return _Quantity("angle", (first, second), lambda value: TurnIs(first, second, value), is_angle=True)
+            return _Quantity(partial(TurnIs, first, self._element("an element")), is_angle=True)
         for axis, name in enumerate(self.words.plane.axes):
             if self._accept(f"{name} of"):
                 return self._coordinate(axis)
@@ -163,42 +170,39 @@ class _Reader:
         part = self._part()
         expected = "an element" if part else "a point, or `begin of`, `end of`, `center of`"
         name = self._name(self.words.elements if part else self.words.points, expected)
-        return _Quantity("coordinate", (name,), lambda value: PointIs(part, name, axis, value), factor=factor)
+        return _Quantity(partial(PointIs, part, name, axis), factor=factor)
 
     def _part(self, parts: Sequence[str] = tuple(_PARTS)) -> str:
         """Which part of an element is meant; empty if none is said."""
         return next((part for part in parts if any(map(self._accept, _PARTS[part]))), "")
 
-    def _other(self) -> str | CircleAt | LineAt:
+    def touched(self) -> str | CircleAt | LineAt:
         begin = self.at
-        bracket = self._open() if self._accept("circle") else ""
-        if self.at > begin and (bracket or self._starts_place()):
-            place = self._axis_words()
-            radius = self._lettered("R") * self.words.unit.in_mm
+        for what, letter in (("circle", "R"), ("line", "A")):
+            self.at = begin
+            bracket = self._open() if self._accept(what) else ""
+            if self.at == begin or not (bracket or self._starts_place()):
+                continue
+            place, value = self._axis_words(), self._lettered(letter)
             self._close(bracket)
-            if radius < 0:
+            if what == "line":
+                return LineAt(place, value)
+            if value < 0:
                 raise GrammarError("a radius is not negative", begin, self.at)
-            return CircleAt(place, radius)
-        self.at = begin
-        bracket = self._open() if self._accept("line") else ""
-        if self.at > begin and (bracket or self._starts_place()):
-            place = self._axis_words()
-            angle = self._lettered("A")
-            self._close(bracket)
-            return LineAt(place, angle)
+            return CircleAt(place, value * self.words.unit.in_mm)
         self.at = begin
         return self._element("an element, `circle (...)` or `line (...)`")
 
-    def _meeting(self) -> Meeting:
+    def meeting(self) -> Meeting:
         if self._accept("next line"):
             return Meeting(None, None)
         if self._accept("line to"):
-            return Meeting(self._place(), None)
+            return Meeting(self.place(), None)
         if self._accept("line at"):
             return Meeting(None, self._number())
         raise self._error("`next line`, `line to (...)` or `line at` an angle")
 
-    def _place(self) -> Place:
+    def place(self) -> Place:
         bracket = self._open()
         place = self._axis_words()
         self._close(bracket)
@@ -295,34 +299,33 @@ class _Reader:
         return GrammarError(f"expected {expected}, found {found}", self.at, rest.end() if rest else self.at)
 
 
-_OF: dict[type, tuple[str, str]] = {
-    LengthIs: ("length of", "element"),
-    StraightIs: ("straight part of", "line"),
-    ChordIs: ("chord of", "arc"),
-    DirectionIs: ("direction of", "line"),
-    RadiusIs: ("radius of", "element"),
-}
-"""What each is called, and the field that names what it is of."""
-_EQUAL = {EqualLengths: "length of", EqualSizes: "radius of"}
+class _Relation(Struct, frozen=True):
+    """What is said of an element: what stands behind it, as it is written first, and what follows."""
+
+    kind: Callable[..., Statement]
+    verbs: tuple[str, ...]
+    objects: tuple[Callable[[_Reader], object], ...]
+
+
+_RELATIONS = (
+    _Relation(PassesThrough, ("passes through", "through"), (_Reader.place,)),
+    _Relation(PassesBeside, ("passes beside", "passes"), (_Reader.place, _Reader.distance)),
+    _Relation(ParallelTo, ("parallel to", "is parallel to"), (_Reader.other_line, _Reader.distance_or_end)),
+    _Relation(Touches, ("tangent to", "is tangent to"), (_Reader.touched,)),
+    _Relation(MeetsLine, ("meets",), (_Reader.meeting,)),
+)
 
 
 def write_statement(statement: Statement, plane: Plane, unit: Length) -> str:
     """The text that states it in a program of this plane and unit; places in brackets that a comment allows."""
+    relation = next((row for row in _RELATIONS if row.kind is type(statement)), None)
+    if relation is not None:
+        element, *objects = astuple(statement)
+        texts = (_object(each, plane, unit) for each in objects if each is not None)
+        return " ".join([element, relation.verbs[0], *texts])
     if isinstance(statement, EqualLengths | EqualSizes):
-        what = _EQUAL[type(statement)]
+        what = next(row.begins[0] for row in _MEASURES if row.equal is type(statement))
         return f"{what} {statement.first} = {what} {statement.second}"
-    if isinstance(statement, PassesThrough):
-        return f"{statement.element} passes through [{_place(statement.place, plane, unit)}]"
-    if isinstance(statement, PassesBeside):
-        place = _place(statement.place, plane, unit)
-        return f"{statement.element} passes beside [{place}] at {_length(statement.distance, unit)}"
-    if isinstance(statement, ParallelTo):
-        apart = "" if statement.distance is None else f" at {_length(statement.distance, unit)}"
-        return f"{statement.line} parallel to {statement.other}{apart}"
-    if isinstance(statement, Touches):
-        return f"{statement.first} tangent to {_other(statement.second, plane, unit)}"
-    if isinstance(statement, MeetsLine):
-        return f"{statement.corner} meets {_meeting(statement, plane, unit)}"
     value: Decimal | None = getattr(statement, "value", None)
     if isinstance(statement, PointIs):
         part = f"{statement.part} of " if statement.part else ""
@@ -334,23 +337,26 @@ def write_statement(statement: Statement, plane: Plane, unit: Length) -> str:
     if isinstance(statement, PolarAngleIs):
         part = "" if statement.part == "end" else f"{statement.part} of "
         return f"polar angle of {part}{statement.arc} = {shown}"
-    what, field = _OF[type(statement)]
-    return f"{what} {getattr(statement, field)} = {shown}"
+    row = next(row for row in _MEASURES if row.kind is type(statement))
+    return f"{row.begins[0]} {astuple(statement)[0]} = {shown}"
 
 
-def _other(other: str | CircleAt | LineAt, plane: Plane, unit: Length) -> str:
-    if isinstance(other, CircleAt):
-        return f"circle [{_place(other.center, plane, unit)} R{_length(other.radius, unit)}]"
-    if isinstance(other, LineAt):
-        return f"line [{_place(other.place, plane, unit)} A{_number(other.angle)}]"
-    return other
-
-
-def _meeting(statement: MeetsLine, plane: Plane, unit: Length) -> str:
-    line = statement.line
-    if line.to is not None:
-        return f"line to [{_place(line.to, plane, unit)}]"
-    return "next line" if line.angle is None else f"line at {_number(line.angle)}"
+def _object(part: str | Decimal | Place | CircleAt | LineAt | Meeting, plane: Plane, unit: Length) -> str:
+    """What stands behind the verb: an element by its name, a distance, or something that is given with its place."""
+    match part:
+        case str():
+            return part
+        case Decimal():
+            return f"at {_length(part, unit)}"
+        case CircleAt(center=center, radius=radius):
+            return f"circle [{_place(center, plane, unit)} R{_length(radius, unit)}]"
+        case LineAt(place=place, angle=angle):
+            return f"line [{_place(place, plane, unit)} A{_number(angle)}]"
+        case Meeting(to=to, angle=angle):
+            if to is not None:
+                return f"line to {_object(to, plane, unit)}"
+            return "next line" if angle is None else f"line at {_number(angle)}"
+    return f"[{_place(part, plane, unit)}]"
 
 
 def _place(place: Place, plane: Plane, unit: Length) -> str:

@@ -5,9 +5,9 @@ is None is asked for instead of stated. `state` adds the equations to a draft un
 """
 
 from decimal import Decimal
-from typing import Protocol
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.geometry import (
     Along,
@@ -55,7 +55,7 @@ class LineAt(Struct, frozen=True):
     angle: Decimal
 
 
-class Statement(Protocol):
+class Statement(Struct, frozen=True):
     """What a user states or asks about a drawing."""
 
     def state(self, draft: Draft, name: str) -> Fact:
@@ -64,9 +64,10 @@ class Statement(Protocol):
         Raises StatementError if it makes no sense for this drawing. A value that is asked for adds no given;
         the fact that is returned tells it (`implied`).
         """
+        raise NotImplementedError
 
 
-class PointIs(Struct, frozen=True):
+class PointIs(Statement, frozen=True):
     """A coordinate of a point: a virtual intersection, or where an element begins, ends or has its centre."""
 
     part: str
@@ -82,7 +83,7 @@ class PointIs(Struct, frozen=True):
         return _stated(draft, Coordinate(name, point, self.axis), self.value, Unit.MM)
 
 
-class LengthIs(Struct, frozen=True):
+class LengthIs(Statement, frozen=True):
     """The length of a line (between the virtual intersections at its ends), of an arc, or of a corner."""
 
     element: str
@@ -111,7 +112,7 @@ class LengthIs(Struct, frozen=True):
         )
 
 
-class StraightIs(Struct, frozen=True):
+class StraightIs(Statement, frozen=True):
     """The length of a line's straight part, between the corners at its ends."""
 
     line: str
@@ -128,7 +129,7 @@ class StraightIs(Struct, frozen=True):
         return _stated(draft, Extent(name, self.line, *ends), self.value, Unit.MM)
 
 
-class DirectionIs(Struct, frozen=True):
+class DirectionIs(Statement, frozen=True):
     """The direction in which a line runs."""
 
     line: str
@@ -142,7 +143,7 @@ class DirectionIs(Struct, frozen=True):
         return _stated(draft, Directed(name, self.line), self.value, Unit.DEGREE)
 
 
-class TurnIs(Struct, frozen=True):
+class TurnIs(Statement, frozen=True):
     """By how much the direction of travel turns from one element to another, counter-clockwise."""
 
     first: str
@@ -159,7 +160,7 @@ class TurnIs(Struct, frozen=True):
         return _stated(draft, TurnBetween(name, *vectors), self.value, Unit.DEGREE)  # type: ignore[arg-type]
 
 
-class PassesThrough(Struct, frozen=True):
+class PassesThrough(Statement, frozen=True):
     """An element, or the line or circle that it is part of, passes through a place."""
 
     element: str
@@ -169,12 +170,12 @@ class PassesThrough(Struct, frozen=True):
         place = draft.place(f"{name}.place", self.place)
         if isinstance(draft.element(self.element), Line):
             draft.line(self.element)
-            return _named(draft, name, Through(self.element, place, name))
+            return _named(draft, Through(self.element, place, name))
         form = draft.round(self.element)
-        return _named(draft, name, OnCircle(place, form.center, form.radius, name))
+        return _named(draft, OnCircle(place, form.center, form.radius, name))
 
 
-class PassesBeside(Struct, frozen=True):
+class PassesBeside(Statement, frozen=True):
     """An element, or the line or circle that it is part of, passes a place at a distance, on either side of it.
 
     A distance of 0 says that it passes through the place.
@@ -194,12 +195,12 @@ class PassesBeside(Struct, frozen=True):
         side = f"{name}.side"
         if form is None:
             draft.line(self.element)
-            return _named(draft, name, TangentLine(self.element, around.center, around.radius, side, name))
+            return _named(draft, TangentLine(self.element, around.center, around.radius, side, name))
         circles = (around.center, around.radius), (form.center, form.radius)
-        return _named(draft, name, PointBeside(*circles, side, name))
+        return _named(draft, PointBeside(*circles, side, name))
 
 
-class ParallelTo(Struct, frozen=True):
+class ParallelTo(Statement, frozen=True):
     """A line is parallel to another one, in the same direction or against it, and may be at a distance from it.
 
     With a distance it lies on either side. A distance of 0 says that both lie on one line.
@@ -214,7 +215,7 @@ class ParallelTo(Struct, frozen=True):
             raise StatementError(f"{self.line} is one line, and parallel to itself")
         line, other = draft.line(self.line), draft.line(self.other)
         if self.distance is None:
-            return _named(draft, name, ParallelLines(self.line, self.other, name))
+            return _named(draft, ParallelLines(self.line, self.other, name))
         _check_distance(self.distance)
         meeting = {line.tail, line.head} & {other.tail, other.head} - {""}
         if self.distance and meeting:
@@ -225,12 +226,12 @@ class ParallelTo(Struct, frozen=True):
         draft.add(ParallelLines(self.line, self.other, part_of=parallel))
         point = draft.point_on(self.line)
         if not self.distance:
-            return _named(draft, name, Through(self.other, point, name))
+            return _named(draft, Through(self.other, point, name))
         around = draft.around(name, point, self.distance)
-        return _named(draft, name, TangentLine(self.other, around.center, around.radius, f"{name}.side", name))
+        return _named(draft, TangentLine(self.other, around.center, around.radius, f"{name}.side", name))
 
 
-class ChordIs(Struct, frozen=True):
+class ChordIs(Statement, frozen=True):
     """The length of the chord of an arc or a rounding: straight from its begin to its end."""
 
     arc: str
@@ -242,7 +243,7 @@ class ChordIs(Struct, frozen=True):
         return _stated(draft, Distance(name, form.begin, form.end), self.value, Unit.MM)
 
 
-class PolarAngleIs(Struct, frozen=True):
+class PolarAngleIs(Statement, frozen=True):
     """The angle from the plane's first axis to the ray from the centre of an arc or a rounding to one of its ends."""
 
     arc: str
@@ -256,7 +257,7 @@ class PolarAngleIs(Struct, frozen=True):
         return _stated(draft, Ray(name, form.center, end), self.value, Unit.DEGREE)
 
 
-class RadiusIs(Struct, frozen=True):
+class RadiusIs(Statement, frozen=True):
     """The radius of an arc, a circle or a rounding, or the size of a chamfer."""
 
     element: str
@@ -271,7 +272,7 @@ class RadiusIs(Struct, frozen=True):
         return _stated(draft, Radius(name, draft.round(self.element).radius), self.value, Unit.MM)
 
 
-class Touches(Struct, frozen=True):
+class Touches(Statement, frozen=True):
     """Two elements are tangent. Neighbours go on smoothly; others touch from any side."""
 
     first: str
@@ -293,7 +294,7 @@ class Touches(Struct, frozen=True):
         first, second = draft.element(self.first), draft.element(str(self.second))
         if isinstance(first, Arc) and isinstance(second, Arc):
             side = 1 if first.turn is not second.turn else -1
-            return _named(draft, name, Contact(at, first.center, second.center, side, name))
+            return _named(draft, Contact(at, first.center, second.center, side, name))
         if isinstance(first, Line) and isinstance(second, Line):
             straight = draft.give(name, Decimal(0), Unit.DEGREE)
             draft.line(self.first)
@@ -307,7 +308,7 @@ class Touches(Struct, frozen=True):
         draft.line(line.name)
         draft.leave(at, arc)
         draft.add(Foot(line.name, at, arc.center))
-        return _named(draft, name, TangentLine(line.name, arc.center, arc.radius, arc.turn.sign, name))
+        return _named(draft, TangentLine(line.name, arc.center, arc.radius, arc.turn.sign, name))
 
     def _touch(self, draft: Draft, name: str, other: str | Round) -> Fact:
         """Elements that are not neighbours: the side is open."""
@@ -320,14 +321,14 @@ class Touches(Struct, frozen=True):
             line, circle = (self.first, other) if isinstance(first, Line) else (str(other), self.first)
             form = draft.round(circle) if isinstance(circle, str) else circle
             draft.line(line)
-            return _named(draft, name, TangentLine(line, form.center, form.radius, side, name))
+            return _named(draft, TangentLine(line, form.center, form.radius, side, name))
         one = draft.round(self.first)
         second = draft.round(other) if isinstance(other, str) else other
         circles = (one.center, one.radius), (second.center, second.radius)
-        return _named(draft, name, TangentCircles(*circles, side, name))
+        return _named(draft, TangentCircles(*circles, side, name))
 
 
-class EqualLengths(Struct, frozen=True):
+class EqualLengths(Statement, frozen=True):
     """Two lines are equally long."""
 
     first: str
@@ -341,10 +342,10 @@ class EqualLengths(Struct, frozen=True):
                 raise StatementError(f"{each} is not a line")
             _check_ends(line)
             ends.append((line.tail, line.head))
-        return _named(draft, name, EqualDistances(name, *ends))
+        return _named(draft, EqualDistances(name, *ends))
 
 
-class EqualSizes(Struct, frozen=True):
+class EqualSizes(Statement, frozen=True):
     """Two arcs, circles or corners have the same radius."""
 
     first: str
@@ -359,7 +360,52 @@ class EqualSizes(Struct, frozen=True):
                 radii.append(f"{each}.radius")
             else:
                 radii.append(draft.round(each).radius)
-        return _named(draft, name, EqualRadii(name, *radii))
+        return _named(draft, EqualRadii(name, *radii))
+
+
+class Meeting(Struct, frozen=True):
+    """A line from the corner's virtual intersection: to a place, or at an angle; neither where the next block tells."""
+
+    to: Place | None
+    angle: Decimal | None
+
+
+class MeetsLine(Statement, frozen=True):
+    """A last corner joins its line to this one.
+
+    A 45 degree chamfer runs in the quadrant of the direction midway between the two lines: of the four, the one
+    that is nearest to equal setbacks, and the only one that fits unless the path turns by more than 90 degrees. For a
+    line parallel to an axis this is what the manual's tables say. Where the two directions cancel along an axis, so
+    that two quadrants are equally near, it goes on there as the line before it; if the size is asked for, that stays
+    undecided. A line to a place must be long
+    enough for the corner.
+    """
+
+    corner: str
+    line: Meeting
+
+    def state(self, draft: Draft, name: str) -> Fact:
+        corner = draft.element(self.corner)
+        if not isinstance(corner, Corner) or corner.after is not None:
+            raise StatementError(f"{self.corner} is no last corner")
+        line = f"{self.corner}.landing"
+        if any(each.name == line for each in draft.figure.lines):
+            raise StatementError(f"the line that {self.corner} meets is stated twice")
+        if self.line.angle is not None:
+            heading = draft.give(name, self.line.angle, Unit.DEGREE)
+            added = Line(line, corner.at, "", heading)
+        elif self.line.to is not None:
+            draft.give(name, Decimal(0), Unit.SIGN)
+            added = Line(line, corner.at, draft.place(f"{name}.place", self.line.to))
+        else:
+            raise StatementError("there is no next block with a line whose end is known")
+        corners = tuple(
+            replace(each, lands_on=line, lands_parallel_to=None) if each.name == self.corner else each
+            for each in draft.figure.corners
+        )
+        draft.figure = replace(draft.figure, lines=(*draft.figure.lines, added), corners=corners)
+        draft.line(line)
+        return Through(line, corner.at, name)
 
 
 ANGLES = (DirectionIs, PolarAngleIs, TurnIs)
@@ -381,9 +427,9 @@ def _stated(draft: Draft, fact: Fact, value: Decimal | None, unit: Unit) -> Fact
     return fact
 
 
-def _named(draft: Draft, name: str, fact: Fact) -> Fact:
+def _named(draft: Draft, fact: Fact) -> Fact:
     """A fact without a value of its own; the given keeps the words that state it."""
-    draft.give(name, Decimal(0), Unit.SIGN)
+    draft.give(fact.given, Decimal(0), Unit.SIGN)
     draft.add(fact)
     return fact
 
