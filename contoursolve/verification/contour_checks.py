@@ -33,6 +33,7 @@ from contoursolve.verification.path_checks import (
     half_increment,
     missed,
     moves_of,
+    told,
 )
 from contoursolve.verification.receipt import Ledger
 from contoursolve.verification.residuals import Array
@@ -42,7 +43,6 @@ from contoursolve.verification.status import (
     Candidate,
     Case,
     Found,
-    LooseError,
     allowance,
     candidates,
     expected,
@@ -67,26 +67,27 @@ def check_contour(found: Found, claimed: ClaimedContour) -> tuple[Ledger, bool]:
 def _check_contour(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bool:
     _check_place(found.claim, claimed, ledger)
     case, values = prepare(found), None
+    paths = [each for each in (claimed, *claimed.solutions) if each.elements]
+    solutions = candidates(case, [told(case, each) for each in paths]) if case.has_solutions else []
     for text in (each.text for each in found.claim.directives if each.span.line < -found.apart):
         ledger.omit(f"the fact {text}", "stated in the result only: checked, but not known from the program")
     if claimed.has_path:
         why = case.statuses.get("rejected") or ("" if case.is_readable else case.statuses.get("underdetermined", ""))
         ledger.require("every word and fact can be read", (), case.is_readable, why)
         if case.is_readable and case.profile.start.is_known:
-            values = examine(case, claimed, ledger, is_chosen=True)
+            values = examine(case, claimed, solutions, ledger, is_chosen=True)
         if values is not None:
             check_branches(case, claimed.branches, claimed.branch, values, ledger)
             check_asked(case, claimed, values, ledger)
             check_filled(case, claimed, ledger)
     else:
         _check_bare(claimed, ledger)
-    listed = [_examine_listed(case, claimed, number, values, ledger) for number in range(len(claimed.solutions))]
+    listed = [_examine_listed(case, claimed, each, solutions, values, ledger) for each in range(len(claimed.solutions))]
     _check_list(case, claimed, listed, ledger)
     if ledger.failures:
         ledger.omit("the status, and whether there are other solutions", "what is claimed is wrong in itself")
         return False
-    near = [each for each in (values, *listed) if each is not None]
-    is_checked, solutions = _check_status(case, claimed, near, ledger)
+    is_checked = _check_status(case, claimed, solutions, ledger)
     _check_count(case, claimed, solutions, ledger)
     if claimed.diagnosis is not None:
         _check_diagnosis(case, claimed.diagnosis, solutions, ledger)
@@ -145,19 +146,13 @@ def _check_bare(claimed: ClaimedContour, ledger: Ledger) -> None:
     ledger.require("without a path nothing is filled in", (), claimed.filled is None, "there are filled blocks")
 
 
-def _check_status(
-    case: Case, claimed: ClaimedContour, near: Sequence[Array], ledger: Ledger
-) -> tuple[bool, list[Candidate]]:
-    """Whether the status could be worked out, and the solutions that were found for it."""
-    solutions, status = list[Candidate](), None
-    try:
-        if case.is_readable and case.is_determined and case.profile.start.is_known:
-            solutions = candidates(case, near)
-        status, why = expected(case, solutions)
-    except LooseError:
+def _check_status(case: Case, claimed: ClaimedContour, solutions: Sequence[Candidate], ledger: Ledger) -> bool:
+    """Whether the status could be worked out."""
+    status, why = expected(case, solutions)
+    if any(each.is_open for each in solutions):
         is_right = claimed.status in LOOSE
         ledger.require("the words leave points free at their values", (), is_right, f"it is {claimed.status}")
-        why = "the words leave points free at their values, and there may be other solutions"
+        status, why = None, "the words leave points free at their values, and there may be other solutions"
     if status is None:
         ledger.omit("the status", why)
     else:
@@ -171,14 +166,19 @@ def _check_status(
     ignored = [*case.profile.words_of(case.profile.ignored), *unused_words(case.claim, case.profile)]
     for word in ignored if case.is_readable else ():
         ledger.omit(word.text, "the control does not use it for this contour")
-    return status is not None, solutions
+    return status is not None
 
 
 # --- The list of solutions -------------------------------------------------------------------------
 
 
 def _examine_listed(
-    case: Case, claimed: ClaimedContour, number: int, exact: Array | None, ledger: Ledger
+    case: Case,
+    claimed: ClaimedContour,
+    number: int,
+    found: Sequence[Candidate],
+    exact: Array | None,
+    ledger: Ledger,
 ) -> Array | None:
     """One solution of the list; the values of its unknowns, if it is a path. `exact` are those of the contour."""
     solution, own, values = claimed.solutions[number], Ledger(), None
@@ -191,7 +191,7 @@ def _examine_listed(
         answers = [asked.word for asked in solution.asked if asked.value is not None]
         own.require("it answers nothing", answers, not answers, "it has no path")
     elif own.require("it has a path", (), not solution.is_empty, "it claims to be one") and case.is_readable:
-        values = examine(case, solution, own, is_chosen=solution.is_chosen)
+        values = examine(case, solution, found, own, is_chosen=solution.is_chosen)
         if values is not None:
             check_asked(case, solution, values, own)
     elif not case.is_readable:

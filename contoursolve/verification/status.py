@@ -106,6 +106,11 @@ class Case(Struct, frozen=True):
         return len(self.basis) == len(self.system.unknowns)
 
     @property
+    def has_solutions(self) -> bool:
+        """Whether solutions can be worked out."""
+        return self.is_readable and self.is_determined and self.profile.start.is_known
+
+    @property
     def size(self) -> float:
         """The largest number that the words state, mm."""
         return max([1.0, *map(abs, self.system.amounts.values())])
@@ -251,12 +256,12 @@ def _structure(profile: Profile, free: int, unknowns: int) -> Iterator[tuple[str
 # --- Solutions that are worked out here ------------------------------------------------------------
 
 
-class LooseError(ValueError):
-    """The facts leave a point free at their values, although not at others."""
-
-
 class Candidate(Struct, frozen=True):
-    """A solution of the facts that fix the points: its path, and which of the other facts it is against."""
+    """A solution of the facts that fix the points: its path, and which of the other facts it is against.
+
+    `is_hidden` tells that several have become one there, `is_open` that the facts leave a point free at their values,
+    although not at others.
+    """
 
     values: Array
     signs: Mapping[str, int]
@@ -265,6 +270,7 @@ class Candidate(Struct, frozen=True):
     agreeing: tuple[Fact, ...]
     is_chosen: bool
     is_hidden: bool
+    is_open: bool
 
     @property
     def is_path(self) -> bool:
@@ -273,7 +279,7 @@ class Candidate(Struct, frozen=True):
 
 
 def candidates(case: Case, near: Sequence[Array] = ()) -> list[Candidate]:
-    """The solutions that are found; those near claimed ones are among them. Raises LooseError."""
+    """The solutions that are found; those near what claimed ones tell (NaN where they do not) are among them."""
     system, found = case.system, list[tuple[Array, dict[str, int]]]()
     if not system.unknowns:
         found = [(system.zero, {})]
@@ -295,8 +301,6 @@ def candidates(case: Case, near: Sequence[Array] = ()) -> list[Candidate]:
 def _candidate(case: Case, values: Array, signs: Mapping[str, int]) -> Candidate | None:
     """A solution of the basis; None where what must be positive is not."""
     moved = rank.correct(case.system, case.basis, values, signs, case.band, case.band * FEW)
-    if moved.is_open:
-        raise LooseError
     if float(abs(moved.by).max(initial=0.0)) < rank.APART * case.size:
         values = values + moved.by
     at, scalars = case.system.at(values, signs), case.scalars(values)
@@ -314,7 +318,7 @@ def _candidate(case: Case, values: Array, signs: Mapping[str, int]) -> Candidate
     if not all(is_right for choice, is_right in agreed.items() if not choice.given):
         return None  # The form itself has no other place.
     path = case.draw(scalars)
-    return Candidate(values, signs, path, conflicts, agreeing, all(agreed.values()), moved.is_hidden)
+    return Candidate(values, signs, path, conflicts, agreeing, all(agreed.values()), moved.is_hidden, moved.is_open)
 
 
 def is_on_side(case: Case, scalars: Mapping[str, float], choice: Choice) -> bool:
