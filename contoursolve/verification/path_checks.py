@@ -28,7 +28,7 @@ from contoursolve.verification.decode import (
 )
 from contoursolve.verification.drawing import Circle, Move, side_of
 from contoursolve.verification.receipt import Ledger
-from contoursolve.verification.residuals import MEANINGS, Array, measured, senses
+from contoursolve.verification.residuals import MEANINGS, Array, measured
 from contoursolve.verification.status import (
     EPSILON,
     FEW,
@@ -238,16 +238,14 @@ def _examine_at(case: Case, claimed: ClaimedMoves, solution: Candidate, ledger: 
         if agrees(case, fact, values, signs):  # An angle may, by more than that over a long line.
             allowed = max(allowed, abs(off))
         ledger.measure(_name(case, fact), case.words([fact]), off, allowed)
-    at, scalars = system.at(values, signs), case.scalars(values)
-    for fact in case.basis:
-        worst = min(senses(fact, at), default=0.0)
-        ledger.require(f"{_name(case, fact)}, in its sense", case.words([fact]), worst >= -limit, "it is the opposite")
+    scalars = case.scalars(values)
     _check_drawn(case, claimed.moves, scalars, limit + float(moved.unsure.max(initial=0.0)), ledger)
     for choice in case.profile.choices if is_chosen else ():
         given = case.profile.givens.get(choice.given)
         words = [given.word.text] if given and given.word else []
         is_right = is_on_side(case, scalars, choice)
         ledger.require(f"{choice.point} is the {choice.side.value} place", words, is_right, "it is the other one")
+    _check_asked(case, claimed, values, ledger, is_hidden=moved.is_hidden)
     return values
 
 
@@ -304,10 +302,10 @@ def check_branches(case: Case, branches: Mapping[str, str], branch: str | None, 
     ledger.require("its branch names these sides", (), branch == joined, f"they are {joined}")
 
 
-def check_asked(case: Case, path: ClaimedPath, values: Array, ledger: Ledger) -> None:
+def _check_asked(case: Case, claimed: ClaimedMoves, values: Array, ledger: Ledger, *, is_hidden: bool) -> None:
     """Every question has its answer, which is that of the elements."""
-    rest, signs = list(path.asked), dict.fromkeys(case.system.sides, 1)
-    at, name = case.system.at(values, signs), "the answer is the value that the elements have"
+    rest, at = list(claimed.path.asked), case.system.at(values, dict.fromkeys(case.system.sides, 1))
+    name = "the answer is the value that the elements have"
     for question in case.profile.questions:
         label, key = [case.label(question.word)], (question.word.text, question.word.span.line)
         answer = next((each for each in rest if (each.word, each.line) == key), None)
@@ -318,14 +316,14 @@ def check_asked(case: Case, path: ClaimedPath, values: Array, ledger: Ledger) ->
         rest.remove(answer)
         value, is_angle, reach = measured(question.fact, at)
         unit = "deg" if is_angle else "mm"
-        if rank.correct(case.system, case.basis, values, signs, RESIDUAL, inf).is_hidden:
+        if is_hidden:
             ledger.omit(label[0], "several solutions have become one there")
         elif is_angle and reach <= LENGTH:
             ledger.omit(label[0], "what has no length has no direction")
         elif answer.value is None:
             ledger.require(name, label, passed=False, remark=f"it is {value:g} {unit}, and the result has none")
         elif ledger.require("its unit is what it measures", label, answer.unit == unit, f"it is not {unit}"):
-            limit, off = moves_of(case, path).limit, answer.value - value
+            limit, off = claimed.limit, answer.value - value
             if is_angle:
                 limit += degrees((2 * PRINTED + ROUNDING * case.reach) / reach)
                 off = (off + 180) % 360 - 180
