@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
 from itertools import combinations
 from math import hypot, pi
+from typing import get_args
 
 import numpy
 from msgspec import Struct
@@ -37,7 +38,7 @@ from contoursolve.reading.rules import check as check_rules
 from contoursolve.statements import apply_statements
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH, REGULAR, RESIDUAL
 from contoursolve.verification import rank
-from contoursolve.verification.decode import ClaimedContour
+from contoursolve.verification.decode import ClaimedContour, Status
 from contoursolve.verification.drawing import Path, draw, side_of
 from contoursolve.verification.residuals import Array, ResidualSystem, norm, residual, senses, system_of
 
@@ -52,12 +53,6 @@ FEW = 8.0
 
 HIDDEN = 0.05
 """1 (share of the size). Solutions that are nearer may be several that have become one."""
-
-ORDER = (
-    *("rejected", "conflicting", "underdetermined", "overdetermined", "ambiguous", "no-solution", "undecided"),
-    "solved",
-)
-"""The statuses in the order of precedence."""
 
 
 class Found(Struct, frozen=True):
@@ -388,7 +383,7 @@ def expected(case: Case, found: Sequence[Candidate]) -> tuple[str | None, str]:
 
 
 def _first(statuses: Mapping[str, str]) -> tuple[str, str]:
-    status = min(statuses, key=ORDER.index, default="solved")
+    status = min(statuses, key=get_args(Status).index, default="solved")
     return status, statuses.get(status, "one path agrees with the words")
 
 
