@@ -138,11 +138,7 @@ class Case(Struct, frozen=True):
 
     def draw(self, scalars: Mapping[str, float]) -> Path:
         """The path at values of all scalars."""
-        sizes = {
-            corner.name: scalars.get(f"{corner.name}.radius", self.system.amounts.get(corner.size, 0.0))
-            for corner in self.system.figure.corners
-        }
-        return draw(self.system, scalars, sizes, (self.increment(str(FIRST)), self.increment(str(SECOND))))
+        return draw(self.system, scalars, (self.increment(str(FIRST)), self.increment(str(SECOND))))
 
     def missed_by(self, fact: Fact, values: Array, signs: Mapping[str, int]) -> float:
         """How far a fact is from being true, mm; on the side that fits best where `signs` lack one."""
