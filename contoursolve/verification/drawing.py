@@ -335,8 +335,7 @@ def side_of(system: ResidualSystem, values: Values, choice: Choice) -> tuple[flo
     elif side in (Side.FIRST, Side.SECOND):
         here, there = (-_angle(begin - through, each - through) % tau for each in (at, other))
         own = copysign(beside, there - here)
-    is_as_counted = side in (Side.LEFT, Side.FARTHER, Side.LONGER, Side.FIRST)
-    return own if is_as_counted else -own, beside**2 / (2 * radius)
+    return own * side.sign, beside**2 / (2 * radius)
 
 
 def _cross(a: complex, b: complex) -> float:
