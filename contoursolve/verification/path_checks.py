@@ -314,7 +314,7 @@ def _check_asked(case: Case, claimed: ClaimedMoves, values: Array, ledger: Ledge
         if answer is None:
             continue
         rest.remove(answer)
-        value, is_angle, reach = measured(question.fact, at)
+        value, is_angle, reach = measured(question.fact, at, case.system.origin)
         unit = "deg" if is_angle else "mm"
         if is_hidden:
             ledger.omit(label[0], "several solutions have become one there")
