@@ -35,9 +35,8 @@ from contoursolve.verification.status import (
     ROUNDING,
     Candidate,
     Case,
-    agrees,
-    allowance,
     candidates,
+    difference,
     is_on_side,
     prepare,
 )
@@ -227,16 +226,14 @@ def _examine_at(case: Case, claimed: ClaimedMoves, solution: Candidate, ledger: 
         ledger.measure("two solutions have become one", (), moved.fold, limit + 1e3 * noise)
     for name, by, unsure in zip(system.unknowns, moved.by.tolist(), moved.unsure.tolist(), strict=True):
         words = case.words([fact for fact in case.basis if name in fact.reads() and fact.given])
-        what = f"{name.rpartition('.')[0] or name} is where the words put it"
-        ledger.measure(what, words, by, limit + unsure)
+        what, allowed = f"{name.rpartition('.')[0] or name} is where the words put it", limit
         if certificate.radius is not None:
-            allowed = CERTIFIED * max(0.0, certificate.radius) + PRINTED + ROUNDING * case.reach + unsure
-            ledger.measure(f"the certificate's radius covers that {what}", words, by, allowed)
+            what += ", within the certificate's radius"
+            allowed = min(limit, CERTIFIED * max(0.0, certificate.radius) + PRINTED + ROUNDING * case.reach)
+        ledger.measure(what, words, by, allowed + unsure)
     values = values + moved.by
     for fact in case.spare:
-        off, allowed = case.missed_by(fact, values, signs), allowance(case, fact, values, signs)
-        if agrees(case, fact, values, signs):  # An angle may, by more than that over a long line.
-            allowed = max(allowed, abs(off))
+        off, allowed = difference(case, fact, values, signs)
         ledger.measure(_name(case, fact), case.words([fact]), off, allowed)
     scalars = case.scalars(values)
     _check_drawn(case, claimed.moves, scalars, limit + float(moved.unsure.max(initial=0.0)), ledger)
@@ -270,15 +267,13 @@ def _check_drawn(case: Case, moves: Sequence[Move], scalars: Mapping[str, float]
     if not ledger.require("the elements are those that have a length", (), is_whole, f"these have: {names}"):
         return
     for move, claimed in zip(drawn.moves, moves, strict=True):
-        name = move.name
-        ledger.measure(f"{name} begins where it is drawn", (), abs(claimed.start - move.start), 2 * limit)
-        ledger.measure(f"{name} ends where it is drawn", (), abs(claimed.end - move.end), 2 * limit)
+        off = max(abs(claimed.start - move.start), abs(claimed.end - move.end))
         if claimed.circle and move.circle:
-            off, wider = abs(claimed.circle.center - move.circle.center), claimed.circle.radius - move.circle.radius
-            ledger.measure(f"{name} has its centre where it is drawn", (), off, 2 * limit)
-            ledger.measure(f"radius of {name}", (), wider, 2 * limit)
+            wider = abs(claimed.circle.radius - move.circle.radius)
+            off = max(off, abs(claimed.circle.center - move.circle.center), wider)
             is_right = claimed.circle.turn == move.circle.turn
-            ledger.require(f"{name} turns as the path does", (), is_right, "it turns the other way")
+            ledger.require(f"{move.name} turns as the path does", (), is_right, "it turns the other way")
+        ledger.measure(f"{move.name} is where it is drawn", (), off, 2 * limit)
 
 
 # --- What a path says besides ----------------------------------------------------------------------

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
 from itertools import combinations
-from math import hypot, pi
+from math import hypot, inf, pi
 from typing import get_args
 
 import numpy
@@ -333,12 +333,18 @@ def allowance(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -
     return case.increment(fact.given) + RESIDUAL if isinstance(fact, Radius) else AGREEMENT
 
 
+def difference(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> tuple[float, float]:
+    """How far a fact that is not needed is from being true of a solution, and how far it may be, mm."""
+    off, allowed = abs(case.missed_by(fact, values, signs)), allowance(case, fact, values, signs)
+    if isinstance(fact, TurnBetween | Directed | Ray) and min(senses(fact, case.system.at(values, signs))) < 0:
+        off = inf
+    return off, allowed
+
+
 def agrees(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> bool:
     """Whether a fact that is not needed is true of a solution."""
-    off = abs(case.missed_by(fact, values, signs))
-    if isinstance(fact, TurnBetween | Directed | Ray) and min(senses(fact, case.system.at(values, signs))) < 0:
-        return False
-    return off <= allowance(case, fact, values, signs)
+    off, allowed = difference(case, fact, values, signs)
+    return off <= allowed
 
 
 # --- The status ------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 """The order of a verification: read both inputs, follow the program from contour to contour as the control does, check
 every contour that either of them has; after each, the claimed end is the position."""
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
@@ -273,19 +274,13 @@ def with_facts(
 
 def _with_claimed_facts(blocks: Sequence[Block], claims: Claims) -> tuple[Block, ...]:
     """The blocks with the facts that only the result states, on lines below zero as they were given."""
-    added: dict[int, list[Directive]] = {}
+    added = dict[int, list[Directive]]()
     own = {block.line: [each.text for each in block.directives] for block in blocks}
     given = sum(each.span.line < 0 for block in blocks for each in block.directives)
-    for claimed in (each for several in claims.values() for each in several):
-        known = [text for line in claimed.lines for text in own.get(line, ())]
-        rest: list[Directive] = []
-        for text in claimed.facts:
-            if text in known:
-                known.remove(text)
-            else:
-                rest.append(gcode.read_directive(text, -given - len(rest) - 1))
-        if claimed.lines:
-            added[claimed.lines[-1]] = rest
+    for claimed in (each for several in claims.values() for each in several if each.lines):
+        known = Counter(text for line in claimed.lines for text in own.get(line, ()))
+        rest = (Counter(claimed.facts) - known).elements()
+        added[claimed.lines[-1]] = [gcode.read_directive(text, -given - number) for number, text in enumerate(rest, 1)]
     return tuple(
         replace(block, directives=(*block.directives, *added[block.line])) if added.get(block.line) else block
         for block in blocks
