@@ -55,11 +55,6 @@ class Path(Struct, frozen=True):
     against: tuple[str, ...]
 
 
-def draw(system: ResidualSystem, values: Values, increments: tuple[float, float]) -> Path:
-    """The path at values of all scalars; `increments` are those of coordinates, mm."""
-    return _Drawing(system, values).draw(increments)
-
-
 class _Edge(Struct, frozen=True):
     """How an element passes a point: there, in this direction, and along this circle, if it is an arc."""
 
@@ -97,13 +92,16 @@ class _Edge(Struct, frozen=True):
         return self.circle.center + (self.at - self.circle.center) * rect(1, angle)
 
 
-class _Drawing:
+class Drawing:
+    """The path of a figure at values of all its scalars."""
+
     def __init__(self, system: ResidualSystem, values: Values) -> None:
         self.system, self.values, self.figure = system, values, system.figure
         self.room: dict[str, float] = {}
         self.against: list[str] = []
 
     def draw(self, increments: tuple[float, float]) -> Path:
+        """The moves; `increments` are those of coordinates, mm."""
         here, moves = self.point(self.figure.start), list[Move]()
         away = max((max(abs(at.real), abs(at.imag)) for at in map(self.point, self.figure.points)), default=0.0)
         self.against += [f"a point is {away:.6g} mm away"] if away > LARGEST else []
@@ -302,7 +300,7 @@ def side_of(system: ResidualSystem, values: Values, choice: Choice) -> tuple[flo
     """On which side of a choice its point is: the number is positive on the side that is meant, and next to zero where
     there is one place; with how much (mm) that leaves between the circle and what it meets. None where the figure does
     not tell."""
-    drawing, figure, side = _Drawing(system, values), system.figure, choice.side
+    drawing, figure, side = Drawing(system, values), system.figure, choice.side
     at, circles = drawing.point(choice.point), [fact for fact in system.facts if isinstance(fact, OnCircle)]
     pairs = [pair for pair in pairwise(figure.path) if pair[0].head == choice.point]
     arcs = next(((one, two) for one, two in pairs if isinstance(one, Arc) and isinstance(two, Arc)), None)

@@ -39,7 +39,7 @@ from contoursolve.statements import apply_statements
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH, REGULAR, RESIDUAL
 from contoursolve.verification import rank
 from contoursolve.verification.decode import ClaimedContour, Status
-from contoursolve.verification.drawing import Path, draw, side_of
+from contoursolve.verification.drawing import Drawing, Path, side_of
 from contoursolve.verification.residuals import Array, ResidualSystem, norm, residual, senses, system_of
 
 EPSILON = 2.0**-52
@@ -138,7 +138,7 @@ class Case(Struct, frozen=True):
 
     def draw(self, scalars: Mapping[str, float]) -> Path:
         """The path at values of all scalars."""
-        return draw(self.system, scalars, (self.increment(str(FIRST)), self.increment(str(SECOND))))
+        return Drawing(self.system, scalars).draw((self.increment(str(FIRST)), self.increment(str(SECOND))))
 
     def missed_by(self, fact: Fact, values: Array, signs: Mapping[str, int]) -> float:
         """How far a fact is from being true, mm; on the side that fits best where `signs` lack one."""
