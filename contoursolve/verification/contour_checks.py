@@ -1,9 +1,9 @@
 """One contour of a result against its block: its status, its path if it claims one, and all that it lists."""
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from itertools import combinations, islice
-from math import degrees, hypot, inf
+from collections.abc import Mapping, Sequence
+from itertools import combinations
+from math import degrees, hypot
 
 import numpy
 from msgspec.structs import replace
@@ -13,7 +13,7 @@ from contoursolve.gcode import Word
 from contoursolve.geometry import Choice, Coordinate
 from contoursolve.reading import ParsedContour, unused_words
 from contoursolve.statements import apply_statements
-from contoursolve.tolerance import AGREEMENT, REGULAR, RESIDUAL
+from contoursolve.tolerance import AGREEMENT, RESIDUAL
 from contoursolve.verification import rank
 from contoursolve.verification.decode import (
     ClaimedContour,
@@ -25,14 +25,13 @@ from contoursolve.verification.decode import (
 )
 from contoursolve.verification.drawing import side_of
 from contoursolve.verification.path_checks import (
-    check_asked,
     check_branches,
     check_certificate,
     check_filled,
     examine,
     half_increment,
     missed,
-    moves_of,
+    told,
 )
 from contoursolve.verification.receipt import Ledger
 from contoursolve.verification.residuals import Array
@@ -42,7 +41,6 @@ from contoursolve.verification.status import (
     Candidate,
     Case,
     Found,
-    LooseError,
     allowance,
     candidates,
     expected,
@@ -67,26 +65,26 @@ def check_contour(found: Found, claimed: ClaimedContour) -> tuple[Ledger, bool]:
 def _check_contour(found: Found, claimed: ClaimedContour, ledger: Ledger) -> bool:
     _check_place(found.claim, claimed, ledger)
     case, values = prepare(found), None
+    paths = [each for each in (claimed, *claimed.solutions) if each.elements]
+    solutions = candidates(case, [told(case, each) for each in paths]) if case.has_solutions else []
     for text in (each.text for each in found.claim.directives if each.span.line < -found.apart):
         ledger.omit(f"the fact {text}", "stated in the result only: checked, but not known from the program")
     if claimed.has_path:
         why = case.statuses.get("rejected") or ("" if case.is_readable else case.statuses.get("underdetermined", ""))
         ledger.require("every word and fact can be read", (), case.is_readable, why)
         if case.is_readable and case.profile.start.is_known:
-            values = examine(case, claimed, ledger, is_chosen=True)
+            values = examine(case, claimed, solutions, ledger, is_chosen=True)
         if values is not None:
             check_branches(case, claimed.branches, claimed.branch, values, ledger)
-            check_asked(case, claimed, values, ledger)
             check_filled(case, claimed, ledger)
     else:
         _check_bare(claimed, ledger)
-    listed = [_examine_listed(case, claimed, number, values, ledger) for number in range(len(claimed.solutions))]
-    _check_list(case, claimed, listed, ledger)
+    listed = [_examine_listed(case, claimed, each, solutions, values, ledger) for each in range(len(claimed.solutions))]
+    _check_list(case, claimed, listed, values, ledger)
     if ledger.failures:
         ledger.omit("the status, and whether there are other solutions", "what is claimed is wrong in itself")
         return False
-    near = [each for each in (values, *listed) if each is not None]
-    is_checked, solutions = _check_status(case, claimed, near, ledger)
+    is_checked = _check_status(case, claimed, solutions, ledger)
     _check_count(case, claimed, solutions, ledger)
     if claimed.diagnosis is not None:
         _check_diagnosis(case, claimed.diagnosis, solutions, ledger)
@@ -95,19 +93,16 @@ def _check_contour(found: Found, claimed: ClaimedContour, ledger: Ledger) -> boo
 
 def _check_place(claim: ParsedContour, claimed: ClaimedContour, ledger: Ledger) -> None:
     """Where the contour is, and what its blocks say apart from its geometry."""
-
-    def compare(name: str, verb: str, own: Iterable[str], its: Iterable[str], *, passed: bool) -> None:
-        told, has = (" ".join(each) or "none" for each in (own, its))
-        ledger.require(name, (), passed, f"{verb} {told}, and the result has {has}")
-
-    lines, plane, form = tuple(block.line for block in claim.blocks), claim.after.plane.axes, claim.form.name
-    told, has = (", ".join(map(str, each)) for each in (lines, claimed.lines))
-    is_same = claimed.lines == lines
-    compare("the lines are those of its blocks", "they are lines", [told], [has or "none"], passed=is_same)
-    is_same = claimed.form == form
-    compare("the form is that of its blocks", "it is", [form], [ascii(claimed.form)[:60]], passed=is_same)
-    is_same = claimed.plane == plane
-    compare("the plane is the one in force", "it is", plane, map(ascii, claimed.plane), passed=is_same)
+    conventions = sorted(f"{each.setting.name}={each.value}" for each in claim.conventions)
+    others = sorted(f"{each.setting}={each.value}" for each in claimed.conventions)
+    for name, own, its in (
+        ("the lines are those of its blocks", [str(each.line) for each in claim.blocks], map(str, claimed.lines)),
+        ("the form is that of its blocks", [claim.form.name], [claimed.form]),
+        ("the plane is the one in force", claim.after.plane.axes, claimed.plane),
+        ("the conventions are those in force", conventions, others),
+    ):
+        told, has = (" ".join(ascii(each)[1:60].strip("'") for each in texts) or "none" for texts in (own, its))
+        ledger.require(name, (), told == has, f"the program has {told}, and the result has {has}")
     for axis, known, value in zip(claim.before.plane.axes, claim.before.start().values, claimed.start, strict=True):
         name = f"{axis} of the start is the program's position"
         if known is not None and value is not None:
@@ -120,11 +115,6 @@ def _check_place(claim: ParsedContour, claimed: ClaimedContour, ledger: Ledger) 
         ledger.require(name, (), known is None and value is None, remark)
     texts = list((Counter(each.text for each in claim.directives) - Counter(claimed.facts)).elements())
     ledger.require("the result lists the facts of the program", texts, not texts, "it does not")
-    known_ones = sorted(f"{each.setting.name}={each.value}" for each in claim.conventions)
-    others = sorted(f"{each.setting}={each.value}" for each in claimed.conventions)
-    told, has = (", ".join(each) or "none" for each in (known_ones, others))
-    is_same = known_ones == others
-    compare("the conventions are those in force", "they are", [told], [has], passed=is_same)
     places = [(word.text, word.span.line) for word in claim.words.values() if word.is_asked]
     places += [(each.text, each.span.line) for each in claim.directives]
     for asked in (each for path in (claimed, *claimed.solutions) for each in path.asked):
@@ -145,19 +135,13 @@ def _check_bare(claimed: ClaimedContour, ledger: Ledger) -> None:
     ledger.require("without a path nothing is filled in", (), claimed.filled is None, "there are filled blocks")
 
 
-def _check_status(
-    case: Case, claimed: ClaimedContour, near: Sequence[Array], ledger: Ledger
-) -> tuple[bool, list[Candidate]]:
-    """Whether the status could be worked out, and the solutions that were found for it."""
-    solutions, status = list[Candidate](), None
-    try:
-        if case.is_readable and case.is_determined and case.profile.start.is_known:
-            solutions = candidates(case, near)
-        status, why = expected(case, solutions)
-    except LooseError:
+def _check_status(case: Case, claimed: ClaimedContour, solutions: Sequence[Candidate], ledger: Ledger) -> bool:
+    """Whether the status could be worked out."""
+    status, why = expected(case, solutions)
+    if any(each.is_open for each in solutions):
         is_right = claimed.status in LOOSE
         ledger.require("the words leave points free at their values", (), is_right, f"it is {claimed.status}")
-        why = "the words leave points free at their values, and there may be other solutions"
+        status, why = None, "the words leave points free at their values, and there may be other solutions"
     if status is None:
         ledger.omit("the status", why)
     else:
@@ -171,14 +155,19 @@ def _check_status(
     ignored = [*case.profile.words_of(case.profile.ignored), *unused_words(case.claim, case.profile)]
     for word in ignored if case.is_readable else ():
         ledger.omit(word.text, "the control does not use it for this contour")
-    return status is not None, solutions
+    return status is not None
 
 
 # --- The list of solutions -------------------------------------------------------------------------
 
 
 def _examine_listed(
-    case: Case, claimed: ClaimedContour, number: int, exact: Array | None, ledger: Ledger
+    case: Case,
+    claimed: ClaimedContour,
+    number: int,
+    found: Sequence[Candidate],
+    exact: Array | None,
+    ledger: Ledger,
 ) -> Array | None:
     """One solution of the list; the values of its unknowns, if it is a path. `exact` are those of the contour."""
     solution, own, values = claimed.solutions[number], Ledger(), None
@@ -191,9 +180,7 @@ def _examine_listed(
         answers = [asked.word for asked in solution.asked if asked.value is not None]
         own.require("it answers nothing", answers, not answers, "it has no path")
     elif own.require("it has a path", (), not solution.is_empty, "it claims to be one") and case.is_readable:
-        values = examine(case, solution, own, is_chosen=solution.is_chosen)
-        if values is not None:
-            check_asked(case, solution, values, own)
+        values = examine(case, solution, found, own, is_chosen=solution.is_chosen)
     elif not case.is_readable:
         own.require("every word and fact can be read", (), passed=False, remark="they cannot")
     ledger.add(own, f"solution {number + 1}: ")
@@ -204,8 +191,11 @@ def _own(path: ClaimedPath) -> tuple[object, ...]:
     return path.end, path.points, path.elements, path.certificate, path.asked
 
 
-def _check_list(case: Case, claimed: ClaimedContour, values: Sequence[Array | None], ledger: Ledger) -> None:
-    """The list of solutions: their number, which are told apart by what, which one is the contour."""
+def _check_list(
+    case: Case, claimed: ClaimedContour, values: Sequence[Array | None], exact: Array | None, ledger: Ledger
+) -> None:
+    """The list of solutions: their number, which are told apart by what, which one is the contour. `values` are those
+    of the unknowns of each, `exact` those of the contour."""
     listed, count = claimed.solutions, claimed.count
     paths = [number for number, each in enumerate(listed) if each.is_path]
     if count is None:
@@ -222,27 +212,25 @@ def _check_list(case: Case, claimed: ClaimedContour, values: Sequence[Array | No
         is_known = all(part in words for part in parts)
         ledger.require("what chooses is a word of the program", parts, is_known, "the program does not have it")
     for one, other in combinations(paths, 2):
-        first, second, selects = values[one], values[other], listed[one].selects
-        apart = first is not None and second is not None and float(abs(first - second).max(initial=0.0)) > 10 * RESIDUAL
-        name = f"solutions {one + 1} and {other + 1}"
-        ledger.require(f"{name} differ", (), apart, "they are the same path")
+        name, selects = f"solutions {one + 1} and {other + 1}", listed[one].selects
+        ledger.require(f"{name} differ", (), not _are_one(values[one], values[other]), "they are the same path")
         is_told = not selects or selects != listed[other].selects
         ledger.require(f"words tell {name} apart", selects, is_told, "the same words select both")
-    _check_selectors(case, [(listed[each].selects, values[each]) for each in paths], ledger)
     for number in paths:
-        if values[number] is not None:
-            _check_selects(case, listed[number], [listed[each] for each in paths if each != number], ledger)
-    chosen = [each for each in listed if each.is_chosen]
+        own = values[number]
+        if own is not None:
+            _check_selects(case, listed[number], own, [listed[each] for each in paths if each != number], ledger)
+    chosen = [number for number, each in enumerate(listed) if each.is_chosen]
     if not claimed.has_path:
         ledger.require("no solution is chosen", (), not chosen, f"it is {claimed.status}, with {len(chosen)} chosen")
     elif count is not None and ledger.require("one solution is chosen", (), len(chosen) == 1, f"{len(chosen)} are"):
-        own, its = (
-            [*each.numbers(), *(asked.value for asked in each.asked if asked.value is not None)]
-            for each in (claimed, chosen[0])
-        )
-        off = max((abs(a - b) for a, b in zip(own, its, strict=True)), default=0.0) if len(own) == len(its) else inf
-        limit = moves_of(case, claimed).limit + moves_of(case, chosen[0]).limit
-        ledger.measure("the solution that is chosen is the contour", (), off, limit)
+        is_it = _are_one(values[chosen[0]], exact)
+        ledger.require("the solution that is chosen is the contour", (), is_it, "it is another")
+
+
+def _are_one(first: Array | None, second: Array | None) -> bool:
+    """Whether the words put two paths in the same place; also where that is not known."""
+    return first is None or second is None or float(abs(first - second).max(initial=0.0)) <= 10 * RESIDUAL
 
 
 def _check_count(case: Case, claimed: ClaimedContour, found: Sequence[Candidate], ledger: Ledger) -> None:
@@ -260,60 +248,49 @@ def _check_count(case: Case, claimed: ClaimedContour, found: Sequence[Candidate]
     ledger.omit("whether these are all solutions", "a search found no others, which is no proof")
 
 
-def _check_selectors(case: Case, paths: Sequence[tuple[tuple[str, ...], Array | None]], ledger: Ledger) -> None:
-    """Words that choose between places select every solution that has those places, point by point in one order."""
-    selectors, own = case.claim.selectors, []
-    for selects, values in paths:
-        if values is not None and selects and {each.word for each in selectors}.issuperset(selects):
-            scalars, true = case.scalars(values), []
-            for each in selectors:
-                side = side_of(case.system, scalars, Choice(each.point, each.side, ""))
-                if side is not None and side[0] > 0 and side[1] > case.band / FEW:
-                    true.append(each)
-            own.append((selects, true))
-    points = list(dict.fromkeys(each.point for each in selectors))
-    differing = (each for size in range(len(points) + 1) for each in combinations(points, size))
-    is_right = any(
-        all(selects == tuple(each.word for each in true if each.point in some) for selects, true in own)
-        for some in islice(differing, 1 << 10)
-    )
-    if own:
-        texts = [word for selects, _ in own for word in selects]
-        ledger.require("words select the solutions that have their places", texts, is_right, "they select others")
-
-
 SHOWN = 0.5e-3
 """Half of the last decimal of a coordinate that selects a solution, in the program's unit, X as diameter."""
 
 
-def _check_selects(case: Case, solution: ClaimedSolution, others: Sequence[ClaimedSolution], ledger: Ledger) -> None:
+def _check_selects(
+    case: Case, solution: ClaimedSolution, values: Array, others: Sequence[ClaimedSolution], ledger: Ledger
+) -> None:
     """What selects a solution is true of it: a word that chooses its side, the value that it answers, or a coordinate
     that no other one has."""
+    scalars, true, selectors = case.scalars(values), Counter[str](), case.claim.selectors
+    for each in selectors:
+        side = side_of(case.system, scalars, Choice(each.point, each.side, ""))
+        true[each.word] += side is not None and side[0] > 0 and side[1] > case.band / FEW
     for text in solution.selects:
-        if any(each.word == text for each in case.claim.selectors):
-            continue
-        picking = case.claim.form.picking
-        if picking and text.startswith(picking):
+        is_true = true[text] > 0
+        if any(each.word == text for each in selectors):
+            true[text] -= 1
+            ledger.omit("whether the words that select a solution are all that do", "each was checked by itself")
+        elif case.claim.form.picking and text.startswith(case.claim.form.picking):
             ledger.omit(text, "the order in which solutions are counted")
             continue
-        block, truths = gcode.parse_block(text, 1, case.claim.blocks[0].syntax), list[bool]()
-        for word in block.words:
-            answers = [each for each in solution.asked if each.word[: len(word.address)] == word.address]
-            truths += [abs(missed(case, each, word)) <= half_increment(case, word) + RESIDUAL for each in answers]
-        for directive in block.directives if not truths else ():
-            facts, faults = apply_statements(replace(case.profile, is_extended=True), [directive], lambda: None)
-            fact = facts.facts[-1] if not faults else None
-            if isinstance(fact, Coordinate) and fact.point in solution.points:
-                is_diameter = case.profile.plane.diameters[fact.axis]
-                limit = SHOWN * float(case.claim.after.unit.in_mm) / (1 + is_diameter) + RESIDUAL
-                value = float(facts.givens[fact.given].value)
-                truths.append(abs(solution.points[fact.point][fact.axis] - value) <= limit)
-                places = [each.points[fact.point][fact.axis] for each in others if fact.point in each.points]
-                truths.append(all(abs(each - value) > limit for each in places))
-            elif isinstance(fact, Coordinate):
-                ledger.omit(text, "what selects a solution is about a point that the result does not list")
-                truths.append(True)
-        ledger.require("what selects a solution is true of it", [text], bool(truths) and all(truths), "it is not")
+        else:
+            is_true = _is_true(case, text, solution, others)
+        ledger.require("what selects a solution is true of it", [text], is_true, "it is not")
+
+
+def _is_true(case: Case, text: str, solution: ClaimedSolution, others: Sequence[ClaimedSolution]) -> bool:
+    """Whether words are what a solution answers, or a coordinate is its own alone."""
+    block, truths = gcode.parse_block(text, 1, case.claim.blocks[0].syntax), list[bool]()
+    for word in block.words:
+        answers = [each for each in solution.asked if each.word[: len(word.address)] == word.address]
+        truths += [abs(missed(case, each, word)) <= half_increment(case, word) + RESIDUAL for each in answers]
+    for directive in block.directives if not truths else ():
+        facts, faults = apply_statements(replace(case.profile, is_extended=True), [directive], lambda: None)
+        fact = facts.facts[-1] if not faults else None
+        if isinstance(fact, Coordinate):
+            limit = SHOWN * float(case.claim.after.unit.in_mm) / (1 + case.profile.plane.diameters[fact.axis])
+            value = float(facts.givens[fact.given].value)
+            for each in (solution, *others):
+                # Of a point that the result does not list nothing is known.
+                off = abs(each.points[fact.point][fact.axis] - value) if fact.point in each.points else None
+                truths.append(off is None or (off <= limit + RESIDUAL) == (each is solution))
+    return bool(truths) and all(truths)
 
 
 # --- The diagnosis ---------------------------------------------------------------------------------
@@ -399,11 +376,11 @@ def _check_freedoms(
         if along is None or each.direction is None or each.angle is None:
             continue
         first, second = each.direction
-        across = (along[0] * second - along[1] * first) / max(hypot(first, second), REGULAR)
-        ledger.measure(own, (), across, RESIDUAL, "1")
-        ledger.measure(f"{own}, given by a unit vector", (), hypot(first, second) - 1, RESIDUAL, "1")
-        is_ahead = max(each.direction, key=abs) > 0 or abs(abs(first) - abs(second)) <= RESIDUAL
-        ledger.require(f"{own}, its larger part positive", (), is_ahead)
+        # Its larger part is positive; of two that are equal, either is.
+        flipped = -1 if max(along, key=abs) < 0 else 1
+        ways = (flipped, -flipped) if abs(abs(first) - abs(second)) <= RESIDUAL else (flipped,)
+        off = min(hypot(first - way * along[0], second - way * along[1]) for way in ways)
+        ledger.measure(own, (), off, 2 * RESIDUAL, "1")
         ledger.require(f"{own}, its angle up to half a turn", (), 0 <= each.angle <= HALF_TURN)
-        off = each.angle - degrees(float(numpy.arctan2(second, first)))
-        ledger.measure(f"{own}, by its angle", (), (off + 90) % 180 - 90, RESIDUAL, "deg")
+        turned = each.angle - degrees(float(numpy.arctan2(second, first)))
+        ledger.measure(f"{own}, by its angle", (), (turned + 90) % 180 - 90, RESIDUAL, "deg")

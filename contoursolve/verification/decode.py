@@ -1,10 +1,9 @@
 """The two inputs of a verification: a program as blocks, and a claimed result as records of schema solve/1."""
 
 import json
-import re
 from collections.abc import Iterator, Sequence
 from hashlib import sha256
-from typing import Annotated, Any, Literal, NoReturn
+from typing import Annotated, Any, Literal
 
 import msgspec
 from msgspec import Meta, Struct
@@ -13,8 +12,6 @@ from contoursolve import gcode
 from contoursolve.diagnostics.errors import UserError
 from contoursolve.gcode import STANDARD_INPUT, Program, UnreadableProgramError
 from contoursolve.gcode.contents import decode
-
-SCHEMA = "contoursolve/solve/1"
 
 FARTHEST = 1e12
 """mm. The largest number read: words end at 1e6 mm, and intersections of lines 0.001 deg apart at 1e11 mm."""
@@ -25,6 +22,17 @@ PRINTED = 1e-12
 Number = Annotated[float, Meta(ge=-FARTHEST, le=FARTHEST)]
 Point = tuple[Number, Number]
 """mm in the plane's axes, X of a lathe as radius."""
+Status = Literal[
+    "rejected",
+    "conflicting",
+    "underdetermined",
+    "overdetermined",
+    "ambiguous",
+    "no-solution",
+    "undecided",
+    "solved",
+]
+"""In the order of precedence."""
 LineNumber = Annotated[int, Meta(ge=0, le=int(FARTHEST))]
 
 
@@ -171,16 +179,7 @@ class ClaimedContour(ClaimedPath, frozen=True):
     line: LineNumber
     lines: tuple[LineNumber, ...]
     form: str
-    status: Literal[
-        "solved",
-        "rejected",
-        "underdetermined",
-        "overdetermined",
-        "conflicting",
-        "ambiguous",
-        "no-solution",
-        "undecided",
-    ]
+    status: Status
     plane: tuple[str, str]
     start: tuple[Number | None, Number | None]
     branch: str | None
@@ -202,7 +201,7 @@ class ClaimedResult(msgspec.Struct, frozen=True):
     """Everything of a result that can be checked; `control` is None where it names none. `settings` go by
     `control.name`; `diagnostics` are counted and not looked at."""
 
-    schema: str
+    schema: Literal["contoursolve/solve/1"]
     control: str | None
     rules: Literal["enforce", "warn", "off"]
     settings: dict[str, str]
@@ -234,50 +233,18 @@ def parse_program(document: Document) -> Program:
 def read_result(document: Document) -> ClaimedResult:
     """The claims of a result; fields that are not known are left alone. Raises CannotVerifyError, which names the field
     that is missing or mistyped."""
-    data = _parse(document)
-    schema = data.get("schema", SCHEMA) if isinstance(data, dict) else SCHEMA
-    if schema != SCHEMA:
-        told = f"{_shown(schema)} where {SCHEMA!r} is read: write it by 'solve --format json'"
-        raise CannotVerifyError(f"{document.name}: schema: {told}")
     try:
+        data = json.loads(document.data, object_pairs_hook=_unambiguous)
         return msgspec.convert(data, ClaimedResult)
+    except RecursionError:
+        reason = "it is nested too deeply"
     except msgspec.ValidationError as error:
         message, _, place = str(error).partition(" - at `$")
-        place = _named(data, place.rstrip("`")).lstrip(".") or "the document"
-        plain = re.sub(r"`([a-z |]+)`", _in_words, message[:1].lower() + message[1:]).replace("`", "'")
-        told = f"{place}: {plain}".encode("ascii", "backslashreplace").decode()
-        raise CannotVerifyError(f"{document.name}: {told}") from None
-    except (RecursionError, UnicodeEncodeError):
-        raise CannotVerifyError(f"{document.name}: it is nested too deeply, or has half a character") from None
-
-
-_KINDS = {
-    "str": "a text",
-    "int": "a whole number",
-    "float": "a number",
-    "bool": "true or false",
-    "array": "a list",
-    "object": "an object",
-}
-
-
-def _in_words(kinds: re.Match[str]) -> str:
-    """Kinds of values as a user calls them; the name of a field as it is."""
-    named = [_KINDS.get(each, each) for each in kinds[1].split(" | ")]
-    return " or ".join(named) if named[0] in (*_KINDS.values(), "null") else kinds[0]
-
-
-def _parse(document: Document) -> Any:
-    try:
-        return json.loads(document.data, parse_constant=_refuse_constant, object_pairs_hook=_unambiguous)
-    except (ValueError, RecursionError) as error:
-        reason = "it is nested too deeply" if isinstance(error, RecursionError) else str(error)
-        told = f"{document.name} is not a result of 'solve --format json'"
-        raise CannotVerifyError(f"{told}: it is no JSON document ({reason})") from None
-
-
-def _refuse_constant(name: str) -> NoReturn:
-    raise ValueError(f"{name} is no number that JSON has")
+        reason = f"{place.strip('.`') or 'the document'}: {message[:1].lower()}{message[1:]}"
+    except ValueError as error:
+        reason = f"it is no JSON document ({error})"
+    told = reason.encode("ascii", "backslashreplace").decode()
+    raise CannotVerifyError(f"{document.name} is not a result of 'solve --format json': {told}")
 
 
 def _unambiguous(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -286,28 +253,5 @@ def _unambiguous(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(found) < len(pairs):
         names = [name for name, _ in pairs]
         twice = next(name for name in names if names.count(name) > 1)
-        raise ValueError(f"the name {_shown(twice)} stands twice in one object")
+        raise ValueError(f"the name {ascii(twice)[:60]} stands twice in one object")
     return found
-
-
-def _shown(value: object) -> str:
-    return ascii(value)[:60]
-
-
-_VALUES = {"points": Point, "settings": str, "branches": str}
-"""What the objects hold whose names are the document's own."""
-
-
-def _named(data: Any, place: str) -> str:
-    """A place with the name of the document's own that the decoder leaves out (`points[...]`)."""
-    before, gap, behind = place.partition("[...]")
-    if not gap:
-        return place
-    for step in re.findall(r"\w+", before):
-        data = data[int(step)] if step.isdigit() else data[step]
-    for name, value in data.items():
-        try:
-            msgspec.convert(value, _VALUES[before.rpartition(".")[2]])
-        except msgspec.ValidationError:
-            return f"{before}.{name}{behind}"
-    return place

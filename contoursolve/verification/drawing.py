@@ -55,12 +55,6 @@ class Path(Struct, frozen=True):
     against: tuple[str, ...]
 
 
-def draw(system: ResidualSystem, values: Values, sizes: Mapping[str, float], increments: tuple[float, float]) -> Path:
-    """The path at values of all scalars; `sizes` are those of the corners by their names, `increments` those of
-    coordinates, mm."""
-    return _Drawing(system, values).draw(sizes, increments)
-
-
 class _Edge(Struct, frozen=True):
     """How an element passes a point: there, in this direction, and along this circle, if it is an arc."""
 
@@ -98,13 +92,16 @@ class _Edge(Struct, frozen=True):
         return self.circle.center + (self.at - self.circle.center) * rect(1, angle)
 
 
-class _Drawing:
+class Drawing:
+    """The path of a figure at values of all its scalars."""
+
     def __init__(self, system: ResidualSystem, values: Values) -> None:
         self.system, self.values, self.figure = system, values, system.figure
         self.room: dict[str, float] = {}
         self.against: list[str] = []
 
-    def draw(self, sizes: Mapping[str, float], increments: tuple[float, float]) -> Path:
+    def draw(self, increments: tuple[float, float]) -> Path:
+        """The moves; `increments` are those of coordinates, mm."""
         here, moves = self.point(self.figure.start), list[Move]()
         away = max((max(abs(at.real), abs(at.imag)) for at in map(self.point, self.figure.points)), default=0.0)
         self.against += [f"a point is {away:.6g} mm away"] if away > LARGEST else []
@@ -113,7 +110,7 @@ class _Drawing:
         for number, element in enumerate(self.figure.path):
             corner, drawn = corners.get(element.head), None
             if corner and not self.against:
-                drawn = self.corner(corner, number, sizes[corner.name], increments)
+                drawn = self.corner(corner, number, increments)
             end = drawn.start if drawn else self.point(element.head)
             moves.append(Move(element.name, here, end, self.circle(element) if isinstance(element, Arc) else None))
             moves += [drawn] if drawn else []
@@ -162,7 +159,7 @@ class _Drawing:
         # A point may be off its circle by what the control allows: the corner there is cut from the arc as it ends.
         return _Edge(here, turn * 1j * _unit(here - center), Circle(center, abs(here - center), turn))
 
-    def corner(self, corner: Corner, number: int, size: float, increments: tuple[float, float]) -> Move | None:
+    def corner(self, corner: Corner, number: int, increments: tuple[float, float]) -> Move | None:
         """The corner, with what it takes of the elements beside it; None where there is none."""
         path = self.figure.path
         arriving, follower = self.edge(path[number], corner.at), None
@@ -189,17 +186,19 @@ class _Drawing:
             self.against.append(f"{corner.name} is outside of the rectangle that its lines span")
         if self.against or is_left_out:
             return None
+        size = self.values.get(f"{corner.name}.radius", self.system.amounts.get(corner.size, 0.0))
         move = _cut(corner, arriving, leaving, size, self.quadrant(arriving, leaving, number, corner))
         if move is None:
             self.against.append(f"{corner.name} does not fit")
             return None
-        lengths = [self.length(path[number]), self.length(follower) if corner.after and follower else inf]
-        names = [path[number].name, follower.name if follower else None]
-        taken = -arriving.ahead(move.start), leaving.ahead(move.end)
-        for name, part, length in zip(names, taken, lengths, strict=True):
-            if not -LENGTH <= part <= length + LENGTH:
-                self.against.append(f"{corner.name} takes {part:.6g} mm of {length:.6g} mm")
-            if name is not None:
+        taken = {
+            path[number].name: -arriving.ahead(move.start),
+            follower.name if follower else "": leaving.ahead(move.end),
+        }
+        for name, part in taken.items():
+            if part < -LENGTH:
+                self.against.append(f"{corner.name} ends {-part:.6g} mm beyond its elements")
+            if name:
                 self.room[name] -= part
         return move
 
@@ -301,46 +300,40 @@ def side_of(system: ResidualSystem, values: Values, choice: Choice) -> tuple[flo
     """On which side of a choice its point is: the number is positive on the side that is meant, and next to zero where
     there is one place; with how much (mm) that leaves between the circle and what it meets. None where the figure does
     not tell."""
-    drawing, figure, left = _Drawing(system, values), system.figure, 1 if choice.side is Side.LEFT else -1
+    drawing, figure, side = Drawing(system, values), system.figure, choice.side
     at, circles = drawing.point(choice.point), [fact for fact in system.facts if isinstance(fact, OnCircle)]
-    if choice.side in (Side.NEARER, Side.FARTHER, Side.SHORTER, Side.LONGER):
+    pairs = [pair for pair in pairwise(figure.path) if pair[0].head == choice.point]
+    arcs = next(((one, two) for one, two in pairs if isinstance(one, Arc) and isinstance(two, Arc)), None)
+    # The other place is the mirror image: about a line through this point in that direction.
+    if side in (Side.NEARER, Side.FARTHER, Side.SHORTER, Side.LONGER):
         lines = [each for each in (*figure.path, *figure.lines) if isinstance(each, Line)]
         line = next((each for each in lines if choice.point in (each.tail, each.head)), None)
         circle = next((each for each in circles if each.point == choice.point), None)
         if line is None or circle is None:
             return None
-        center = drawing.point(circle.center)
-        ahead = _dot(drawing.direction(line), at - center)
-        if choice.side in (Side.SHORTER, Side.LONGER):
-            other = drawing.point(line.head if choice.point == line.tail else line.tail)
-            beyond = abs(at - other) - abs(2 * _along(at - other, center - other) - (at - other))
-            return beyond * (1 if choice.side is Side.LONGER else -1), ahead**2 / (2 * values[circle.radius])
-        return ahead * (1 if choice.side is Side.FARTHER else -1), ahead**2 / (2 * values[circle.radius])
-    for first, second in pairwise(figure.path):
-        if first.head == choice.point and isinstance(first, Arc) and isinstance(second, Arc):
-            one, two = drawing.point(first.center), drawing.point(second.center)
-            beside = _cross(_unit(two - one), at - one)
-            gap = beside**2 / (2 * min(values[first.radius], values[second.radius]))
-            if choice.side in (Side.LEFT, Side.RIGHT):
-                return beside * left, gap
-            other = at - 2 * beside * 1j * _unit(two - one)
-            begin = drawing.point(first.tail) - one
-            own, else_ = ((-_angle(begin, each - one)) % tau for each in (at, other))
-            return abs(beside) * (1 if (own < else_) == (choice.side is Side.FIRST) else -1), gap
-    arc = next((each for each in figure.path if isinstance(each, Arc) and each.center == choice.point), None)
-    on_it = [each.point for each in circles if arc and each.center == arc.center and each.point != arc.tail]
-    if arc is None or not on_it:
-        return None
-    stated = {fact.point for fact in system.facts if isinstance(fact, Coordinate | Offset)}
-    tail = drawing.point(arc.tail)
-    chord = drawing.point(min(on_it, key=lambda point: point not in stated)) - tail
-    beside = _cross(_unit(chord), at - tail)
-    return beside * left, beside**2 / (2 * values[arc.radius])
-
-
-def _along(way: complex, to: complex) -> complex:
-    """The part of one step that runs the way of another."""
-    return way * _dot(way, to) / abs(way) ** 2
+        through, along, radius = drawing.point(circle.center), -1j * drawing.direction(line), values[circle.radius]
+        begin = drawing.point(line.head if choice.point == line.tail else line.tail) if line.head else 0j
+    elif arcs:
+        through, begin = drawing.point(arcs[0].center), drawing.point(arcs[0].tail)
+        along = _unit(drawing.point(arcs[1].center) - through)
+        radius = min(values[each.radius] for each in arcs)
+    else:
+        arc = next((each for each in figure.path if isinstance(each, Arc) and each.center == choice.point), None)
+        on_it = [each.point for each in circles if arc and each.center == arc.center and each.point != arc.tail]
+        if arc is None or not on_it:
+            return None
+        stated = {fact.point for fact in system.facts if isinstance(fact, Coordinate | Offset)}
+        through = begin = drawing.point(arc.tail)
+        along = _unit(drawing.point(min(on_it, key=lambda point: point not in stated)) - through)
+        radius = values[arc.radius]
+    own = beside = _cross(along, at - through)
+    other = at - 2j * beside * along
+    if side in (Side.SHORTER, Side.LONGER):
+        own = abs(at - begin) - abs(other - begin)
+    elif side in (Side.FIRST, Side.SECOND):
+        here, there = (-_angle(begin - through, each - through) % tau for each in (at, other))
+        own = copysign(beside, there - here)
+    return own * side.sign, beside**2 / (2 * radius)
 
 
 def _cross(a: complex, b: complex) -> float:

@@ -1,11 +1,11 @@
 """A claimed path against the words of its block: its joints, each word's value at its points, corners, sides, answers.
 
-The elements that a result has are told apart by the figure's own; what they tell gives the unknowns their values.
+The solutions of the words are worked out first: the nearest one tells which element is which, and what the result tells
+gives the unknowns their values.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from decimal import Decimal
-from itertools import combinations, islice
 from math import degrees, floor, inf, log10
 
 import numpy
@@ -14,7 +14,7 @@ from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.gcode import Block, Word
-from contoursolve.geometry import FIRST, SECOND, Arc, CornerShape, Fact, OnCircle, Unit, line_scalars, scalar
+from contoursolve.geometry import FIRST, SECOND, Arc, Fact, Unit, scalar
 from contoursolve.reading import ParsedContour
 from contoursolve.tolerance import ERROR_BOUND_WARNING, LENGTH, RESIDUAL
 from contoursolve.verification import rank
@@ -28,24 +28,21 @@ from contoursolve.verification.decode import (
 )
 from contoursolve.verification.drawing import Circle, Move, side_of
 from contoursolve.verification.receipt import Ledger
-from contoursolve.verification.residuals import MEANINGS, Array, measured, senses
+from contoursolve.verification.residuals import MEANINGS, Array, measured
 from contoursolve.verification.status import (
     EPSILON,
     FEW,
     ROUNDING,
+    Candidate,
     Case,
-    agrees,
-    allowance,
     candidates,
+    difference,
     is_on_side,
     prepare,
 )
 
 CERTIFIED = 4
 """1. A residual that compares a point with three others may be off by the error of all four of them."""
-
-MOST_SIGNS, MOST_READINGS = 64, 8
-"""Ways to choose the sides on which elements touch, and to tell the elements apart, that are looked at."""
 
 
 class ClaimedMoves(Struct, frozen=True):
@@ -88,51 +85,59 @@ def _grain(path: ClaimedPath) -> float:
     return 0.5 * 10.0**-decimals if all(round(value, decimals) == value for value in path.numbers()) else 0.0
 
 
-def examine(case: Case, path: ClaimedPath, ledger: Ledger, *, is_chosen: bool) -> Array | None:
-    """Check a claimed path; the values of all unknowns in it, None where it is no path of this figure.
+def examine(
+    case: Case, path: ClaimedPath, found: Sequence[Candidate], ledger: Ledger, *, is_chosen: bool
+) -> Array | None:
+    """Check a claimed path; the values of all unknowns in it, None where none of the solutions `found` has such
+    elements.
 
     One that `is_chosen` must be on the sides that words choose, too.
     """
     claimed = moves_of(case, path)
-    _check_joints(case, claimed, ledger)
+    _check_outline(case, claimed, ledger)
     check_certificate(case, path.certificate, ledger)
     words = case.words(case.profile.facts)
     if not ledger.require("the words fix the points", words, case.is_determined, "they do not"):
         return None
-    order = _order(case)
-    attempts = [
-        _attempt(case, claimed, reading, is_chosen=is_chosen)
-        for reading in islice(_readings(case, claimed, order), MOST_READINGS)
-    ]
-    own, values = min(attempts, key=lambda each: len(each[0].failures), default=(Ledger(), None))
-    found = ", ".join("arc" if each.circle else "line" for each in claimed.moves) or "none"
-    names = ", ".join(name for name, _ in order)
-    ledger.require(f"the elements are {names}", (), bool(attempts), f"the result has {found}")
-    ledger.add(own)
-    return values
+    solution = nearest(claimed, found)
+    if solution is None:
+        has = ", ".join("arc" if each.circle else "line" for each in claimed.moves) or "none"
+        others = ["; ".join(each.path.against) or ", ".join(move.name for move in each.path.moves) for each in found]
+        remark = f"the result has {has}; the words give {' or '.join(dict.fromkeys(others)) or 'no solution'}"
+        ledger.require("the elements are those that the words give", (), passed=False, remark=remark)
+        return None
+    return _examine_at(case, claimed, solution, ledger, is_chosen=is_chosen)
 
 
-def _check_joints(case: Case, claimed: ClaimedMoves, ledger: Ledger) -> None:
-    """What holds for every path, whatever its form: no gaps, nothing without length, arcs on their circles."""
-    limit, here, name = claimed.limit, 0j, "the start"
+def _check_outline(case: Case, claimed: ClaimedMoves, ledger: Ledger) -> None:
+    """What holds for every path, whatever its form: its points by their names, nothing without length, its end."""
     names = [point for point in case.profile.figure.points if point in case.profile.intersections]
     wanted, has = ", ".join(names) or "none", ", ".join(sorted(map(ascii, claimed.path.points))) or "none"
     is_same = claimed.path.points.keys() == set(names)
     ledger.require(f"the points are {wanted}", (), is_same, f"the result has {has}")
-    slack = max((fact.slack for fact in case.spare if isinstance(fact, OnCircle)), default=0.0)
     for number, move in enumerate(claimed.moves, 1):
-        own, length, circle = f"element {number}", abs(move.end - move.start), move.circle
-        ledger.measure(f"{own} begins at {name}", (), abs(move.start - here), limit)
-        ledger.require(f"{own} has a length", (), length >= LENGTH - 2 * PRINTED, f"it is {length:.3g} mm long")
-        if circle:
-            ledger.require(f"{own} has a radius", (), circle.radius > 0, f"it is {circle.radius:g} mm")
-            for verb, at in (("begins", move.start), ("ends", move.end)):
-                off = abs(at - circle.center) - circle.radius
-                ledger.measure(f"{own} {verb} on its circle", (), off, limit + slack)
-        here, name = move.end, f"the end of {own}"
-    ledger.require("the result says where the contour ends", (), claimed.end is not None, "end is null")
-    if claimed.end is not None:
-        ledger.measure(f"the contour ends at {name}", (), abs(claimed.end - here), limit)
+        length = abs(move.end - move.start)
+        is_long = length >= LENGTH - 2 * PRINTED
+        ledger.require(f"element {number} has a length", (), is_long, f"it is {length:.3g} mm long")
+    if ledger.require("the result says where the contour ends", (), claimed.end is not None, "end is null"):
+        last = claimed.moves[-1].end if claimed.moves else 0j
+        ledger.measure("the contour ends with its last element", (), abs((claimed.end or 0j) - last), claimed.limit)
+
+
+def nearest(claimed: ClaimedMoves, found: Sequence[Candidate]) -> Candidate | None:
+    """The solution with elements of the same kinds and turns that is nearest to a claimed path."""
+
+    def kinds(moves: Sequence[Move]) -> list[int]:
+        return [move.circle.turn if move.circle else 0 for move in moves]
+
+    def gap(solution: Candidate) -> float:
+        pairs = zip(solution.path.moves, claimed.moves, strict=True)
+        return sum(
+            abs(own.end - its.end) + (abs(own.circle.center - its.circle.center) if own.circle and its.circle else 0.0)
+            for own, its in pairs
+        )
+
+    return min((each for each in found if kinds(each.path.moves) == kinds(claimed.moves)), key=gap, default=None)
 
 
 CERTIFICATE_KINDS = ("exact", "unique", "verified", "unknown")
@@ -161,96 +166,55 @@ def check_certificate(case: Case, certificate: ClaimedCertificate, ledger: Ledge
 
 # --- Which unknowns a path tells -------------------------------------------------------------------
 
-LINE, ANY_TURN = 0, 2
-"""Beside the signs of turns."""
+
+def told(case: Case, path: ClaimedPath) -> Array:
+    """The values of the unknowns that a claimed path tells, before its elements are known by their names."""
+    claimed, names, figure = moves_of(case, path), list[str](), case.profile.figure
+    for element in figure.path:
+        names += [element.name, *(each.name for each in figure.corners if each.at == element.head)]
+    is_whole = len(names) == len(claimed.moves)
+    return _values(case, claimed, names if is_whole else ())
 
 
-def _order(case: Case) -> list[tuple[str, int]]:
-    """Every element and corner of the path with the sign of its turn."""
-    found = list[tuple[str, int]]()
-    for element in case.profile.figure.path:
-        found.append((element.name, element.turn.sign if isinstance(element, Arc) else LINE))
-        corners = [each for each in case.profile.figure.corners if each.at == element.head]
-        found += [(each.name, ANY_TURN if each.shape is CornerShape.FILLET else LINE) for each in corners]
-    return found
-
-
-def _readings(case: Case, claimed: ClaimedMoves, order: list[tuple[str, int]]) -> Iterator[dict[str, Move]]:
-    """Every way in which the claimed elements can be those of the figure: lines of no length are left out, and corners
-    that the control may leave out, where an element ends in their intersection."""
-    moves = claimed.moves
-    turns = [each.circle.turn if each.circle else LINE for each in moves]
-    ends = [each.end for each in moves]
-    is_loose = {
-        corner.name: bool(corner.guard) and any(abs(claimed.points.get(corner.at, at) - at) <= LENGTH for at in ends)
-        for corner in case.profile.figure.corners
-    }
-    loose = [number for number, (name, turn) in enumerate(order) if is_loose.get(name, turn == LINE)]
-    loose.sort(key=lambda number: order[number][0] not in is_loose)
-    for dropped in combinations(loose, len(order) - len(turns)) if len(turns) <= len(order) else ():
-        rest = [each for number, each in enumerate(order) if number not in dropped]
-        if all(own == turn or (own == ANY_TURN and turn) for (_, own), turn in zip(rest, turns, strict=True)):
-            yield {name: replace(each, name=name) for (name, _), each in zip(rest, moves, strict=True)}
-
-
-def _values(case: Case, claimed: ClaimedMoves, reading: Mapping[str, Move]) -> Array:
-    """The values of the unknowns that a claimed path tells, NaN for the others."""
+def _values(case: Case, claimed: ClaimedMoves, names: Sequence[str]) -> Array:
+    """The values of the unknowns that claimed elements of these names tell, NaN for the others."""
     found, figure, here = dict[str, float](), case.profile.figure, 0j
 
     def put(name: str, at: complex) -> None:
         found[scalar(name, FIRST)], found[scalar(name, SECOND)] = at.real, at.imag
 
-    cut = {corner.at for corner in figure.corners}
-    for element in figure.path:
-        own = reading.get(element.name)
+    cut, moves = {corner.at for corner in figure.corners}, dict(zip(names, claimed.moves, strict=False))
+    for name, at in claimed.points.items():
+        put(name, at)
+    for element in figure.path if names else ():
+        own = moves.get(element.name)
         here = own.end if own else here
-        if element.head not in cut:
+        if element.head not in cut and element.head not in claimed.points:
             put(element.head, here)
         if own and own.circle and isinstance(element, Arc):
             put(element.center, own.circle.center)
             found[element.radius] = own.circle.radius
-        elif own:
-            along = own.end - own.start
-            along = along / abs(along) if along else 1 + 0j
-            offset = along.real * own.start.imag - along.imag * own.start.real
-            found |= dict(zip(line_scalars(element.name), (along.real, along.imag, offset), strict=True))
-        for corner in figure.corners:
-            own = reading.get(corner.name) if corner.at == element.head else None
-            if own:
-                here = own.end
-                put(f"{corner.name}.begin", own.start)
-                put(f"{corner.name}.end", here)
-                if own.circle:
-                    put(f"{corner.name}.center", own.circle.center)
-                    found[f"{corner.name}.radius"] = own.circle.radius
-    for name, at in claimed.points.items():
-        put(name, at)
+        for corner in (each for each in figure.corners if each.at == element.head and each.name in moves):
+            own = moves[corner.name]
+            here = own.end
+            put(f"{corner.name}.begin", own.start)
+            put(f"{corner.name}.end", own.end)
+            if own.circle:
+                put(f"{corner.name}.center", own.circle.center)
+                found[f"{corner.name}.radius"] = own.circle.radius
     return numpy.array([found.get(name, numpy.nan) for name in case.system.unknowns])
-
-
-def _completed(case: Case, told: Array) -> tuple[Array, dict[str, int]]:
-    """The values of all unknowns, those that a path does not tell by the facts, and the sides that fit best."""
-    system = case.system
-    best: tuple[float, Array, dict[str, int]] = (inf, told, dict.fromkeys(system.sides, 1))
-    for bits in range(min(2 ** len(system.sides), MOST_SIGNS)):
-        signs = {side: 1 - 2 * (bits >> number & 1) for number, side in enumerate(system.sides)}
-        for each in rank.fill(system, case.basis, told, signs, case.size):
-            at = system.at(each, signs)
-            off = float(abs(system.residuals(system.facts, each, signs)).sum())
-            off += sum(max(0.0, -sense) for fact in system.facts for sense in senses(fact, at))
-            best = min(best, (off, each, signs), key=lambda one: one[0])
-    return best[1], best[2]
 
 
 # --- What the words say of these values ------------------------------------------------------------
 
 
-def _attempt(
-    case: Case, claimed: ClaimedMoves, reading: Mapping[str, Move], *, is_chosen: bool
-) -> tuple[Ledger, Array]:
-    """The checks of a path if its elements are these."""
-    ledger, limit, system, certificate = Ledger(), claimed.limit, case.system, claimed.path.certificate
-    values, signs = _completed(case, _values(case, claimed, reading))
+def _examine_at(case: Case, claimed: ClaimedMoves, solution: Candidate, ledger: Ledger, *, is_chosen: bool) -> Array:
+    """The checks of a path that is near a solution; the values of all unknowns where the words put them."""
+    limit, system, certificate, signs = claimed.limit, case.system, claimed.path.certificate, solution.signs
+    own = _values(case, claimed, [move.name for move in solution.path.moves])
+    values = rank.settle(
+        system, case.basis, numpy.where(numpy.isnan(own), solution.values, own), ~numpy.isnan(own), signs
+    )
     noise = ROUNDING * case.size + case.found.start_error + 2 * claimed.grain + EPSILON * case.reach
     hides = inf if certificate.double is not None else case.band / FEW
     moved = rank.correct(system, case.basis, values, signs, noise, hides)
@@ -262,28 +226,24 @@ def _attempt(
         ledger.measure("two solutions have become one", (), moved.fold, limit + 1e3 * noise)
     for name, by, unsure in zip(system.unknowns, moved.by.tolist(), moved.unsure.tolist(), strict=True):
         words = case.words([fact for fact in case.basis if name in fact.reads() and fact.given])
-        what = f"{name.rpartition('.')[0] or name} is where the words put it"
-        ledger.measure(what, words, by, limit + unsure)
+        what, allowed = f"{name.rpartition('.')[0] or name} is where the words put it", limit
         if certificate.radius is not None:
-            allowed = CERTIFIED * max(0.0, certificate.radius) + PRINTED + ROUNDING * case.reach + unsure
-            ledger.measure(f"the certificate's radius covers that {what}", words, by, allowed)
+            what += ", within the certificate's radius"
+            allowed = min(limit, CERTIFIED * max(0.0, certificate.radius) + PRINTED + ROUNDING * case.reach)
+        ledger.measure(what, words, by, allowed + unsure)
     values = values + moved.by
     for fact in case.spare:
-        off, allowed = case.missed_by(fact, values, signs), allowance(case, fact, values, signs)
-        if agrees(case, fact, values, signs):  # An angle may, by more than that over a long line.
-            allowed = max(allowed, abs(off))
+        off, allowed = difference(case, fact, values, signs)
         ledger.measure(_name(case, fact), case.words([fact]), off, allowed)
-    at, scalars = system.at(values, signs), case.scalars(values)
-    for fact in case.basis:
-        worst = min(senses(fact, at), default=0.0)
-        ledger.require(f"{_name(case, fact)}, in its sense", case.words([fact]), worst >= -limit, "it is the opposite")
-    _check_drawn(case, reading, scalars, limit + float(moved.unsure.max(initial=0.0)), ledger)
+    scalars = case.scalars(values)
+    _check_drawn(case, claimed.moves, scalars, limit + float(moved.unsure.max(initial=0.0)), ledger)
     for choice in case.profile.choices if is_chosen else ():
         given = case.profile.givens.get(choice.given)
         words = [given.word.text] if given and given.word else []
         is_right = is_on_side(case, scalars, choice)
         ledger.require(f"{choice.point} is the {choice.side.value} place", words, is_right, "it is the other one")
-    return ledger, values
+    _check_asked(case, claimed, values, ledger, is_hidden=moved.is_hidden)
+    return values
 
 
 def _name(case: Case, fact: Fact) -> str:
@@ -295,30 +255,25 @@ def _name(case: Case, fact: Fact) -> str:
     return MEANINGS[type(fact)].name.format_map({**fields, "axis": axis})
 
 
-def _check_drawn(
-    case: Case, reading: Mapping[str, Move], scalars: Mapping[str, float], limit: float, ledger: Ledger
-) -> None:
+def _check_drawn(case: Case, moves: Sequence[Move], scalars: Mapping[str, float], limit: float, ledger: Ledger) -> None:
     """The claimed elements are those that are drawn here between the points."""
     drawn, givens = case.draw(scalars), case.profile.givens
     sizes = [givens[corner.size].word for corner in case.profile.figure.corners if corner.size in givens]
     words = [word.text for word in sizes if word]
     if not ledger.require("the elements and corners can be made", words, not drawn.against, "; ".join(drawn.against)):
         return
-    names = [move.name for move in drawn.moves]
-    if not ledger.require(
-        "the elements are those that have a length", (), names == [*reading], f"these have: {', '.join(names)}"
-    ):
+    names = ", ".join(move.name for move in drawn.moves)
+    is_whole = len(drawn.moves) == len(moves)
+    if not ledger.require("the elements are those that have a length", (), is_whole, f"these have: {names}"):
         return
-    for move, claimed in zip(drawn.moves, reading.values(), strict=True):
-        name = move.name
-        ledger.measure(f"{name} begins where it is drawn", (), abs(claimed.start - move.start), 2 * limit)
-        ledger.measure(f"{name} ends where it is drawn", (), abs(claimed.end - move.end), 2 * limit)
+    for move, claimed in zip(drawn.moves, moves, strict=True):
+        off = max(abs(claimed.start - move.start), abs(claimed.end - move.end))
         if claimed.circle and move.circle:
-            off, wider = abs(claimed.circle.center - move.circle.center), claimed.circle.radius - move.circle.radius
-            ledger.measure(f"{name} has its centre where it is drawn", (), off, 2 * limit)
-            ledger.measure(f"radius of {name}", (), wider, 2 * limit)
+            wider = abs(claimed.circle.radius - move.circle.radius)
+            off = max(off, abs(claimed.circle.center - move.circle.center), wider)
             is_right = claimed.circle.turn == move.circle.turn
-            ledger.require(f"{name} turns as the path does", (), is_right, "it turns the other way")
+            ledger.require(f"{move.name} turns as the path does", (), is_right, "it turns the other way")
+        ledger.measure(f"{move.name} is where it is drawn", (), off, 2 * limit)
 
 
 # --- What a path says besides ----------------------------------------------------------------------
@@ -342,10 +297,10 @@ def check_branches(case: Case, branches: Mapping[str, str], branch: str | None, 
     ledger.require("its branch names these sides", (), branch == joined, f"they are {joined}")
 
 
-def check_asked(case: Case, path: ClaimedPath, values: Array, ledger: Ledger) -> None:
+def _check_asked(case: Case, claimed: ClaimedMoves, values: Array, ledger: Ledger, *, is_hidden: bool) -> None:
     """Every question has its answer, which is that of the elements."""
-    rest, signs = list(path.asked), dict.fromkeys(case.system.sides, 1)
-    at, name = case.system.at(values, signs), "the answer is the value that the elements have"
+    rest, at = list(claimed.path.asked), case.system.at(values, dict.fromkeys(case.system.sides, 1))
+    name = "the answer is the value that the elements have"
     for question in case.profile.questions:
         label, key = [case.label(question.word)], (question.word.text, question.word.span.line)
         answer = next((each for each in rest if (each.word, each.line) == key), None)
@@ -354,16 +309,16 @@ def check_asked(case: Case, path: ClaimedPath, values: Array, ledger: Ledger) ->
         if answer is None:
             continue
         rest.remove(answer)
-        value, is_angle, reach = measured(question.fact, at)
+        value, is_angle, reach = measured(question.fact, at, case.system.origin)
         unit = "deg" if is_angle else "mm"
-        if rank.correct(case.system, case.basis, values, signs, RESIDUAL, inf).is_hidden:
+        if is_hidden:
             ledger.omit(label[0], "several solutions have become one there")
         elif is_angle and reach <= LENGTH:
             ledger.omit(label[0], "what has no length has no direction")
         elif answer.value is None:
             ledger.require(name, label, passed=False, remark=f"it is {value:g} {unit}, and the result has none")
         elif ledger.require("its unit is what it measures", label, answer.unit == unit, f"it is not {unit}"):
-            limit, off = moves_of(case, path).limit, answer.value - value
+            limit, off = claimed.limit, answer.value - value
             if is_angle:
                 limit += degrees((2 * PRINTED + ROUNDING * case.reach) / reach)
                 off = (off + 180) % 360 - 180
@@ -424,16 +379,13 @@ def check_filled(case: Case, claimed: ClaimedContour, ledger: Ledger) -> None:
         return
     other = prepare(replace(case.found, rules="off", claim=again))
     made = candidates(other) if other.is_readable and other.is_determined else []
-    paths = [each.path.moves for each in made if each.is_chosen and each.is_path]
-    own_moves = moves_of(case, claimed)
-    off = [
-        max(abs(a.end - b.end) for a, b in zip(each, own_moves.moves, strict=True))
-        for each in paths
-        if len(each) == len(own_moves.moves)
-    ]
-    if ledger.require(name, texts, bool(off), f"they make {len(paths)}"):
+    paths, own_moves = [each for each in made if each.is_chosen and each.is_path], moves_of(case, claimed)
+    solution = nearest(own_moves, paths)
+    if ledger.require(name, texts, solution is not None, f"they make {len(paths)}") and solution:
+        pairs = zip(solution.path.moves, own_moves.moves, strict=True)
+        off = max((abs(own.end - its.end) for own, its in pairs), default=0.0)
         limit = own_moves.limit + ROUNDING * case.size
-        ledger.measure("they deviate as much as the result says", texts, min(off) - filled.deviation_mm, limit)
+        ledger.measure("they deviate as much as the result says", texts, off - filled.deviation_mm, limit)
 
 
 def _is_filled(block: Block, filled: Block) -> bool:

@@ -223,17 +223,23 @@ def search(
     system: ResidualSystem, facts: Sequence[Fact], size: float, near: Sequence[Array] = ()
 ) -> list[tuple[Array, dict[str, int]]]:
     """Solutions of facts, each with the signs of open sides, found from random starts within some sizes (mm) of the
-    start point and from those values that are `near` one."""
+    start point and from those values that are `near` one, NaN where these are not known."""
     rng = numpy.random.default_rng(16)
-    starts = rng.normal(0, 1, (STARTS, len(system.unknowns))) * size * rng.choice((0.3, 1.0, 3.0), (STARTS, 1))
+    # The sides of other facts are no solutions of their own.
+    sides = list(dict.fromkeys(side for fact in facts for side in fact.sides()))
+    tries = min(_MOST_TRIES, _TRIES * 2 ** len(sides))
+    count = STARTS + tries * len(near)
+    starts = rng.normal(0, 1, (count, len(system.unknowns))) * size * rng.choice((0.3, 1.0, 3.0), (count, 1))
     radii = [name in system.figure.radii for name in system.unknowns]
     starts[:, radii] = abs(starts[:, radii])
-    _spread_directions(system, starts, rng)
-    # The sides of other facts are no solutions of their own.
-    sides = dict.fromkeys(side for fact in facts for side in fact.sides())
-    signs = {side: rng.choice((-1, 1), STARTS) for side in sides}
-    for number, values in enumerate(near[:STARTS]):
-        starts[number] = values
+    for number, name in enumerate(system.unknowns):
+        if name.endswith((".cos", ".sin")):
+            starts[:, number] = rng.normal(0, 1, count)
+    signs = {side: rng.choice((-1, 1), count) for side in sides}
+    for number, values in enumerate(each for each in near for _ in range(tries)):
+        starts[number] = numpy.where(numpy.isnan(values), starts[number], values)
+        for place, side in enumerate(sides):
+            signs[side][number] = 1 - 2 * (number >> place & 1)
     values = _descend(system, facts, starts, signs, size)
     off = abs(system.residuals(facts, values, signs)).max(axis=-1, initial=0.0)
     found: list[tuple[Array, dict[str, int]]] = []
@@ -245,34 +251,19 @@ def search(
     return found
 
 
-def _spread_directions(system: ResidualSystem, starts: Array, rng: numpy.random.Generator) -> None:
-    """Let lines begin in random directions."""
-    for number, name in enumerate(system.unknowns):
-        if name.endswith((".cos", ".sin")):
-            starts[:, number] = rng.normal(0, 1, len(starts))
+_TRIES, _MOST_TRIES = 4, 64
+"""Starts for each choice of open sides, and in all, from what a claimed path tells."""
 
 
-def fill(
-    system: ResidualSystem, facts: Sequence[Fact], values: Array, signs: Mapping[str, int], size: float
-) -> list[Array]:
-    """Values of those unknowns that are not numbers, from a few starts; the others stay."""
-    free = numpy.isnan(values)
-    rng, found = numpy.random.default_rng(16), list[Array]()
-    for count in (1, _TRIES) if free.any() else ():
-        starts = numpy.tile(numpy.nan_to_num(values), (count, 1))
-        starts[:, free] += rng.normal(0, 1, (count, int(free.sum()))) * size
-        told = starts.copy()
-        _spread_directions(system, starts, rng)
-        starts[:, ~free] = told[:, ~free]
-        own = {side: numpy.full(count, sign) for side, sign in signs.items()}
-        found += list(_descend(system, facts, starts, own, size, ~free))
-        if abs(system.residuals(system.facts, found[0], signs)).max(initial=0.0) <= FOUND * size:
-            break
-    return found or [values]
-
-
-_TRIES = 6
-"""Starts from which unknowns are found that a path does not tell."""
+def settle(
+    system: ResidualSystem, facts: Sequence[Fact], values: Array, held: Array, signs: Mapping[str, int]
+) -> Array:
+    """Values with those that are not held where the facts put them."""
+    if held.all():
+        return values
+    own = {side: numpy.full(1, sign) for side, sign in signs.items()}
+    settled: Array = _descend(system, facts, values[None], own, float(abs(values).max()), held)[0]
+    return settled
 
 
 def _descend(

@@ -16,7 +16,8 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve import geometry as kinds
-from contoursolve.geometry import FIRST, SECOND, Fact, Figure, Line, Profile, Unit, line_scalars, scalar
+from contoursolve.geometry import FIRST, SECOND, Fact, Figure, Profile, Unit, headed_lines, line_scalars, scalar
+from contoursolve.geometry.system import both, cross, dot, rotate
 
 Vector = tuple[Any, Any]
 Array = NDArray[Any]
@@ -48,7 +49,7 @@ class ResidualSystem(Struct, frozen=True):
     def at(self, values: Array, signs: Mapping[str, Any]) -> "Place":
         """The figure at values of its unknowns, which are the last axis; `signs` are those of the sides."""
         columns = {name: values[..., number] for number, name in enumerate(self.unknowns)}
-        return Place(self, {**self.known, **columns}, signs)
+        return Place({**self.known, **columns}, self.amounts, self.directions, self.headed, signs)
 
     def residuals(self, facts: Sequence[Fact], values: Array, signs: Mapping[str, Any]) -> Array:
         """How far facts are from being true, mm, one a column."""
@@ -72,86 +73,59 @@ class ResidualSystem(Struct, frozen=True):
 _STEP = 1e-30
 
 
-class Place(Struct, frozen=True):
+class Place(kinds.Values, frozen=True):
     """Points, radii and directions by their names, at some values."""
-
-    system: ResidualSystem
-    scalars: Mapping[str, Any]
-    signs: Mapping[str, Any]
 
     def point(self, name: str) -> Vector:
         return self.scalars[scalar(name, FIRST)], self.scalars[scalar(name, SECOND)]
-
-    def size(self, name: str) -> Any:
-        return self.scalars[name]
 
     def way(self, tail: str, head: str) -> Vector:
         (a, b), (c, d) = self.point(tail), self.point(head)
         return c - a, d - b
 
-    def along(self, line: str) -> Vector:
-        """The direction of a line."""
-        if line in self.system.headed:
-            return self.system.directions[self.system.headed[line][0]]
-        cosine, sine, _ = line_scalars(line)
-        return self.scalars[cosine], self.scalars[sine]
-
     def left(self, line: str, point: str) -> Any:
         """How far to the left of a line a point lies, mm."""
-        if line in self.system.headed:
-            return cross(self.along(line), self.way(self.system.headed[line][1], point))
-        return cross(self.along(line), self.point(point)) - self.scalars[line_scalars(line)[2]]
+        if line in self.headed:
+            return cross(self.bearing(line), self.way(self.headed[line][1], point))
+        return cross(self.bearing(line), self.point(point)) - self.scalars[line_scalars(line)[2]]
 
-    def side(self, side: str | int) -> Any:
-        return self.signs[side] if isinstance(side, str) else side
+    def side(self, name: str | int) -> Any:
+        """+1 or -1: the side of this name, or one that is stated."""
+        return self.signs[name] if isinstance(name, str) else name
 
     def travel(self, of: Any) -> Vector:
         """The direction in which an element is travelled (`Along` or `Tangent`)."""
         if isinstance(of, kinds.Chord):
             return unit(self.way(of.tail, of.head))
         if isinstance(of, kinds.Along):
-            return self.along(of.line)
+            return self.bearing(of.line)
         first, second = unit(self.way(of.center, of.point))
         return -of.turn.sign * second, of.turn.sign * first
 
     def arc_end(self, fact: Any) -> Vector:
         """The spoke at which an arc of a stated length ends."""
-        angle = self.system.amounts[fact.given] / self.size(fact.radius)
-        return turned(self.way(fact.center, fact.tail), (numpy.cos(angle), fact.turn.sign * numpy.sin(angle)))
+        angle = self.amounts[fact.given] / self.radius(fact.radius)
+        return rotate(self.way(fact.center, fact.tail), (numpy.cos(angle), fact.turn.sign * numpy.sin(angle)))
 
     def inside(self, fact: Any) -> Any:
         """How far the centre of a rounding lies from that of the arc that it touches; negative where beyond it."""
-        return self.size(fact.arc[1]) - fact.turn.sign * self.side(fact.side) * self.size(fact.radius)
-
-    def stated(self, fact: Any) -> Vector:
-        """The direction that a fact states."""
-        return self.system.directions[fact.given]
+        return self.radius(fact.arc[1]) - fact.turn.sign * self.side(fact.side) * self.radius(fact.radius)
 
     def spoke(self, fact: Any) -> Vector:
         """The direction in which a radius leads."""
-        return turned(self.stated(fact), ((1, 0), (0, 1), (-1, 0), (0, -1))[fact.quarters % 4])
+        return rotate(self.directions[fact.given], ((1, 0), (0, 1), (-1, 0), (0, -1))[fact.quarters % 4])
 
     def advance(self, fact: Any) -> Any:
         """How a path advances along an axis: by the lines between which it is, or else by the first of its parts that
         moves along it at all."""
         if getattr(fact, "between", ()):
-            return sum(self.along(line)[fact.axis] for line in fact.between)
-        parts = [self.way(*each) if len(each) > 1 else self.along(each[0]) for each in fact.advance]
+            return sum(self.bearing(line)[fact.axis] for line in fact.between)
+        parts = [self.way(*each) if len(each) > 1 else self.bearing(each[0]) for each in fact.advance]
         return next((each[fact.axis] for each in parts if abs(each[fact.axis]) > _NO_ADVANCE), 0.0)
 
 
 _NO_ADVANCE = 1e-9
 """mm."""
-
-
-def dot(a: Vector, b: Vector) -> Any:
-    """Scalar product."""
-    return a[0] * b[0] + a[1] * b[1]
-
-
-def cross(a: Vector, b: Vector) -> Any:
-    """Vector product; positive where b points to the left of a."""
-    return a[0] * b[1] - a[1] * b[0]
 
 
 def norm(a: Vector) -> Any:
@@ -165,15 +139,10 @@ def unit(a: Vector) -> Vector:
     return a[0] / length, a[1] / length
 
 
-def turned(a: Vector, by: Vector) -> Vector:
-    """A vector turned by the angle of a direction."""
-    return a[0] * by[0] - a[1] * by[1], a[0] * by[1] + a[1] * by[0]
-
-
 def _touching(fact: Any, at: Place) -> Any:
     """Circles that touch: from outside (+1), or one inside the other."""
     (center, radius), (other, size) = fact.first, fact.second
-    outside, one, two = at.side(fact.side), at.size(radius), at.size(size)
+    outside, one, two = at.side(fact.side), at.radius(radius), at.radius(size)
     # The larger radius less the smaller one, without a branch: the root of a square.
     inner = numpy.sqrt((one - two) ** 2)
     return norm(at.way(center, other)) - (1 + outside) / 2 * (one + two) - (1 - outside) / 2 * inner
@@ -209,10 +178,10 @@ LENGTH, ANGLE = partial(Meaning, states=States.LENGTH), partial(Meaning, states=
 MEANINGS: Mapping[type, Meaning] = {
     kinds.Coordinate: LENGTH("{axis} of {point}", lambda own, at: at.point(own.point)[own.axis]),
     kinds.Offset: LENGTH("{axis} from {origin} to {point}", lambda own, at: at.way(own.origin, own.point)[own.axis]),
-    kinds.Radius: LENGTH("radius {radius}", lambda own, at: at.size(own.radius)),
+    kinds.Radius: LENGTH("radius {radius}", lambda own, at: at.radius(own.radius)),
     kinds.Distance: LENGTH("distance from {tail} to {head}", lambda own, at: norm(at.way(own.tail, own.head))),
     kinds.Extent: LENGTH(
-        "length of {line} from {tail} to {head}", lambda own, at: dot(at.along(own.line), at.way(own.tail, own.head))
+        "length of {line} from {tail} to {head}", lambda own, at: dot(at.bearing(own.line), at.way(own.tail, own.head))
     ),
     kinds.Heading: ANGLE(
         "direction of the line from {tail} to {head}", lambda own, at: ((1.0, 0.0), at.way(own.tail, own.head))
@@ -220,25 +189,25 @@ MEANINGS: Mapping[type, Meaning] = {
     kinds.Ray: ANGLE(
         "direction from {tail} to {head}",
         lambda own, at: ((1.0, 0.0), at.way(own.tail, own.head)),
-        lambda own, at: (dot(at.stated(own), at.way(own.tail, own.head)),),
+        lambda own, at: (dot(at.directions[own.given], at.way(own.tail, own.head)),),
     ),
-    kinds.RadiusStep: LENGTH("{radius} less {origin}", lambda own, at: at.size(own.radius) - at.size(own.origin)),
+    kinds.RadiusStep: LENGTH("{radius} less {origin}", lambda own, at: at.radius(own.radius) - at.radius(own.origin)),
     kinds.Directed: ANGLE(
         "direction of {line}",
-        lambda own, at: ((1.0, 0.0), at.along(own.line)),
-        lambda own, at: (dot(at.stated(own), at.along(own.line)),),
+        lambda own, at: ((1.0, 0.0), at.bearing(own.line)),
+        lambda own, at: (dot(at.directions[own.given], at.bearing(own.line)),),
     ),
     kinds.TurnBetween: ANGLE(
         "the angle between both elements",
         lambda own, at: (at.travel(own.first), at.travel(own.second)),
-        lambda own, at: (dot(turned(at.travel(own.first), at.stated(own)), at.travel(own.second)),),
+        lambda own, at: (dot(rotate(at.travel(own.first), at.directions[own.given]), at.travel(own.second)),),
     ),
     kinds.ArcLength: Meaning(
         "length of the arc from {tail} to {head}",
-        lambda own, at: cross(at.arc_end(own), at.way(own.center, own.head)) / at.size(own.radius),
+        lambda own, at: cross(at.arc_end(own), at.way(own.center, own.head)) / at.radius(own.radius),
         lambda own, at: (
             dot(at.arc_end(own), at.way(own.center, own.head)),
-            tau * at.size(own.radius) - at.system.amounts[own.given],
+            tau * at.radius(own.radius) - at.amounts[own.given],
         ),
     ),
     kinds.Level: Meaning(
@@ -250,9 +219,9 @@ MEANINGS: Mapping[type, Meaning] = {
     ),
     kinds.OnCircle: Meaning(
         "{point} is on the circle about {center}",
-        lambda own, at: norm(at.way(own.center, own.point)) - at.size(own.radius),
+        lambda own, at: norm(at.way(own.center, own.point)) - at.radius(own.radius),
     ),
-    kinds.EqualRadii: Meaning("{first} is {second}", lambda own, at: at.size(own.first) - at.size(own.second)),
+    kinds.EqualRadii: Meaning("{first} is {second}", lambda own, at: at.radius(own.first) - at.radius(own.second)),
     kinds.EqualDistances: Meaning(
         "both lines are equally long", lambda own, at: norm(at.way(*own.first)) - norm(at.way(*own.second))
     ),
@@ -262,8 +231,8 @@ MEANINGS: Mapping[type, Meaning] = {
         # Inside a circle, it is no farther from it than the centre is: the distance of the two is not negative.
         lambda own, at: (
             norm(at.way(own.first[0], own.second[0]))
-            - at.size(own.second[1])
-            - at.side(own.side) * at.size(own.first[1])
+            - at.radius(own.second[1])
+            - at.side(own.side) * at.radius(own.first[1])
         ),
     ),
     kinds.Contact: Meaning(
@@ -286,44 +255,44 @@ MEANINGS: Mapping[type, Meaning] = {
     ),
     kinds.Setback: Meaning(
         "{point} is its size away from {corner}",
-        lambda own, at: own.way * dot(at.along(own.line), at.way(own.point, own.corner)) - at.size(own.size),
+        lambda own, at: own.way * dot(at.bearing(own.line), at.way(own.point, own.corner)) - at.radius(own.size),
     ),
     kinds.ChordSetback: Meaning(
         "{point} is its size away from {corner}",
-        lambda own, at: norm(at.way(own.point, own.corner)) - at.size(own.size),
+        lambda own, at: norm(at.way(own.point, own.corner)) - at.radius(own.size),
         lambda own, at: (own.way * own.turn.sign * cross(*(at.way(own.center, to) for to in (own.point, own.corner))),),
     ),
-    kinds.UnitDirection: Meaning("{line} has one direction", lambda own, at: norm(at.along(own.line)) - 1),
+    kinds.UnitDirection: Meaning("{line} has one direction", lambda own, at: norm(at.bearing(own.line)) - 1),
     kinds.Through: Meaning("{line} passes through {point}", lambda own, at: at.left(own.line, own.point)),
     kinds.Foot: Meaning(
         "{point} is where {line} is touched",
-        lambda own, at: dot(at.along(own.line), at.way(own.center, own.point)),
-        lambda own, at: (own.way * dot(at.along(own.line), at.way(own.point, own.corner)),) if own.corner else (),
+        lambda own, at: dot(at.bearing(own.line), at.way(own.center, own.point)),
+        lambda own, at: (own.way * dot(at.bearing(own.line), at.way(own.point, own.corner)),) if own.corner else (),
     ),
     kinds.Leaving: Meaning(
         "{line} leaves the circle about {center} in {point}",
-        lambda own, at: dot(at.along(own.line), at.way(own.center, own.point)),
-        lambda own, at: (own.turn.sign * cross(at.way(own.center, own.point), at.along(own.line)),),
+        lambda own, at: dot(at.bearing(own.line), at.way(own.center, own.point)),
+        lambda own, at: (own.turn.sign * cross(at.way(own.center, own.point), at.bearing(own.line)),),
     ),
     kinds.Parallel: Meaning(
         "{line} is parallel to {axis}",
-        lambda own, at: at.along(own.line)[1 - own.axis],
-        lambda own, at: (at.along(own.line)[own.axis] * at.advance(own),),
+        lambda own, at: at.bearing(own.line)[1 - own.axis],
+        lambda own, at: (at.bearing(own.line)[own.axis] * at.advance(own),),
     ),
     kinds.Spoke: Meaning(
         "direction of the radius from {center} to {point}",
-        lambda own, at: at.way(own.center, own.point)[own.axis] - at.spoke(own)[own.axis] * at.size(own.radius),
+        lambda own, at: at.way(own.center, own.point)[own.axis] - at.spoke(own)[own.axis] * at.radius(own.radius),
     ),
     kinds.ParallelLines: Meaning(
-        "{first} is parallel to {second}", lambda own, at: cross(at.along(own.first), at.along(own.second))
+        "{first} is parallel to {second}", lambda own, at: cross(at.bearing(own.first), at.bearing(own.second))
     ),
     kinds.TangentLine: Meaning(
         "{line} touches the circle about {center}",
-        lambda own, at: at.left(own.line, own.center) - at.side(own.side) * at.size(own.radius),
+        lambda own, at: at.left(own.line, own.center) - at.side(own.side) * at.radius(own.radius),
     ),
     kinds.ChamferLeg: Meaning(
         "extent of the bevel from {begin} to {end} along {axis}",
-        lambda own, at: at.way(own.begin, own.end)[own.axis] - own.share * at.side(own.side) * at.size(own.size),
+        lambda own, at: at.way(own.begin, own.end)[own.axis] - own.share * at.side(own.side) * at.radius(own.size),
         lambda own, at: (at.side(own.side) * at.advance(own),),
     ),
 }
@@ -334,9 +303,9 @@ def residual(fact: Fact, at: Place) -> Any:
     meaning = MEANINGS[type(fact)]
     found = meaning.formula(fact, at)
     if meaning.states is States.LENGTH:
-        return found - at.system.amounts[fact.given]
+        return found - at.amounts[fact.given]
     if meaning.states is States.ANGLE:
-        return cross(turned(found[0], at.system.directions[fact.given]), found[1])
+        return cross(rotate(found[0], at.directions[fact.given]), found[1])
     return found
 
 
@@ -345,19 +314,19 @@ def senses(fact: Fact, at: Place) -> tuple[float, ...]:
     return tuple(map(float, MEANINGS[type(fact)].positive(fact, at)))
 
 
-def measured(fact: Fact, at: Place) -> tuple[float, bool, float]:
+def measured(fact: Fact, at: Place, origin: tuple[Decimal, Decimal]) -> tuple[float, bool, float]:
     """What a fact would have to state, in mm (of a coordinate the program's own) or degrees; whether it is an angle;
     over what length (mm) that is known."""
     if isinstance(fact, kinds.ArcLength):
         begin, end = at.way(fact.center, fact.tail), at.way(fact.center, fact.head)
         swept = atan2(fact.turn.sign * cross(begin, end), dot(begin, end)) % tau
-        return float(at.size(fact.radius) * swept), False, 0.0
+        return float(at.radius(fact.radius) * swept), False, 0.0
     meaning = MEANINGS[type(fact)]
     found = meaning.formula(fact, at)
     if meaning.states is States.ANGLE:
         reach = float(norm(found[1])) if isinstance(fact, kinds.Heading) else 1.0
         return degrees(atan2(cross(*found), dot(*found))), True, reach
-    shift = at.system.origin[fact.axis] if isinstance(fact, kinds.Coordinate) else Decimal(0)
+    shift = origin[fact.axis] if isinstance(fact, kinds.Coordinate) else Decimal(0)
     return float(Decimal(float(found)) + shift), False, 0.0
 
 
@@ -365,7 +334,7 @@ def direction(angle: Decimal) -> Vector:
     """Cosine and sine of an angle in degrees, exact along the axes."""
     quarters, rest = divmod(angle % 360 + (360 if angle % 360 < 0 else 0), 90)
     found = (cos(radians(float(rest))), sin(radians(float(rest)))) if rest else (1.0, 0.0)
-    return turned(found, ((1, 0), (0, 1), (-1, 0), (0, -1))[int(quarters) % 4])
+    return rotate(found, ((1, 0), (0, 1), (-1, 0), (0, -1))[int(quarters) % 4])
 
 
 def system_of(profile: Profile) -> ResidualSystem:
@@ -380,13 +349,9 @@ def system_of(profile: Profile) -> ResidualSystem:
             directions[name] = direction(given.value)
         else:
             amounts[name] = float(given.value - (origin[absolute[name]] if name in absolute else 0))
-    names = [scalar(point, axis) for point in figure.points for axis in (FIRST, SECOND)]
-    names += [*figure.radii, *(name for line in figure.carriers for name in line_scalars(line))]
-    known = {scalar(figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
-    known |= {name: amounts[name] for place in figure.places for name in (scalar(place, FIRST), scalar(place, SECOND))}
-    known |= {name: amounts[name] for name in figure.known_radii}
-    lines = [each for each in (*figure.path, *figure.lines) if isinstance(each, Line) and each.heading]
-    headed = {line.name: (line.heading or "", line.tail) for line in lines if line.name not in figure.carriers}
+    names = [*both(*figure.points), *figure.radii, *(name for line in figure.carriers for name in line_scalars(line))]
+    known = dict.fromkeys(both(figure.start), 0.0)
+    known |= {name: amounts[name] for name in (*both(*figure.places), *figure.known_radii)}
     return ResidualSystem(
-        figure, profile.facts, tuple(names), known, amounts, directions, headed, (origin[0], origin[1])
+        figure, profile.facts, tuple(names), known, amounts, directions, headed_lines(figure), (origin[0], origin[1])
     )

@@ -4,7 +4,8 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
 from itertools import combinations
-from math import hypot, pi
+from math import hypot, inf, pi
+from typing import get_args
 
 import numpy
 from msgspec import Struct
@@ -37,8 +38,8 @@ from contoursolve.reading.rules import check as check_rules
 from contoursolve.statements import apply_statements
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH, REGULAR, RESIDUAL
 from contoursolve.verification import rank
-from contoursolve.verification.decode import ClaimedContour
-from contoursolve.verification.drawing import Path, draw, side_of
+from contoursolve.verification.decode import ClaimedContour, Status
+from contoursolve.verification.drawing import Drawing, Path, side_of
 from contoursolve.verification.residuals import Array, ResidualSystem, norm, residual, senses, system_of
 
 EPSILON = 2.0**-52
@@ -52,12 +53,6 @@ FEW = 8.0
 
 HIDDEN = 0.05
 """1 (share of the size). Solutions that are nearer may be several that have become one."""
-
-ORDER = (
-    *("rejected", "conflicting", "underdetermined", "overdetermined", "ambiguous", "no-solution", "undecided"),
-    "solved",
-)
-"""The statuses in the order of precedence."""
 
 
 class Found(Struct, frozen=True):
@@ -106,6 +101,11 @@ class Case(Struct, frozen=True):
         return len(self.basis) == len(self.system.unknowns)
 
     @property
+    def has_solutions(self) -> bool:
+        """Whether solutions can be worked out."""
+        return self.is_readable and self.is_determined and self.profile.start.is_known
+
+    @property
     def size(self) -> float:
         """The largest number that the words state, mm."""
         return max([1.0, *map(abs, self.system.amounts.values())])
@@ -138,11 +138,7 @@ class Case(Struct, frozen=True):
 
     def draw(self, scalars: Mapping[str, float]) -> Path:
         """The path at values of all scalars."""
-        sizes = {
-            corner.name: scalars.get(f"{corner.name}.radius", self.system.amounts.get(corner.size, 0.0))
-            for corner in self.system.figure.corners
-        }
-        return draw(self.system, scalars, sizes, (self.increment(str(FIRST)), self.increment(str(SECOND))))
+        return Drawing(self.system, scalars).draw((self.increment(str(FIRST)), self.increment(str(SECOND))))
 
     def missed_by(self, fact: Fact, values: Array, signs: Mapping[str, int]) -> float:
         """How far a fact is from being true, mm; on the side that fits best where `signs` lack one."""
@@ -251,12 +247,12 @@ def _structure(profile: Profile, free: int, unknowns: int) -> Iterator[tuple[str
 # --- Solutions that are worked out here ------------------------------------------------------------
 
 
-class LooseError(ValueError):
-    """The facts leave a point free at their values, although not at others."""
-
-
 class Candidate(Struct, frozen=True):
-    """A solution of the facts that fix the points: its path, and which of the other facts it is against."""
+    """A solution of the facts that fix the points: its path, and which of the other facts it is against.
+
+    `is_hidden` tells that several have become one there, `is_open` that the facts leave a point free at their values,
+    although not at others.
+    """
 
     values: Array
     signs: Mapping[str, int]
@@ -265,6 +261,7 @@ class Candidate(Struct, frozen=True):
     agreeing: tuple[Fact, ...]
     is_chosen: bool
     is_hidden: bool
+    is_open: bool
 
     @property
     def is_path(self) -> bool:
@@ -273,7 +270,7 @@ class Candidate(Struct, frozen=True):
 
 
 def candidates(case: Case, near: Sequence[Array] = ()) -> list[Candidate]:
-    """The solutions that are found; those near claimed ones are among them. Raises LooseError."""
+    """The solutions that are found; those near what claimed ones tell (NaN where they do not) are among them."""
     system, found = case.system, list[tuple[Array, dict[str, int]]]()
     if not system.unknowns:
         found = [(system.zero, {})]
@@ -295,8 +292,6 @@ def candidates(case: Case, near: Sequence[Array] = ()) -> list[Candidate]:
 def _candidate(case: Case, values: Array, signs: Mapping[str, int]) -> Candidate | None:
     """A solution of the basis; None where what must be positive is not."""
     moved = rank.correct(case.system, case.basis, values, signs, case.band, case.band * FEW)
-    if moved.is_open:
-        raise LooseError
     if float(abs(moved.by).max(initial=0.0)) < rank.APART * case.size:
         values = values + moved.by
     at, scalars = case.system.at(values, signs), case.scalars(values)
@@ -314,7 +309,7 @@ def _candidate(case: Case, values: Array, signs: Mapping[str, int]) -> Candidate
     if not all(is_right for choice, is_right in agreed.items() if not choice.given):
         return None  # The form itself has no other place.
     path = case.draw(scalars)
-    return Candidate(values, signs, path, conflicts, agreeing, all(agreed.values()), moved.is_hidden)
+    return Candidate(values, signs, path, conflicts, agreeing, all(agreed.values()), moved.is_hidden, moved.is_open)
 
 
 def is_on_side(case: Case, scalars: Mapping[str, float], choice: Choice) -> bool:
@@ -338,12 +333,18 @@ def allowance(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -
     return case.increment(fact.given) + RESIDUAL if isinstance(fact, Radius) else AGREEMENT
 
 
+def difference(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> tuple[float, float]:
+    """How far a fact that is not needed is from being true of a solution, and how far it may be, mm."""
+    off, allowed = abs(case.missed_by(fact, values, signs)), allowance(case, fact, values, signs)
+    if isinstance(fact, TurnBetween | Directed | Ray) and min(senses(fact, case.system.at(values, signs))) < 0:
+        off = inf
+    return off, allowed
+
+
 def agrees(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> bool:
     """Whether a fact that is not needed is true of a solution."""
-    off = abs(case.missed_by(fact, values, signs))
-    if isinstance(fact, TurnBetween | Directed | Ray) and min(senses(fact, case.system.at(values, signs))) < 0:
-        return False
-    return off <= allowance(case, fact, values, signs)
+    off, allowed = difference(case, fact, values, signs)
+    return off <= allowed
 
 
 # --- The status ------------------------------------------------------------------------------------
@@ -384,7 +385,7 @@ def expected(case: Case, found: Sequence[Candidate]) -> tuple[str | None, str]:
 
 
 def _first(statuses: Mapping[str, str]) -> tuple[str, str]:
-    status = min(statuses, key=ORDER.index, default="solved")
+    status = min(statuses, key=get_args(Status).index, default="solved")
     return status, statuses.get(status, "one path agrees with the words")
 
 

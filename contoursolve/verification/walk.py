@@ -1,7 +1,9 @@
 """The order of a verification: read both inputs, follow the program from contour to contour as the control does, check
 every contour that either of them has; after each, the claimed end is the position."""
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
 from pathlib import Path
 
 from msgspec.structs import replace
@@ -126,17 +128,15 @@ def _configured(dialect: Dialect | None, claims: ClaimedResult) -> Dialect | Non
 
 def _surplus(claims: ClaimedResult, lines: set[int]) -> Iterator[ContourReceipt]:
     """Contours of the result where the program has none, or that the result has twice."""
-    several = dict[object, list[ClaimedContour]]()
-    for contour in claims.contours:
-        result = contour.status, contour.end, repr(contour.elements)
-        several.setdefault((contour.line, contour.start, result), []).append(contour)
-    for contour, times in ((each[0], len(each)) for each in several.values()):
+    keys = [(each.line, each.start, each.status, each.end, repr(each.elements)) for each in claims.contours]
+    times = Counter(keys)
+    for key, contour in dict(zip(keys, claims.contours, strict=True)).items():
         ledger = Ledger()
         if contour.line not in lines:
             remark = f"line {contour.line} begins none" if lines else "no line of the program begins one"
             ledger.require("the program has a contour block here", (), False, remark)
-        elif times > 1 and contour.has_path:
-            ledger.require("the result has this contour once", (), False, f"it has it {times} times")
+        elif times[key] > 1 and contour.has_path:
+            ledger.require("the result has this contour once", (), False, f"it has it {times[key]} times")
         if ledger.failures:
             yield _receipt(contour.lines, contour.form, contour, ledger, is_checked=False)
 
@@ -245,18 +245,14 @@ def _distance(claimed: ClaimedContour, claim: ParsedContour) -> float:
 
 def _runs(program: Program, modes: Modes, around: Surroundings) -> Iterator[Sequence[Block] | ProgramEvent]:
     """The blocks of a program between its events."""
-    machine, run = machine_of(program, modes.language, modes.syntax, around), list[Block]()
+    machine = machine_of(program, modes.language, modes.syntax, around)
     if machine is None:
         yield program.blocks
         return
-    for each in machine.run():
-        if isinstance(each, ProgramEvent):
-            yield run
-            yield each
-            run = []
-        else:
-            run.append(each)
-    yield run
+    for _, several in groupby(machine.run(), lambda each: isinstance(each, ProgramEvent)):
+        own = list(several)
+        yield from (each for each in own if isinstance(each, ProgramEvent))
+        yield [each for each in own if isinstance(each, Block)]
 
 
 def with_facts(
@@ -273,19 +269,13 @@ def with_facts(
 
 def _with_claimed_facts(blocks: Sequence[Block], claims: Claims) -> tuple[Block, ...]:
     """The blocks with the facts that only the result states, on lines below zero as they were given."""
-    added: dict[int, list[Directive]] = {}
+    added = dict[int, list[Directive]]()
     own = {block.line: [each.text for each in block.directives] for block in blocks}
     given = sum(each.span.line < 0 for block in blocks for each in block.directives)
-    for claimed in (each for several in claims.values() for each in several):
-        known = [text for line in claimed.lines for text in own.get(line, ())]
-        rest: list[Directive] = []
-        for text in claimed.facts:
-            if text in known:
-                known.remove(text)
-            else:
-                rest.append(gcode.read_directive(text, -given - len(rest) - 1))
-        if claimed.lines:
-            added[claimed.lines[-1]] = rest
+    for claimed in (each for several in claims.values() for each in several if each.lines):
+        known = Counter(text for line in claimed.lines for text in own.get(line, ()))
+        rest = (Counter(claimed.facts) - known).elements()
+        added[claimed.lines[-1]] = [gcode.read_directive(text, -given - number) for number, text in enumerate(rest, 1)]
     return tuple(
         replace(block, directives=(*block.directives, *added[block.line])) if added.get(block.line) else block
         for block in blocks

@@ -421,8 +421,8 @@ def test_the_program_is_read_with_the_settings_that_the_result_names(desk, name,
     for unknown, message in (
         ({"fanuc.bevel": value}, "has the setting 'fanuc.bevel', which is none of"),
         ({setting: "none"}, "has a setting that is none"),
-        ({setting: 5}, f"settings.{setting}: expected a text, got a whole number"),
-        ([], "settings: expected an object, got a list"),
+        ({setting: 5}, "settings[...]: expected `str`, got `int`"),
+        ([], "settings: expected `object`, got `array`"),
     ):
         status, output, errors = desk.verify({**result, "settings": unknown})
         assert (status, output, message in errors) == (2, "", True), errors
@@ -1254,7 +1254,7 @@ def test_what_is_wrong_is_said_as_what_was_expected_and_found(desk):
         "expected: the program has a contour block here; but line 3 begins none",
     ]
     assert wrong(changed(result, ("contours", 0, "form"), "G112")) == [
-        "expected: the form is that of its blocks; but it is G111, and the result has 'G112'"
+        "expected: the form is that of its blocks; but the program has G111, and the result has G112"
     ]
     fewer = changed(result, ("contours", 0, "count", "solutions"), 2)
     assert wrong(fewer) == ["expected: all solutions are listed; but there are said to be 2, and 1 are listed"]
@@ -1268,43 +1268,43 @@ def test_what_is_wrong_is_said_as_what_was_expected_and_found(desk):
 # --- Inputs that are none --------------------------------------------------------------------------
 
 TROUBLE: tuple[tuple[str, Place, Any, str], ...] = (
-    ("schema", ("schema",), "contoursolve/check/1", "schema: 'contoursolve/check/1' where"),
+    ("schema", ("schema",), "contoursolve/check/1", "schema: invalid enum value 'contoursolve/check/1'"),
     ("control", ("control",), "fanuc", "unknown control 'fanuc'; choose from yasnac-lx3, nct-99m"),
-    ("control type", ("control",), 5, "control: expected a text or null, got a whole number"),
-    ("contours", ("contours",), {}, "contours: expected a list, got an object"),
-    ("contour", ("contours", 0), None, "contours[0]: expected an object, got null"),
-    ("boolean line", ("contours", 0, "line"), True, "contours[0].line: expected a whole number, got true or false"),
-    ("broken line", ("contours", 0, "line"), 2.0, "contours[0].line: expected a whole number, got a number"),
-    ("negative line", ("contours", 0, "lines"), [-1], "contours[0].lines[0]: expected a whole number >= 0"),
+    ("control type", ("control",), 5, "control: expected `str | null`, got `int`"),
+    ("contours", ("contours",), {}, "contours: expected `array`, got `object`"),
+    ("contour", ("contours", 0), None, "contours[0]: expected `object`, got `null`"),
+    ("boolean line", ("contours", 0, "line"), True, "contours[0].line: expected `int`, got `bool`"),
+    ("broken line", ("contours", 0, "line"), 2.0, "contours[0].line: expected `int`, got `float`"),
+    ("negative line", ("contours", 0, "lines"), [-1], "contours[0].lines[0]: expected `int` >= 0"),
     ("status", ("contours", 0, "status"), "fine", "contours[0].status: invalid enum value 'fine'"),
-    ("plane", ("contours", 0, "plane"), ["Z"], "contours[0].plane: expected a list of length 2, got 1"),
-    ("boolean", ("contours", 0, "end"), [1.0, False], "contours[0].end[1]: expected a number, got true or false"),
+    ("plane", ("contours", 0, "plane"), ["Z"], "contours[0].plane: expected `array` of length 2, got 1"),
+    ("boolean", ("contours", 0, "end"), [1.0, False], "contours[0].end[1]: expected `float`, got `bool`"),
     ("huge", ("contours", 0, "end"), [10**400, 2], "contours[0].end[0]: number out of range"),
     (
         "large",
         ("contours", 0, "end"),
         [10000000000000.0, 2],
-        "contours[0].end[0]: expected a number <= 1000000000000.0",
+        "contours[0].end[0]: expected `float` <= 1000000000000.0",
     ),
-    ("point", ("contours", 0, "points"), {"V1": None}, "contours[0].points.V1: expected a list, got null"),
+    ("point", ("contours", 0, "points"), {"V1": None}, "contours[0].points[...]: expected `array`, got `null`"),
     ("kind", ("contours", 0, "elements", 1, "kind"), "spline", "contours[0].elements[1].kind: invalid value 'spline'"),
-    ("radius", ("contours", 0, "elements", 1, "radius"), None, "elements[1].radius: expected a number, got null"),
+    ("radius", ("contours", 0, "elements", 1, "radius"), None, "elements[1].radius: expected `float`, got `null`"),
     (
         "double",
         ("contours", 0, "certificate", "double"),
         5,
-        "certificate.double: expected an object or null, got a whole",
+        "certificate.double: expected `object | null`, got `int`",
     ),
-    ("facts", ("contours", 0, "facts"), "any", "contours[0].facts: expected a list, got a text"),
-    ("asked", ("contours", 0, "asked"), [None], "contours[0].asked[0]: expected an object, got null"),
+    ("facts", ("contours", 0, "facts"), "any", "contours[0].facts: expected `array`, got `str`"),
+    ("asked", ("contours", 0, "asked"), [None], "contours[0].asked[0]: expected `object`, got `null`"),
     (
         "filled",
         ("contours", 0, "filled"),
         {"blocks": "G111", "deviation_mm": 0},
-        "filled.blocks: expected a list, got a text",
+        "filled.blocks: expected `array`, got `str`",
     ),
-    ("solution", ("contours", 0, "solutions", 0, "end"), 1, "contours[0].solutions[0].end: expected a list or null"),
-    ("complete", ("contours", 0, "count", "is_complete"), None, "is_complete: expected true or false, got null"),
+    ("solution", ("contours", 0, "solutions", 0, "end"), 1, "contours[0].solutions[0].end: expected `array | null`"),
+    ("complete", ("contours", 0, "count", "is_complete"), None, "is_complete: expected `bool`, got `null`"),
 )
 
 
@@ -1338,7 +1338,7 @@ def test_every_field_must_be_there(desk):
             for step in place:
                 holder = holder[step]
             del holder[name]
-            with pytest.raises(CannotVerifyError, match=f"missing required field '{name}'"):
+            with pytest.raises(CannotVerifyError, match=f"missing required field `{name}`"):
                 desk.is_wrong(wrong)
 
 
