@@ -60,6 +60,7 @@ from contoursolve.geometry.system import (
     System,
     Values,
     assemble,
+    both,
     build_system,
     headed_lines,
 )
@@ -143,6 +144,7 @@ __all__ = [
     "UnitDirection",
     "Values",
     "assemble",
+    "both",
     "build_system",
     "headed_lines",
     "least_increments",

@@ -24,6 +24,7 @@ from contoursolve.geometry import (
     Through,
     Unit,
     assemble,
+    both,
     line_scalars,
     scalar,
 )
@@ -47,7 +48,7 @@ def restrict(profile: Profile, names: Iterable[str]) -> Profile:
     figure = profile.figure
     facts: list[Fact] = [fact for fact in profile.facts if kept.issuperset(system.unknowns_of(fact))]
     givens = dict(profile.givens)
-    points = tuple(point for point in figure.points if not kept.isdisjoint(_both(point)))
+    points = tuple(point for point in figure.points if not kept.isdisjoint(both(point)))
     for point in points:
         for axis in (FIRST, SECOND):
             if scalar(point, axis) not in kept:
@@ -58,7 +59,7 @@ def restrict(profile: Profile, names: Iterable[str]) -> Profile:
     facts += [Through(line, figure.start) for line in carriers if line_scalars(line)[2] not in kept]
     lines = tuple(
         # A line has a sense where both its ends are known, not where one has been put somewhere.
-        replace(line, head=line.head if kept.issuperset(_both(line.tail, line.head)) else "")
+        replace(line, head=line.head if kept.issuperset(both(line.tail, line.head)) else "")
         for line in (*figure.path, *figure.lines)
         if isinstance(line, Line)
     )
@@ -72,10 +73,6 @@ def restrict(profile: Profile, names: Iterable[str]) -> Profile:
         carriers=carriers,
     )
     return replace(profile, layout=Layout(part, tuple(facts)), givens=givens, choices=(), questions=())
-
-
-def _both(*points: str) -> tuple[str, ...]:
-    return tuple(scalar(point, axis) for point in points for axis in (FIRST, SECOND))
 
 
 def tied_with(system: System, fact: Fact) -> tuple[str, ...]:
@@ -225,9 +222,7 @@ def _dead(profile: Profile, groups: tuple[Group, ...]) -> list[Group]:
 def _first(profile: Profile, groups: tuple[Group, ...]) -> Profile:
     """The part of a profile that some groups determine, without points of which one coordinate is determined."""
     names = {name for group in groups for name in group.unknowns}
-    half = [
-        pair for point in profile.figure.points if not names.issuperset(pair := {scalar(point, 0), scalar(point, 1)})
-    ]
+    half = [pair for point in profile.figure.points if not names.issuperset(pair := both(point))]
     return restrict(profile, names.difference(*half))
 
 

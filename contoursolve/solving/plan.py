@@ -8,8 +8,6 @@ from msgspec import Struct
 
 from contoursolve.analysis import Group, analyse, order
 from contoursolve.geometry import (
-    FIRST,
-    SECOND,
     Arc,
     Collinear,
     Coordinate,
@@ -19,7 +17,7 @@ from contoursolve.geometry import (
     Offset,
     OnCircle,
     System,
-    scalar,
+    both,
 )
 from contoursolve.numeric.expressions import Tape, is_affine
 from contoursolve.numeric.inputs import lookup
@@ -75,7 +73,7 @@ def lines_through(step: Step) -> Iterator[tuple[str, str]]:
     facts = step.facts if isinstance(step, AffineStep) else (step.line,) if isinstance(step, LineCircleStep) else ()
     for fact in facts:
         if isinstance(fact, Collinear):
-            is_found = isinstance(step, AffineStep) and not _both(fact.through).isdisjoint(step.unknowns)
+            is_found = isinstance(step, AffineStep) and not set(step.unknowns).isdisjoint(both(fact.through))
             yield fact.tail, fact.point if is_found else fact.through
 
 
@@ -123,8 +121,8 @@ def _starts_first(groups: Sequence[Group], system: System) -> Sequence[Group]:
     while rest:
         for group in rest:
             needed = {name for fact in group.facts for name in system.unknowns_of(fact)}
-            counted = [start for point, start in starts.items() if _both(point) == {*group.unknowns}]
-            needed |= {name for start in counted for name in _both(start) if name in system.unknowns}
+            counted = [start for point, start in starts.items() if {*both(point)} == {*group.unknowns}]
+            needed |= {name for start in counted for name in both(start) if name in system.unknowns}
             if needed - {*group.unknowns} <= known:
                 break
         else:
@@ -145,11 +143,11 @@ def _step(group: Group, system: System) -> Step:
             return AffineStep(group.facts, group.unknowns)
     elif len(group.facts) == 1 and unknowns == {circles[0].radius}:
         return DistanceStep(circles[0])
-    elif len(circles) == len(lines) == 1 and unknowns == _both(circles[0].point):
+    elif len(circles) == len(lines) == 1 and unknowns == {*both(circles[0].point)}:
         return LineCircleStep(circles[0], lines[0])
     elif len(circles) == len(group.facts) == 2:  # noqa: PLR2004
         for point in (circles[0].center, circles[0].point):
-            if unknowns == _both(point) and point in (circles[1].center, circles[1].point):
+            if unknowns == {*both(point)} and point in (circles[1].center, circles[1].point):
                 return TwoCirclesStep(circles[0], circles[1], point)
     raise NoClosedFormError(f"{', '.join(map(str, group.facts))} for {', '.join(group.unknowns)}")
 
@@ -160,8 +158,8 @@ def _is_affine(fact: Fact, unknowns: set[str], system: System) -> bool:
         return True
     if isinstance(fact, Collinear):
         # Affine in either of two points, at which the line may be taken to end.
-        return unknowns.isdisjoint(_both(fact.tail)) and not all(
-            unknowns & _both(point) for point in (fact.through, fact.point)
+        return unknowns.isdisjoint(both(fact.tail)) and not all(
+            not unknowns.isdisjoint(both(point)) for point in (fact.through, fact.point)
         )
     tape = Tape()
     return is_affine([fact.residual(lookup(system, tape, {}))], [tape.input(name) for name in sorted(unknowns)])
@@ -175,10 +173,6 @@ def is_closed(system: System) -> bool:
     except NoClosedFormError:
         return False
     return True
-
-
-def _both(point: str) -> set[str]:
-    return {scalar(point, FIRST), scalar(point, SECOND)}
 
 
 @lru_cache(maxsize=8192)
