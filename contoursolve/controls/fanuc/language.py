@@ -18,7 +18,7 @@ from contoursolve.controls.fanuc.lexicon import (
     MILL_WORDS,
 )
 from contoursolve.controls.plain import LATHE
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics.source import Book
 from contoursolve.geometry import CornerShape
 from contoursolve.reading import Modes, Sample, Setting, State
 
@@ -32,21 +32,17 @@ STRAIGHT_ONLY = "@straight-only"
 """Corners stand between lines alone."""
 
 
-def _assumed(manual: str, place: str) -> Source:
-    return Source(manual, place, Evidence.ASSUMED)
-
-
-def _number(manual: str) -> Setting:
+def _number(manual: Book) -> Setting:
     return number_setting(
         {
             "increment": "least increments: 0.001 mm, 0.0001 inch, 0.001 deg",
             "calculator": "mm, inches and degrees, as with a point",
         },
-        _assumed(manual, "a machine parameter"),
+        manual.assumed("a machine parameter"),
     )
 
 
-def _guard(manual: str) -> Setting:
+def _guard(manual: Book) -> Setting:
     return setting(
         "guard-deg",
         "how close two directions may come",
@@ -54,7 +50,7 @@ def _guard(manual: str) -> Setting:
             "1": "within 1 deg no vertex is computed, no coordinate is found, and no corner is made",
             "0": "only where they are the same",
         },
-        _assumed(manual, "1 deg is printed for a sibling"),
+        manual.assumed("1 deg is printed for a sibling"),
     )
 
 
@@ -62,13 +58,13 @@ REDUNDANT_ANGLE = setting(
     "redundant-angle",
     "an angle beside both coordinates, behind a line that has an end",
     {"check": "it may stand there if it agrees", "error": "it must not stand there"},
-    _assumed(DRAWING, "not described"),
+    DRAWING.assumed("not described"),
 )
 ARCS = setting(
     "arcs",
     "corners beside arcs",
     {"off": "corners stand between lines alone", "on": "corners stand beside arcs, too"},
-    _assumed(HAAS, "some releases have them"),
+    HAAS.assumed("some releases have them"),
 )
 
 _SETBACK, _FILLET = CornerShape.CHAMFER_SETBACK, CornerShape.FILLET
@@ -80,7 +76,7 @@ LATHE_CORNER_WORDS = setting(
         "comma": ",A ,C ,R; and between two axes I, K or R with a sign",
         "plain": "A, C and R without a comma; between two axes C and R have a sign",
     },
-    _assumed(DRAWING, _BIT),
+    DRAWING.assumed(_BIT),
     changes={
         "plain": reading(
             {"A": ",A", "C": ",C", "R": ",R"}, signed={"C": _SETBACK, "R": _FILLET}, is_signed_by_shape=True
@@ -91,17 +87,17 @@ MILL_CORNER_WORDS = setting(
     "corner-words",
     "which word with a sign states a chamfer between two axes, beside ,C",
     {"comma": "I, J or K: the letter of the axis of the next line", "plain": "C without a comma"},
-    _assumed(CORNERS, _BIT),
+    CORNERS.assumed(_BIT),
     changes={"plain": reading(like={"C": ",C"}, signed={"C": _SETBACK})},
 )
 
 
-def _guard_corner(manual: str) -> Setting:
+def _guard_corner(manual: Book) -> Setting:
     return setting(
         "guard-corner",
         "a corner where the path turns by less than that",
         {"drop": "it is left out, with a warning", "error": "it is refused"},
-        _assumed(manual, "printed for a sibling"),
+        manual.assumed("printed for a sibling"),
     )
 
 
@@ -109,10 +105,10 @@ ANGLE = setting(
     "angle",
     "what a number behind ,A means",
     {"normal": "the angle itself", "supplementary": "180 deg minus the angle; contoursolve does not compute this"},
-    _assumed(DRAWING, "another bit of parameter 3405, recalled"),
+    DRAWING.assumed("another bit of parameter 3405, recalled"),
 )
-ARC_CHAMFER = arc_chamfer_setting(",C", _assumed(CORNERS, "not described"))
-SENSE = angle_sense_setting(_assumed(DRAWING, "not described"))
+ARC_CHAMFER = arc_chamfer_setting(",C", CORNERS.assumed("not described"))
+SENSE = angle_sense_setting(DRAWING.assumed("not described"))
 LATHE_SETTINGS = (
     *(_number(DRAWING), SENSE, _guard(DRAWING), _guard_corner(DRAWING)),
     *(REDUNDANT_ANGLE, LATHE_CORNER_WORDS, ANGLE),
@@ -120,7 +116,7 @@ LATHE_SETTINGS = (
 MILL_SETTINGS = (_number(CORNERS), _guard(CORNERS), _guard_corner(CORNERS), MILL_CORNER_WORDS, ARC_CHAMFER)
 HAAS_LATHE_SETTINGS = (
     _number(HAAS),
-    angle_sense_setting(_assumed(HAAS, "not described")),
+    angle_sense_setting(HAAS.assumed("not described")),
     _guard(HAAS),
     _guard_corner(HAAS),
 )
