@@ -141,9 +141,6 @@ def _circumstances(member: Member, states: Sequence[State], modes: Modes) -> Ite
     holds = {
         WRONG_PLANE: is_entered and _is_wrong_plane(member.here),
         UNGUARDED: not _guarded(modes),
-        STRICT_ANGLE: modes.settings.get("redundant-angle") == "error",
-        SUPPLEMENTARY: modes.settings.get("angle") == "supplementary",
-        ALONG_ARC: modes.settings.get("chamfer-on-arc") == "arc_length",
         COMPENSATION_CHANGES: member.before.compensation != member.here.compensation,
     }
     return (name for name, is_true in holds.items() if is_true)
@@ -157,12 +154,6 @@ def _is_wrong_plane(state: State) -> bool:
 def _straight_circumstances(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
     yield from _circumstances(member, states, modes)
     yield STRAIGHT_ONLY
-
-
-def _haas_mill_circumstances(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
-    yield from _circumstances(member, states, modes)
-    if modes.convention(ARCS).value == "off":
-        yield STRAIGHT_ONLY
 
 
 _COMMON = ("N", "G", "F", "S", "T", "M", "D", "H", "P", "E", "R", "I", "J", "K", ",C", ",R")
@@ -184,6 +175,7 @@ FANUC_LATHE_LANGUAGE = Language(
         ),
     },
     circumstances=_straight_circumstances,
+    where_set={STRICT_ANGLE: (REDUNDANT_ANGLE, "error"), SUPPLEMENTARY: (ANGLE, "supplementary")},
     conventions=lambda form, _, modes: sense_conventions(SENSE, form, modes),
     sense=SENSE,
     guard=_guard_sine,
@@ -201,6 +193,7 @@ FANUC_MILL_LANGUAGE = Language(
         (A_LINE, AN_ARC): Sample(_ON_MILL, ("G01 {X40.} {Y0} {,C6.} ,R5.", "G03 {X60.} {Y20.} {I0} {J20.} {R20.}")),
     },
     circumstances=_circumstances,
+    where_set={ALONG_ARC: (ARC_CHAMFER, "arc_length")},
     guard=_guard_sine,
     refuses=_refuses,
     signed={"I": _SETBACK, "J": _SETBACK, "K": _SETBACK},
@@ -218,5 +211,5 @@ HAAS_LATHE_LANGUAGE = replace_fields(
     },
 )
 HAAS_MILL_LANGUAGE = replace_fields(
-    FANUC_MILL_LANGUAGE, lexicon=HAAS_MILL_WORDS, circumstances=_haas_mill_circumstances, signed={}
+    FANUC_MILL_LANGUAGE, lexicon=HAAS_MILL_WORDS, where_set={STRAIGHT_ONLY: (ARCS, "off")}, signed={}
 )

@@ -110,13 +110,13 @@ _CIRCLE_SIDES = {
 
 
 def _counts_clockwise(modes: Modes) -> bool:
-    return modes.convention(CIRCLE_CIRCLE_Q).value == CLOCKWISE
+    return modes.has(CIRCLE_CIRCLE_Q, CLOCKWISE)
 
 
 def _uncompensated(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
     """Whether G41 or G42 is missing in one of the states before N1, in N1 and in N2."""
     if member.element.is_over and any(state.compensation == 40 for state in states):  # noqa: PLR2004 - G40
-        yield UNCOMPENSATED_FREE if modes.convention(COMPENSATION).value == "free" else UNCOMPENSATED
+        yield UNCOMPENSATED_FREE if modes.has(COMPENSATION, "free") else UNCOMPENSATED
 
 
 def _conventions(form: ContourForm, circumstances: Collection[str], modes: Modes) -> Iterator[Convention]:
