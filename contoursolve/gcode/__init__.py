@@ -20,7 +20,6 @@ from contoursolve.gcode.lookalikes import (
     has_lookalike_code,
     lookalike_at,
     mended,
-    with_digits,
 )
 from contoursolve.gcode.syntax import ISO, Syntax, long_parts
 from contoursolve.gcode.text import STANDARD_INPUT, UnreadableProgramError, read_bytes
@@ -74,6 +73,5 @@ __all__ = [
     "spell",
     "spelled",
     "split_lines",
-    "with_digits",
     "words_as",
 ]

@@ -212,6 +212,10 @@ class Modes:
         """A setting with its value."""
         return Convention(setting, self.settings.get(setting.name, setting.default))
 
+    def has(self, setting: Setting, value: str) -> bool:
+        """Whether a setting has this value."""
+        return self.settings.get(setting.name, setting.default) == value
+
     @property
     def radius_difference(self) -> float:
         """How much the radii at two points of an arc may differ, mm: a setting where a machine parameter tells."""

@@ -5,7 +5,7 @@ its forms go out. Begin with `language`.
 """
 
 from contoursolve.controls.chain.find import ChainFinder, reading
-from contoursolve.controls.chain.form import compose, forms_of
+from contoursolve.controls.chain.form import forms_of
 from contoursolve.controls.chain.language import (
     A_LINE,
     AN_ARC,
@@ -15,7 +15,6 @@ from contoursolve.controls.chain.language import (
     Joining,
     Language,
     Member,
-    pair_role,
 )
 
 __all__ = [
@@ -28,8 +27,6 @@ __all__ = [
     "Joining",
     "Language",
     "Member",
-    "compose",
     "forms_of",
-    "pair_role",
     "reading",
 ]

@@ -94,6 +94,7 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
             *_circumstances(language, member, first, is_only=len(members) == 1, is_first=not index),
             *([BESIDE_ARC] if any(each.turn is not None for each in elements[index : index + 2]) else []),
             *language.circumstances(member, since, modes),
+            *(name for name, (setting, value) in language.where_set.items() if modes.has(setting, value)),
         }
         circumstances |= {prefix + name for name in holds}
     known = {name: word for name, word in words.items() if word.address in modes.lexicon.addresses}

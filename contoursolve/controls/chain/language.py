@@ -207,6 +207,8 @@ class Language:
     """Programs for the tables of words, one for each kind of form."""
     circumstances: Callable[[Member, Sequence[State], Modes], Iterable[str]] = _nothing
     """(member, states before the block before it, before it and behind it, modes) to what else holds of it."""
+    where_set: Mapping[str, tuple[Setting, str]] = field(default_factory=dict)
+    """What holds of every block where a setting has a value."""
     conventions: Callable[[ContourForm, Collection[str], Modes], Iterable[Convention]] = _no_conventions
     """(form, circumstances, modes) to the settings on which the reading rests."""
     picks: str = ""
@@ -260,7 +262,7 @@ class Language:
 
     def is_ray(self, modes: Modes) -> bool:
         """Whether an angle is the direction of travel."""
-        return self.sense is None or modes.convention(self.sense).value == "ray"
+        return self.sense is None or modes.has(self.sense, "ray")
 
     def centers_at(self, plane: Plane) -> Mapping[str, str]:
         """What these are called in a plane."""

@@ -18,7 +18,7 @@ from contoursolve.controls.fanuc.lexicon import (
     MILL_WORDS,
 )
 from contoursolve.controls.plain import LATHE
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics.source import Book
 from contoursolve.geometry import CornerShape
 from contoursolve.reading import Modes, Sample, Setting, State
 
@@ -32,43 +32,47 @@ STRAIGHT_ONLY = "@straight-only"
 """Corners stand between lines alone."""
 
 
-def _assumed(manual: str, place: str) -> Source:
-    return Source(manual, place, Evidence.ASSUMED)
-
-
-def _number(manual: str) -> Setting:
+def _number(manual: Book) -> Setting:
     return number_setting(
         {
             "increment": "least increments: 0.001 mm, 0.0001 inch, 0.001 deg",
             "calculator": "mm, inches and degrees, as with a point",
         },
-        _assumed(manual, "a machine parameter"),
+        manual.assumed("a machine parameter"),
     )
 
 
-def _guard(manual: str) -> Setting:
-    return setting(
+def _guards(manual: Book) -> tuple[Setting, Setting]:
+    """How smooth a joint may be: for a vertex, and for a corner."""
+    vertex = setting(
         "guard-deg",
         "how close two directions may come",
         {
             "1": "within 1 deg no vertex is computed, no coordinate is found, and no corner is made",
             "0": "only where they are the same",
         },
-        _assumed(manual, "1 deg is printed for a sibling"),
+        manual.assumed("1 deg is printed for a sibling"),
     )
+    corner = setting(
+        "guard-corner",
+        "a corner where the path turns by less than that",
+        {"drop": "it is left out, with a warning", "error": "it is refused"},
+        manual.assumed("printed for a sibling"),
+    )
+    return vertex, corner
 
 
 REDUNDANT_ANGLE = setting(
     "redundant-angle",
     "an angle beside both coordinates, behind a line that has an end",
     {"check": "it may stand there if it agrees", "error": "it must not stand there"},
-    _assumed(DRAWING, "not described"),
+    DRAWING.assumed("not described"),
 )
 ARCS = setting(
     "arcs",
     "corners beside arcs",
     {"off": "corners stand between lines alone", "on": "corners stand beside arcs, too"},
-    _assumed(HAAS, "some releases have them"),
+    HAAS.assumed("some releases have them"),
 )
 
 _SETBACK, _FILLET = CornerShape.CHAMFER_SETBACK, CornerShape.FILLET
@@ -80,7 +84,7 @@ LATHE_CORNER_WORDS = setting(
         "comma": ",A ,C ,R; and between two axes I, K or R with a sign",
         "plain": "A, C and R without a comma; between two axes C and R have a sign",
     },
-    _assumed(DRAWING, _BIT),
+    DRAWING.assumed(_BIT),
     changes={
         "plain": reading(
             {"A": ",A", "C": ",C", "R": ",R"}, signed={"C": _SETBACK, "R": _FILLET}, is_signed_by_shape=True
@@ -91,40 +95,23 @@ MILL_CORNER_WORDS = setting(
     "corner-words",
     "which word with a sign states a chamfer between two axes, beside ,C",
     {"comma": "I, J or K: the letter of the axis of the next line", "plain": "C without a comma"},
-    _assumed(CORNERS, _BIT),
+    CORNERS.assumed(_BIT),
     changes={"plain": reading(like={"C": ",C"}, signed={"C": _SETBACK})},
 )
-
-
-def _guard_corner(manual: str) -> Setting:
-    return setting(
-        "guard-corner",
-        "a corner where the path turns by less than that",
-        {"drop": "it is left out, with a warning", "error": "it is refused"},
-        _assumed(manual, "printed for a sibling"),
-    )
 
 
 ANGLE = setting(
     "angle",
     "what a number behind ,A means",
     {"normal": "the angle itself", "supplementary": "180 deg minus the angle; contoursolve does not compute this"},
-    _assumed(DRAWING, "another bit of parameter 3405, recalled"),
+    DRAWING.assumed("another bit of parameter 3405, recalled"),
 )
-ARC_CHAMFER = arc_chamfer_setting(",C", _assumed(CORNERS, "not described"))
-SENSE = angle_sense_setting(_assumed(DRAWING, "not described"))
-LATHE_SETTINGS = (
-    *(_number(DRAWING), SENSE, _guard(DRAWING), _guard_corner(DRAWING)),
-    *(REDUNDANT_ANGLE, LATHE_CORNER_WORDS, ANGLE),
-)
-MILL_SETTINGS = (_number(CORNERS), _guard(CORNERS), _guard_corner(CORNERS), MILL_CORNER_WORDS, ARC_CHAMFER)
-HAAS_LATHE_SETTINGS = (
-    _number(HAAS),
-    angle_sense_setting(_assumed(HAAS, "not described")),
-    _guard(HAAS),
-    _guard_corner(HAAS),
-)
-HAAS_MILL_SETTINGS = (_number(HAAS), _guard(HAAS), _guard_corner(HAAS), ARCS)
+ARC_CHAMFER = arc_chamfer_setting(",C", CORNERS.assumed("not described"))
+SENSE = angle_sense_setting(DRAWING.assumed("not described"))
+LATHE_SETTINGS = (_number(DRAWING), SENSE, *_guards(DRAWING), REDUNDANT_ANGLE, LATHE_CORNER_WORDS, ANGLE)
+MILL_SETTINGS = (_number(CORNERS), *_guards(CORNERS), MILL_CORNER_WORDS, ARC_CHAMFER)
+HAAS_LATHE_SETTINGS = (_number(HAAS), angle_sense_setting(HAAS.assumed("not described")), *_guards(HAAS))
+HAAS_MILL_SETTINGS = (_number(HAAS), *_guards(HAAS), ARCS)
 
 
 def _guarded(modes: Modes) -> bool:
@@ -145,9 +132,6 @@ def _circumstances(member: Member, states: Sequence[State], modes: Modes) -> Ite
     holds = {
         WRONG_PLANE: is_entered and _is_wrong_plane(member.here),
         UNGUARDED: not _guarded(modes),
-        STRICT_ANGLE: modes.settings.get("redundant-angle") == "error",
-        SUPPLEMENTARY: modes.settings.get("angle") == "supplementary",
-        ALONG_ARC: modes.settings.get("chamfer-on-arc") == "arc_length",
         COMPENSATION_CHANGES: member.before.compensation != member.here.compensation,
     }
     return (name for name, is_true in holds.items() if is_true)
@@ -161,12 +145,6 @@ def _is_wrong_plane(state: State) -> bool:
 def _straight_circumstances(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
     yield from _circumstances(member, states, modes)
     yield STRAIGHT_ONLY
-
-
-def _haas_mill_circumstances(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
-    yield from _circumstances(member, states, modes)
-    if modes.convention(ARCS).value == "off":
-        yield STRAIGHT_ONLY
 
 
 _COMMON = ("N", "G", "F", "S", "T", "M", "D", "H", "P", "E", "R", "I", "J", "K", ",C", ",R")
@@ -188,6 +166,7 @@ FANUC_LATHE_LANGUAGE = Language(
         ),
     },
     circumstances=_straight_circumstances,
+    where_set={STRICT_ANGLE: (REDUNDANT_ANGLE, "error"), SUPPLEMENTARY: (ANGLE, "supplementary")},
     conventions=lambda form, _, modes: sense_conventions(SENSE, form, modes),
     sense=SENSE,
     guard=_guard_sine,
@@ -205,6 +184,7 @@ FANUC_MILL_LANGUAGE = Language(
         (A_LINE, AN_ARC): Sample(_ON_MILL, ("G01 {X40.} {Y0} {,C6.} ,R5.", "G03 {X60.} {Y20.} {I0} {J20.} {R20.}")),
     },
     circumstances=_circumstances,
+    where_set={ALONG_ARC: (ARC_CHAMFER, "arc_length")},
     guard=_guard_sine,
     refuses=_refuses,
     signed={"I": _SETBACK, "J": _SETBACK, "K": _SETBACK},
@@ -222,5 +202,5 @@ HAAS_LATHE_LANGUAGE = replace_fields(
     },
 )
 HAAS_MILL_LANGUAGE = replace_fields(
-    FANUC_MILL_LANGUAGE, lexicon=HAAS_MILL_WORDS, circumstances=_haas_mill_circumstances, signed={}
+    FANUC_MILL_LANGUAGE, lexicon=HAAS_MILL_WORDS, where_set={STRAIGHT_ONLY: (ARCS, "off")}, signed={}
 )

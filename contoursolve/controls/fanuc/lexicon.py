@@ -12,15 +12,15 @@ from contoursolve.controls.plain import (
     lexicon,
     merge,
 )
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics.source import Book, Evidence, Source
 from contoursolve.execution.fanuc import fanuc, haas
 from contoursolve.geometry import Unit
 from contoursolve.reading import Address, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 
 FANUC_MANUAL = Source("Fanuc 0i operator's manuals", "list of G codes, code system A for lathes", Evidence.ASSUMED)
-DRAWING = "FANUC lathe, direct drawing dimensions"
-CORNERS = "FANUC mill, optional angle chamfering and corner rounding"
-HAAS = "Haas operator's manual, corner rounding and chamfering"
+DRAWING = Book("FANUC lathe, direct drawing dimensions")
+CORNERS = Book("FANUC mill, optional angle chamfering and corner rounding")
+HAAS = Book("Haas operator's manual, corner rounding and chamfering")
 
 _INCREMENTS = NumberFormat(WithoutPoint.LEAST_INCREMENTS, FANUC_MANUAL)
 
@@ -37,10 +37,6 @@ def _with(words: Lexicon, *rows: Address) -> Lexicon:
     return Lexicon({**words.addresses, **{row.address: row for row in rows}}, words.numbers)
 
 
-def _source(manual: str, place: str, evidence: Evidence = Evidence.PRINTED) -> Source:
-    return Source(manual, place, evidence)
-
-
 _TURNED = lexicon(FANUC_MANUAL, _INCREMENTS, "XZ", {"U": "X", "W": "Z"}, is_diameter=True)
 _MILLED = lexicon(FANUC_MANUAL, _INCREMENTS, "XYZ", {}, is_diameter=False)
 
@@ -48,25 +44,25 @@ _ANGLE = "angle of the line, from +Z, counter-clockwise"
 _LEG, _ROUND = "chamfer: the distance of both its ends from the virtual corner", "rounding"
 LATHE_WORDS = _with(
     _TURNED,
-    Address(",A", _ANGLE, Unit.DEGREE, _source(DRAWING, "block patterns")),
-    Address(",C", _LEG, Unit.MM, _source(DRAWING, "block patterns 4 to 8")),
-    Address(",R", _ROUND, Unit.MM, _source(DRAWING, "block patterns 3 to 8")),
+    Address(",A", _ANGLE, Unit.DEGREE, DRAWING.printed("block patterns")),
+    Address(",C", _LEG, Unit.MM, DRAWING.printed("block patterns 4 to 8")),
+    Address(",R", _ROUND, Unit.MM, DRAWING.printed("block patterns 3 to 8")),
 )
 MILL_WORDS = _with(
     _MILLED,
-    Address(",C", _LEG, Unit.MM, _source(CORNERS, "sample program")),
-    Address(",R", _ROUND, Unit.MM, _source(CORNERS, "sample program")),
+    Address(",C", _LEG, Unit.MM, CORNERS.printed("sample program")),
+    Address(",R", _ROUND, Unit.MM, CORNERS.printed("sample program")),
 )
 HAAS_LATHE_WORDS = _with(
     _TURNED,
-    Address("A", _ANGLE, Unit.DEGREE, _source(HAAS, "recalled", Evidence.ASSUMED)),
-    Address(",C", _LEG, Unit.MM, _source(HAAS, "example")),
-    Address(",R", _ROUND, Unit.MM, _source(HAAS, "example")),
+    Address("A", _ANGLE, Unit.DEGREE, HAAS.assumed("recalled")),
+    Address(",C", _LEG, Unit.MM, HAAS.printed("example")),
+    Address(",R", _ROUND, Unit.MM, HAAS.printed("example")),
 )
 HAAS_MILL_WORDS = _with(
     _MILLED,
-    Address(",C", _LEG, Unit.MM, _source(HAAS, "lathe's example", Evidence.ASSUMED)),
-    Address(",R", _ROUND, Unit.MM, _source(HAAS, "lathe's example", Evidence.ASSUMED)),
+    Address(",C", _LEG, Unit.MM, HAAS.assumed("lathe's example")),
+    Address(",R", _ROUND, Unit.MM, HAAS.assumed("lathe's example")),
 )
 
 LATHE_MODES = Modes(LATHE_WORDS, _LATHE_CODES, ("Z", "X"), CALLS, language=fanuc())

@@ -30,7 +30,7 @@ from contoursolve.controls.fanuc.language import (
 from contoursolve.controls.fanuc.lexicon import CORNERS, DRAWING, HAAS
 from contoursolve.controls.geometry_rules import COMMA_MISSING, GEOMETRY_RULES, Otherwise, told
 from contoursolve.diagnostics.finding import Alarm
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics.source import Book, Evidence, Source
 from contoursolve.reading import ReadIssue
 from contoursolve.reading.rules import Along, Parallel, Rule, all_of, at_least, row, some
 from contoursolve.solving import RefusalKind
@@ -51,7 +51,7 @@ class _Machine:
     for the examples a start, a line, and a line that turns off from it."""
 
     prefix: str
-    manual: str
+    manual: Book
     angle: str
     has_alarms: bool
     start: str
@@ -72,7 +72,7 @@ class _Machine:
 
     def source(self, place: str, evidence: Evidence = Evidence.PRINTED) -> Source:
         """A place of its manual; what is printed for Fanuc is assumed of a relative."""
-        return Source(self.manual, place, evidence if self.has_alarms else Evidence.ASSUMED)
+        return Source(self.manual.title, place, evidence if self.has_alarms else Evidence.ASSUMED)
 
     def alarm(self, number: str, evidence: Evidence = Evidence.PRINTED) -> Alarm | None:
         """An alarm as older controls print it; newer ones print PS and four digits."""

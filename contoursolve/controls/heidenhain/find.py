@@ -330,10 +330,10 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
 
 def _picks(stated: Sequence[Pick], count: int, modes: Modes) -> Iterator[Pick]:
     """What FSELECT chooses, and where settings say so, the first solution elsewhere."""
-    if modes.convention(SELECTION).value == "ignore":
+    if modes.has(SELECTION, "ignore"):
         stated = ()
     yield from stated
-    if modes.convention(AMBIGUOUS).value == "first":
+    if modes.has(AMBIGUOUS, "first"):
         told = {each.element for each in stated}
         yield from (Pick(number, 1, "") for number in range(1, count + 1) if number not in told)
 
@@ -349,7 +349,7 @@ def _conventions(is_picked: bool, modes: Modes) -> Iterator[Convention]:
     """The settings on which the reading rests."""
     if is_picked:
         yield modes.convention(SELECTION)
-    if modes.convention(AMBIGUOUS).value == "first":
+    if modes.has(AMBIGUOUS, "first"):
         yield modes.convention(AMBIGUOUS)
 
 

@@ -19,7 +19,7 @@ from contoursolve.controls.chain.language import (
 )
 from contoursolve.controls.common import arc_chamfer_setting, length_setting, number_setting, setting
 from contoursolve.controls.mitsubishi.lexicon import BOOK, MODES, TURNED_PLANES, turned
-from contoursolve.reading import Assumption, ContourForm, Convention, Modes, Sample, Setting, State
+from contoursolve.reading import Assumption, ContourForm, Convention, Modes, Sample, State
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import some
 
@@ -97,22 +97,12 @@ SETTINGS = (
 )  # fmt: skip
 
 
-def _is(setting: Setting, modes: Modes) -> bool:
-    """Whether a setting has another value than the one that it has at first."""
-    return modes.convention(setting).value != setting.default
-
-
-def _circumstances(member: Member, _: Sequence[State], modes: Modes) -> Iterator[str]:
+def _circumstances(member: Member, _: Sequence[State], _modes: Modes) -> Iterator[str]:
     pick = member.block.find("H")
     holds = {
-        PICK_REQUIRED: _is(_PICK, modes),
-        STRAIGHT_ONLY: _is(_CORNER, modes),
-        FROM_END: _is(_FIRST_CENTER, modes),
-        ALONG_ARC: _is(_ARC_CHAMFER, modes),
         INCREMENTAL: member.here.is_incremental,
         HIGH_SPEED: "G05" in member.here.memory,
         TURNED: any(member.here.plane.diameters),
-        UNGUARDED: _is(_GUARD, modes),
         PICKS_NOTHING: pick is not None and pick.number not in (None, 0, 1),
     }
     return (name for name, is_true in holds.items() if is_true)
@@ -122,7 +112,9 @@ def _conventions(form: ContourForm, _: Collection[str], modes: Modes) -> Iterato
     """Of those about the geometry, the ones that were set."""
     roles = {role.name for role in form.roles}
     about = ((_SENSE, True), (CONTACT, CIRCLE_CIRCLE in roles))
-    return (modes.convention(setting) for setting, is_here in about if is_here and _is(setting, modes))
+    return (
+        modes.convention(setting) for setting, is_here in about if is_here and not modes.has(setting, setting.default)
+    )
 
 
 _MILL = "G17 G90 G00 X0 Y0"
@@ -167,6 +159,13 @@ LANGUAGE = Language(
         (OPEN_ARC, replace(CLOSING_LINE, touches=True)): Sample(_MILL, ("G03 R30.", "G01 {X-20.} {Y76.} {A150.}")),
     },
     circumstances=_circumstances,
+    where_set={
+        PICK_REQUIRED: (_PICK, "error"),
+        STRAIGHT_ONLY: (_CORNER, "I"),
+        FROM_END: (_FIRST_CENTER, "end"),
+        ALONG_ARC: (_ARC_CHAMFER, "arc_length"),
+        UNGUARDED: (_GUARD, "0"),
+    },
     conventions=_conventions,
     contact=lambda modes: float(modes.convention(CONTACT).value),
     sense=_SENSE,

@@ -26,7 +26,7 @@ from contoursolve.controls.common import length_setting, setting
 from contoursolve.controls.nct_99m.lexicon import (
     ASSUMPTIONS,
     AXES,
-    MANUAL,
+    BOOK,
     MODES,
     PARALLEL_TO,
     SINGLE_BLOCK,
@@ -34,7 +34,6 @@ from contoursolve.controls.nct_99m.lexicon import (
     UNCOMPENSATED_FREE,
 )
 from contoursolve.controls.plain import PLANES
-from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.geometry import OnCircle, Side
 from contoursolve.reading import ContourForm, Convention, Modes, Sample, State
 from contoursolve.tolerance import RADIUS_DIFFERENCE
@@ -70,7 +69,7 @@ CIRCLE_CIRCLE_Q = setting(
         CLOCKWISE: "Q<0 the point met first, clockwise along the first circle from its arc's start, Q>0 the one met "
         "second",
     },
-    Source(MANUAL, "16.3.4: the page has not been seen", Evidence.ASSUMED),
+    BOOK.assumed("16.3.4: the page has not been seen"),
 )
 
 COMPENSATION = setting(
@@ -80,14 +79,14 @@ COMPENSATION = setting(
         "required": "G41 or G42 must be active before the first of two blocks that meet in an intersection",
         "free": "intersections are computed without G41 and G42, too",
     },
-    Source(MANUAL, "16.3: every format and example has it; the sentence is on no page seen", Evidence.ASSUMED),
+    BOOK.assumed("16.3: every format and example has it; the sentence is on no page seen"),
 )
 
 RADIUS_DIFFERENCES = length_setting(
     "radius-difference",
     "how much the radii at two points of an arc may differ (machine parameter RADDIFF)",
     str(RADIUS_DIFFERENCE),
-    Source(MANUAL, "p. 26 (4.3): alarm 3011; the value is one of each machine", Evidence.ASSUMED),
+    BOOK.assumed("p. 26 (4.3): alarm 3011; the value is one of each machine"),
     most=10,
 )
 
@@ -111,13 +110,13 @@ _CIRCLE_SIDES = {
 
 
 def _counts_clockwise(modes: Modes) -> bool:
-    return modes.convention(CIRCLE_CIRCLE_Q).value == CLOCKWISE
+    return modes.has(CIRCLE_CIRCLE_Q, CLOCKWISE)
 
 
 def _uncompensated(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
     """Whether G41 or G42 is missing in one of the states before N1, in N1 and in N2."""
     if member.element.is_over and any(state.compensation == 40 for state in states):  # noqa: PLR2004 - G40
-        yield UNCOMPENSATED_FREE if modes.convention(COMPENSATION).value == "free" else UNCOMPENSATED
+        yield UNCOMPENSATED_FREE if modes.has(COMPENSATION, "free") else UNCOMPENSATED
 
 
 def _conventions(form: ContourForm, circumstances: Collection[str], modes: Modes) -> Iterator[Convention]:

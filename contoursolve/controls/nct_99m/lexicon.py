@@ -15,19 +15,19 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
 )
 from contoursolve.controls.plain import CALLS, MILL_CODES, PLANES, code_rows, merge
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics.source import Book
 from contoursolve.execution.fanuc import fanuc
 from contoursolve.geometry import Unit
 from contoursolve.reading import Address, Assumption, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 from contoursolve.reading.rules import Condition, Value, some
 
-MANUAL = "NCT 99M/2000M Programmer's Manual"
-CHAPTER = Source(MANUAL, "16.3.3, p. 129", Evidence.PRINTED)
-PARALLEL = Source(MANUAL, "16.2, p. 120", Evidence.PRINTED)
-ARCS = Source(MANUAL, "p. 25", Evidence.PRINTED)
-ANGLE = Source(MANUAL, "p. 120 and 123, not printed on p. 129", Evidence.DERIVED)
+BOOK = Book("NCT 99M/2000M Programmer's Manual")
+CHAPTER = BOOK.printed("16.3.3, p. 129")
+PARALLEL = BOOK.printed("16.2, p. 120")
+ARCS = BOOK.printed("p. 25")
+ANGLE = BOOK.derived("p. 120 and 123, not printed on p. 129")
 SINGLE_BLOCK = "in single-block mode the control stops after each inserted chamfer or rounding, too (16.1, p. 120)"
-CODES_SOURCE = Source(MANUAL, "list of G codes", Evidence.ASSUMED)
+CODES_SOURCE = BOOK.assumed("list of G codes")
 
 ADDRESSES = (
     Address("X", "coordinate", Unit.MM, CHAPTER, axis="X"),
@@ -39,12 +39,12 @@ ADDRESSES = (
     Address("K", "centre along Z, from where the arc begins", Unit.MM, ARCS),
     Address("R", "radius; negative for an arc of more than 180 deg", Unit.MM, ARCS),
     Address(",A", "angle of the line, from the plane's first axis, counter-clockwise", Unit.DEGREE, ANGLE),
-    Address(",C", "chamfer", Unit.MM, Source(MANUAL, "16.1", Evidence.PRINTED)),
-    Address(",R", "rounding", Unit.MM, Source(MANUAL, "16.1", Evidence.PRINTED)),
+    Address(",C", "chamfer", Unit.MM, BOOK.printed("16.1")),
+    Address(",R", "rounding", Unit.MM, BOOK.printed("16.1")),
     Address("Q", "which intersection: along a line, negative the nearer, positive the farther", Unit.SIGN, CHAPTER),
 )
 
-NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, Source(MANUAL, "examples, p. 123-130", Evidence.PRINTED))
+NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, BOOK.printed("examples, p. 123-130"))
 
 AXES = ("X", "Y", "Z", "U", "V", "W")
 PARALLEL_TO = {"X": "U", "Y": "V", "Z": "W"}
@@ -66,7 +66,7 @@ CHAMFER, ROUNDING = ",C", ",R"
 
 
 def _row(name: str, meaning: str, place: str, roles: tuple[str, ...], when: Condition) -> Assumption:
-    return Assumption(name, meaning, Source(MANUAL, place, Evidence.ASSUMED), roles, when)
+    return Assumption(name, meaning, BOOK.assumed(place), roles, when)
 
 
 ASSUMPTIONS = (

@@ -77,13 +77,7 @@ CHAMFER_NAME = setting(
 )
 
 
-def _circumstances(member: Member, _: Sequence[State], modes: Modes) -> Iterator[str]:
-    settings = (
-        (STRICT_ANGLE, REDUNDANT, "error"),
-        (NO_STEPS, CLOSING, "error"),
-        (ALONG_ARC, ARC_CHAMFER, "arc_length"),
-    )
-    yield from (name for name, setting, value in settings if modes.convention(setting).value == value)
+def _circumstances(member: Member, _: Sequence[State], _modes: Modes) -> Iterator[str]:
     if member.here.diameter is Diameter.BY_PLANE and any(member.here.plane.diameters):
         yield "@by-plane"
 
@@ -124,6 +118,11 @@ LANGUAGE = Language(
         (OPEN_LINE, CLOSING_LINE): Sample(_START, ("G1 ANG=70 {CHF=2} {RND=2}", "{X80} {Y25} {ANG=-30}")),
     },
     circumstances=_circumstances,
+    where_set={
+        STRICT_ANGLE: (REDUNDANT, "error"),
+        NO_STEPS: (CLOSING, "error"),
+        ALONG_ARC: (ARC_CHAMFER, "arc_length"),
+    },
     conventions=_conventions,
     sense=SENSE,
 )

@@ -12,9 +12,8 @@ from msgspec.structs import replace
 
 from contoursolve.controls.yasnac_lx3.claim import claim_of
 from contoursolve.controls.yasnac_lx3.g111 import START
-from contoursolve.controls.yasnac_lx3.lexicon import manual
+from contoursolve.controls.yasnac_lx3.lexicon import BOOK
 from contoursolve.diagnostics.finding import Severity
-from contoursolve.diagnostics.source import Evidence
 from contoursolve.gcode import Block
 from contoursolve.geometry import (
     FIRST,
@@ -139,7 +138,7 @@ _START = "G00 X40. Z0.\nG01 X50. F0.2\n"
 _GOOD = _START + "G02 X70. Z-10. R10."
 _CENTERED = _START + "G02 X70. Z-10. I10. K0"
 _BEFORE = "\nG00 X40. Z0.\nG111 A180. K-30. B120. X100."
-_ARCS = manual("circular interpolation: not on the pages that we have", Evidence.ASSUMED)
+_ARCS = BOOK.assumed("circular interpolation: not on the pages that we have")
 
 ARC_RULES = (
     row("arc-without-center", "the arc has neither a centre (I, K) nor a radius (R)",
@@ -160,13 +159,13 @@ ARC_RULES = (
     row("arc-radius-difference",
         "{words}: start and end of the arc differ in their distance from the centre by {off}, allowed {limit}",
         "correct the end or the centre",
-        manual("circular interpolation; the allowed difference is our choice", Evidence.ASSUMED),
-        RefusalKind.RADIUS_DIFFERENCE, (_CENTERED + _BEFORE, _START + "G02 X70. Z-10.005 I10. K0" + _BEFORE),
-        _START + "G02 X70. Z-10.5 I10. K0", roles=_ROLES),
+        BOOK.assumed("circular interpolation; the allowed difference is our choice"), RefusalKind.RADIUS_DIFFERENCE,
+        (_CENTERED + _BEFORE, _START + "G02 X70. Z-10.005 I10. K0" + _BEFORE), _START + "G02 X70. Z-10.5 I10. K0",
+        roles=_ROLES),
     row("arc-radius-differs",
         "{words}: start and end of the arc differ in their distance from the centre by {off}, within the allowed "
             "{limit}",
         "correct the end or the centre",
-        manual("circular interpolation; the allowed difference is our choice", Evidence.ASSUMED),
-        NoteKind.RADIUS_DIFFERS, _CENTERED + _BEFORE, roles=_ROLES, severity=Severity.INFO),
+        BOOK.assumed("circular interpolation; the allowed difference is our choice"), NoteKind.RADIUS_DIFFERS,
+        _CENTERED + _BEFORE, roles=_ROLES, severity=Severity.INFO),
 )  # fmt: skip

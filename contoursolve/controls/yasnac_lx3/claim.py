@@ -40,7 +40,7 @@ def after_cornering(block: Block, state: State, modes: Modes) -> State:
     """The state after a block of multiple cornering, which is not modal: what it stands with applies, and the motion
     is the one that was in force before it, or by the setting G01."""
     after, motion = apply_modes(state, block, modes), state.motion
-    if modes.convention(MOTION_AFTER).value != UNCHANGED:
+    if not modes.has(MOTION_AFTER, UNCHANGED):
         motion = 1
     return after if after.motion == motion else replace(after, motion=motion)
 

@@ -8,7 +8,7 @@ from functools import cache
 from contoursolve.controls.geometry_rules import told
 from contoursolve.controls.yasnac_lx3.claim import OTHER_G, after_cornering, bevel_of, claim_of
 from contoursolve.controls.yasnac_lx3.g111 import PASSING, REFUSED, START, V1, V2
-from contoursolve.controls.yasnac_lx3.lexicon import ASSUMPTIONS, alarms, manual
+from contoursolve.controls.yasnac_lx3.lexicon import ASSUMPTIONS, BOOK, alarms
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.diagnostics.source import Evidence
 from contoursolve.gcode import Block
@@ -174,10 +174,10 @@ _GOOD = _START + "G112 U0 I10. K-50. R30."
 _FACE = _START + "G112 W0 I30. K5. R15."
 _ARC_FIRST = _START + "G112 U-10. I0 K-50. R30."
 
-_FORMAT = manual("2.8.30, p. 144")
-_IMPOSSIBLE = manual("2.8.30, p. 146, Table 2.44")
-_WAY = manual("2.8.30, p. 144-146: the path does not back up", Evidence.DERIVED)
-_FITS = manual("2.8.30, p. 146, Table 2.44: no intersection, bevel cannot be made", Evidence.DERIVED)
+_FORMAT = BOOK.printed("2.8.30, p. 144")
+_IMPOSSIBLE = BOOK.printed("2.8.30, p. 146, Table 2.44")
+_WAY = BOOK.derived("2.8.30, p. 144-146: the path does not back up")
+_FITS = BOOK.derived("2.8.30, p. 146, Table 2.44: no intersection, bevel cannot be made")
 _WORDS_IN_BLOCK, _PRINTED_COMBINATION, _PRINTED_GEOMETRY = alarms(Evidence.PRINTED)
 _, _COMBINATION, _GEOMETRY = alarms(Evidence.ASSUMED)
 
@@ -202,21 +202,20 @@ _COMBINATION_RULES = (
         alarm=_PRINTED_COMBINATION),
     row("g112-corner-sign", "{words} {are} negative; C, P, D and Q are written without sign",
         "delete the minus sign: the arc tells on which side the corner lies",
-        manual("2.8.30, p. 144: without sign; that it is an error", Evidence.ASSUMED),
+        BOOK.assumed("2.8.30, p. 144: without sign; that it is an error"),
         Value(("C", "P", "D", "Q"), least=Decimal(0)), (_GOOD + " P5. Q5.", _GOOD + " P0"), _GOOD + " P-5.",
         roles=_ROLES, alarm=_COMBINATION),
     row("g112-radius", "{words}: the radius of the arc must be more than 0",
         "write the radius without sign; I and K tell where the centre is",
-        manual("2.8.30, p. 144: arc radius", Evidence.DERIVED), Value(("R",), least=Decimal(0), excluding=Decimal(0)),
-        _GOOD, _START + "G112 U0 I10. K-50. R-30.", _START + "G112 U0 I10. K-50. R0", roles=_ROLES,
-        alarm=_COMBINATION),
+        BOOK.derived("2.8.30, p. 144: arc radius"), Value(("R",), least=Decimal(0), excluding=Decimal(0)), _GOOD,
+        _START + "G112 U0 I10. K-50. R-30.", _START + "G112 U0 I10. K-50. R0", roles=_ROLES, alarm=_COMBINATION),
     row("g112-m-s-t", "{words:M S T}: a G112 block takes no M, S or T word", "write it in a block of its own",
         _IMPOSSIBLE, some("M", "S", "T"), (_GOOD + " F0.2", "M08\n" + _GOOD), _GOOD + " M08", _GOOD + " S500",
         _GOOD + " T0101", roles=_ROLES, alarm=_WORDS_IN_BLOCK),
     row("g112-other-g", "{words:other G} uses the axis words of the block itself, and so does G112",
         "write it in a block of its own; G112 needs no G01",
-        manual("2.8.30: multiple cornering is not modal; two codes of one group", Evidence.ASSUMED), some(OTHER_G),
-        _GOOD, _START + "G01 G112 U0 I10. K-50. R30.", _START + "G04 G112 U0 I10. K-50. R30.", roles=_ROLES,
+        BOOK.assumed("2.8.30: multiple cornering is not modal; two codes of one group"), some(OTHER_G), _GOOD,
+        _START + "G01 G112 U0 I10. K-50. R30.", _START + "G04 G112 U0 I10. K-50. R30.", roles=_ROLES,
         alarm=_COMBINATION),
 )  # fmt: skip
 

@@ -5,7 +5,7 @@ from functools import cache
 
 from contoursolve.controls.yasnac_lx3.claim import OTHER_G, claim_of
 from contoursolve.controls.yasnac_lx3.g111 import START, V1
-from contoursolve.controls.yasnac_lx3.lexicon import manual
+from contoursolve.controls.yasnac_lx3.lexicon import BOOK
 from contoursolve.diagnostics.finding import Alarm
 from contoursolve.diagnostics.source import Evidence
 from contoursolve.gcode import Block
@@ -83,7 +83,7 @@ _GOOD = _BEVEL + "\nX80. K-7."
 _ROUND = _START + "G12 Z-20. I8. F30.\nX80. K-7."
 _BY_G01 = _START + "G01 Z-20. I8. F30.\nX80. K-7."
 
-_PAGE = manual("p. 31-32")
+_PAGE = BOOK.printed("p. 31-32")
 _BOTH_AXES = Alarm("050", Evidence.PRINTED)
 
 LEAVING_RULES = (
@@ -92,10 +92,9 @@ LEAVING_RULES = (
         _PAGE, all_of(_X, _Z), (_GOOD, _ROUND, _BY_G01), _START + "G11 X80. Z-20. I8.", _START + "G12 U50. W-20. K8.",
         roles=_ROLES, alarm=_BOTH_AXES),
     row("g11-axis-twice", "{words}: both give the end along one axis", "keep one of them",
-        manual("p. 31-32: one axis a block", Evidence.DERIVED), all_of("Z", "W"), _GOOD, _BEVEL + " W-20.",
-        roles=(ALONG_Z,)),
+        BOOK.derived("p. 31-32: one axis a block"), all_of("Z", "W"), _GOOD, _BEVEL + " W-20.", roles=(ALONG_Z,)),
     row("g11-axis-twice-x", "{words}: both give the end along one axis", "keep one of them",
-        manual("p. 31-32: one axis a block", Evidence.DERIVED), all_of("X", "U"), _GOOD, _START + "G11 X80. U50. K-7.",
+        BOOK.derived("p. 31-32: one axis a block"), all_of("X", "U"), _GOOD, _START + "G11 X80. U50. K-7.",
         roles=(ALONG_X,)),
     row("g11-axis-missing", "{words:I K}: the block moves along no axis that a corner could leave",
         "add X(U) to a K, Z(W) to an I",
@@ -123,7 +122,7 @@ LEAVING_RULES = (
         _START + "G12 X80. K0", roles=_ROLES),
     row("g11-other-g", "{words:other G} uses the axis words of the block itself, and so do G11 and G12",
         "write it in a block of its own",
-        manual("p. 31-32: modal, group A; two codes of one group", Evidence.ASSUMED), some(OTHER_G), _GOOD,
+        BOOK.assumed("p. 31-32: modal, group A; two codes of one group"), some(OTHER_G), _GOOD,
         _START + "G01 G11 Z-20. I8.", roles=_ROLES),
     row("g11-corner-too-large", "{words} is larger than the move: {actual}, {fits}", "{smaller}, or move farther",
         _PAGE, RefusalKind.CORNER_TOO_LARGE, (_GOOD, _START + "G11 Z-8. I8."), _START + "G11 Z-5. I8.",

@@ -5,7 +5,7 @@ from decimal import Decimal
 from contoursolve.controls.common import setting
 from contoursolve.controls.plain import LATHE_CODES, code_rows, merge
 from contoursolve.diagnostics.finding import Alarm
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics.source import Book, Evidence
 from contoursolve.execution.fanuc import fanuc
 from contoursolve.geometry import Unit
 from contoursolve.reading import (
@@ -21,12 +21,7 @@ from contoursolve.reading import (
 )
 from contoursolve.reading.rules import Value, all_of, at_most, some
 
-MANUAL = "YASNAC LX3 Instruction Manual"
-
-
-def manual(place: str, evidence: Evidence = Evidence.PRINTED) -> Source:
-    """A place in the manual."""
-    return Source(MANUAL, place, evidence)
+BOOK = Book("YASNAC LX3 Instruction Manual")
 
 
 def alarms(evidence: Evidence) -> tuple[Alarm, Alarm, Alarm]:
@@ -35,10 +30,10 @@ def alarms(evidence: Evidence) -> tuple[Alarm, Alarm, Alarm]:
     return Alarm("144", evidence), Alarm("145", evidence), Alarm("146", evidence)
 
 
-TABLE = manual("2.8.30, Table 2.33")
-SENSE = manual("2.8.30, Table 2.33; zero and sense p. 140 (vii)")
-DIAMETER = manual("2.8.30, Table 2.33; diameter from G11 and the G112 example", Evidence.DERIVED)
-LISTED = manual("list of G codes of the LX3 family", Evidence.ASSUMED)
+TABLE = BOOK.printed("2.8.30, Table 2.33")
+SENSE = BOOK.printed("2.8.30, Table 2.33; zero and sense p. 140 (vii)")
+DIAMETER = BOOK.derived("2.8.30, Table 2.33; diameter from G11 and the G112 example")
+LISTED = BOOK.assumed("list of G codes of the LX3 family")
 
 ADDRESSES = (
     Address("X", "absolute X of the end point (diameter)", Unit.MM, DIAMETER, axis="X", is_diameter=True),
@@ -55,7 +50,7 @@ ADDRESSES = (
     Address("Q", "radius of the second rounding", Unit.MM, TABLE),
     Address("C", "amount of the first bevel", Unit.MM, TABLE),
     Address("D", "amount of the second bevel", Unit.MM, TABLE),
-    Address("R", "radius of the arc", Unit.MM, manual("2.8.30, p. 144")),
+    Address("R", "radius of the arc", Unit.MM, BOOK.printed("2.8.30, p. 144")),
 )
 
 NUMBERS = NumberFormat(WithoutPoint.LEAST_INCREMENTS, TABLE)
@@ -71,9 +66,9 @@ CODES = code_rows(LISTED, merge(LATHE_CODES, _OWN_NAMES), {}) | {
     code: Code(code, effect, meaning, source)
     for code, effect, meaning, source in (
         (111, Effect.CONTOUR, "taper multiple cornering", TABLE),
-        (112, Effect.CONTOUR, "circular-arc multiple cornering", manual("2.8.30, p. 144")),
-        (11, Effect.CYCLE, "bevelling", manual("p. 31-32")),
-        (12, Effect.CYCLE, "rounding", manual("p. 31-32")),
+        (112, Effect.CONTOUR, "circular-arc multiple cornering", BOOK.printed("2.8.30, p. 144")),
+        (11, Effect.CYCLE, "bevelling", BOOK.printed("p. 31-32")),
+        (12, Effect.CYCLE, "rounding", BOOK.printed("p. 31-32")),
     )
 }
 
@@ -87,7 +82,7 @@ BEVEL = setting(
         LENGTH_45: "a segment at 45 degrees to the axes; the amount is the length of the segment itself",
         SETBACK: "a segment between two points that are both as far from the virtual intersection as the amount",
     },
-    manual("2.8.30, p. 140 Note 3, on the 45 degree lines; the quadrants, p. 137", Evidence.DERIVED),
+    BOOK.derived("2.8.30, p. 140 Note 3, on the 45 degree lines; the quadrants, p. 137"),
 )
 
 UNCHANGED, G01 = "unchanged", "g01"
@@ -99,7 +94,7 @@ MOTION_AFTER = setting(
         UNCHANGED: "the one that was in force before the block",
         G01: "G01, whatever was in force before the block",
     },
-    manual("2.8.30: G111 is not modal; what is in force behind it is not said", Evidence.ASSUMED),
+    BOOK.assumed("2.8.30: G111 is not modal; what is in force behind it is not said"),
 )
 
 _CORNERING = ("G111", "G112")
@@ -107,18 +102,16 @@ _CORNERING = ("G111", "G112")
 ASSUMPTIONS = (
     # Where X(U) and Z(W) give line 2, there is no corner 2 to write a word for.
     Assumption("no-corner-word", "no corner word means a sharp corner",
-               manual("2.8.30, Tables 2.34 and 2.40: C or P, D or Q; of neither of them nothing is said",
-                      Evidence.ASSUMED),
+               BOOK.assumed("2.8.30, Tables 2.34 and 2.40: C or P, D or Q; of neither of them nothing is said"),
                _CORNERING, ~(some("C", "P") & ~(at_most(0, "D", "Q") & ~all_of(("X", "U"), ("Z", "W"))))),
     Assumption("corner-of-zero", "C, P, D or Q of value 0 means no corner",
-               manual("2.8.30, Table 2.33: amount or radius without sign; of 0 nothing is said", Evidence.ASSUMED),
+               BOOK.assumed("2.8.30, Table 2.33: amount or radius without sign; of 0 nothing is said"),
                _CORNERING, Value(("C", "P", "D", "Q"), excluding=Decimal(0))),
     Assumption("feed-in-block", "F may stand in the block",
-               manual("2.8.30: M, S and T are refused, of F nothing is said", Evidence.ASSUMED),
+               BOOK.assumed("2.8.30: M, S and T are refused, of F nothing is said"),
                _CORNERING, some("F")),
     Assumption("bevel-at-its-limit", "a bevel may begin or end at the virtual intersection",
-               manual("2.8.30, p. 140 Note 3: of a virtual intersection on a 45 degree line nothing is said",
-                      Evidence.ASSUMED),
+               BOOK.assumed("2.8.30, p. 140 Note 3: of a virtual intersection on a 45 degree line nothing is said"),
                _CORNERING, some(AT_ITS_LIMIT)),
 )  # fmt: skip
 
