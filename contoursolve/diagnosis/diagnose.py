@@ -7,8 +7,8 @@ from msgspec.structs import replace
 from contoursolve.analysis import analyse, decompose
 from contoursolve.diagnosis.attempt import Repair
 from contoursolve.diagnosis.edits import EditKind, apply_edits
-from contoursolve.diagnosis.examine import Answer, Policy
-from contoursolve.diagnosis.explain import errors_and_warnings, facts_at, spans_of
+from contoursolve.diagnosis.examine import Answer, Policy, problems
+from contoursolve.diagnosis.explain import facts_at, spans_of
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.wording import SHOWN, count, join, length_text, place_text
@@ -257,11 +257,7 @@ def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:
     whole = answer.profile if whole.is_extended else whole
     grammar = [each for each in answer.diagnostics if each.about in _GRAMMAR]
     besides = (*_GRAMMAR, ReadIssue.START_IN_INCREMENTS)
-    refused = [
-        each
-        for each in errors_and_warnings(answer.diagnostics)
-        if each.basis is Basis.RULE and each.about not in besides
-    ]
+    refused = [each for each in problems(answer) if each.basis is Basis.RULE and each.about not in besides]
     layers = [_layer("grammar", bool(grammar), f"{count(len(claim.blocks), 'block')}, every character")]
     if any(block.faults for block in claim.blocks):
         layers.append(Layer("rules", Verdict.NOT_RUN, "not every word could be read"))

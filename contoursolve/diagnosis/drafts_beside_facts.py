@@ -9,9 +9,9 @@ from contoursolve.analysis import analyse
 from contoursolve.diagnosis.attempt import Trial
 from contoursolve.diagnosis.drafts import marked, mended_words, missing_points, unreadable, variants
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, add, change, drop, rounded, write_word
-from contoursolve.diagnosis.examine import Answer, AskedValue
+from contoursolve.diagnosis.examine import Answer, AskedValue, problems
 from contoursolve.diagnosis.examples import sampled
-from contoursolve.diagnosis.explain import errors_and_warnings, facts_at, spans_of
+from contoursolve.diagnosis.explain import facts_at, spans_of
 from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
@@ -53,7 +53,7 @@ def further_drafts(answer: Answer, trial: Trial) -> Iterator[Iterable[tuple[Edit
     """The stages of drafts, simplest first."""
     if answer.claim.form.is_general and answer.status is Status.REJECTED:
         yield _lawful(answer, trial)
-    findings = [each for each in errors_and_warnings(answer.diagnostics) if each.about is not None]
+    findings = [each for each in problems(answer) if each.about is not None]
     if not findings:
         return
     yield mended_words(answer)

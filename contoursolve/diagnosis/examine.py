@@ -328,6 +328,11 @@ def _state_more(
     return profile if faults else extended, not faults
 
 
+def problems(answer: Answer) -> list[Diagnostic]:
+    """The errors and the warnings about a contour."""
+    return [each for each in answer.diagnostics if each.severity is not Severity.INFO]
+
+
 def answer_question(question: Question, profile: Profile, solution: Solution) -> AskedValue:
     """The value of what is asked for, at the points of a solution."""
     if not solution.points:

@@ -29,7 +29,7 @@ from contoursolve.diagnosis.wording import (
     unknowns_text,
     value_text,
 )
-from contoursolve.diagnostics.finding import Basis, Diagnostic, Label, Severity
+from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, spell
 from contoursolve.geometry import Arc, Fact, Length, ParallelLines, Profile, Radius, Role, Unit, assemble
@@ -161,11 +161,6 @@ def report(
         values=values or {},
         about=rule.about,
     )
-
-
-def errors_and_warnings(findings: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """The errors and the warnings."""
-    return [each for each in findings if each.severity is not Severity.INFO]
 
 
 def spans_of(findings: Iterable[Diagnostic], about: Enum | None = None) -> set[Span]:

@@ -24,8 +24,8 @@ from contoursolve.diagnosis.drafts import (
     variants,
 )
 from contoursolve.diagnosis.edits import AT_LEAST, Edit, EditKind, Why, add, change, drop, write_word
-from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine
-from contoursolve.diagnosis.explain import errors_and_warnings, spans_of
+from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine, problems
+from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.spelling import shapes_of, torn_codes
 from contoursolve.diagnosis.subsets import (
     LARGEST_ROLE,
@@ -82,7 +82,7 @@ def find_repairs(
         # No change of words closes it, and what leaves a warning is no repair.
         return Repairs((), is_complete=False)
     codes = frozenset(each.code for each in answer.diagnostics)
-    if not errors_and_warnings(answer.diagnostics):
+    if not problems(answer):
         return choose_repairs(Trial(claim, dialect, codes, answer.contour), (), point_slips(answer))
     if torn_codes(claim):
         # Without its letters the code is another one, which nobody has written.
@@ -124,7 +124,7 @@ def find_repairs(
 def _slips_of(answer: Answer, whole: "_Geometry", trial: Trial) -> Iterator[Iterator[tuple[Edit, ...]]]:
     """Slips that may explain what is wrong, those of digits, and those of the radii of circles that are missed."""
     claim = answer.claim
-    if all(each.about is ReadIssue.CORNER_DROPPED for each in errors_and_warnings(answer.diagnostics)):
+    if all(each.about is ReadIssue.CORNER_DROPPED for each in problems(answer)):
         # The path is as the words say: the corner is one too many.
         return
     against = whole.conflicts

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.explain import errors_and_warnings, spans_of
+from contoursolve.diagnosis.examine import Answer, problems
+from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.spelling import answerable, shapes_of
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Word
@@ -66,7 +66,7 @@ def words_of(claim: ParsedContour, name: str) -> list[Word]:
 
 def blamed_spans(answer: Answer) -> set[Span]:
     """The places that errors and warnings are about."""
-    return spans_of(errors_and_warnings(answer.diagnostics))
+    return spans_of(problems(answer))
 
 
 class DropSets(NamedTuple):
