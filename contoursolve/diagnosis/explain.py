@@ -105,10 +105,6 @@ class Context(Struct, frozen=True):
             raise LookupError(f"the rules of this control have no row about {about}; let them end with GEOMETRY_RULES")
         return found
 
-    def typed(self) -> dict[str, str]:
-        """The stated words as typed, by name."""
-        return {name: word.text for name, word in self.words.items()}
-
 
 def context_of(claim: ParsedContour, rules: tuple[Rule, ...]) -> Context:
     """The context of a contour; it begins where its first block does, and rows of its own roles come first."""
@@ -137,7 +133,7 @@ def report(
     rule = about if isinstance(about, Rule) else context.row(about)
     blamed = sorted(filter(None, words), key=lambda word: word.span)
     spans = [word.span for word in blamed] or [context.place]
-    typed = context.typed()
+    typed = {name: word.text for name, word in context.words.items()}
     stated = {
         "words": Words(tuple(_named(blamed, context.words))),
         "present": Present(typed),

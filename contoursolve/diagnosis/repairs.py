@@ -34,6 +34,7 @@ from contoursolve.diagnosis.subsets import (
     blocks_at_fault,
     corners_at_fault,
     find_drop_sets,
+    smallest_sets,
     words_of,
 )
 from contoursolve.diagnosis.typo_fixes import (
@@ -403,15 +404,11 @@ def _smallest(
     circumstances: frozenset[str],
 ) -> tuple[frozenset[str], ...]:
     """The smallest changes among the names that may be touched after which no rule about these roles holds."""
-    found: list[frozenset[str]] = []
-    universe = sorted(touched)
-    for size in range(1, MOST_EDITS + 1):
-        for names in combinations(universe, size):
-            change = frozenset(names)
-            stated = dict.fromkeys(present ^ change | circumstances)
-            if not any(other <= change for other in found) and not check(rules, roles, stated):
-                found.append(change)
-    return tuple(found)
+
+    def is_legal(names: tuple[str, ...]) -> bool:
+        return not check(rules, roles, dict.fromkeys(present ^ {*names} | circumstances))
+
+    return tuple(map(frozenset, smallest_sets(sorted(touched), MOST_EDITS, is_legal)))
 
 
 def _values(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:

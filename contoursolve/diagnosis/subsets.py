@@ -1,6 +1,6 @@
 """Which words may be left out so that the control accepts the rest, as far as no equation has to be solved for it."""
 
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import chain, combinations
@@ -146,6 +146,18 @@ def _drop_sets(words: _Combination, droppable: frozenset[str]) -> _Sets:
             if found and not check(rules, found.form.roles, dict.fromkeys((*found.words, *found.circumstances))):
                 other.append(names)
     return _Sets(tuple(same), tuple(other), is_single and checked <= MOST_CHECKED and read <= most_read)
+
+
+def smallest_sets(
+    names: Sequence[str], most: int, holds: Callable[[tuple[str, ...]], bool]
+) -> Iterator[tuple[str, ...]]:
+    """The sets of at most so many names for which something holds, smallest first; none that contains another one."""
+    found: list[set[str]] = []
+    for size in range(1, most + 1):
+        for chosen in combinations(names, size):
+            if not any(other <= {*chosen} for other in found) and holds(chosen):
+                found.append({*chosen})
+                yield chosen
 
 
 def _subsets(names: Iterable[str]) -> Iterator[frozenset[str]]:
