@@ -14,6 +14,7 @@ from msgspec.structs import replace
 
 from contoursolve.analysis import analyse
 from contoursolve.diagnosis.explain import (
+    SAID_AGAIN,
     Context,
     context_of,
     explain_ignored,
@@ -417,13 +418,7 @@ def _has_choice(profile: Profile) -> bool:
     return not is_closed(system) or any(point not in chosen for point in points_with_two_solutions(system))
 
 
-_ABOUT_WORDS = (
-    RefusalKind.WORDS_DISAGREE,
-    RefusalKind.FACT_DISAGREES,
-    RefusalKind.RADIUS_DIFFERENCE,
-    RefusalKind.LINES_PARALLEL,
-    NoteKind.WORDS_AGREE,
-)
+_ABOUT_WORDS = (*SAID_AGAIN, RefusalKind.RADIUS_DIFFERENCE, RefusalKind.LINES_PARALLEL)
 
 
 def _examine_system(context: Context, claim: ParsedContour, profile: Profile) -> Iterator[tuple[Status, Diagnostic]]:

@@ -306,6 +306,10 @@ def _adding(absent: Sequence[tuple[str, int]], number: int, claim: ParsedContour
 _IN_DEGREES = {RefusalKind.LINE_REVERSED}
 _OF_PICKS = {RefusalKind.PICK_NONE, NoteKind.PICK_OPEN, NoteKind.PICK_FIRST}
 _OF_A_WORD = {RefusalKind.WORDS_DISAGREE, NoteKind.WORDS_AGREE}
+SAID_AGAIN = (*_OF_A_WORD, RefusalKind.FACT_DISAGREES)
+"""Events about a word or a fact that follows from others."""
+SINGULAR = (RefusalKind.LINES_PARALLEL, RefusalKind.NOT_FIXED)
+"""Events about facts that leave something free at their values only; they name all words that they are about."""
 
 
 def explain_result(
@@ -343,7 +347,7 @@ def explain_result(
         fields["meant"] = statement_text(givens[0], values["expected"], profile)
     fields |= _counted(event)
     notes: tuple[str, ...] = ()
-    if event.kind in _AGAINST_OTHERS:
+    if event.kind in SAID_AGAIN:
         fields |= _others(event, profile)
     if event.kind is RefusalKind.SEARCH_UNFINISHED and alternatives is not None:
         fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle.name]
@@ -480,9 +484,6 @@ def _causes(asked: Word, profile: Profile) -> Iterator[str]:
                 word = profile.givens[name].word
                 if word is not None:
                     yield word.text
-
-
-_AGAINST_OTHERS = (*_OF_A_WORD, RefusalKind.FACT_DISAGREES)
 
 
 def _others(event: Refusal | Note, profile: Profile) -> dict[str, str]:
