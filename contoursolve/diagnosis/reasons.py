@@ -71,8 +71,9 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
         apart = f"{length_text(circuit.off[circuit.facts.index(single)], profile.unit)} apart"
         ending = apart if disagrees else "the same place"
         verb = "put" if len(others) > 1 else "puts"
+        words = join([word.text for word in profile.words_of(others)])
         yield (
-            f"because {join([word.text for word in profile.words_of(others)])} {verb} {point} at {place_text(profile, known)}, "
+            f"because {words} {verb} {point} at {place_text(profile, known)}, "
             f"and {given.word.text if given.word else 'what is not written'} puts it at "
             f"{place_text(profile, {scalar(point, axis): own})}: {ending}"
         )
