@@ -72,10 +72,9 @@ def find_repairs(
     `previous` those before it, of which it may be the end, with the state before them.
     """
     claim = answer.claim
-    if not answer.start.is_known:
-        return Repairs((), is_complete=False)
-    if any(fault.kind is FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for fault in block.faults):
-        # No change of words closes it, and what leaves a warning is no repair.
+    # No change of words closes a comment, and what leaves a warning is no repair.
+    is_closed = all(each.kind is not FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for each in block.faults)
+    if not (answer.start.is_known and is_closed):
         return Repairs((), is_complete=False)
     codes = frozenset(each.code for each in answer.diagnostics)
     if not problems(answer):

@@ -17,7 +17,6 @@ from contoursolve.diagnosis.spelling import meant_in, meant_words, respelled, sh
 from contoursolve.diagnosis.subsets import blamed_spans, lines_near
 from contoursolve.diagnosis.wording import join
 from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic, Fix
-from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Block, Word, lookalike_at, mended, parse_block, spell
 from contoursolve.geometry import CornerShape, Unit
 from contoursolve.reading import Effect, Modes, ParsedContour, ReadIssue, State, WithoutPoint, codes_of
@@ -57,7 +56,13 @@ class Typed(Struct, frozen=True):
     @property
     def is_choice(self) -> bool:
         """Whether only its sign counts, and chooses."""
-        return self.claim is not None and _is_sign(self.word, self.claim)
+        return self.unit is Unit.SIGN
+
+    @property
+    def unit(self) -> Unit | None:
+        """What its number counts; None for a word that the contour does not know."""
+        row = self.claim.lexicon.addresses.get(self.word.address) if self.claim else None
+        return row.unit if row else None
 
     @property
     def counts(self) -> bool:
@@ -81,7 +86,7 @@ def _point_lost(typed: Typed) -> Iterator[str]:
         return
     if typed.counts:
         yield typed.with_number(f"{typed.number}.")
-    is_angle = typed.claim is not None and _unit(typed.word, typed.claim) is Unit.DEGREE
+    is_angle = typed.unit is Unit.DEGREE
     if typed.counts or len(typed.number) >= _LONG + is_angle:
         # With as many decimals as the least increment has, it is what was typed where numbers count increments.
         places = range(1, min(_DECIMALS + (not typed.counts), len(typed.number)))
@@ -200,7 +205,7 @@ SLIPS = (*FEW, CODE, *OF_DIGITS, ROUND)
 def texts_of(slip: Slip, word: Word, claim: ParsedContour) -> Iterator[str]:
     """What a word may have been meant to be if a slip happened to it."""
     typed = _typed(word, claim)
-    if typed is None or (slip.is_of_digits and _is_sign(word, claim)):
+    if typed is None or (slip.is_of_digits and typed.is_choice):
         return
     for text in dict.fromkeys(slip.texts(typed)):
         match = _WORD.fullmatch(text)
@@ -285,15 +290,13 @@ def suspects(answer: Answer, tied: Collection[str]) -> list[Word]:
     # Of two words for one corner, the later one is that of the corner behind.
     first = {name for row in claim.form.corners[:1] for name in row.shapes}
     late = {word.address for word in claim.repeated} & first
-    order = {word: -at if word.address in late else at for at, word in enumerate(sorted(words, key=_place))}
+    order = {
+        word: -at if word.address in late else at for at, word in enumerate(sorted(words, key=lambda word: word.span))
+    }
     return sorted(words, key=lambda word: (word.span not in contradicting, word.span not in blamed, order[word]))
 
 
 _LEADING = re.compile(r"[A-Za-z][ \t]*+[=(]?+[ \t]*+[+-]?0\d")
-
-
-def _place(word: Word) -> Span:
-    return word.span
 
 
 def slips(answer: Answer, kinds: Iterable[Slip], words: Iterable[Word]) -> Iterator[tuple[Edit, ...]]:
@@ -331,15 +334,6 @@ def _says_the_same(text: str, typed: str) -> bool:
 def _is_known(address: str, claim: ParsedContour) -> bool:
     name = address.replace(" ", "").upper()
     return name in claim.lexicon.addresses and name in claim.form.allowed
-
-
-def _is_sign(word: Word, claim: ParsedContour) -> bool:
-    return _unit(word, claim) is Unit.SIGN
-
-
-def _unit(word: Word, claim: ParsedContour) -> Unit | None:
-    row = claim.lexicon.addresses.get(word.address)
-    return row.unit if row else None
 
 
 # Blocks that are a contour but for a slip: a comma that is missing, a letter that looks like a digit -------------
