@@ -2,7 +2,7 @@
 a control."""
 
 from collections.abc import Iterator
-from itertools import combinations, islice
+from itertools import islice
 
 from msgspec import Struct
 
@@ -10,6 +10,7 @@ from contoursolve.analysis import analyse
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.repairs import find_repairs
+from contoursolve.diagnosis.subsets import smallest_sets
 from contoursolve.diagnosis.table import legal_samples
 from contoursolve.gcode import spell
 from contoursolve.geometry import assemble
@@ -111,12 +112,7 @@ def _completing(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, .
     if _is_complete(claim, dialect, ()):
         return
     possible = [*_possible(claim, dialect)]
-    found: list[frozenset[str]] = []
-    for size in range(1, MOST_ADDED + 1):
-        for names in combinations(possible, size):
-            if not any(other <= {*names} for other in found) and _is_complete(claim, dialect, names):
-                found.append(frozenset(names))
-                yield names
+    yield from smallest_sets(possible, MOST_ADDED, lambda names: _is_complete(claim, dialect, names))
 
 
 def _is_complete(claim: ParsedContour, dialect: Dialect, names: tuple[str, ...]) -> bool:

@@ -11,9 +11,8 @@ from msgspec.structs import replace
 
 from contoursolve.analysis import analyse, order
 from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts
-from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
+from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
 from contoursolve.diagnosis.examples import ends, propose, sampled
-from contoursolve.diagnosis.explain import errors_and_warnings
 from contoursolve.diagnosis.spelling import shapes_of
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnosis.typo_fixes import (
@@ -146,9 +145,7 @@ class Trial(Struct, frozen=True):
         if answer.contour is None or not _is_settled(answer, edits):
             return None
         # No change of the block moves its start.
-        findings = [
-            each for each in errors_and_warnings(answer.diagnostics) if each.about is not ReadIssue.START_IN_INCREMENTS
-        ]
+        findings = [each for each in problems(answer) if each.about is not ReadIssue.START_IN_INCREMENTS]
         rules = [each for each in findings if _is_crossing(each)]
         if answer.profile.is_extended:
             # Rules of the manual only warn where more is stated or asked than the control reads.
@@ -342,7 +339,7 @@ def _spare_angles(claim: ParsedContour) -> Iterator[str]:
 
 
 def _is_sound(answer: Answer) -> bool:
-    return answer.status is Status.SOLVED and not errors_and_warnings(answer.diagnostics)
+    return answer.status is Status.SOLVED and not problems(answer)
 
 
 _LINE = 1

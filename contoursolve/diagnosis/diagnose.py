@@ -7,8 +7,8 @@ from msgspec.structs import replace
 from contoursolve.analysis import analyse, decompose
 from contoursolve.diagnosis.attempt import Repair
 from contoursolve.diagnosis.edits import EditKind, apply_edits
-from contoursolve.diagnosis.examine import Answer, Policy
-from contoursolve.diagnosis.explain import errors_and_warnings, facts_at, spans_of
+from contoursolve.diagnosis.examine import Answer, Policy, problems
+from contoursolve.diagnosis.explain import SAID_AGAIN, SINGULAR, facts_at, spans_of
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.wording import SHOWN, count, join, length_text, place_text
@@ -150,14 +150,11 @@ def _further_ties(answer: Answer) -> Iterator[Tie]:
     profile = answer.profile
     system = assemble(profile)
     for finding in answer.diagnostics:
-        for fact in facts_at(profile, finding.span)[:1] if finding.about in _SAID_AGAIN else ():
+        for fact in facts_at(profile, finding.span)[:1] if finding.about in SAID_AGAIN else ():
             words = (profile.givens[name].word for name in tied_with(system, fact))
             addresses = (_address(each) for each in words if each)
             is_conflict = finding.severity is Severity.ERROR
             yield Tie(tuple(dict.fromkeys(addresses)), "", finding.values.get("off_by_mm", 0.0), is_conflict)
-
-
-_SAID_AGAIN = (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, NoteKind.WORDS_AGREE)
 
 
 def _circle_ties(answer: Answer) -> Iterator[Tie]:
@@ -193,7 +190,7 @@ def _reasons(
     if affine is not None and finding.about in _ABOUT_TIES:
         for circuit in circuits:
             addresses = {word.address for word in profile.words_of(circuit.facts)}
-            about = addresses if finding.about in _AT_VALUES else addresses.intersection(finding.addresses)
+            about = addresses if finding.about in SINGULAR else addresses.intersection(finding.addresses)
             if about and about <= {*finding.addresses}:
                 yield from conflict_reasons(profile, affine, circuit)
     if finding.about in _ABOUT_FREEDOM:
@@ -211,15 +208,7 @@ def _points_lost(profile: Profile, affine: AffineFacts) -> set[str]:
     return {name.rpartition(".")[0] for each in parallel for name in each.subject.split(",")}
 
 
-_ABOUT_TIES = (
-    ReadIssue.WORD_IGNORED,
-    RefusalKind.WORDS_DISAGREE,
-    RefusalKind.LINES_PARALLEL,
-    RefusalKind.NOT_FIXED,
-    NoteKind.WORDS_AGREE,
-)
-_AT_VALUES = (RefusalKind.LINES_PARALLEL, RefusalKind.NOT_FIXED)
-"""They name all the words that they are about."""
+_ABOUT_TIES = (ReadIssue.WORD_IGNORED, RefusalKind.WORDS_DISAGREE, NoteKind.WORDS_AGREE, *SINGULAR)
 _ABOUT_FREEDOM = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
 
 
@@ -257,11 +246,7 @@ def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:
     whole = answer.profile if whole.is_extended else whole
     grammar = [each for each in answer.diagnostics if each.about in _GRAMMAR]
     besides = (*_GRAMMAR, ReadIssue.START_IN_INCREMENTS)
-    refused = [
-        each
-        for each in errors_and_warnings(answer.diagnostics)
-        if each.basis is Basis.RULE and each.about not in besides
-    ]
+    refused = [each for each in problems(answer) if each.basis is Basis.RULE and each.about not in besides]
     layers = [_layer("grammar", bool(grammar), f"{count(len(claim.blocks), 'block')}, every character")]
     if any(block.faults for block in claim.blocks):
         layers.append(Layer("rules", Verdict.NOT_RUN, "not every word could be read"))
@@ -326,14 +311,11 @@ def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
 
 
 _ABOUT_VALUES = (
-    RefusalKind.LINES_PARALLEL,
-    RefusalKind.NOT_FIXED,
+    *SINGULAR,
+    *SAID_AGAIN,
     RefusalKind.POINT_IS_START,
-    ReadIssue.FACTS_SINGULAR,
-    RefusalKind.WORDS_DISAGREE,
-    RefusalKind.FACT_DISAGREES,
     RefusalKind.RADIUS_DIFFERENCE,
-    NoteKind.WORDS_AGREE,
+    ReadIssue.FACTS_SINGULAR,
     NoteKind.SENSITIVE,
 )
 

@@ -9,9 +9,9 @@ from contoursolve.analysis import analyse
 from contoursolve.diagnosis.attempt import Trial
 from contoursolve.diagnosis.drafts import marked, mended_words, missing_points, unreadable, variants
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, add, change, drop, rounded, write_word
-from contoursolve.diagnosis.examine import Answer, AskedValue
+from contoursolve.diagnosis.examine import Answer, AskedValue, problems
 from contoursolve.diagnosis.examples import sampled
-from contoursolve.diagnosis.explain import errors_and_warnings, facts_at, spans_of
+from contoursolve.diagnosis.explain import SAID_AGAIN, SINGULAR, facts_at, spans_of
 from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
@@ -19,7 +19,7 @@ from contoursolve.gcode import FACT, Word, number_of, spell
 from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Offset, Profile, Unit, assemble, scalar
 from contoursolve.reading import ReadIssue, read
 from contoursolve.reading.rules import check
-from contoursolve.solving import NoteKind, RefusalKind, Status
+from contoursolve.solving import RefusalKind, Status
 from contoursolve.solving.alternatives import choose
 from contoursolve.solving.ambiguity import tied_with
 from contoursolve.solving.picks import numbers_of, pick
@@ -31,19 +31,8 @@ MOST_ADDED = 2
 MOST_HELPING, MOST_SHOWN = 20, 12
 """Of a chain in which any word may stand: the words that are combined, and the sets of them that are tried."""
 
-_TWICE = (
-    RefusalKind.WORDS_DISAGREE,
-    RefusalKind.FACT_DISAGREES,
-    RefusalKind.RADIUS_DIFFERENCE,
-    NoteKind.WORDS_AGREE,
-)
-_NOT_TOGETHER = (
-    RefusalKind.NO_POINT,
-    RefusalKind.SEARCH_UNFINISHED,
-    RefusalKind.LINES_PARALLEL,
-    RefusalKind.NOT_FIXED,
-    ReadIssue.FACTS_SINGULAR,
-)
+_TWICE = (*SAID_AGAIN, RefusalKind.RADIUS_DIFFERENCE)
+_NOT_TOGETHER = (*SINGULAR, ReadIssue.FACTS_SINGULAR, RefusalKind.NO_POINT, RefusalKind.SEARCH_UNFINISHED)
 _USELESS = (ReadIssue.FACT_UNREADABLE, ReadIssue.FACT_IMPOSSIBLE)
 _DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
 _VALUE = re.compile(r"=\s*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))\s*+$")
@@ -53,7 +42,7 @@ def further_drafts(answer: Answer, trial: Trial) -> Iterator[Iterable[tuple[Edit
     """The stages of drafts, simplest first."""
     if answer.claim.form.is_general and answer.status is Status.REJECTED:
         yield _lawful(answer, trial)
-    findings = [each for each in errors_and_warnings(answer.diagnostics) if each.about is not None]
+    findings = [each for each in problems(answer) if each.about is not None]
     if not findings:
         return
     yield mended_words(answer)

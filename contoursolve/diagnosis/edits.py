@@ -205,11 +205,8 @@ def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ..
             if edit.kind is EditKind.ADD and edit.line == block.line and edit.text.startswith("\n"):
                 text += edit.text
             elif edit.kind is EditKind.ADD and edit.line == block.line:
-                text = (
-                    _with_code(text, edit.text, block.syntax)
-                    if edit.address == "G"
-                    else _insert(text, edit.text, block.syntax)
-                )
+                insert = _with_code if edit.address == "G" else _insert
+                text = insert(text, edit.text, block.syntax)
         is_fact_dropped = any(edit.address == FACT and not edit.text for edit in own)
         texts.append(_with_moved(_tidy(text) if is_fact_dropped else text, own))
     return tuple(texts)

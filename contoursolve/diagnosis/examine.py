@@ -14,6 +14,7 @@ from msgspec.structs import replace
 
 from contoursolve.analysis import analyse
 from contoursolve.diagnosis.explain import (
+    SAID_AGAIN,
     Context,
     context_of,
     explain_ignored,
@@ -328,6 +329,11 @@ def _state_more(
     return profile if faults else extended, not faults
 
 
+def problems(answer: Answer) -> list[Diagnostic]:
+    """The errors and the warnings about a contour."""
+    return [each for each in answer.diagnostics if each.severity is not Severity.INFO]
+
+
 def answer_question(question: Question, profile: Profile, solution: Solution) -> AskedValue:
     """The value of what is asked for, at the points of a solution."""
     if not solution.points:
@@ -412,13 +418,7 @@ def _has_choice(profile: Profile) -> bool:
     return not is_closed(system) or any(point not in chosen for point in points_with_two_solutions(system))
 
 
-_ABOUT_WORDS = (
-    RefusalKind.WORDS_DISAGREE,
-    RefusalKind.FACT_DISAGREES,
-    RefusalKind.RADIUS_DIFFERENCE,
-    RefusalKind.LINES_PARALLEL,
-    NoteKind.WORDS_AGREE,
-)
+_ABOUT_WORDS = (*SAID_AGAIN, RefusalKind.RADIUS_DIFFERENCE, RefusalKind.LINES_PARALLEL)
 
 
 def _examine_system(context: Context, claim: ParsedContour, profile: Profile) -> Iterator[tuple[Status, Diagnostic]]:

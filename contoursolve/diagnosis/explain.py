@@ -29,7 +29,7 @@ from contoursolve.diagnosis.wording import (
     unknowns_text,
     value_text,
 )
-from contoursolve.diagnostics.finding import Basis, Diagnostic, Label, Severity
+from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, spell
 from contoursolve.geometry import Arc, Fact, Length, ParallelLines, Profile, Radius, Role, Unit, assemble
@@ -105,10 +105,6 @@ class Context(Struct, frozen=True):
             raise LookupError(f"the rules of this control have no row about {about}; let them end with GEOMETRY_RULES")
         return found
 
-    def typed(self) -> dict[str, str]:
-        """The stated words as typed, by name."""
-        return {name: word.text for name, word in self.words.items()}
-
 
 def context_of(claim: ParsedContour, rules: tuple[Rule, ...]) -> Context:
     """The context of a contour; it begins where its first block does, and rows of its own roles come first."""
@@ -137,7 +133,7 @@ def report(
     rule = about if isinstance(about, Rule) else context.row(about)
     blamed = sorted(filter(None, words), key=lambda word: word.span)
     spans = [word.span for word in blamed] or [context.place]
-    typed = context.typed()
+    typed = {name: word.text for name, word in context.words.items()}
     stated = {
         "words": Words(tuple(_named(blamed, context.words))),
         "present": Present(typed),
@@ -161,11 +157,6 @@ def report(
         values=values or {},
         about=rule.about,
     )
-
-
-def errors_and_warnings(findings: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """The errors and the warnings."""
-    return [each for each in findings if each.severity is not Severity.INFO]
 
 
 def spans_of(findings: Iterable[Diagnostic], about: Enum | None = None) -> set[Span]:
@@ -315,6 +306,10 @@ def _adding(absent: Sequence[tuple[str, int]], number: int, claim: ParsedContour
 _IN_DEGREES = {RefusalKind.LINE_REVERSED}
 _OF_PICKS = {RefusalKind.PICK_NONE, NoteKind.PICK_OPEN, NoteKind.PICK_FIRST}
 _OF_A_WORD = {RefusalKind.WORDS_DISAGREE, NoteKind.WORDS_AGREE}
+SAID_AGAIN = (*_OF_A_WORD, RefusalKind.FACT_DISAGREES)
+"""Events about a word or a fact that follows from others."""
+SINGULAR = (RefusalKind.LINES_PARALLEL, RefusalKind.NOT_FIXED)
+"""Events about facts that leave something free at their values only; they name all words that they are about."""
 
 
 def explain_result(
@@ -352,7 +347,7 @@ def explain_result(
         fields["meant"] = statement_text(givens[0], values["expected"], profile)
     fields |= _counted(event)
     notes: tuple[str, ...] = ()
-    if event.kind in _AGAINST_OTHERS:
+    if event.kind in SAID_AGAIN:
         fields |= _others(event, profile)
     if event.kind is RefusalKind.SEARCH_UNFINISHED and alternatives is not None:
         fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle.name]
@@ -489,9 +484,6 @@ def _causes(asked: Word, profile: Profile) -> Iterator[str]:
                 word = profile.givens[name].word
                 if word is not None:
                     yield word.text
-
-
-_AGAINST_OTHERS = (*_OF_A_WORD, RefusalKind.FACT_DISAGREES)
 
 
 def _others(event: Refusal | Note, profile: Profile) -> dict[str, str]:

@@ -71,8 +71,9 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
         apart = f"{length_text(circuit.off[circuit.facts.index(single)], profile.unit)} apart"
         ending = apart if disagrees else "the same place"
         verb = "put" if len(others) > 1 else "puts"
+        words = join([word.text for word in profile.words_of(others)])
         yield (
-            f"because {_words(profile, others)} {verb} {point} at {place_text(profile, known)}, "
+            f"because {words} {verb} {point} at {place_text(profile, known)}, "
             f"and {given.word.text if given.word else 'what is not written'} puts it at "
             f"{place_text(profile, {scalar(point, axis): own})}: {ending}"
         )
@@ -170,7 +171,3 @@ def _known(profile: Profile, fixed: dict[str, float], point: str) -> dict[str, f
         return {scalar(point, axis): at.coordinate(point, axis) for axis in (FIRST, SECOND)}
     except KeyError:
         return {}
-
-
-def _words(profile: Profile, facts: Sequence[Fact]) -> str:
-    return join([word.text for word in profile.words_of(facts)])

@@ -3,7 +3,6 @@ contour. Each one is applied to the text, read, checked and solved again before 
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import ROUND_HALF_EVEN, Decimal
-from functools import lru_cache
 from itertools import chain, combinations, product
 from math import copysign, sqrt
 
@@ -24,16 +23,16 @@ from contoursolve.diagnosis.drafts import (
     variants,
 )
 from contoursolve.diagnosis.edits import AT_LEAST, Edit, EditKind, Why, add, change, drop, write_word
-from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine
-from contoursolve.diagnosis.explain import errors_and_warnings, spans_of
+from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine, problems
+from contoursolve.diagnosis.explain import SINGULAR, spans_of
 from contoursolve.diagnosis.spelling import shapes_of, torn_codes
 from contoursolve.diagnosis.subsets import (
-    LARGEST_ROLE,
     blamed_spans,
-    block_of,
     blocks_at_fault,
     corners_at_fault,
     find_drop_sets,
+    is_clean,
+    smallest_changes,
     words_of,
 )
 from contoursolve.diagnosis.typo_fixes import (
@@ -49,19 +48,16 @@ from contoursolve.diagnosis.typo_fixes import (
 )
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.gcode import Block, FaultKind, Word, number_of
-from contoursolve.geometry import Given, Profile, Radius, Role, Unit
-from contoursolve.reading import ContourForm, ParsedContour, ReadIssue, State, read
+from contoursolve.geometry import Given, Profile, Radius, Unit
+from contoursolve.reading import ParsedContour, ReadIssue, State, read
 from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import Rule, check
+from contoursolve.reading.rules import check
 from contoursolve.solving import RefusalKind, Status, lookup
 from contoursolve.solving.affine import AffineFacts, Circuit, affine_facts
 from contoursolve.solving.compare import is_conflict
 
 MOST_BLOCKS = 6
 """Of a contour in which wrong digits are looked for."""
-
-MOST_EDITS = 4
-"""Words that a repair may touch; more is a new block."""
 
 
 def find_repairs(
@@ -76,13 +72,12 @@ def find_repairs(
     `previous` those before it, of which it may be the end, with the state before them.
     """
     claim = answer.claim
-    if not answer.start.is_known:
-        return Repairs((), is_complete=False)
-    if any(fault.kind is FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for fault in block.faults):
-        # No change of words closes it, and what leaves a warning is no repair.
+    # No change of words closes a comment, and what leaves a warning is no repair.
+    is_closed = all(each.kind is not FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for each in block.faults)
+    if not (answer.start.is_known and is_closed):
         return Repairs((), is_complete=False)
     codes = frozenset(each.code for each in answer.diagnostics)
-    if not errors_and_warnings(answer.diagnostics):
+    if not problems(answer):
         return choose_repairs(Trial(claim, dialect, codes, answer.contour), (), point_slips(answer))
     if torn_codes(claim):
         # Without its letters the code is another one, which nobody has written.
@@ -124,13 +119,13 @@ def find_repairs(
 def _slips_of(answer: Answer, whole: "_Geometry", trial: Trial) -> Iterator[Iterator[tuple[Edit, ...]]]:
     """Slips that may explain what is wrong, those of digits, and those of the radii of circles that are missed."""
     claim = answer.claim
-    if all(each.about is ReadIssue.CORNER_DROPPED for each in errors_and_warnings(answer.diagnostics)):
+    if all(each.about is ReadIssue.CORNER_DROPPED for each in problems(answer)):
         # The path is as the words say: the corner is one too many.
         return
     against = whole.conflicts
     tied = {fact.given or "" for circuit in against for fact in circuit.facts}
     words = suspects(answer, tied)
-    if against and not any(each.about in _SINGULAR for each in answer.diagnostics):
+    if against and not any(each.about in SINGULAR for each in answer.diagnostics):
         # One word that is wrong is in each contradiction, and the others tell its value.
         names = frozenset.intersection(*(frozenset(fact.given or "" for fact in each.facts) for each in against))
         yield chain.from_iterable(_agreeing(claim, name) for name in claim.words if name in names)
@@ -173,9 +168,6 @@ def _agreeing(claim: ParsedContour, name: str) -> Iterator[tuple[Edit, ...]]:
     value = _Geometry.of(claim, frozenset(claim.givens) - {name}).implied(claim, name)
     if value is not None:
         yield from ((change(claim.words[name], text),) for text in explained(claim.words[name], value, claim))
-
-
-_SINGULAR = (RefusalKind.LINES_PARALLEL, RefusalKind.NOT_FIXED)
 
 
 class _Geometry(Struct, frozen=True):
@@ -322,96 +314,6 @@ def _other_corners(claim: ParsedContour, at_fault: list[str]) -> Iterator[tuple[
         edits = tuple(edit for part in choice for edit in part)
         if edits:
             yield edits
-
-
-def is_clean(form: ContourForm, rules: tuple[Rule, ...], names: frozenset[str], circumstances: frozenset[str]) -> bool:
-    """Whether no rule refuses or ignores something in the combination of words, whatever their values."""
-    return not check(rules, form.roles, dict.fromkeys(names | circumstances))
-
-
-@lru_cache(maxsize=4096)
-def smallest_changes(
-    form: ContourForm,
-    rules: tuple[Rule, ...],
-    present: frozenset[str],
-    extra: frozenset[str],
-    circumstances: frozenset[str],
-    blocks: frozenset[str],
-) -> tuple[frozenset[str], ...]:
-    """All smallest sets of names whose dropping or adding makes a combination that no rule
-    refuses, and in which none ignores a word.
-
-    Where the combination is that already, a word of the `blocks` may be dropped or exchanged for another one.
-    """
-
-    if is_clean(form, rules, present, circumstances):
-        old_names, new_names = (
-            sorted(name for name in names if block_of(name) in blocks) for names in (present, extra - present)
-        )
-        one = (frozenset({name}) for name in old_names)
-        exchanged = (
-            frozenset({old, new})
-            for old in old_names
-            for new in new_names
-            if old in extra and (not _is_chain(form) or block_of(old) == block_of(new))
-        )
-        changes = (frozenset(), *one, *exchanged)
-        return tuple(change for change in changes if is_clean(form, rules, present ^ change, circumstances))
-    if not _is_chain(form):
-        return _smallest(form.roles, rules, present, present | extra, circumstances)
-    # What one block of a chain says is legal or not whatever blocks far from it say.
-    unions: tuple[frozenset[str], ...] = (frozenset(),)
-    for prefixes in _offending(form.roles, rules, present | circumstances):
-        roles = tuple(role for role in form.roles if prefixes & set(role.prefixes))
-        near = {prefix for role in roles for prefix in role.prefixes}
-        own, around = (
-            frozenset(name for name in present | extra | circumstances if block_of(name) in within)
-            for within in (prefixes, near)
-        )
-        part = _smallest(roles, rules, present & around, own & (present | extra), circumstances & around)
-        # Too many changes stay too many: there are few others, however many blocks are at fault.
-        joined = dict.fromkeys(union | change for union in unions for change in part)
-        unions = tuple(union for union in joined if len(union) <= MOST_EDITS)
-    return tuple(union for union in unions if union)
-
-
-def _is_chain(form: ContourForm) -> bool:
-    """Whether it has more blocks than a rule sees at once."""
-    return (
-        len(form.combinations) > LARGEST_ROLE and len({prefix for role in form.roles for prefix in role.prefixes}) > 1
-    )
-
-
-def _offending(roles: tuple[Role, ...], rules: tuple[Rule, ...], stated: frozenset[str]) -> list[set[str]]:
-    """The beginnings of the names of blocks that are refused; those that are refused together in one set."""
-    groups: list[set[str]] = []
-    for role in roles:
-        if check(rules, (role,), dict.fromkeys(stated)):
-            group = set(role.prefixes)
-            for other in [other for other in groups if other & group]:
-                groups.remove(other)
-                group |= other
-            groups.append(group)
-    return groups
-
-
-def _smallest(
-    roles: tuple[Role, ...],
-    rules: tuple[Rule, ...],
-    present: frozenset[str],
-    touched: frozenset[str],
-    circumstances: frozenset[str],
-) -> tuple[frozenset[str], ...]:
-    """The smallest changes among the names that may be touched after which no rule about these roles holds."""
-    found: list[frozenset[str]] = []
-    universe = sorted(touched)
-    for size in range(1, MOST_EDITS + 1):
-        for names in combinations(universe, size):
-            change = frozenset(names)
-            stated = dict.fromkeys(present ^ change | circumstances)
-            if not any(other <= change for other in found) and not check(rules, roles, stated):
-                found.append(change)
-    return tuple(found)
 
 
 def _values(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:

@@ -54,16 +54,16 @@ def explain_start_units(context: Context, unit: Length, block: Block) -> Diagnos
     """A start point in another unit than that of the contour."""
     units = {Length.MM: "mm", Length.INCH: "inches"}
     codes = {Length.MM: "G21", Length.INCH: "G20"}
-    fields = {"was": units[context.unit], "unit": units[unit], "code": codes[unit], "start": block.text.strip()}
-    return report(context, ReadIssue.START_UNITS, Basis.RULE, [], None, (), **fields)
+    was, now, start = units[context.unit], units[unit], block.text.strip()
+    return report(context, ReadIssue.START_UNITS, Basis.RULE, [], was=was, unit=now, code=codes[unit], start=start)
 
 
 def explain_start_diameter(context: Context, state: State, code: str, block: Block) -> Diagnostic:
     """A start point whose X was read otherwise than that of the contour."""
     meanings = ("a diameter", "a radius")
     now, was = meanings if state.counts_diameters() else reversed(meanings)
-    fields = {"was": was, "now": now, "code": code, "start": block.text.strip()}
-    return report(context, ReadIssue.START_DIAMETER, Basis.RULE, [], None, (), **fields)
+    start = block.text.strip()
+    return report(context, ReadIssue.START_DIAMETER, Basis.RULE, [], was=was, now=now, code=code, start=start)
 
 
 def _explain_asked(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:

@@ -1,6 +1,7 @@
-"""Which words may be left out so that the control accepts the rest, as far as no equation has to be solved for it."""
+"""Which words may be left out or added so that the control accepts the rest, as far as no equation has to be solved for
+it."""
 
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import chain, combinations
@@ -8,14 +9,15 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.explain import errors_and_warnings, spans_of
+from contoursolve.diagnosis.examine import Answer, problems
+from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.spelling import answerable, shapes_of
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Word
-from contoursolve.reading import ParsedContour
+from contoursolve.geometry import Role
+from contoursolve.reading import ContourForm, ParsedContour
 from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import check, is_refused_by_values
+from contoursolve.reading.rules import Rule, check, is_refused_by_values
 
 MOST_CHECKED = 2_000
 """Sets of words of one contour that the rules are asked about."""
@@ -26,6 +28,9 @@ that takes as long as for fifty of the other sets, a quarter of it."""
 
 LARGEST_ROLE = 2
 """Blocks that a rule sees at once. A contour of more blocks is repaired near what is wrong with it."""
+
+MOST_EDITS = 4
+"""Words that a repair may touch; more is a new block."""
 
 
 def block_of(name: str) -> str:
@@ -66,7 +71,93 @@ def words_of(claim: ParsedContour, name: str) -> list[Word]:
 
 def blamed_spans(answer: Answer) -> set[Span]:
     """The places that errors and warnings are about."""
-    return spans_of(errors_and_warnings(answer.diagnostics))
+    return spans_of(problems(answer))
+
+
+def is_clean(form: ContourForm, rules: tuple[Rule, ...], names: frozenset[str], circumstances: frozenset[str]) -> bool:
+    """Whether no rule refuses or ignores something in the combination of words, whatever their values."""
+    return not check(rules, form.roles, dict.fromkeys(names | circumstances))
+
+
+@lru_cache(maxsize=4096)
+def smallest_changes(
+    form: ContourForm,
+    rules: tuple[Rule, ...],
+    present: frozenset[str],
+    extra: frozenset[str],
+    circumstances: frozenset[str],
+    blocks: frozenset[str],
+) -> tuple[frozenset[str], ...]:
+    """All smallest sets of names whose dropping or adding makes a combination that no rule
+    refuses, and in which none ignores a word.
+
+    Where the combination is that already, a word of the `blocks` may be dropped or exchanged for another one.
+    """
+
+    if is_clean(form, rules, present, circumstances):
+        old_names, new_names = (
+            sorted(name for name in names if block_of(name) in blocks) for names in (present, extra - present)
+        )
+        one = (frozenset({name}) for name in old_names)
+        exchanged = (
+            frozenset({old, new})
+            for old in old_names
+            for new in new_names
+            if old in extra and (not _is_chain(form) or block_of(old) == block_of(new))
+        )
+        changes = (frozenset(), *one, *exchanged)
+        return tuple(change for change in changes if is_clean(form, rules, present ^ change, circumstances))
+    if not _is_chain(form):
+        return _smallest(form.roles, rules, present, present | extra, circumstances)
+    # What one block of a chain says is legal or not whatever blocks far from it say.
+    unions: tuple[frozenset[str], ...] = (frozenset(),)
+    for prefixes in _offending(form.roles, rules, present | circumstances):
+        roles = tuple(role for role in form.roles if prefixes & set(role.prefixes))
+        near = {prefix for role in roles for prefix in role.prefixes}
+        own, around = (
+            frozenset(name for name in present | extra | circumstances if block_of(name) in within)
+            for within in (prefixes, near)
+        )
+        part = _smallest(roles, rules, present & around, own & (present | extra), circumstances & around)
+        # Too many changes stay too many: there are few others, however many blocks are at fault.
+        joined = dict.fromkeys(union | change for union in unions for change in part)
+        unions = tuple(union for union in joined if len(union) <= MOST_EDITS)
+    return tuple(union for union in unions if union)
+
+
+def _is_chain(form: ContourForm) -> bool:
+    """Whether it has more blocks than a rule sees at once."""
+    return (
+        len(form.combinations) > LARGEST_ROLE and len({prefix for role in form.roles for prefix in role.prefixes}) > 1
+    )
+
+
+def _offending(roles: tuple[Role, ...], rules: tuple[Rule, ...], stated: frozenset[str]) -> list[set[str]]:
+    """The beginnings of the names of blocks that are refused; those that are refused together in one set."""
+    groups: list[set[str]] = []
+    for role in roles:
+        if check(rules, (role,), dict.fromkeys(stated)):
+            group = set(role.prefixes)
+            for other in [other for other in groups if other & group]:
+                groups.remove(other)
+                group |= other
+            groups.append(group)
+    return groups
+
+
+def _smallest(
+    roles: tuple[Role, ...],
+    rules: tuple[Rule, ...],
+    present: frozenset[str],
+    touched: frozenset[str],
+    circumstances: frozenset[str],
+) -> tuple[frozenset[str], ...]:
+    """The smallest changes among the names that may be touched after which no rule about these roles holds."""
+
+    def is_legal(names: tuple[str, ...]) -> bool:
+        return not check(rules, roles, dict.fromkeys(present ^ {*names} | circumstances))
+
+    return tuple(map(frozenset, smallest_sets(sorted(touched), MOST_EDITS, is_legal)))
 
 
 class DropSets(NamedTuple):
@@ -146,6 +237,18 @@ def _drop_sets(words: _Combination, droppable: frozenset[str]) -> _Sets:
             if found and not check(rules, found.form.roles, dict.fromkeys((*found.words, *found.circumstances))):
                 other.append(names)
     return _Sets(tuple(same), tuple(other), is_single and checked <= MOST_CHECKED and read <= most_read)
+
+
+def smallest_sets(
+    names: Sequence[str], most: int, holds: Callable[[tuple[str, ...]], bool]
+) -> Iterator[tuple[str, ...]]:
+    """The sets of at most so many names for which something holds, smallest first; none that contains another one."""
+    found: list[set[str]] = []
+    for size in range(1, most + 1):
+        for chosen in combinations(names, size):
+            if not any(other <= {*chosen} for other in found) and holds(chosen):
+                found.append({*chosen})
+                yield chosen
 
 
 def _subsets(names: Iterable[str]) -> Iterator[frozenset[str]]:

@@ -1,23 +1,26 @@
-"""Slips of typing: one table of kinds, each with what a word may have been meant to be, the most plausible first."""
+"""Slips of typing: one table of kinds, each with what a word may have been meant to be, the most plausible first; and
+what was meant where a slip keeps a block from being a contour."""
 
 import re
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from decimal import Decimal
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.drafts import has_faults, missing_points, unreadable
-from contoursolve.diagnosis.edits import Edit, EditKind, change
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.explain import spans_of
-from contoursolve.diagnosis.spelling import meant_words, shapes_of
+from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, change, mend
+from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
+from contoursolve.diagnosis.explain import Context, report, spans_of
+from contoursolve.diagnosis.spelling import meant_in, meant_words, respelled, shapes_of
 from contoursolve.diagnosis.subsets import blamed_spans, lines_near
-from contoursolve.diagnostics.source import Span
-from contoursolve.gcode import FACT, Word, lookalike_at, mended, spell
+from contoursolve.diagnosis.wording import join
+from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic, Fix
+from contoursolve.gcode import FACT, Block, Word, lookalike_at, mended, parse_block, spell
 from contoursolve.geometry import CornerShape, Unit
-from contoursolve.reading import Effect, Modes, ParsedContour, ReadIssue, WithoutPoint
+from contoursolve.reading import Effect, Modes, ParsedContour, ReadIssue, State, WithoutPoint, codes_of
+from contoursolve.reading.dialect import Dialect
 
 _WORD = re.compile(
     r"(?P<address>,?[ \t]*[A-Za-z](?![A-Za-z_#])|[A-Za-z]\w*=[A-Za-z]+(?=\()|#?[A-Za-z]\w*(?=[ \t=]))"
@@ -53,7 +56,13 @@ class Typed(Struct, frozen=True):
     @property
     def is_choice(self) -> bool:
         """Whether only its sign counts, and chooses."""
-        return self.claim is not None and _is_sign(self.word, self.claim)
+        return self.unit is Unit.SIGN
+
+    @property
+    def unit(self) -> Unit | None:
+        """What its number counts; None for a word that the contour does not know."""
+        row = self.claim.lexicon.addresses.get(self.word.address) if self.claim else None
+        return row.unit if row else None
 
     @property
     def counts(self) -> bool:
@@ -77,7 +86,7 @@ def _point_lost(typed: Typed) -> Iterator[str]:
         return
     if typed.counts:
         yield typed.with_number(f"{typed.number}.")
-    is_angle = typed.claim is not None and _unit(typed.word, typed.claim) is Unit.DEGREE
+    is_angle = typed.unit is Unit.DEGREE
     if typed.counts or len(typed.number) >= _LONG + is_angle:
         # With as many decimals as the least increment has, it is what was typed where numbers count increments.
         places = range(1, min(_DECIMALS + (not typed.counts), len(typed.number)))
@@ -196,7 +205,7 @@ SLIPS = (*FEW, CODE, *OF_DIGITS, ROUND)
 def texts_of(slip: Slip, word: Word, claim: ParsedContour) -> Iterator[str]:
     """What a word may have been meant to be if a slip happened to it."""
     typed = _typed(word, claim)
-    if typed is None or (slip.is_of_digits and _is_sign(word, claim)):
+    if typed is None or (slip.is_of_digits and typed.is_choice):
         return
     for text in dict.fromkeys(slip.texts(typed)):
         match = _WORD.fullmatch(text)
@@ -281,15 +290,13 @@ def suspects(answer: Answer, tied: Collection[str]) -> list[Word]:
     # Of two words for one corner, the later one is that of the corner behind.
     first = {name for row in claim.form.corners[:1] for name in row.shapes}
     late = {word.address for word in claim.repeated} & first
-    order = {word: -at if word.address in late else at for at, word in enumerate(sorted(words, key=_place))}
+    order = {
+        word: -at if word.address in late else at for at, word in enumerate(sorted(words, key=lambda word: word.span))
+    }
     return sorted(words, key=lambda word: (word.span not in contradicting, word.span not in blamed, order[word]))
 
 
 _LEADING = re.compile(r"[A-Za-z][ \t]*+[=(]?+[ \t]*+[+-]?0\d")
-
-
-def _place(word: Word) -> Span:
-    return word.span
 
 
 def slips(answer: Answer, kinds: Iterable[Slip], words: Iterable[Word]) -> Iterator[tuple[Edit, ...]]:
@@ -329,10 +336,99 @@ def _is_known(address: str, claim: ParsedContour) -> bool:
     return name in claim.lexicon.addresses and name in claim.form.allowed
 
 
-def _is_sign(word: Word, claim: ParsedContour) -> bool:
-    return _unit(word, claim) is Unit.SIGN
+# Blocks that are a contour but for a slip: a comma that is missing, a letter that looks like a digit -------------
+
+_LINES = (0, 1)
+_OF_A_LINE = (
+    Effect.MOTION,
+    Effect.PLANE,
+    Effect.UNITS,
+    Effect.COMPENSATION,
+    Effect.ABSOLUTE,
+    Effect.INCREMENTAL,
+    Effect.NONE,
+)
 
 
-def _unit(word: Word, claim: ParsedContour) -> Unit | None:
-    row = claim.lexicon.addresses.get(word.address)
-    return row.unit if row else None
+def explain_commas(
+    context: Context,
+    dialect: Dialect,
+    blocks: Sequence[Block],
+    states: tuple[State, State],
+    previous: tuple[Sequence[Block], State] | None = None,
+) -> Iterator[Diagnostic]:
+    """Words of a line, the first of some blocks, whose address the control reads with a comma only: each with the
+    comma as its fix, if that makes a contour that is solved. `states` are those before and after the block; `previous`
+    are the blocks before it, which may be part of the contour then, and the state before them."""
+    block, (before, after) = blocks[0], states
+    addresses = dialect.modes.lexicon.addresses
+    codes = codes_of(block, dialect.modes)
+    is_line = after.motion in _LINES and not block.macro
+    if not is_line or any(isinstance(code, Word) or code.effect not in _OF_A_LINE for code in codes):
+        return
+    for word in block.words:
+        text = "" if word.address.startswith(",") else respelled(word, addresses)
+        if not text:
+            continue
+        finding = report(context, ReadIssue.COMMA_MISSING, Basis.RULE, [word], meant=text)
+        edit = change(word, text)
+        found, replacement = _read(dialect, blocks, [edit], before)
+        fixes = tuple(_tried(dialect, found, [edit], replacement))
+        if previous and not fixes:
+            edited = parse_block(replacement, block.line, block.syntax)
+            other = dialect.find([*previous[0], edited, *blocks[1:]], 0, previous[1], dialect.modes)
+            fixes = tuple(_tried(dialect, other if other and edited in other.blocks else None, [edit], replacement))
+        if fixes or any(map(block.find, after.plane.axes)):
+            yield replace(finding, fixes=fixes)
+
+
+def explain_codes(
+    context: Context, dialect: Dialect, blocks: Sequence[Block], before: State, findings: Sequence[Diagnostic]
+) -> Iterator[Diagnostic]:
+    """G codes of a block, the first of some, that the control does not know and with which it is a contour that is
+    solved if one slip of their digits is mended, as in G110."""
+    yield from findings
+    for word in blocks[0].words:
+        for text in mistyped_codes(word, dialect.modes) if word.number not in dialect.modes.codes else ():
+            edit = change(word, text)
+            found, replacement = _read(dialect, blocks, [edit], before)
+            fixes = tuple(_tried(dialect, found, [edit], replacement))
+            if fixes:
+                finding = report(context, ReadIssue.CODE_MISTYPED, Basis.RULE, [word], meant=text)
+                yield replace(finding, fixes=fixes)
+
+
+def explain_letters(
+    context: Context, dialect: Dialect, blocks: Sequence[Block], before: State, findings: Sequence[Diagnostic]
+) -> Iterator[Diagnostic]:
+    """The findings about a block, the first of some, that is a contour if letters of its G code are the digits that
+    they look like: with these digits as the fix, if it is solved then. `before` is the state before it."""
+    meant = meant_in(blocks[0], [fault.span for fault in blocks[0].faults])
+    edits = [mend(each) for each in meant]
+    found, replacement = _read(dialect, blocks, edits, before)
+    if found is None or not any(each.is_code for each in meant):
+        yield from findings
+        return
+    fixes = tuple(_tried(dialect, found, edits, replacement))
+    blamed = [each for each in findings if lookalike_at(meant, each.span)]
+    if not blamed:
+        words = [Word(each.address, None, False, each.old, each.span) for each in meant]
+        text = join([each.new for each in meant])
+        yield replace(report(context, ReadIssue.LETTER_FOR_DIGIT, Basis.RULE, words, meant=text), fixes=fixes)
+    for each in findings:
+        yield replace(each, fixes=fixes) if blamed and each is blamed[0] else each
+
+
+def _read(
+    dialect: Dialect, blocks: Sequence[Block], edits: Sequence[Edit], before: State
+) -> tuple[ParsedContour | None, str]:
+    """The contour that begins with the first of some blocks when it is edited, if one does; and its text then."""
+    (text,) = apply_edits(blocks[:1], edits)
+    found = dialect.find([parse_block(text, blocks[0].line, blocks[0].syntax), *blocks[1:]], 0, before, dialect.modes)
+    return (found if isinstance(found, ParsedContour) and found.form.is_contour else None), text
+
+
+def _tried(dialect: Dialect, found: ParsedContour | None, edits: Sequence[Edit], replacement: str) -> Iterator[Fix]:
+    """The edits as a fix, if they make a contour that is solved."""
+    if found is not None and examine(found, dialect.rules, Policy.ENFORCE, depth=Depth.VERDICT).contour:
+        yield Fix("; ".join(map(str, edits)), replacement, Applicability.CHANGES_CONTOUR)

@@ -512,12 +512,12 @@ class Examiner:
             return
         context = Context(self.rules, self.asked.unit, place=block.span)
         if any(f",{word.address}" in dialect.modes.lexicon.addresses for word in block.words):
-            from contoursolve.diagnosis.other_readings import explain_commas  # noqa: PLC0415 - few programs need it
+            from contoursolve.diagnosis.typo_fixes import explain_commas  # noqa: PLC0415 - few programs need it
 
             self.diagnostics += explain_commas(context, dialect, blocks[:_NEAR], states, self.previous)
         codes = dialect.modes.codes
         if any(word.address == "G" and word.number is not None and word.number not in codes for word in block.words):
-            from contoursolve.diagnosis.other_readings import explain_codes  # noqa: PLC0415 - few programs need it
+            from contoursolve.diagnosis.typo_fixes import explain_codes  # noqa: PLC0415 - few programs need it
 
             self.diagnostics = [*explain_codes(context, dialect, blocks[:_NEAR], states[0], self.diagnostics)]
         if has_lookalike_code(block):
@@ -525,7 +525,7 @@ class Examiner:
 
     def _check_letters(self, dialect: Dialect, blocks: Sequence[Block], before: State) -> None:
         """Whether the first of some lines would be a contour with digits for letters, as the control would read it."""
-        from contoursolve.diagnosis.other_readings import explain_letters  # noqa: PLC0415 - few programs need it
+        from contoursolve.diagnosis.typo_fixes import explain_letters  # noqa: PLC0415 - few programs need it
 
         block = blocks[0]
         own = [each for each in self.diagnostics if each.span.line == block.line]
@@ -648,7 +648,7 @@ class Examiner:
 
     def _slips_as(self, dialect: Dialect, blocks: Sequence[Block]) -> Iterator[Diagnostic]:
         """The words that make a contour for a control with their comma, in the first lines of a program."""
-        from contoursolve.diagnosis.other_readings import explain_commas  # noqa: PLC0415 - few programs need it
+        from contoursolve.diagnosis.typo_fixes import explain_commas  # noqa: PLC0415 - few programs need it
 
         state, tries = dialect.initial_state(self.asked.unit), _TRIES
         lacking = {each[1:] for each in dialect.modes.lexicon.addresses if each.startswith(",")}
