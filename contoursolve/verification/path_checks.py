@@ -131,11 +131,12 @@ def nearest(claimed: ClaimedMoves, found: Sequence[Candidate]) -> Candidate | No
         return [move.circle.turn if move.circle else 0 for move in moves]
 
     def gap(solution: Candidate) -> float:
-        pairs = zip(solution.path.moves, claimed.moves, strict=True)
-        return sum(
-            abs(own.end - its.end) + (abs(own.circle.center - its.circle.center) if own.circle and its.circle else 0.0)
-            for own, its in pairs
-        )
+        # Of two that share their path, the one that agrees with all words.
+        off = RESIDUAL if solution.conflicts else 0.0
+        for own, its in zip(solution.path.moves, claimed.moves, strict=True):
+            off += abs(own.end - its.end)
+            off += abs(own.circle.center - its.circle.center) if own.circle and its.circle else 0.0
+        return off
 
     return min((each for each in found if kinds(each.path.moves) == kinds(claimed.moves)), key=gap, default=None)
 

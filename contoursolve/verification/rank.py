@@ -236,10 +236,14 @@ def search(
         if name.endswith((".cos", ".sin")):
             starts[:, number] = rng.normal(0, 1, count)
     signs = {side: rng.choice((-1, 1), count) for side in sides}
-    for number, values in enumerate(each for each in near for _ in range(tries)):
-        starts[number] = numpy.where(numpy.isnan(values), starts[number], values)
-        for place, side in enumerate(sides):
-            signs[side][number] = 1 - 2 * (number >> place & 1)
+    if near:
+        told = numpy.repeat(numpy.array(near), tries, axis=0)
+        turns = {side: 1 - 2 * (numpy.arange(len(told)) >> place & 1) for place, side in enumerate(sides)}
+        first, held = starts[: len(told)], ~numpy.isnan(told)
+        # Where several have become one, what is known would be lost on the way to what is not.
+        first[:] = _descend(system, facts, numpy.where(held, told, first), turns, size, held[:, None, :])
+        for side, its in turns.items():
+            signs[side][: len(told)] = its
     values = _descend(system, facts, starts, signs, size)
     off = abs(system.residuals(facts, values, signs)).max(axis=-1, initial=0.0)
     found: list[tuple[Array, dict[str, int]]] = []
