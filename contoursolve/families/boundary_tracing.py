@@ -32,7 +32,6 @@ LEVELS, MOST = 6, 10_000
 FAR = 1.5
 """Cells that the corner of two lines may be away from the middle of their points."""
 
-Point = tuple[float, float]
 Cell = tuple[int, int]
 Node = tuple[str, int]
 """A point on an edge of the grid, or a corner where two checks begin to fail, by its number."""
@@ -46,27 +45,15 @@ class BoundaryTrace(Struct, frozen=True):
     """By (point, word)."""
 
 
-class WordBox(Struct, frozen=True):
-    """The range of both words."""
-
-    low: Point
-    high: Point
-
-    @property
-    def size(self) -> Array:
-        """The width along both words."""
-        found: Array = numpy.array(self.high) - numpy.array(self.low)
-        return found
-
-
 class Field:
-    """The margins of one class of contours on a grid over a box, of all its solutions one after the other. Inside is
-    where one solution alone passes its checks."""
+    """The margins of one class of contours on a grid over a box of two words, of all its solutions one after the other.
+    Inside is where one solution alone passes its checks."""
 
-    def __init__(self, branches: Sequence[Branch], box: WordBox) -> None:
-        self.branches, self.box = branches, box
+    def __init__(self, branches: Sequence[Branch], low: Sequence[float], high: Sequence[float]) -> None:
+        self.branches, self.low, self.high = branches, numpy.array(low), numpy.array(high)
+        self.size = self.high - self.low
         self.checks = tuple(check for branch in branches for check in branch.margins.checks)
-        self.axes = [numpy.linspace(box.low[word], box.high[word], NODES) for word in (0, 1)]
+        self.axes = [numpy.linspace(low[word], high[word], NODES) for word in (0, 1)]
         grid = numpy.meshgrid(*self.axes, indexing="ij")
         self.nodes = numpy.stack([each.ravel() for each in grid], axis=1)
         self.at_nodes = self.values(self.nodes)
@@ -81,7 +68,7 @@ class Field:
         """The derivatives of all margins by (word, check, point), each for the whole width of the box."""
         words = [points[:, 0], points[:, 1]]
         slopes = [branch.slopes_at(words) for branch in self.branches]
-        found: Array = numpy.concatenate(slopes, axis=1) * self.box.size[:, None, None]
+        found: Array = numpy.concatenate(slopes, axis=1) * self.size[:, None, None]
         return found
 
     def failing(self, points: Array) -> NDArray[numpy.int64]:
@@ -122,7 +109,7 @@ class Field:
 
     def share(self, vectors: Array) -> Array:
         """The length of vectors by (point, word) in shares of the box."""
-        found: Array = (numpy.abs(vectors) / self.box.size).max(axis=1)
+        found: Array = (numpy.abs(vectors) / self.size).max(axis=1)
         return found
 
     def onto(self, points: Array, checks: NDArray[numpy.int64]) -> Array:
@@ -132,7 +119,7 @@ class Field:
             for _ in range(NEWTON):
                 value = self.values(found)[checks, every]
                 slope = self.slopes(found)[:, checks, every].T
-                found = found - (value / (slope**2).sum(axis=1))[:, None] * slope * self.box.size
+                found = found - (value / (slope**2).sum(axis=1))[:, None] * slope * self.size
         return found
 
     def corner(self, start: Array, one: int, other: int) -> Array | None:
@@ -142,7 +129,7 @@ class Field:
             values = self.values(found[None])[[one, other], 0]
             matrix = self.slopes(found[None])[:, [one, other], 0].T
             try:
-                found = found - numpy.linalg.solve(matrix, values) * self.box.size
+                found = found - numpy.linalg.solve(matrix, values) * self.size
             except numpy.linalg.LinAlgError:
                 return None
             if not numpy.isfinite(found).all():
@@ -162,7 +149,7 @@ class Field:
             is_open = self._is_open([Intervals(low[:, word], high[:, word]) for word in (0, 1)])
             low, high = low[is_open], high[is_open]
             # What is left along the edge of the box is narrower than a cell.
-            is_within = ((low > self.box.low) & (high < self.box.high)).all(axis=1)
+            is_within = ((low > self.low) & (high < self.high)).all(axis=1)
             if not is_within.any():
                 return True
             if len(low) > MOST:

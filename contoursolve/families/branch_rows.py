@@ -1,6 +1,6 @@
 """Rows of which each may have several solutions: Newton's method from the boxes that hold one each, and a verdict."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy
@@ -92,33 +92,10 @@ class BranchRows:
         stated = check_facts(Source(self.system.figure, tape, at), facts[len(basis) :], len(basis))
         self.corners = compile_path(self.system).corner_residuals
         """The outputs of the equations of the corners."""
-        checks = [equations, *stated, *self._add_path(tape)]
+        checks = [equations, *stated, *add_path(tape, self.system, case.profile.givens)]
         add_checks(tape, checks)
         self.function = Columns(compile_columns(tape, tape.inputs))
         self.checks = tuple(check for check, _ in checks)
-
-    def _add_path(self, tape: Tape) -> list[tuple[Check, Any]]:
-        """Declare the path, whose coordinates count from the start point; its checks with their margins."""
-        figure, path = self.system.figure, compile_path(self.system).tape.copy()
-        source = Source(figure, path, lookup(self.system, path, at_origin(figure)))
-        corners = largest(path.expression(name) for name in self.corners)
-        checks = [check_range(source), *check_path(source), check_residuals(corners)]
-        radii = {
-            each.size: f"{each.name}.radius" for each in figure.corners if each.size not in self.case.profile.givens
-        }
-        inputs: dict[str, Any] = {name: tape.input(radii.get(name, name)) for name in path.inputs}
-        for axis in (FIRST, SECOND):
-            start = tape.input(scalar(figure.start, axis))
-            for point in (*figure.points, *figure.places):
-                inputs[scalar(point, axis)] = tape.input(scalar(point, axis)) - start
-                path.output(scalar(point, axis), path.input(scalar(point, axis)))
-            inputs[scalar(figure.start, axis)] = 0.0
-        for number, (_, margin) in enumerate(checks):
-            path.output(f"path:{number}", margin)
-        outputs = {name: path.expression(name) for name in path.outputs}
-        for name, expression in zip(outputs, path.replaced(inputs, outputs)[1], strict=True):
-            tape.output(name, expression)
-        return [(check, tape.expression(f"path:{number}")) for number, (check, _) in enumerate(checks)]
 
     def solve(self, values: Mapping[str, Array]) -> RowSolutions:
         """What becomes of rows with these values of the words."""
@@ -299,6 +276,31 @@ class BranchRows:
             value = fact.implied(Values(numbers, numbers, pairs, self.system.headed))
             found[row] = numpy.nan if value is None else value
         return found
+
+
+def add_path(tape: Tape, system: System, givens: Container[str]) -> list[tuple[Check, Any]]:
+    """Declare the path through the points of a system, as they are inputs; its checks with their margins. `givens` tell
+    which sizes of corners are stated."""
+    figure, machine = system.figure, compile_path(system)
+    path = machine.tape.copy()
+    source = Source(figure, path, lookup(system, path, at_origin(figure)))
+    corners = largest(path.expression(name) for name in machine.corner_residuals)
+    checks = [check_range(source), *check_path(source), check_residuals(corners)]
+    radii = {each.size: f"{each.name}.radius" for each in figure.corners if each.size not in givens}
+    inputs: dict[str, Any] = {name: tape.input(radii.get(name, name)) for name in path.inputs}
+    # Inside a path counts from its start point.
+    for axis in (FIRST, SECOND):
+        start = tape.input(scalar(figure.start, axis))
+        for point in (*figure.points, *figure.places):
+            inputs[scalar(point, axis)] = tape.input(scalar(point, axis)) - start
+            path.output(scalar(point, axis), path.input(scalar(point, axis)))
+        inputs[scalar(figure.start, axis)] = 0.0
+    for number, (_, margin) in enumerate(checks):
+        path.output(f"path:{number}", margin)
+    outputs = {name: path.expression(name) for name in path.outputs}
+    for name, expression in zip(outputs, path.replaced(inputs, outputs)[1], strict=True):
+        tape.output(name, expression)
+    return [(check, tape.expression(f"path:{number}")) for number, (check, _) in enumerate(checks)]
 
 
 def _step(kernel: Kernel) -> tuple[Kernel, Columns]:

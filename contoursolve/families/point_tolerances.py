@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnostics.display import Shown
-from contoursolve.families.evaluate import compile_sweep, solve_sweep
+from contoursolve.families.evaluate import Tally, compile_sweep, solve_sweep
 from contoursolve.families.export import Family
 from contoursolve.families.free_words import check_block, kind_of, value_of
 from contoursolve.families.sensitivities import Spread, read_tolerances, slopes_of, stated_words
@@ -146,14 +146,12 @@ def tolerances(
 
 def _missing(template: Template, found: Family, words: Sequence[str]) -> Iterator[Missing]:
     """The rows without a contour, each reason once, the most frequent first; `words` are the names to tell."""
-    free = template.with_words(list(found.ranges.values))
-    kinds = numpy.stack([found.columns["status"], found.columns["reason"]], axis=1)
-    reasons, firsts, counts = numpy.unique(kinds, axis=0, return_index=True, return_counts=True)
-    for number in numpy.argsort(-counts, kind="stable").tolist():
-        if reasons[number, 0] > Code.OVERDETERMINED:
-            values = {word: float(found[word].reshape(-1)[firsts[number]]) for word in found.ranges.values}
+    free, tally = template.with_words(list(found.ranges.values)), Tally(tuple(found.ranges.values))
+    tally.add({name: found[name].reshape(-1) for name in found.names})
+    for kind, values in sorted(tally.firsts.items(), key=lambda each: -tally.counts[each[0]]):
+        if kind[0] > Code.OVERDETERMINED:
             told = dict(zip(words, values.values(), strict=True))
-            yield Missing(int(counts[number]), told, first_error(free.solve(values)))
+            yield Missing(int(tally.counts[kind]), told, first_error(free.solve(values)))
 
 
 def _limits(first: Array, second: Array) -> Limits:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from contoursolve.diagnosis.wording import value_text
 from contoursolve.diagnostics.display import Shown
-from contoursolve.families.boundary_tracing import BISECTIONS, NODES, BoundaryTrace, Field, WordBox, edge_of, gaps_of
+from contoursolve.families.boundary_tracing import BISECTIONS, NODES, BoundaryTrace, Field, edge_of, gaps_of
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords
 from contoursolve.families.feasible_ranges import ASIDE, NO_FAILURE, Reason, Way, failure_of, phrase, refused, same
@@ -20,10 +20,9 @@ from contoursolve.families.spec import BlockOptions, FamilyError, Ranges, SweepS
 from contoursolve.families.subdivision import bisect
 from contoursolve.geometry import Unit
 from contoursolve.numeric.intervals import Array
-from contoursolve.solving import NoteKind, RefusalKind
+from contoursolve.solving import NoteKind, Point, RefusalKind
 from contoursolve.tolerance import LENGTH
 
-Point = tuple[float, float]
 T = TypeVar("T")
 
 
@@ -189,12 +188,11 @@ class _RegionSearch(FreeWords):
 
     def _field(self, place: tuple[int, int], case: CaseClass) -> Field:
         low, high = ([self.ticks[axis][place[axis] + side] for axis in (0, 1)] for side in (0, 1))
-        branches = branches_of(case, self.names, low, high)
-        return Field(branches, WordBox((low[0], low[1]), (high[0], high[1])))
+        return Field(branches_of(case, self.names, low, high), low, high)
 
     def _boundary(self, field: Field, case: CaseClass, trace: BoundaryTrace, *, is_gap: bool) -> Boundary:
         """A line with what fails beyond it, solved on both sides of its points."""
-        ways = _normals(trace.points / field.box.size) * field.box.size
+        ways = _normals(trace.points / field.size) * field.size
         found = [self._beside(case, point, way, is_gap) for point, way in zip(trace.points, ways, strict=True)]
         middle = len(found) // 2
         inside, outside = found[middle]
@@ -234,7 +232,7 @@ class _RegionSearch(FreeWords):
                 other = _pair(axis, place[axis] + way, place[1 - axis])
                 if other not in self.cases:
                     continue
-                value = (field.box.high if way > 0 else field.box.low)[axis]
+                value = float((field.high if way > 0 else field.low)[axis])
                 neighbour = fields.get(other)
 
                 def is_edge(
@@ -266,8 +264,8 @@ class _RegionSearch(FreeWords):
 
 def _has_extent(field: Field, trace: BoundaryTrace) -> bool:
     """Whether a line is more than what a length that counts as zero leaves of the edge of the box."""
-    near = ASIDE[2] * field.box.size
-    away = numpy.minimum(trace.points - field.box.low, field.box.high - trace.points)
+    near = ASIDE[2] * field.size
+    away = numpy.minimum(trace.points - field.low, field.high - trace.points)
     is_along_edge = bool((away <= near).all(axis=0).any())
     return not is_along_edge and bool((numpy.ptp(trace.points, axis=0) > near).any())
 

@@ -16,17 +16,16 @@ from msgspec.structs import replace
 from contoursolve.analysis import analyse
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnostics.display import Shown
+from contoursolve.families.branch_rows import add_path
 from contoursolve.families.case_classes import CaseClass, case_in, half_circles, results_of
 from contoursolve.families.free_words import check_block, factor_of
 from contoursolve.families.spec import BlockOptions, FamilyError, first_error, spec_of
 from contoursolve.gcode import Word, call
-from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble
+from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble, scalar
 from contoursolve.numeric.angle import direction
 from contoursolve.numeric.expressions import Compiled, Tape
 from contoursolve.numeric.inputs import COSINE, SIDE, SINE, lookup
-from contoursolve.numeric.intervals import Array
 from contoursolve.solving import NoteKind, Solution, Status
-from contoursolve.solving.compile import compile_path
 from contoursolve.tolerance import RESIDUAL
 
 SINGULAR = 1e-9
@@ -194,7 +193,7 @@ def _implicit(answer: Answer, words: Mapping[str, Word], *, is_twice_fine: bool)
     tied = _tied(assemble(profile)) if is_twice else frozenset[str]()
     results = results_of(CaseClass(profile, None, {}, is_closed=False))
     outputs = {name: output for name, (output, _) in results.items() if not name.endswith(".room")}
-    rates = _implicit_rates(profile, solution, outputs.values())
+    rates = _implicit_rates(profile, solution, tuple(outputs.values()))
     names = {id(word): name for name, word in words.items()}
     stated = [
         (
@@ -223,91 +222,68 @@ def _fact_name(given: Given, word: Word, profile: Profile) -> str:
     return f"{name} [{profile.plane.axes[int(axis)]}]" if "=" not in word.text and axis.isdigit() else name
 
 
-def _implicit_rates(profile: Profile, solution: Solution, outputs: Iterable[str]) -> Rates:
+def _implicit_rates(profile: Profile, solution: Solution, outputs: tuple[str, ...]) -> Rates:
     """The derivatives of some outputs by all that is stated: of unknowns, and of what follows from them on the path."""
-    system, path = assemble(profile), compile_path(assemble(profile)).tape
-    equations, slopes = _compile(system)
-    inputs = [name for name in equations.inputs if name not in system.unknowns]
-    known = {name: _given(profile, name) for name in inputs if not name.startswith(SIDE)}
-    known |= solution.scalars
-    rows = _unknown_rates(system, inputs, _on_their_sides(known, equations, slopes))
-    corners = {each.size: f"{each.name}.radius" for each in profile.figure.corners if f"{each.name}.radius" in rows}
-    unknown = {name: each for name in path.inputs if (each := corners.get(name, name)) in rows}
-    wanted = [name for name in outputs if name not in rows]
-    values = {name: _on_path(profile, name, known.get(unknown.get(name, name))) for name in path.inputs}
-    rates = _slopes(path, wanted, values) if wanted else {}
-    found: dict[str, dict[str, float]] = {}
-    for name in outputs:
-        if name in rows:
-            found[name] = dict(zip(inputs, rows[name].tolist(), strict=True))
-            continue
-        total, own = numpy.zeros(len(inputs)), dict.fromkeys(inputs, 0.0)
-        for each, slope in rates[name].items():
-            if each not in unknown:
-                own[each] = slope
-            elif slope:
-                total = total + slope * rows[unknown[each]]
-        by = dict(zip(inputs, total.tolist(), strict=True))
-        found[name] = {each: by.get(each, 0.0) + slope for each, slope in own.items()}
-    return found
-
-
-def _unknown_rates(system: System, inputs: Sequence[str], slopes: Mapping[str, float]) -> dict[str, Array]:
-    """The derivatives of the unknowns by the inputs: the Jacobian's inverse times the derivatives by the inputs."""
-    names, size = system.unknowns, len(system.unknowns)
+    system = assemble(profile)
+    unknowns = system.unknowns
+    equations, slopes = _compile(system, frozenset(profile.givens), outputs)
+    inputs = [name for name in equations.inputs if name not in unknowns]
+    at = slopes(_on_their_sides({**_known(profile), **solution.scalars}, equations))
     matrix, right = (
-        numpy.array([[slopes[f"{row} by {name}"] for name in by] for row in range(size)]).reshape(size, len(by))
-        for by in (names, inputs)
+        numpy.array([[at[f"{row} by {name}"] for name in by] for row in range(len(unknowns))])
+        for by in (unknowns, inputs)
     )
     if not numpy.linalg.cond(matrix) < SINGULAR_CONDITION:  # true for NaN
         raise FamilyError("two solutions have become one, so that no derivative exists")
-    return dict(zip(names, -numpy.linalg.solve(matrix, right), strict=True))
+    rows = dict(zip(unknowns, -numpy.linalg.solve(matrix, right), strict=True))
+    found: dict[str, dict[str, float]] = {}
+    for name in outputs:
+        total = rows[name] if name in rows else numpy.zeros(len(inputs))
+        if name not in rows:
+            for each in unknowns:
+                if slope := at[f"{name} by {each}"]:
+                    total = total + slope * rows[each]
+            total = total + [at[f"{name} by {each}"] for each in inputs]
+        found[name] = dict(zip(inputs, total.tolist(), strict=True))
+    return found
 
 
-def _on_their_sides(known: Mapping[str, float], equations: Tape, slopes: Compiled) -> dict[str, float]:
-    """The derivatives of the equations on the sides on which they hold."""
-    sides, outputs = [name for name in equations.inputs if name.startswith(SIDE)], equations.finish()
+def _on_their_sides(known: Mapping[str, float], equations: Compiled) -> dict[str, float]:
+    """All inputs, on the sides on which the equations hold."""
+    sides = [name for name in equations.inputs if name.startswith(SIDE)]
     for signs in product((1.0, -1.0), repeat=len(sides)):
         values = {**known, **dict(zip(sides, signs, strict=True))}
-        if all(abs(residual) <= 10 * RESIDUAL for residual in outputs(values).values()):
-            return slopes(values)
+        if all(abs(value) <= 10 * RESIDUAL for name, value in equations(values).items() if name.isdigit()):
+            return values
     raise FamilyError("the equations do not hold at the points of the contour to nine decimals")
 
 
 @lru_cache(maxsize=256)
-def _compile(system: System) -> tuple[Tape, Compiled]:
-    """The equations of a system, and their derivatives by the unknowns and everything that is stated."""
+def _compile(system: System, givens: frozenset[str], outputs: tuple[str, ...]) -> tuple[Compiled, Compiled]:
+    """The equations of a system and the path through its points; and the derivatives of the equations and of some
+    outputs by the unknowns and everything that is stated."""
     tape = Tape()
     for name in system.unknowns:
         tape.input(name)
     at = lookup(system, tape, {})
-    basis = [system.facts[index] for index in analyse(system).basis]
-    for row, fact in enumerate(basis):
-        tape.output(f"{row}", fact.residual(at))
-    return tape, tape.slopes([f"{row}" for row in range(len(basis))], tape.inputs)
+    basis = analyse(system).basis
+    for row, index in enumerate(basis):
+        tape.output(f"{row}", system.facts[index].residual(at))
+    add_path(tape, system, givens)
+    wanted = [name for name in outputs if name not in system.unknowns]
+    return tape.finish(), tape.slopes([*map(str, range(len(basis))), *wanted], tape.inputs)
 
 
-def _given(profile: Profile, name: str) -> float:
-    """The value of what is stated, mm, or the cosine or sine of an angle."""
-    point, _, axis = name.rpartition(".")
-    if point == profile.figure.start:
-        return float(profile.start.values[int(axis)] or 0)
-    for ending, part in ((COSINE, 0), (SINE, 1)):
-        angle = profile.givens.get(name.removesuffix(ending))
-        if name.endswith(ending) and angle is not None and angle.unit is Unit.DEGREE:
-            return direction(angle.value)[part]
-    return float(profile.givens[name].value)
-
-
-def _on_path(profile: Profile, name: str, value: float | None) -> float:
-    """An input of the path, in which coordinates count from the start point."""
-    point, _, axis = name.rpartition(".")
-    figure = profile.figure
-    if point == figure.start:
-        return 0.0
-    value = _given(profile, name) if value is None else value
-    is_counted = point in (*figure.points, *figure.places)
-    return value - float(profile.start.values[int(axis)] or 0) if is_counted else value
+def _known(profile: Profile) -> dict[str, float]:
+    """All that is stated, mm, and of angles the cosine and the sine."""
+    start = profile.figure.start
+    found = {scalar(start, axis): float(value or 0) for axis, value in enumerate(profile.start.values)}
+    for name, given in profile.givens.items():
+        if given.unit is Unit.DEGREE:
+            found[name + COSINE], found[name + SINE] = direction(given.value)
+        else:
+            found[name] = float(given.value)
+    return found | profile.increments
 
 
 def _check(solution: Solution | None, answer: Answer) -> None:
