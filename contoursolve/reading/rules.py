@@ -1,12 +1,11 @@
 """A rule is a row: a condition on the words of a block, what it says, its source, alarm and examples."""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
-from typing import TypedDict, Unpack
 
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Alarm, Severity
@@ -292,47 +291,6 @@ class Rule(Shown):
     def advice(self) -> str:
         """What to do, with its fields shown as gaps."""
         return _FIELD.sub(_gap, self.help)
-
-
-class Besides(TypedDict, total=False):
-    """What a row may say besides."""
-
-    roles: tuple[str, ...]
-    ignores: str
-    alarm: Alarm | None
-    severity: Severity
-    note: str
-    is_about_geometry: bool
-
-
-def row(
-    code: str,
-    message: str,
-    help_: str,
-    source: Source,
-    found: Condition | Enum,
-    good: str | tuple[str, ...],
-    *bad: str | tuple[str, str],
-    about: Enum | None = None,
-    **besides: Unpack[Besides],
-) -> Rule:
-    """A row of the catalogue: what it says, where that stands, what it finds, and examples.
-
-    It finds a condition on words, or an event. Of the examples, `good` are right; what is wrong is a program, or two
-    texts, of which the second stands for the first in the first right program. `about` names an event beside a
-    condition.
-    """
-    when, event = (found, about) if isinstance(found, Condition) else (None, found)
-    accepted, rejected = examples(good, bad)
-    return Rule(code, message, help_, source, accepted, rejected, when=when, about=event, **besides)
-
-
-def examples(
-    good: str | tuple[str, ...], bad: Iterable[str | tuple[str, str]]
-) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The right and the wrong programs of a row, as it states them."""
-    accepted = (good,) if isinstance(good, str) else good
-    return accepted, tuple(each if isinstance(each, str) else accepted[0].replace(*each) for each in bad)
 
 
 _FIELD = re.compile(r"\{(\w+)(?::([^}]*))?\}")

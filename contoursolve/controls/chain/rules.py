@@ -1,11 +1,9 @@
 """The rules that every control with lines and arcs in a row has: which words may stand in one block."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
-from enum import Enum
 from re import sub
-from typing import Unpack
 
 from contoursolve.controls.chain.language import (
     ARC,
@@ -22,10 +20,12 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
 )
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
-from contoursolve.reading.rules import Besides, Condition, Parallel, Rule, Value, all_of, row, some
+from contoursolve.gcode import FaultKind
+from contoursolve.reading.rules import Condition, Parallel, Rule, Value, all_of, some
+from contoursolve.solving import RefusalKind
 
 ANY, LINES = (LINE, OVER_LINE, ARC), (LINE, OVER_LINE)
 BESIDE = ("beside-X", "beside-Y", "beside-Z")
@@ -63,87 +63,184 @@ class Manual:
         code: str,
         message: str,
         help_: str,
-        found: Condition,
+        when: Condition,
+        roles: tuple[str, ...],
         good: str,
-        *bad: str | tuple[str, str],
+        *bad: tuple[str, str] | str,
         evidence: Evidence = Evidence.ASSUMED,
-        **besides: Unpack[Besides],
+        **more: object,
     ) -> Rule:
-        """A row with the control's source and alarm."""
+        """A row; what is wrong is a program, or two texts of which the second stands for the first in the right one."""
+        rejected = tuple(each if isinstance(each, str) else good.replace(*each) for each in bad)
         source = self.sources.get(code, Source(self.source.manual, self.source.place, evidence))
-        besides.setdefault("alarm", self.alarms.get(code))
-        return row(f"{self.prefix}-{code}", message, help_, source, found, good, *bad, **besides)
-
-    def told(self, about: Enum, good: str, *bad: str | tuple[str, str]) -> Rule:
-        """The general row about an event with the control's alarm and examples."""
-        return told(f"{self.prefix}-{about.value}", about, good, *bad, alarm=self.alarms.get(about.value))
+        return Rule(
+            f"{self.prefix}-{code}", message, help_, source, (good,), rejected,
+            roles=roles, when=when, alarm=self.alarms.get(code), **more,  # type: ignore[arg-type]
+        )  # fmt: skip
 
 
-def chain_rules(manual: Manual) -> tuple[Rule, ...]:
+def chain_rules(manual: Manual) -> Iterator[Rule]:
     """The rows that hold for all of them."""
-    own, angle, corners = manual.row, manual.angle, (*manual.chamfers, manual.rounding)
+    row, angle, corners = manual.row, manual.angle, (*manual.chamfers, manual.rounding)
     cut, arc, angled, vertex = manual.cut, manual.arc, manual.angled, manual.vertex
     second = cut.rsplit("\n", 1)[1]
     closing, stated = vertex.rsplit("\n", 1)[1], angled.rsplit(" ", 1)[1]
-    return (
-        own("corner-without-next", "{words}: a corner needs an element behind it, and none follows",
-            "put the next cutting move right behind it, or delete it",
-            some(*corners) & some(LAST) & ~some(RAPID), cut, ("\n" + second, "\nM30"),
-            ("\n" + second, "\nG0 " + second), roles=ANY),
-        own("corner-rapid", "{words}: the control makes a corner in a cutting move, not in G0", "write G1",
-            some(*corners) & some(RAPID), cut, ("G1 ", ""), roles=ANY),
-        own("corner-negative", "{words}: a chamfer or a rounding has no sign",
-            "delete the minus sign: the elements tell on which side the corner lies",
-            Value(corners, least=Decimal(0)), cut,
-            (manual.rounding + manual.equals, f"{manual.rounding}{manual.equals}-"), roles=ANY),
-        own("outside-plane", "{words} does not belong to the plane of the contour",
-            "move that axis in a block of its own, or select its plane by G17, G18 or G19" + manual.plane,
-            some(*BESIDE, "wrong-center"), cut, (second, second + " Z-5"), roles=ANY),
-        own("plane-changes", "the plane changes inside the contour", "select the plane before its first block",
-            some(OTHER_PLANE), cut, ("\n" + second, "\nG18 X40 Z40"), roles=ANY),
-        own("center-on-line", "{words}: a line has no centre and no radius",
-            f"delete it; a rounding is {manual.rounding}",
-            some(*STATED_CENTER, "R") & ~some(CORNER_ALONE), cut, (second, second + " I5"), roles=LINES),
-        own("center-and-radius", "{words}: the arc has both a centre and a radius", "keep one of them",
-            all_of(STATED_CENTER, "R"), arc, ("J0", f"J0 {manual.radius}"), roles=(ARC,)),
-        own("circle-undefined", "the arc has neither a centre nor a radius",
-            f"add I, J or K of the plane, or {manual.radius.rstrip('=.0123456789')}; for a line write G1",
-            ~some(*STATED_CENTER, "R", SMOOTH), arc, sub(r" I\S+ J0", "", arc), roles=(ARC,)),
-        own("radius-without-end", "{words}: with a radius the arc needs its end",
-            "add the coordinates of its end, or give the centre instead",
-            some("R") & ~some(*STATED_POINT), arc, sub(r"X\S+ Y\S+ I\S+ J0", manual.radius, arc), roles=(ARC,)),
-        own("angle-on-arc", "{words}: the control works out angles of lines, not of arcs",
-            "write G1, or delete {words}",
-            some(angle), arc, ("J0", f"J0 {stated}"), roles=(ARC,)),
-        own("end-missing", "{words} alone does not say where the line ends",
-            f"add a coordinate; or let a line with both coordinates and {angle} follow, which it meets",
-            some(angle) & ~some(*STATED_POINT, FOLLOWED), vertex, ("\n" + closing, "\nM30"), roles=(LINE,)),
-        own("closing-incomplete",
-            f"the line before has an angle and no end, so this block needs both coordinates and {angle}: "
-                "it lacks {lacking}",
-            "add {lacking}",
-            ~all_of(FIRST, SECOND, angle), vertex, ("\n" + closing, "\n" + closing.rpartition(" ")[0]),
-            ("\n" + closing, "\n" + closing.partition(" ")[2]), roles=(OVER_LINE,)),
-        own("angles-parallel", "{words}: the two lines are parallel, so they have no vertex",
-            "correct one of the angles",
-            Parallel((f"1:{angle}", f"2:{angle}"), _GUARD), vertex,
-            vertex.rpartition(" ")[0] + " " + vertex.partition("\n")[2].partition("\n")[0].split(" ")[1],
-            roles=(LINE_LINE,), is_about_geometry=True),
-        own("angle-range", "{words} is more than a turn; it is taken as {within}, the same direction",
-            "write {within} if that is meant",
-            Value((angle,), least=Decimal(-360), most=Decimal(360)), angled, (stated, f"{angle}{manual.equals}390."),
-            roles=LINES, severity=Severity.WARNING),
-    )  # fmt: skip
+    yield row(
+        "corner-without-next",
+        "{words}: a corner needs an element behind it, and none follows",
+        "put the next cutting move right behind it, or delete it",
+        some(*corners) & some(LAST) & ~some(RAPID),
+        ANY,
+        cut,
+        ("\n" + second, "\nM30"),
+        ("\n" + second, "\nG0 " + second),
+    )
+    yield row(
+        "corner-rapid",
+        "{words}: the control makes a corner in a cutting move, not in G0",
+        "write G1",
+        some(*corners) & some(RAPID),
+        ANY,
+        cut,
+        ("G1 ", ""),
+    )
+    yield row(
+        "corner-negative",
+        "{words}: a chamfer or a rounding has no sign",
+        "delete the minus sign: the elements tell on which side the corner lies",
+        Value(corners, least=Decimal(0)),
+        ANY,
+        cut,
+        (manual.rounding + manual.equals, f"{manual.rounding}{manual.equals}-"),
+    )
+    yield row(
+        "outside-plane",
+        "{words} does not belong to the plane of the contour",
+        "move that axis in a block of its own, or select its plane by G17, G18 or G19" + manual.plane,
+        some(*BESIDE, "wrong-center"),
+        ANY,
+        cut,
+        (second, second + " Z-5"),
+    )
+    yield row(
+        "plane-changes",
+        "the plane changes inside the contour",
+        "select the plane before its first block",
+        some(OTHER_PLANE),
+        ANY,
+        cut,
+        ("\n" + second, "\nG18 X40 Z40"),
+    )
+    yield row(
+        "center-on-line",
+        "{words}: a line has no centre and no radius",
+        f"delete it; a rounding is {manual.rounding}",
+        some(*STATED_CENTER, "R") & ~some(CORNER_ALONE),
+        LINES,
+        cut,
+        (second, second + " I5"),
+    )
+    yield row(
+        "center-and-radius",
+        "{words}: the arc has both a centre and a radius",
+        "keep one of them",
+        all_of(STATED_CENTER, "R"),
+        (ARC,),
+        arc,
+        ("J0", f"J0 {manual.radius}"),
+    )
+    yield row(
+        "circle-undefined",
+        "the arc has neither a centre nor a radius",
+        f"add I, J or K of the plane, or {manual.radius.rstrip('=.0123456789')}; for a line write G1",
+        ~some(*STATED_CENTER, "R", SMOOTH),
+        (ARC,),
+        arc,
+        sub(r" I\S+ J0", "", arc),
+    )
+    yield row(
+        "radius-without-end",
+        "{words}: with a radius the arc needs its end",
+        "add the coordinates of its end, or give the centre instead",
+        some("R") & ~some(*STATED_POINT),
+        (ARC,),
+        arc,
+        sub(r"X\S+ Y\S+ I\S+ J0", manual.radius, arc),
+    )
+    yield row(
+        "angle-on-arc",
+        "{words}: the control works out angles of lines, not of arcs",
+        "write G1, or delete {words}",
+        some(angle),
+        (ARC,),
+        arc,
+        ("J0", f"J0 {stated}"),
+    )
+    yield row(
+        "end-missing",
+        "{words} alone does not say where the line ends",
+        f"add a coordinate; or let a line with both coordinates and {angle} follow, which it meets",
+        some(angle) & ~some(*STATED_POINT, FOLLOWED),
+        (LINE,),
+        vertex,
+        ("\n" + closing, "\nM30"),
+    )
+    yield row(
+        "closing-incomplete",
+        f"the line before has an angle and no end, so this block needs both coordinates and {angle}: "
+        "it lacks {lacking}",
+        "add {lacking}",
+        ~all_of(FIRST, SECOND, angle),
+        (OVER_LINE,),
+        vertex,
+        ("\n" + closing, "\n" + closing.rpartition(" ")[0]),
+        ("\n" + closing, "\n" + closing.partition(" ")[2]),
+    )
+    yield row(
+        "angles-parallel",
+        "{words}: the two lines are parallel, so they have no vertex",
+        "correct one of the angles",
+        Parallel((f"1:{angle}", f"2:{angle}"), _GUARD),
+        (LINE_LINE,),
+        vertex,
+        vertex.rpartition(" ")[0] + " " + vertex.partition("\n")[2].partition("\n")[0].split(" ")[1],
+        is_about_geometry=True,
+    )
+    yield row("angle-range", "{words} is more than a turn; it is taken as {within}, the same direction",
+              "write {within} if that is meant", Value((angle,), least=Decimal(-360), most=Decimal(360)), LINES,
+              angled, (stated, f"{angle}{manual.equals}390."), severity=Severity.WARNING)  # fmt: skip
 
 
 def rules_of(
-    manual: Manual, own: Iterable[Rule], geometry: Iterable[Rule], helps: Iterable[Rule] = ()
+    manual: Manual,
+    own: Iterable[Rule],
+    told: Mapping[RefusalKind, tuple[str, str]],
+    helps: Mapping[FaultKind, tuple[str, str]] | None = None,
 ) -> tuple[Rule, ...]:
     """All rules of a control: those of every control, these of its kind, its own, and those about geometry.
 
-    `geometry` are rows of its own that stand before the general ones, `helps` those that stand in the place of rows of
-    every control.
+    `told` are right and wrong examples of its own for some of the latter, `helps` what to do about characters that
+    cannot be read, with a wrong example.
     """
-    instead = {rule.about: rule for rule in helps}
-    common = (instead.get(rule.about, rule) for rule in COMMON_RULES)
-    return (*common, *chain_rules(manual), *own, *geometry, *GEOMETRY_RULES)
+    rows = {rule.about: rule for rule in (*GEOMETRY_RULES, *COMMON_RULES)}
+    geometry = (
+        replace(
+            rows[about],
+            code=f"{manual.prefix}-{rows[about].code}",
+            alarm=manual.alarms.get(rows[about].code),
+            accepted=(good,),
+            rejected=(bad,),
+        )
+        for about, (good, bad) in told.items()
+    )
+    return (*_common(manual, helps or {}), *chain_rules(manual), *own, *geometry, *GEOMETRY_RULES)
+
+
+def _common(manual: Manual, helps: Mapping[FaultKind, tuple[str, str]]) -> Iterator[Rule]:
+    """The rows of every control, with what helps on this one."""
+    for rule in COMMON_RULES:
+        if isinstance(rule.about, FaultKind) and rule.about in helps:
+            advice, wrong = helps[rule.about]
+            yield replace(rule, help=advice, accepted=(manual.cut,), rejected=(wrong,))
+        else:
+            yield rule

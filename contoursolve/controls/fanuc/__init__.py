@@ -61,11 +61,39 @@ def _control(
     )
 
 
-FANUC_LATHE = _control("fanuc-lathe", "Fanuc lathes, G-code system A", LATHE_MODES, FANUC_LATHE_LANGUAGE,
-                       FANUC_LATHE_RULES, LATHE_SETTINGS, "lines with ,A ,C or ,R")  # fmt: skip
-FANUC_MILL = _control("fanuc-mill", "Fanuc mills", MILL_MODES, FANUC_MILL_LANGUAGE,
-                      FANUC_MILL_RULES, MILL_SETTINGS, "lines and arcs with ,C or ,R")  # fmt: skip
-HAAS_LATHE = _control("haas-lathe", "Haas lathes", HAAS_LATHE_MODES, HAAS_LATHE_LANGUAGE,
-                      HAAS_LATHE_RULES, HAAS_LATHE_SETTINGS, "lines with A, and lines with ,C or ,R")  # fmt: skip
-HAAS_MILL = _control("haas-mill", "Haas mills", HAAS_MILL_MODES, HAAS_MILL_LANGUAGE,
-                     HAAS_MILL_RULES, HAAS_MILL_SETTINGS, "lines with ,C or ,R")  # fmt: skip
+FANUC_LATHE = _control(
+    "fanuc-lathe",
+    "Fanuc lathes, G-code system A",
+    LATHE_MODES,
+    FANUC_LATHE_LANGUAGE,
+    FANUC_LATHE_RULES,
+    LATHE_SETTINGS,
+    "lines with ,A ,C or ,R",
+)
+FANUC_MILL = _control(
+    "fanuc-mill",
+    "Fanuc mills",
+    MILL_MODES,
+    FANUC_MILL_LANGUAGE,
+    FANUC_MILL_RULES,
+    MILL_SETTINGS,
+    "lines and arcs with ,C or ,R",
+)
+HAAS_LATHE = _control(
+    "haas-lathe",
+    "Haas lathes",
+    HAAS_LATHE_MODES,
+    HAAS_LATHE_LANGUAGE,
+    HAAS_LATHE_RULES,
+    HAAS_LATHE_SETTINGS,
+    "lines with A, and lines with ,C or ,R",
+)
+HAAS_MILL = _control(
+    "haas-mill",
+    "Haas mills",
+    HAAS_MILL_MODES,
+    HAAS_MILL_LANGUAGE,
+    HAAS_MILL_RULES,
+    HAAS_MILL_SETTINGS,
+    "lines with ,C or ,R",
+)

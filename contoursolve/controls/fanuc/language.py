@@ -42,9 +42,8 @@ def _number(manual: Book) -> Setting:
     )
 
 
-def _guards(manual: Book) -> tuple[Setting, Setting]:
-    """How smooth a joint may be: for a vertex, and for a corner."""
-    vertex = setting(
+def _guard(manual: Book) -> Setting:
+    return setting(
         "guard-deg",
         "how close two directions may come",
         {
@@ -53,13 +52,6 @@ def _guards(manual: Book) -> tuple[Setting, Setting]:
         },
         manual.assumed("1 deg is printed for a sibling"),
     )
-    corner = setting(
-        "guard-corner",
-        "a corner where the path turns by less than that",
-        {"drop": "it is left out, with a warning", "error": "it is refused"},
-        manual.assumed("printed for a sibling"),
-    )
-    return vertex, corner
 
 
 REDUNDANT_ANGLE = setting(
@@ -100,6 +92,15 @@ MILL_CORNER_WORDS = setting(
 )
 
 
+def _guard_corner(manual: Book) -> Setting:
+    return setting(
+        "guard-corner",
+        "a corner where the path turns by less than that",
+        {"drop": "it is left out, with a warning", "error": "it is refused"},
+        manual.assumed("printed for a sibling"),
+    )
+
+
 ANGLE = setting(
     "angle",
     "what a number behind ,A means",
@@ -108,10 +109,18 @@ ANGLE = setting(
 )
 ARC_CHAMFER = arc_chamfer_setting(",C", CORNERS.assumed("not described"))
 SENSE = angle_sense_setting(DRAWING.assumed("not described"))
-LATHE_SETTINGS = (_number(DRAWING), SENSE, *_guards(DRAWING), REDUNDANT_ANGLE, LATHE_CORNER_WORDS, ANGLE)
-MILL_SETTINGS = (_number(CORNERS), *_guards(CORNERS), MILL_CORNER_WORDS, ARC_CHAMFER)
-HAAS_LATHE_SETTINGS = (_number(HAAS), angle_sense_setting(HAAS.assumed("not described")), *_guards(HAAS))
-HAAS_MILL_SETTINGS = (_number(HAAS), *_guards(HAAS), ARCS)
+LATHE_SETTINGS = (
+    *(_number(DRAWING), SENSE, _guard(DRAWING), _guard_corner(DRAWING)),
+    *(REDUNDANT_ANGLE, LATHE_CORNER_WORDS, ANGLE),
+)
+MILL_SETTINGS = (_number(CORNERS), _guard(CORNERS), _guard_corner(CORNERS), MILL_CORNER_WORDS, ARC_CHAMFER)
+HAAS_LATHE_SETTINGS = (
+    _number(HAAS),
+    angle_sense_setting(HAAS.assumed("not described")),
+    _guard(HAAS),
+    _guard_corner(HAAS),
+)
+HAAS_MILL_SETTINGS = (_number(HAAS), _guard(HAAS), _guard_corner(HAAS), ARCS)
 
 
 def _guarded(modes: Modes) -> bool:

@@ -1,7 +1,8 @@
 """Fanuc and Haas: which words may be combined, and what has no solution."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from enum import Enum
 
 from contoursolve.controls.chain.language import (
     ARC,
@@ -28,11 +29,11 @@ from contoursolve.controls.fanuc.language import (
     WRONG_PLANE,
 )
 from contoursolve.controls.fanuc.lexicon import CORNERS, DRAWING, HAAS
-from contoursolve.controls.geometry_rules import COMMA_MISSING, GEOMETRY_RULES, Otherwise, told
+from contoursolve.controls.geometry_rules import COMMA_MISSING, GEOMETRY_RULES
 from contoursolve.diagnostics.finding import Alarm
 from contoursolve.diagnostics.source import Book, Evidence, Source
 from contoursolve.reading import ReadIssue
-from contoursolve.reading.rules import Along, Parallel, Rule, all_of, at_least, row, some
+from contoursolve.reading.rules import Along, Parallel, Rule, all_of, at_least, some
 from contoursolve.solving import RefusalKind
 
 _ANY = (LINE, OVER_LINE, ARC)
@@ -61,11 +62,6 @@ class _Machine:
     """A program with a corner by a word with a sign, if it has one."""
 
     @property
-    def is_lathe(self) -> bool:
-        """Whether it takes a line by its angle, as lathes do."""
-        return bool(self.angle)
-
-    @property
     def cut(self) -> str:
         """A program with a corner."""
         return f"{self.start}G01 {self.line} ,C5.\n{self.turn}"
@@ -88,9 +84,6 @@ _HAAS_MILL = _Machine("haas", HAAS, "", False, _MILLING, "X30.", "X40. Y40.")
 
 _VERTEX = _TURNING + "G01 ,A180. ,R3.\nX60. Z-47. ,A120."
 _ARC_BEHIND = _MILLING + "G01 X40. ,C6.\nG02 X60. Y20. I20. J0"
-_MILLED_TWICE = tuple(_MILLING + f"G01 X30. ,C{size}.\nY30. ,C{size}.\nX60." for size in (10, 20))
-_TURNED_TWICE = tuple(_TURNING + f"G01 Z-20. ,R{size}.\nX40. ,C2.\nZ-50." for size in (8, 9))
-"""Two corners on one line that fit, and two that do not."""
 
 
 def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
@@ -98,75 +91,149 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
     angle = (machine.angle,) if machine.angle else ()
     cut, two = machine.cut, Alarm("053 TOO MANY ADDRESS COMMANDS", Evidence.ASSUMED)
     return (
-        row(f"{machine.prefix}-two-corners", "{words}: a block takes ,C or ,R, not both", "keep one of them",
-            machine.source("not described", Evidence.ASSUMED), all_of(*_CORNER), cut, (",C5.", ",C5. ,R5."), roles=_ANY,
-            alarm=two if machine.has_alarms else None),
-        row(f"{machine.prefix}-corner-without-next", "{words}: a corner needs an element behind it, and none follows",
-            "put the next cutting move right behind it, or delete it",
-            machine.source(_ALARM_LIST), some(*_CORNERS) & some(LAST) & ~some(RAPID),
-            (cut, cut.replace("\n" + machine.turn, "\nG04 P500\n" + machine.turn)),
-            ("\n" + machine.turn, "\nM8\n" + machine.turn), ("5.\n", "5.\nG00 "), roles=_ANY,
-            alarm=machine.alarm("051 or 052 (no move, or no cutting move, behind a corner)")),
-        row(f"{machine.prefix}-corner-alone",
-            "{words} stands in a block that moves nothing, so there is no line to cut",
-            "write it behind the end of the line before",
-            machine.source(_ALARM_LIST, Evidence.DERIVED),
-            some(*_CORNERS) & ~some(*STATED_POINT, *angle, "beside-X", "beside-Y", "beside-Z") & ~some(LAST), cut,
-            (" ,C5.", "\n,C5."), roles=(LINE,),
-            alarm=machine.alarm("055 MISSING MOVE VALUE IN CHF/CNR", Evidence.DERIVED)),
-        row(f"{machine.prefix}-corner-compensation", "{words}: a block that switches G40, G41 or G42 takes no corner",
-            "switch the compensation in a block before",
-            machine.source(_ALARM_LIST), some(*_CORNERS) & some(COMPENSATION_CHANGES),
-            (cut, cut.replace("G00", "G42 G00")), ("G01", "G42 G01"), roles=_ANY,
-            alarm=machine.alarm("039 CHF/CNR NOT ALLOWED IN NRC")),
-        row(f"{machine.prefix}-center-on-line", "{words}: a line has no centre and no radius",
-            "delete it; a rounding is ,R",
-            machine.source("the function", Evidence.DERIVED), some(*STATED_CENTER, "wrong-center", "R"), cut,
-            cut + (" J5." if machine.is_lathe else " R5."), roles=(LINE, OVER_LINE)),
-    )  # fmt: skip
+        Rule(
+            code=f"{machine.prefix}-two-corners",
+            message="{words}: a block takes ,C or ,R, not both",
+            help="keep one of them",
+            source=machine.source("not described", Evidence.ASSUMED),
+            alarm=two if machine.has_alarms else None,
+            roles=_ANY,
+            when=all_of(*_CORNER),
+            accepted=(cut,),
+            rejected=(cut.replace(",C5.", ",C5. ,R5."),),
+        ),
+        Rule(
+            code=f"{machine.prefix}-corner-without-next",
+            message="{words}: a corner needs an element behind it, and none follows",
+            help="put the next cutting move right behind it, or delete it",
+            source=machine.source(_ALARM_LIST),
+            alarm=machine.alarm("051 or 052 (no move, or no cutting move, behind a corner)"),
+            roles=_ANY,
+            when=some(*_CORNERS) & some(LAST) & ~some(RAPID),
+            accepted=(cut, cut.replace("\n" + machine.turn, "\nG04 P500\n" + machine.turn)),
+            rejected=(cut.replace("\n" + machine.turn, "\nM8\n" + machine.turn), cut.replace("5.\n", "5.\nG00 ")),
+        ),
+        Rule(
+            code=f"{machine.prefix}-corner-alone",
+            message="{words} stands in a block that moves nothing, so there is no line to cut",
+            help="write it behind the end of the line before",
+            source=machine.source(_ALARM_LIST, Evidence.DERIVED),
+            alarm=machine.alarm("055 MISSING MOVE VALUE IN CHF/CNR", Evidence.DERIVED),
+            roles=(LINE,),
+            when=some(*_CORNERS) & ~some(*STATED_POINT, *angle, "beside-X", "beside-Y", "beside-Z") & ~some(LAST),
+            accepted=(cut,),
+            rejected=(cut.replace(" ,C5.", "\n,C5."),),
+        ),
+        Rule(
+            code=f"{machine.prefix}-corner-compensation",
+            message="{words}: a block that switches G40, G41 or G42 takes no corner",
+            help="switch the compensation in a block before",
+            source=machine.source(_ALARM_LIST),
+            alarm=machine.alarm("039 CHF/CNR NOT ALLOWED IN NRC"),
+            roles=_ANY,
+            when=some(*_CORNERS) & some(COMPENSATION_CHANGES),
+            accepted=(cut, cut.replace("G00", "G42 G00")),
+            rejected=(cut.replace("G01", "G42 G01"),),
+        ),
+        Rule(
+            code=f"{machine.prefix}-center-on-line",
+            message="{words}: a line has no centre and no radius",
+            help="delete it; a rounding is ,R",
+            source=machine.source("the function", Evidence.DERIVED),
+            roles=(LINE, OVER_LINE),
+            when=some(*STATED_CENTER, "wrong-center", "R"),
+            accepted=(cut,),
+            rejected=(cut + (" J5." if machine.start == _TURNING else " R5."),),
+        ),
+    )
 
 
 def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[Rule, ...]:
     """The rows about corners between a line along one axis and one along the other: `amount` is a right word, `own` one
     of the wrong axis, `line` a line along the other axis."""
     good, angle = machine.square, (machine.angle,) if machine.angle else ()
-    lines = (LINE, OVER_LINE) if machine.is_lathe else _ANY
+    lines = (LINE, OVER_LINE) if machine.start == _TURNING else _ANY
     (first, second), is_taper = LEAVES, all_of(_FIRST, _SECOND) | some(*angle)
-    letters = "I, K or R" if machine.is_lathe else "I, J, K or C"
+    told = "I, K or R" if machine.start == _TURNING else "I, J, K or C"
     rows = (
-        ("two-amounts", "{words}: a block takes one corner word", "keep one of them", "053 TOO MANY ADDRESS COMMANDS",
-         at_least(2, *_CORNERS) & some(*_SIGNED), lines[:2], ((amount, f"{amount} {own}"),)),
-        ("corner-taper", f"{{words}}: a corner by {letters} stands behind a line along one axis", "write ,C or ,R",
-         "054 (taper with a chamfer or a rounding)", some(*_SIGNED) & is_taper, lines[:2],
-         ((amount, f"{line} {amount}"),)),
-        ("chamfer-letter", "{words}: such a chamfer is stated along the axis of the next line",
-         "write the letter of that axis: I for X, J for Y, K for Z", "",
-         ((some("corner-first") & some(*_FIRST)) | (some("corner-second") & some(*_SECOND)))
-         & ~is_taper & ~at_least(2, *_CORNERS), lines[:2], ((amount, own),)),
-        ("corner-not-square", f"behind a corner by {letters} the next line must run along the other axis alone",
-         "write ,C or ,R for another corner", _NOT_SQUARE,
-         (some(first) & (~some(*_FIRST) | some(*_SECOND, *angle)))
-         | (some(second) & (~some(*_SECOND) | some(*_FIRST, *angle))),
-         lines, ((line, machine.turn), (line, machine.line.replace("0.", "5.")))),
-    )  # fmt: skip
+        (
+            "two-amounts",
+            "{words}: a block takes one corner word",
+            "keep one of them",
+            "053 TOO MANY ADDRESS COMMANDS",
+            at_least(2, *_CORNERS) & some(*_SIGNED),
+            lines[:2],
+            (good.replace(amount, f"{amount} {own}"),),
+        ),
+        (
+            "corner-taper",
+            f"{{words}}: a corner by {told} stands behind a line along one axis",
+            "write ,C or ,R",
+            "054 (taper with a chamfer or a rounding)",
+            some(*_SIGNED) & is_taper,
+            lines[:2],
+            (good.replace(amount, f"{line} {amount}"),),
+        ),
+        (
+            "chamfer-letter",
+            "{words}: such a chamfer is stated along the axis of the next line",
+            "write the letter of that axis: I for X, J for Y, K for Z",
+            "",
+            ((some("corner-first") & some(*_FIRST)) | (some("corner-second") & some(*_SECOND)))
+            & ~is_taper
+            & ~at_least(2, *_CORNERS),
+            lines[:2],
+            (good.replace(amount, own),),
+        ),
+        (
+            "corner-not-square",
+            f"behind a corner by {told} the next line must run along the other axis alone",
+            "write ,C or ,R for another corner",
+            _NOT_SQUARE,
+            (some(first) & (~some(*_FIRST) | some(*_SECOND, *angle)))
+            | (some(second) & (~some(*_SECOND) | some(*_FIRST, *angle))),
+            lines,
+            (good.replace(line, machine.turn), good.replace(line, machine.line.replace("0.", "5."))),
+        ),
+    )
     own_rows = (
-        row(f"{machine.prefix}-{code}", message, advice,
-            machine.source(_ALARM_LIST) if alarm else machine.source("letters of each axis", Evidence.ASSUMED), when,
-            good, *rejected, roles=roles, alarm=machine.alarm(alarm) if alarm else None)
+        Rule(
+            code=f"{machine.prefix}-{code}",
+            message=message,
+            help=advice,
+            source=machine.source(_ALARM_LIST) if alarm else machine.source("letters of each axis", Evidence.ASSUMED),
+            alarm=machine.alarm(alarm) if alarm else None,
+            roles=roles,
+            when=when,
+            accepted=(good,),
+            rejected=rejected,
+        )
         for code, message, advice, alarm, when, roles, rejected in rows
-    )  # fmt: skip
-    sign = told(f"{machine.prefix}-corner-sign", RefusalKind.CORNER_SIGN, good, (amount, f"{amount[0]}-{amount[1:]}"),
-                source=machine.source(_ALARM_LIST, Evidence.DERIVED),
-                alarm=machine.alarm(_NOT_SQUARE, Evidence.DERIVED))  # fmt: skip
+    )
+    general = {rule.about: rule for rule in GEOMETRY_RULES}
+    sign = replace(
+        general[RefusalKind.CORNER_SIGN],
+        code=f"{machine.prefix}-corner-sign",
+        source=machine.source(_ALARM_LIST, Evidence.DERIVED),
+        alarm=machine.alarm(_NOT_SQUARE, Evidence.DERIVED),
+        accepted=(good,),
+        rejected=(good.replace(amount, f"{amount[0]}-{amount[1:]}"),),
+    )
     return (*own_rows, sign)
 
 
 _ALONG_ARC = (
-    row("fanuc-chamfer-along-arc", "{words}: a chamfer that is measured along an arc is not computed",
-        "set chamfer-on-arc=chord, or write the chamfer out",
-        _FANUC_MILL.source("not described", Evidence.ASSUMED), some(",C") & some(ALONG_ARC) & some(BESIDE_ARC),
-        _FANUC_MILL.cut, roles=_ANY),
-)  # fmt: skip
+    Rule(
+        code="fanuc-chamfer-along-arc",
+        message="{words}: a chamfer that is measured along an arc is not computed",
+        help="set chamfer-on-arc=chord, or write the chamfer out",
+        source=_FANUC_MILL.source("not described", Evidence.ASSUMED),
+        roles=_ANY,
+        when=some(",C") & some(ALONG_ARC) & some(BESIDE_ARC),
+        accepted=(_FANUC_MILL.cut,),
+        rejected=(),
+    ),
+)
 
 
 def _mill_rules(machine: _Machine) -> tuple[Rule, ...]:
@@ -174,16 +241,22 @@ def _mill_rules(machine: _Machine) -> tuple[Rule, ...]:
     cut = machine.cut
     return (
         *(_ALONG_ARC if machine.has_alarms else ()),
-        row(f"{machine.prefix}-corner-outside-plane", "{words} moves an axis outside the plane of the contour",
-            "move that axis in a block of its own, or select its plane by G17, G18 or G19",
-            machine.source("only in the selected plane"), some("beside-X", "beside-Y", "beside-Z"), cut,
-            ("X30.", "X30. Z-5."), roles=_ANY),
-    )  # fmt: skip
+        Rule(
+            code=f"{machine.prefix}-corner-outside-plane",
+            message="{words} moves an axis outside the plane of the contour",
+            help="move that axis in a block of its own, or select its plane by G17, G18 or G19",
+            source=machine.source("only in the selected plane"),
+            roles=_ANY,
+            when=some("beside-X", "beside-Y", "beside-Z"),
+            accepted=(cut,),
+            rejected=(cut.replace("X30.", "X30. Z-5."),),
+        ),
+    )
 
 
 def _shared_rules(machine: _Machine) -> Iterator[Rule]:
     """The rows that controls share."""
-    manual = machine.source("arcs", Evidence.ASSUMED)
+    is_lathe, manual = machine.start == _TURNING, machine.source("arcs", Evidence.ASSUMED)
     sources = {
         "corner-rapid": machine.source("the function", Evidence.DERIVED),
         "corner-negative": machine.source("not described", Evidence.ASSUMED),
@@ -205,7 +278,7 @@ def _shared_rules(machine: _Machine) -> Iterator[Rule]:
         equals="",
     )
     arcs = ("center-and-radius", "circle-undefined", "radius-without-end")
-    wanted = ("corner-rapid", "corner-negative", *(("angle-range",) if machine.is_lathe else ("plane-changes", *arcs)))
+    wanted = ("corner-rapid", "corner-negative", *(("angle-range",) if is_lathe else ("plane-changes", *arcs)))
     for rule in chain_rules(shared):
         code = rule.code.removeprefix(f"{machine.prefix}-")
         if code in wanted and code in arcs and rule.when is not None and not machine.has_alarms:
@@ -217,13 +290,19 @@ def _shared_rules(machine: _Machine) -> Iterator[Rule]:
 
 def _straight_only(machine: _Machine) -> Rule:
     """The row that forbids corners beside arcs."""
-    arc = "G02 X40. Z-30. R10." if machine.is_lathe else "G02 X40. Y10. R10."
-    return row(f"{machine.prefix}-arc", "{words}: this control makes corners between lines alone, and this is an arc",
-               "end the contour before the arc, or write its lines and corners out",
-               machine.source("block patterns; alarm list" if machine.is_lathe else "corners between two lines"),
-               some(*STATED_POINT, *STATED_CENTER, "R", *_CORNER) & some(STRAIGHT_ONLY),
-               machine.cut, (machine.turn, arc), roles=(ARC,),
-               alarm=machine.alarm("052 (the block behind a corner is not G01)"))  # fmt: skip
+    is_lathe = machine.start == _TURNING
+    arc = "G02 X40. Z-30. R10." if is_lathe else "G02 X40. Y10. R10."
+    return Rule(
+        code=f"{machine.prefix}-arc",
+        message="{words}: this control makes corners between lines alone, and this is an arc",
+        help="end the contour before the arc, or write its lines and corners out",
+        source=machine.source("block patterns; alarm list" if is_lathe else "corners between two lines"),
+        alarm=machine.alarm("052 (the block behind a corner is not G01)"),
+        roles=(ARC,),
+        when=some(*STATED_POINT, *STATED_CENTER, "R", *_CORNER) & some(STRAIGHT_ONLY),
+        accepted=(machine.cut,),
+        rejected=(machine.cut.replace(machine.turn, arc),),
+    )
 
 
 def _angle_rules(machine: _Machine) -> tuple[Rule, ...]:
@@ -231,104 +310,205 @@ def _angle_rules(machine: _Machine) -> tuple[Rule, ...]:
     angle = machine.angle
     good = f"{machine.start}G01 X40. {angle}150."
     return (
-        row(f"{machine.prefix}-plane", "the contour is not in the plane of Z and X", "write G18 before it",
-            machine.source(_ALARM_LIST), some(WRONG_PLANE), (good, "G18 " + good), "G17 " + good, roles=_ANY,
-            alarm=machine.alarm("212 ILLEGAL PLANE SELECT")),
-        row(f"{machine.prefix}-angle-rapid", "{words}: the control works out a line by its angle in G01, not in G00",
-            "write G01",
-            machine.source("block patterns", Evidence.DERIVED), some(angle) & some(RAPID), good, ("G01 ", ""),
-            roles=(LINE, OVER_LINE)),
-        row(f"{machine.prefix}-angle-along-z",
-            "{words}: the line runs along Z to within 1 deg, so X does not say where it ends", "give its end by Z",
-            machine.source("alarm list; the 1 deg is recalled", Evidence.ASSUMED),
-            some(*_SECOND) & ~some(*_FIRST) & Along((angle,), 0, GUARD) & ~some(UNGUARDED), good, ("150.", "180."),
-            ("150.", "179.5"), roles=(LINE,), alarm=machine.alarm("057 (the end of the block is not found)"),
-            is_about_geometry=True),
-        row(f"{machine.prefix}-angle-along-x",
-            "{words}: the line runs along X to within 1 deg, so Z does not say where it ends", "give its end by X",
-            machine.source("alarm list; the 1 deg is recalled", Evidence.ASSUMED),
-            some(*_FIRST) & ~some(*_SECOND) & Along((angle,), 90, GUARD) & ~some(UNGUARDED), good,
-            f"{machine.start}G01 Z-20. {angle}90.", roles=(LINE,),
-            alarm=machine.alarm("057 (the end of the block is not found)"), is_about_geometry=True),
-    )  # fmt: skip
+        Rule(
+            code=f"{machine.prefix}-plane",
+            message="the contour is not in the plane of Z and X",
+            help="write G18 before it",
+            source=machine.source(_ALARM_LIST),
+            alarm=machine.alarm("212 ILLEGAL PLANE SELECT"),
+            roles=_ANY,
+            when=some(WRONG_PLANE),
+            accepted=(good, "G18 " + good),
+            rejected=("G17 " + good,),
+        ),
+        Rule(
+            code=f"{machine.prefix}-angle-rapid",
+            message="{words}: the control works out a line by its angle in G01, not in G00",
+            help="write G01",
+            source=machine.source("block patterns", Evidence.DERIVED),
+            roles=(LINE, OVER_LINE),
+            when=some(angle) & some(RAPID),
+            accepted=(good,),
+            rejected=(good.replace("G01 ", ""),),
+        ),
+        Rule(
+            code=f"{machine.prefix}-angle-along-z",
+            message="{words}: the line runs along Z to within 1 deg, so X does not say where it ends",
+            help="give its end by Z",
+            source=machine.source("alarm list; the 1 deg is recalled", Evidence.ASSUMED),
+            alarm=machine.alarm("057 (the end of the block is not found)"),
+            roles=(LINE,),
+            is_about_geometry=True,
+            when=some(*_SECOND) & ~some(*_FIRST) & Along((angle,), 0, GUARD) & ~some(UNGUARDED),
+            accepted=(good,),
+            rejected=(good.replace("150.", "180."), good.replace("150.", "179.5")),
+        ),
+        Rule(
+            code=f"{machine.prefix}-angle-along-x",
+            message="{words}: the line runs along X to within 1 deg, so Z does not say where it ends",
+            help="give its end by X",
+            source=machine.source("alarm list; the 1 deg is recalled", Evidence.ASSUMED),
+            alarm=machine.alarm("057 (the end of the block is not found)"),
+            roles=(LINE,),
+            is_about_geometry=True,
+            when=some(*_FIRST) & ~some(*_SECOND) & Along((angle,), 90, GUARD) & ~some(UNGUARDED),
+            accepted=(good,),
+            rejected=(f"{machine.start}G01 Z-20. {angle}90.",),
+        ),
+    )
 
 
 _ANGLED = _TURNING + "G01 X40. ,A150."
 
 _VERTEX_RULES = (
-    row("fanuc-angle-supplementary",
-        "{words}: with angle=supplementary it stands for 180 deg minus itself, which is not computed",
-        "write 180 minus the number, and leave the setting at normal",
-        _FANUC_LATHE.source("another bit of parameter 3405, recalled", Evidence.ASSUMED),
-        some(",A") & some(SUPPLEMENTARY), _VERTEX, roles=(LINE, OVER_LINE)),
-    row("fanuc-closing-incomplete",
-        "the line before has an angle and no end, so this block needs X, Z and ,A: it lacks {lacking}", "add {lacking}",
-        _FANUC_LATHE.source("block patterns 2 to 8"), ~all_of("first", "second", ",A") & ~some(*_STEPS), _VERTEX,
-        *((word, "") for word in (" ,A120.", " Z-47.", "X60. ")), roles=(OVER_LINE,),
-        alarm=_FANUC_LATHE.alarm("056 (no end point, or no angle, behind a line by its angle alone)")),
-    row("fanuc-closing-increment", "{words}: behind a line by its angle alone, X and Z give the end, not U and W",
-        "give the end of this line by X and Z",
-        _FANUC_LATHE.source("block patterns 2 to 8: X and Z are absolute"), some(*_STEPS), _VERTEX, ("Z-47.", "W-47."),
-        ("X60. Z-47.", "U40. W-47."), roles=(OVER_LINE,),
-        alarm=_FANUC_LATHE.alarm("056 (no end point behind a line by its angle alone)")),
-    row("fanuc-end-missing", "{words} alone does not say where the line ends",
-        "add X or Z; or let a line with X, Z and ,A follow, which it meets",
-        _FANUC_LATHE.source("block patterns 1 and 2"), some(",A") & ~some(*STATED_POINT) & ~some(FOLLOWED),
-        (_VERTEX, _ANGLED), _TURNING + "G01 ,A150.\nM8", _TURNING + "G01 ,A150.\nG02 X40. Z-30. R10.", roles=(LINE,),
-        alarm=_FANUC_LATHE.alarm("056 (no end point behind a line by its angle alone)")),
-    row("fanuc-angles-parallel",
-        "{words}: the two lines are parallel to within 1 deg, so the control computes no vertex",
-        "correct one of the angles",
-        _FANUC_LATHE.source("alarm list; the 1 deg is recalled", Evidence.ASSUMED),
-        Parallel(("1:,A", "2:,A"), GUARD) & ~some("1:" + UNGUARDED), _VERTEX, ("120.", "180."), ("120.", "0.5"),
-        roles=(LINE_LINE,), alarm=_FANUC_LATHE.alarm("058 (the end of the block is not found)"),
-        is_about_geometry=True),
-    row("fanuc-angle-redundant", "{words}: the line has both its end and an angle, and the line before has an end",
-        "delete the angle",
-        _FANUC_LATHE.source("not described", Evidence.ASSUMED), all_of(_FIRST, _SECOND, ",A") & some(STRICT_ANGLE),
-        _ANGLED, roles=(LINE,)),
-)  # fmt: skip
-
-_NO_VERTEX = row(
-    "haas-end-missing",
-    "{words} alone does not say where the line ends; this control meets no two lines by their angles", "add X or Z",
-    _HAAS_LATHE.source("not described"), some("A") & ~some(*STATED_POINT), _TURNING + "G01 X40. A150.",
-    _TURNING + "G01 A150.\nX60. Z-47. A120.", _TURNING + "G01 A150.\nM8", roles=(LINE,),
-)  # fmt: skip
-
-
-def _geometry(machine: _Machine) -> tuple[Rule, ...]:
-    """The rows about geometry with a control's alarm and with examples of its own."""
-    prefix, cut, turn = machine.prefix, machine.cut, machine.turn
-    large: Otherwise = {
-        "source": machine.source(_ALARM_LIST), "alarm": machine.alarm("055 MISSING MOVE VALUE IN CHF/CNR"),
-    }  # fmt: skip
-    meant = "is a rounding between two axes" if machine.is_lathe else "belongs to an arc"
-    axes = "A and C are axes" if machine.angle.startswith(",") else "C is an axis"
-    angled = f"{_TURNING}G01 X40. {machine.angle}150."
-    opposite = told(f"{prefix}-angle-opposite", ReadIssue.ANGLE_OPPOSITE, angled, ("150.", "-30."))
-    return (
-        told(f"{prefix}-corner-dropped", ReadIssue.CORNER_DROPPED, cut,
-             (turn, "Z-40. X20.2" if machine.angle else "X60. Y0.3"),
-             source=machine.source("printed for a sibling", Evidence.ASSUMED)),
-        told(f"{prefix}-corner-straight", RefusalKind.CORNER_STRAIGHT, cut,
-             message="{words}: at {subject} the path goes on, or turns by less than 1 deg, so it is no corner",
-             source=machine.source("not described", Evidence.ASSUMED)),
-        told(f"{prefix}-comma-missing", ReadIssue.COMMA_MISSING, cut, (",C", "C"),
-             help=f"{COMMA_MISSING.help}; without a comma, {axes} and R {meant}",
-             source=machine.source("the function")),
-        told(f"{prefix}-corner-too-large", RefusalKind.CORNER_TOO_LARGE, cut, (",C5.", ",C31."), **large),
-        told(f"{prefix}-corner-reverses", RefusalKind.CORNER_REVERSES, cut, (turn, machine.line.replace("0.", "."))),
-        told(f"{prefix}-corners-overlap", RefusalKind.CORNERS_OVERLAP,
-             *(_TURNED_TWICE if machine.is_lathe else _MILLED_TWICE), **large),
-        *((opposite,) if machine.is_lathe else ()),
-    )  # fmt: skip
-
-
-_ARC_GEOMETRY = (
-    told("fanuc-radius-too-small", RefusalKind.RADIUS_TOO_SMALL, _ARC_BEHIND, ("I20. J0", "R10.")),
-    told("fanuc-radius-difference", RefusalKind.RADIUS_DIFFERENCE, _ARC_BEHIND, ("I20.", "I18.")),
+    Rule(
+        code="fanuc-angle-supplementary",
+        message="{words}: with angle=supplementary it stands for 180 deg minus itself, which is not computed",
+        help="write 180 minus the number, and leave the setting at normal",
+        source=_FANUC_LATHE.source("another bit of parameter 3405, recalled", Evidence.ASSUMED),
+        roles=(LINE, OVER_LINE),
+        when=some(",A") & some(SUPPLEMENTARY),
+        accepted=(_VERTEX,),
+        rejected=(),
+    ),
+    Rule(
+        code="fanuc-closing-incomplete",
+        message="the line before has an angle and no end, so this block needs X, Z and ,A: it lacks {lacking}",
+        help="add {lacking}",
+        source=_FANUC_LATHE.source("block patterns 2 to 8"),
+        alarm=_FANUC_LATHE.alarm("056 (no end point, or no angle, behind a line by its angle alone)"),
+        roles=(OVER_LINE,),
+        when=~all_of("first", "second", ",A") & ~some(*_STEPS),
+        accepted=(_VERTEX,),
+        rejected=tuple(_VERTEX.replace(word, "") for word in (" ,A120.", " Z-47.", "X60. ")),
+    ),
+    Rule(
+        code="fanuc-closing-increment",
+        message="{words}: behind a line by its angle alone, X and Z give the end, not U and W",
+        help="give the end of this line by X and Z",
+        source=_FANUC_LATHE.source("block patterns 2 to 8: X and Z are absolute"),
+        alarm=_FANUC_LATHE.alarm("056 (no end point behind a line by its angle alone)"),
+        roles=(OVER_LINE,),
+        when=some(*_STEPS),
+        accepted=(_VERTEX,),
+        rejected=(_VERTEX.replace("Z-47.", "W-47."), _VERTEX.replace("X60. Z-47.", "U40. W-47.")),
+    ),
+    Rule(
+        code="fanuc-end-missing",
+        message="{words} alone does not say where the line ends",
+        help="add X or Z; or let a line with X, Z and ,A follow, which it meets",
+        source=_FANUC_LATHE.source("block patterns 1 and 2"),
+        alarm=_FANUC_LATHE.alarm("056 (no end point behind a line by its angle alone)"),
+        roles=(LINE,),
+        when=some(",A") & ~some(*STATED_POINT) & ~some(FOLLOWED),
+        accepted=(_VERTEX, _ANGLED),
+        rejected=(_TURNING + "G01 ,A150.\nM8", _TURNING + "G01 ,A150.\nG02 X40. Z-30. R10."),
+    ),
+    Rule(
+        code="fanuc-angles-parallel",
+        message="{words}: the two lines are parallel to within 1 deg, so the control computes no vertex",
+        help="correct one of the angles",
+        source=_FANUC_LATHE.source("alarm list; the 1 deg is recalled", Evidence.ASSUMED),
+        alarm=_FANUC_LATHE.alarm("058 (the end of the block is not found)"),
+        roles=(LINE_LINE,),
+        is_about_geometry=True,
+        when=Parallel(("1:,A", "2:,A"), GUARD) & ~some("1:" + UNGUARDED),
+        accepted=(_VERTEX,),
+        rejected=(_VERTEX.replace("120.", "180."), _VERTEX.replace("120.", "0.5")),
+    ),
+    Rule(
+        code="fanuc-angle-redundant",
+        message="{words}: the line has both its end and an angle, and the line before has an end",
+        help="delete the angle",
+        source=_FANUC_LATHE.source("not described", Evidence.ASSUMED),
+        roles=(LINE,),
+        when=all_of(_FIRST, _SECOND, ",A") & some(STRICT_ANGLE),
+        accepted=(_ANGLED,),
+        rejected=(),
+    ),
 )
+
+_NO_VERTEX = Rule(
+    code="haas-end-missing",
+    message="{words} alone does not say where the line ends; this control meets no two lines by their angles",
+    help="add X or Z",
+    source=_HAAS_LATHE.source("not described"),
+    roles=(LINE,),
+    when=some("A") & ~some(*STATED_POINT),
+    accepted=(_TURNING + "G01 X40. A150.",),
+    rejected=(_TURNING + "G01 A150.\nX60. Z-47. A120.", _TURNING + "G01 A150.\nM8"),
+)
+
+
+def _geometry(machine: _Machine, examples: Mapping[Enum, tuple[str, str]]) -> tuple[Rule, ...]:
+    """The rows about geometry with a control's alarm and with examples of its own."""
+    rows = {rule.about: rule for rule in GEOMETRY_RULES}
+    too_large = machine.alarm("055 MISSING MOVE VALUE IN CHF/CNR")
+    dropped = replace(
+        rows[ReadIssue.CORNER_DROPPED],
+        code=f"{machine.prefix}-corner-dropped",
+        source=machine.source("printed for a sibling", Evidence.ASSUMED),
+        accepted=(machine.cut,),
+        rejected=(machine.cut.replace(machine.turn, "Z-40. X20.2" if machine.angle else "X60. Y0.3"),),
+    )
+    straight = replace(
+        rows[RefusalKind.CORNER_STRAIGHT],
+        code=f"{machine.prefix}-corner-straight",
+        message="{words}: at {subject} the path goes on, or turns by less than 1 deg, so it is no corner",
+        source=machine.source("not described", Evidence.ASSUMED),
+        accepted=(machine.cut,),
+        rejected=(),
+    )
+    meant = "is a rounding between two axes" if machine.start == _TURNING else "belongs to an arc"
+    axes = "A and C are axes" if machine.angle.startswith(",") else "C is an axis"
+    comma = replace(
+        COMMA_MISSING,
+        code=f"{machine.prefix}-comma-missing",
+        help=f"{COMMA_MISSING.help}; without a comma, {axes} and R {meant}",
+        source=machine.source("the function"),
+        accepted=(machine.cut,),
+        rejected=(machine.cut.replace(",C", "C"),),
+    )
+    large = (RefusalKind.CORNER_TOO_LARGE, RefusalKind.CORNERS_OVERLAP)
+    told: dict[Enum, tuple[str, str]] = {
+        RefusalKind.CORNER_TOO_LARGE: (machine.cut, machine.cut.replace(",C5.", ",C31.")),
+        RefusalKind.CORNER_REVERSES: (machine.cut, machine.cut.replace(machine.turn, machine.line.replace("0.", "."))),
+        **examples,
+    }
+    return (
+        dropped,
+        straight,
+        comma,
+        *(
+            replace(
+                rows[about],
+                code=f"{machine.prefix}-{rows[about].code}",
+                source=machine.source(_ALARM_LIST) if about in large else rows[about].source,
+                alarm=too_large if about in large else None,
+                accepted=(accepted,),
+                rejected=(rejected,),
+            )
+            for about, (accepted, rejected) in told.items()
+        ),
+    )
+
+
+_MILLED_TWICE = _MILLING + "G01 X30. ,C20.\nY30. ,C20.\nX60."
+_TURNED_TWICE = _TURNING + "G01 Z-20. ,R9.\nX40. ,C2.\nZ-50."
+_MILL_EXAMPLES: dict[Enum, tuple[str, str]] = {
+    RefusalKind.CORNERS_OVERLAP: (_MILLED_TWICE.replace("20.", "10."), _MILLED_TWICE),
+    RefusalKind.RADIUS_TOO_SMALL: (_ARC_BEHIND, _ARC_BEHIND.replace("I20. J0", "R10.")),
+    RefusalKind.RADIUS_DIFFERENCE: (_ARC_BEHIND, _ARC_BEHIND.replace("I20.", "I18.")),
+}
+
+
+def _lathe_examples(machine: _Machine) -> dict[Enum, tuple[str, str]]:
+    angled = f"{_TURNING}G01 X40. {machine.angle}150."
+    return {
+        RefusalKind.CORNERS_OVERLAP: (_TURNED_TWICE.replace("R9.", "R8."), _TURNED_TWICE),
+        ReadIssue.ANGLE_OPPOSITE: (angled, angled.replace("150.", "-30.")),
+    }
+
 
 FANUC_LATHE_RULES = (
     *_corner_rules(_FANUC_LATHE),
@@ -337,7 +517,7 @@ FANUC_LATHE_RULES = (
     *_angle_rules(_FANUC_LATHE),
     *_shared_rules(_FANUC_LATHE),
     *_VERTEX_RULES,
-    *_geometry(_FANUC_LATHE),
+    *_geometry(_FANUC_LATHE, _lathe_examples(_FANUC_LATHE)),
     *GEOMETRY_RULES,
 )
 FANUC_MILL_RULES = (
@@ -345,8 +525,7 @@ FANUC_MILL_RULES = (
     *_square_rules(_FANUC_MILL, "J5.", "I5.", "Y40."),
     *_mill_rules(_FANUC_MILL),
     *_shared_rules(_FANUC_MILL),
-    *_geometry(_FANUC_MILL),
-    *_ARC_GEOMETRY,
+    *_geometry(_FANUC_MILL, _MILL_EXAMPLES),
     *GEOMETRY_RULES,
 )
 HAAS_LATHE_RULES = (
@@ -356,7 +535,7 @@ HAAS_LATHE_RULES = (
     *_angle_rules(_HAAS_LATHE),
     *_shared_rules(_HAAS_LATHE),
     _NO_VERTEX,
-    *_geometry(_HAAS_LATHE),
+    *_geometry(_HAAS_LATHE, _lathe_examples(_HAAS_LATHE)),
     *GEOMETRY_RULES,
 )
 HAAS_MILL_RULES = (
@@ -364,6 +543,6 @@ HAAS_MILL_RULES = (
     *_mill_rules(_HAAS_MILL),
     *_shared_rules(_HAAS_MILL),
     _straight_only(_HAAS_MILL),
-    *_geometry(_HAAS_MILL),
+    *_geometry(_HAAS_MILL, {RefusalKind.CORNERS_OVERLAP: _MILL_EXAMPLES[RefusalKind.CORNERS_OVERLAP]}),
     *GEOMETRY_RULES,
 )

@@ -1,9 +1,10 @@
 """Free contour programming: what a block must state together, and what has no solution."""
 
+from dataclasses import replace
 from decimal import Decimal
 
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.controls.heidenhain.elements import ARC, LINE, PLAIN, POLAR, POLE, TANGENCY
 from contoursolve.controls.heidenhain.find import (
     CLOSES_NOTHING,
@@ -20,10 +21,10 @@ from contoursolve.controls.heidenhain.find import (
 )
 from contoursolve.controls.heidenhain.lexicon import BOOK, REFERRED
 from contoursolve.diagnostics.finding import Alarm, Severity
-from contoursolve.diagnostics.source import Evidence
+from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.gcode import FaultKind
 from contoursolve.reading import ReadIssue
-from contoursolve.reading.rules import Condition, Value, all_of, row, some
+from contoursolve.reading.rules import Condition, Rule, Value, all_of, some
 from contoursolve.solving import NoteKind, RefusalKind
 
 _INCOMPLETE = Alarm("402-0008 (incomplete input in the FK block)", Evidence.PRINTED)
@@ -48,6 +49,26 @@ _CHOSEN = START + "2 FL LEN40 P1X+30 P1Y+10\n3 FSELECT 1\n4 FL X+80 Y+20"
 _TOOL = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S100\n2 L X+0 Y+0\n" + "3 FL AN+60\n4 FL X+80 Y+20 AN-30"
 
 
+def _row(  # noqa: PLR0913 - a row has these columns
+    code: str,
+    message: str,
+    help_: str,
+    source: Source,
+    when: Condition,
+    roles: tuple[str, ...],
+    good: str,
+    *bad: tuple[str, str],
+    alarm: Alarm | None = None,
+    severity: Severity = Severity.ERROR,
+) -> Rule:
+    """A row; what is wrong are two texts, of which the second stands for the first in the right example."""
+    rejected = tuple(good.replace(*each) for each in bad)
+    return Rule(
+        f"heidenhain-{code}", message, help_, source, (good,), rejected,
+        roles=roles, when=when, alarm=alarm, severity=severity,
+    )  # fmt: skip
+
+
 _REFERRING = tuple(f"R{name}" for name in REFERRED)
 _LEAST = Decimal("0.001")
 
@@ -59,93 +80,116 @@ def _half(*words: str) -> Condition:
 
 _ROWS = (
     *(
-        row(f"heidenhain-point-{number}", "{words}: of this point one coordinate is missing", "write both coordinates",
-            _ERRORS, _half(f"P{number}X", f"P{number}Y"), good, bad, roles=_FK, alarm=_INCOMPLETE)
+        _row(f"point-{number}", "{words}: of this point one coordinate is missing", "write both coordinates", _ERRORS,
+             _half(f"P{number}X", f"P{number}Y"), _FK, good, bad, alarm=_INCOMPLETE)
         for number, good, bad in (
             (1, _POINT, (" P1Y+20", "")),
             (2, _POINT.replace("P1", "P2"), (" P2Y+20", "")),
             (3, _ARC.replace("R20 CCX+0 CCY+20", "P1X+10 P1Y+2.679 P3X+17.321 P3Y+10"), (" P3Y+10", "")),
         )
     ),
-    row("heidenhain-beside", "{words}: a point beside the element takes PDX, PDY and D", "write all three",
-        _ERRORS, _half("PDX", "PDY", "D"), _BESIDE, (" D0", ""), (" PDY+20", ""), roles=_FK, alarm=_INCOMPLETE),
-    row("heidenhain-sense", "the arc has no DR", "add DR+ (counter-clockwise) or DR-",
-        _ERRORS, some(NO_SENSE), _ARC, (" DR+", ""), roles=(ARC, PLAIN), alarm=_INCOMPLETE),
-    row("heidenhain-distance-alone", "{words}: a distance needs the block of the line to which it is parallel",
-        "add PAR and the number of that block",
-        _ERRORS, some("DP") & ~some("PAR"), _PARALLEL, (" PAR 2", ""), roles=(LINE,), alarm=_INCOMPLETE),
-    row("heidenhain-pole-half", "{words}: the pole has one coordinate", "write X and Y behind FPOL",
-        _ERRORS, _half("X", "Y"), _POLE, ("10 Y+0", "10"), roles=(POLE,), alarm=_INCOMPLETE),
-    row("heidenhain-block-illegal",
-        "the chain is still open where a conventional move follows; FL, FC, RND, CHF, APPR or DEP may",
-        "complete the chain before it, or write the move as FL or FC",
-        _ERRORS, some(CUT), _LINES, ("3 FL X+80 Y+20 AN-30", "3 L X+80 Y+20"), roles=_ANY, alarm=_ILLEGAL),
-    row("heidenhain-block-missing",
-        "{words}: no block of this number is before it in the chain, or it is none that fits",
-        "write the number of a block of this chain that stands before; PAR and RAN name a line",
-        BOOK.printed("data relative to a block"), some(NO_BLOCK) & some("PAR", *_REFERRING), _NUMBERED,
-        ("RX 2", "RX 7"), roles=_FK),
-    row("heidenhain-pole-missing", "{words}: polar data need a pole, and no FPOL is in force; CC does not serve here",
-        "write FPOL X Y before the chain or in it",
-        BOOK.printed("pole of FK"), some(NO_POLE) & some(*sorted(POLAR)), _POLAR,
-        ("2 FPOL X+10 Y+0\n", "2 CC X+10 Y+0\n"), roles=_FK),
-    row("heidenhain-tangent-first", "it begins in the direction of the element before, which is not known here",
-        "write FL or FC with AN, or let the move before it begin at a known point",
-        BOOK.derived("tangential connection"), some(NO_BEFORE) & some("IAN", TANGENCY), _TANGENT,
-        ("1 L X+0 Y+0\n2 FL X+30 Y+0\n", "1 CC X+0\n2 APPR LCT X+30 Y+0 R5\n"), roles=(LINE, ARC, PLAIN)),
-    row("heidenhain-closes-nothing", "CLSD- ends a contour that CLSD+ in an earlier block begins, and there is none",
-        "write CLSD+ into the first block of the contour",
-        BOOK.printed("closed contour"), some(CLOSES_NOTHING) & some("CLSD-"), _CLOSED, (" CLSD+", ""), roles=_FK),
-    row("heidenhain-size", "{words}: a radius, and a distance from the pole, is larger than 0",
-        "write a positive number",
-        BOOK.assumed("polar coordinates"), Value(("PR", "CCPR", "R", "LEN"), least=_LEAST), _POLAR, ("PR+20", "PR-20"),
-        roles=_FK),
-    row("heidenhain-turns-back", "the arc goes back on the circle of the arc before it: DR says the other way",
-        "write the same DR in both, or FC",
-        BOOK.derived("tangential connection"), some(TURNS_BACK), _ROUND, ("FCT DR-", "FCT DR+"), roles=(ARC,)),
-    row("heidenhain-continued", "~ continues the block in the next line; contoursolve reads a free block on one line",
-        "write the block on one line",
-        BOOK.assumed("~"), some(CONTINUED), _LINES, ("AN-30", "AN-30 ~"), roles=_ANY),
-    row("heidenhain-never-closed", "{words} begins a closed contour, and no CLSD- ends it",
-        "write CLSD- into its last block, or delete CLSD+",
-        BOOK.printed("closed contour"), some(NEVER_CLOSED) & some("CLSD+"), _CLOSED, (" CLSD-", " X+0 Y+0"), roles=_FK,
-        severity=Severity.WARNING),
-    row("heidenhain-tangent-arc", "to which side CT turns is not known before the blocks before it are solved",
-        "write FCT with DR+ or DR-",
-        BOOK.assumed("CT behind a free contour"), some(NO_TURN), _TURNING, ("FCT DR+ R10 CCA+0", "CT X+40 Y+10"),
-        roles=(PLAIN,)),
-    row("heidenhain-tool-axis", "free contours are solved in X and Y, and the tool axis is another one",
-        "check TOOL CALL: contoursolve reads free contours with the tool axis Z",
-        BOOK.assumed("planes"), some(TOOL), _TOOL, ("1 Z S", "1 X S"), roles=_FK),
+    _row("beside", "{words}: a point beside the element takes PDX, PDY and D", "write all three", _ERRORS,
+         _half("PDX", "PDY", "D"), _FK, _BESIDE, (" D0", ""), (" PDY+20", ""), alarm=_INCOMPLETE),
+    _row("sense", "the arc has no DR", "add DR+ (counter-clockwise) or DR-", _ERRORS, some(NO_SENSE), (ARC, PLAIN),
+         _ARC, (" DR+", ""), alarm=_INCOMPLETE),
+    _row("distance-alone", "{words}: a distance needs the block of the line to which it is parallel",
+         "add PAR and the number of that block", _ERRORS, some("DP") & ~some("PAR"), (LINE,), _PARALLEL,
+         (" PAR 2", ""), alarm=_INCOMPLETE),
+    _row("pole-half", "{words}: the pole has one coordinate", "write X and Y behind FPOL", _ERRORS,
+         _half("X", "Y"), (POLE,), _POLE, ("10 Y+0", "10"), alarm=_INCOMPLETE),
+    _row("block-illegal",
+         "the chain is still open where a conventional move follows; FL, FC, RND, CHF, APPR or DEP may",
+         "complete the chain before it, or write the move as FL or FC", _ERRORS, some(CUT), _ANY, _LINES,
+         ("3 FL X+80 Y+20 AN-30", "3 L X+80 Y+20"), alarm=_ILLEGAL),
+    _row("block-missing", "{words}: no block of this number is before it in the chain, or it is none that fits",
+         "write the number of a block of this chain that stands before; PAR and RAN name a line",
+         BOOK.printed("data relative to a block"), some(NO_BLOCK) & some("PAR", *_REFERRING), _FK, _NUMBERED,
+         ("RX 2", "RX 7")),
+    _row("pole-missing", "{words}: polar data need a pole, and no FPOL is in force; CC does not serve here",
+         "write FPOL X Y before the chain or in it", BOOK.printed("pole of FK"),
+         some(NO_POLE) & some(*sorted(POLAR)), _FK, _POLAR,
+         ("2 FPOL X+10 Y+0\n", "2 CC X+10 Y+0\n")),
+    _row("tangent-first", "it begins in the direction of the element before, which is not known here",
+         "write FL or FC with AN, or let the move before it begin at a known point",
+         BOOK.derived("tangential connection"), some(NO_BEFORE) & some("IAN", TANGENCY), (LINE, ARC, PLAIN), _TANGENT,
+         ("1 L X+0 Y+0\n2 FL X+30 Y+0\n", "1 CC X+0\n2 APPR LCT X+30 Y+0 R5\n")),
+    _row("closes-nothing", "CLSD- ends a contour that CLSD+ in an earlier block begins, and there is none",
+         "write CLSD+ into the first block of the contour", BOOK.printed("closed contour"),
+         some(CLOSES_NOTHING) & some("CLSD-"), _FK,
+         _CLOSED, (" CLSD+", "")),
+    _row("size", "{words}: a radius, and a distance from the pole, is larger than 0", "write a positive number",
+         BOOK.assumed("polar coordinates"), Value(("PR", "CCPR", "R", "LEN"), least=_LEAST), _FK, _POLAR,
+         ("PR+20", "PR-20")),
+    _row("turns-back", "the arc goes back on the circle of the arc before it: DR says the other way",
+         "write the same DR in both, or FC", BOOK.derived("tangential connection"), some(TURNS_BACK), (ARC,), _ROUND,
+         ("FCT DR-", "FCT DR+")),
+    _row("continued", "~ continues the block in the next line; contoursolve reads a free block on one line",
+         "write the block on one line", BOOK.assumed("~"), some(CONTINUED), _ANY, _LINES, ("AN-30", "AN-30 ~")),
+    _row("never-closed", "{words} begins a closed contour, and no CLSD- ends it",
+         "write CLSD- into its last block, or delete CLSD+", BOOK.printed("closed contour"),
+         some(NEVER_CLOSED) & some("CLSD+"), _FK, _CLOSED, (" CLSD-", " X+0 Y+0"), severity=Severity.WARNING),
+    _row("tangent-arc", "to which side CT turns is not known before the blocks before it are solved",
+         "write FCT with DR+ or DR-", BOOK.assumed("CT behind a free contour"), some(NO_TURN), (PLAIN,), _TURNING,
+         ("FCT DR+ R10 CCA+0", "CT X+40 Y+10")),
+    _row("tool-axis", "free contours are solved in X and Y, and the tool axis is another one",
+         "check TOOL CALL: contoursolve reads free contours with the tool axis Z", BOOK.assumed("planes"), some(TOOL),
+         _FK, _TOOL, ("1 Z S", "1 X S")),
 )  # fmt: skip
 
 
 _OWN = (
-    row("heidenhain-no-word", "{words} is no function and no word with a number",
-        "check the spelling: moves are L, C, CR, CT, FL, FLT, FC and FCT, with a blank behind them",
-        BOOK.printed("path functions"), FaultKind.NUMBER_MISSING, _LINES, ("3 FL", "3 FTL")),
-    row("heidenhain-word-unknown", "{words} has no meaning in this block", "{advice}",
-        BOOK.printed("free contours FK"), ReadIssue.UNKNOWN_ADDRESS, _LINES, ("AN+60", "AN+60 R5")),
-    row("heidenhain-selection", "{words}: {subject} has {limit_count} alone", "write {numbers}",
-        BOOK.assumed("how FSELECT counts"), RefusalKind.PICK_NONE, _CHOSEN, ("SELECT 1", "SELECT 3")),
-    row("heidenhain-selection-open",
+    Rule(
+        "heidenhain-selection", "{words}: {subject} has {limit_count} alone", "write {numbers}",
+        BOOK.assumed("how FSELECT counts"), (_CHOSEN,), (_CHOSEN.replace("SELECT 1", "SELECT 3"),),
+        about=RefusalKind.PICK_NONE,
+    ),
+    Rule(
+        "heidenhain-selection-open",
         "{words} cannot be counted here: the other blocks leave one solution at {subject} alone",
-        "nothing is wrong: the solution that is taken fits all blocks",
-        BOOK.assumed("how FSELECT counts"), NoteKind.PICK_OPEN, _CHOSEN,
-        _CHOSEN.replace("LEN40", "X+30 Y+10").replace("SELECT 1", "SELECT 2"), severity=Severity.INFO),
-    row("heidenhain-first-taken", "{subject} has {limit_count}: the first one is taken, as the setting ambiguous says",
-        "write FSELECT behind its block",
-        BOOK.assumed("an open contour cannot be run"), NoteKind.PICK_FIRST, _CHOSEN, severity=Severity.WARNING),
-    # What is said twice and agrees is accepted, with a note.
-    told("heidenhain-redundant", NoteKind.WORDS_AGREE, _LINES, ("AN+60", "AN+60 LEN57.321"), severity=Severity.INFO,
-         help="nothing has to be changed: the control accepts data that agree"),
-    # An arc often ends at a quadrant, where its end only just fits.
-    told("heidenhain-touches", NoteKind.TOUCHES, _LINES,
-         START + "2 FL X+40 Y+0\n3 FC DR- R20 CCX+60 CCY+0 X+80\n4 FLT Y-20", severity=Severity.INFO),
-    row("heidenhain-parameter", "{words}: the value of the parameter is not known here",
-        'set it by a formula of numbers before this block, or state it: --let "Q1=5"',
-        BOOK.assumed("Q parameters"), ReadIssue.VARIABLE,
-        START + "2 Q1 = ( 40 + 20 ) / 2\n3 FL X+Q1 Y+5\n4 END PGM A MM",
-        START + "2 Q1 = Q2 + 5\n3 FL X+Q1 Y+5\n4 END PGM A MM"),
+        "nothing is wrong: the solution that is taken fits all blocks", BOOK.assumed("how FSELECT counts"),
+        (_CHOSEN,), (_CHOSEN.replace("LEN40", "X+30 Y+10").replace("SELECT 1", "SELECT 2"),),
+        about=NoteKind.PICK_OPEN, severity=Severity.INFO,
+    ),
+    Rule(
+        "heidenhain-first-taken", "{subject} has {limit_count}: the first one is taken, as the setting ambiguous says",
+        "write FSELECT behind its block", BOOK.assumed("an open contour cannot be run"), (_CHOSEN,), (),
+        about=NoteKind.PICK_FIRST, severity=Severity.WARNING,
+    ),
 )  # fmt: skip
-RULES = (*_OWN, *COMMON_RULES, *_ROWS, *GEOMETRY_RULES)
+
+
+def _touching() -> Rule:
+    """An arc often ends at a quadrant, where its end only just fits."""
+    row = next(rule for rule in GEOMETRY_RULES if rule.about is NoteKind.TOUCHES)
+    return replace(
+        row, code="heidenhain-touches", severity=Severity.INFO, accepted=(_LINES,),
+        rejected=(START + "2 FL X+40 Y+0\n3 FC DR- R20 CCX+60 CCY+0 X+80\n4 FLT Y-20",),
+    )  # fmt: skip
+
+
+def _agreeing() -> Rule:
+    """What is said twice and agrees is accepted, with a note."""
+    row = next(rule for rule in COMMON_RULES if rule.about is NoteKind.WORDS_AGREE)
+    return replace(
+        row, code="heidenhain-redundant", severity=Severity.INFO, accepted=(_LINES,),
+        help="nothing has to be changed: the control accepts data that agree",
+        rejected=(_LINES.replace("AN+60", "AN+60 LEN57.321"),),
+    )  # fmt: skip
+
+
+_PARAMETER = Rule(
+    "heidenhain-parameter", "{words}: the value of the parameter is not known here",
+    'set it by a formula of numbers before this block, or state it: --let "Q1=5"',
+    BOOK.assumed("Q parameters"), (START + "2 Q1 = ( 40 + 20 ) / 2\n3 FL X+Q1 Y+5\n4 END PGM A MM",),
+    (START + "2 Q1 = Q2 + 5\n3 FL X+Q1 Y+5\n4 END PGM A MM",), about=ReadIssue.VARIABLE,
+)  # fmt: skip
+_UNKNOWN = Rule(
+    "heidenhain-word-unknown", "{words} has no meaning in this block", "{advice}", BOOK.printed("free contours FK"),
+    (_LINES,), (_LINES.replace("AN+60", "AN+60 R5"),), about=ReadIssue.UNKNOWN_ADDRESS,
+)  # fmt: skip
+_SPELLING = Rule(
+    "heidenhain-no-word", "{words} is no function and no word with a number",
+    "check the spelling: moves are L, C, CR, CT, FL, FLT, FC and FCT, with a blank behind them",
+    BOOK.printed("path functions"), (_LINES,), (_LINES.replace("3 FL", "3 FTL"),), about=FaultKind.NUMBER_MISSING,
+)  # fmt: skip
+RULES = (_SPELLING, _UNKNOWN, *_OWN, _agreeing(), _touching(), _PARAMETER, *COMMON_RULES, *_ROWS, *GEOMETRY_RULES)

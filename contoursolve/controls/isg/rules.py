@@ -46,35 +46,33 @@ _CORNERS = (("#CHR",), ("#CHF",), ("#RND",))
 
 _OWN = (
     _row("two-corners", "{words}: a corner takes one of #RND, #CHR and #CHF", "keep one of them",
-         Count(_CORNERS, 2), MANUAL.cut, ("#RND=5", "#RND=5 #CHR=5"), roles=ANY),
+         Count(_CORNERS, 2), ANY, MANUAL.cut, ("#RND=5", "#RND=5 #CHR=5")),
     _row("corner-twice", "{words}: the block behind it makes a corner in the same place", "keep one of them",
-         some(CORNER_TWICE), MANUAL.cut, ("\nX40", "\nG302 I5\nG1 X40"), roles=ANY),
+         some(CORNER_TWICE), ANY, MANUAL.cut, ("\nX40", "\nG302 I5\nG1 X40")),
     _row("corner-crowded", "the block behind it makes a corner, and takes the size I of one corner alone",
-         "put everything else in a block of its own",
-         some(CORNER_CROWDED), _BLOCK, (" I5", " I5 X50"), (" I5", " I5 I6"), (" I5", " I5 #RND=3"),
-         ("G302", "G301 G302"), roles=ANY),
+         "put everything else in a block of its own", some(CORNER_CROWDED), ANY, _BLOCK, (" I5", " I5 X50"),
+         (" I5", " I5 I6"), (" I5", " I5 #RND=3"), ("G302", "G301 G302")),
     _row("angle-redundant", "{words} is one word too many beside both coordinates{comparison}",
-         "delete a coordinate, or the angle",
-         all_of(FIRST, SECOND, "#ANG") & ~some(FOLLOWED), MANUAL.angled, ("X40", "X40 Y20"), roles=(LINE,),
-         evidence=_PRINTED, ignores="#ANG"),
+         "delete a coordinate, or the angle", all_of(FIRST, SECOND, "#ANG") & ~some(FOLLOWED), (LINE,), MANUAL.angled,
+         ("X40", "X40 Y20"), evidence=_PRINTED, ignores="#ANG"),
     _row("closing-increment", "{words}: the second of two lines gives its end in absolute coordinates",
-         "write it with G90",
-         some(*STEPS), MANUAL.vertex, ("\n", "\nG91 "), roles=(OVER_LINE,), evidence=_PRINTED),
+         "write it with G90", some(*STEPS), (OVER_LINE,), MANUAL.vertex, ("\n", "\nG91 "), evidence=_PRINTED),
     _row("corner-size", "the corner has no size: I is missing or 0, and no corner before it gave one",
-         "write the size behind G301 or G302, such as I5",
-         some(NO_SIZE), _BLOCK, (" I5", ""), (" I5", " I0"), roles=ANY, evidence=_PRINTED),
+         "write the size behind G301 or G302, such as I5", some(NO_SIZE), ANY, _BLOCK, (" I5", ""), (" I5", " I0"),
+         evidence=_PRINTED),
     _row("corner-alone", "G301 and G302 stand between two moves; here no move is right before",
-         "put the corner right behind the move that it ends",
-         some(CORNER_ALONE), _BLOCK, ("G302 I5", "G302 I5\nG301 I2"), roles=(LINE,), evidence=_PRINTED),
+         "put the corner right behind the move that it ends", some(CORNER_ALONE), (LINE,), _BLOCK,
+         ("G302 I5", "G302 I5\nG301 I2"), evidence=_PRINTED),
     _row("diameter-changes", "X is a diameter in one block of the contour and a radius in another",
-         "write G51 or G52 before its first block",
-         some(OTHER_DIAMETER), "G18 G51 G90 G0 X20 Z0\nG1 X40 #RND=2\nG1 Z-50", ("Z-50", "G52 Z-50"), roles=ANY),
+         "write G51 or G52 before its first block", some(OTHER_DIAMETER), ANY,
+         "G18 G51 G90 G0 X20 Z0\nG1 X40 #RND=2\nG1 Z-50",
+         ("Z-50", "G52 Z-50")),
 )  # fmt: skip
 
 
-_GEOMETRY = (
-    MANUAL.told(RefusalKind.CORNER_TOO_LARGE, MANUAL.cut, ("#RND=5", "#CHR=31")),
-    MANUAL.told(RefusalKind.CORNER_STRAIGHT, MANUAL.cut, ("X40 Y40", "X60")),
-    MANUAL.told(RefusalKind.LINE_REVERSED, MANUAL.angled, ("X40", "X-40")),
-)
+_GEOMETRY = {
+    RefusalKind.CORNER_TOO_LARGE: (MANUAL.cut, MANUAL.cut.replace("#RND=5", "#CHR=31")),
+    RefusalKind.CORNER_STRAIGHT: (MANUAL.cut, MANUAL.cut.replace("X40 Y40", "X60")),
+    RefusalKind.LINE_REVERSED: (MANUAL.angled, MANUAL.angled.replace("X40", "X-40")),
+}
 RULES = rules_of(MANUAL, _OWN, _GEOMETRY)

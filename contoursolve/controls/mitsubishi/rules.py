@@ -1,5 +1,6 @@
 """Mitsubishi: which words may be combined, and what has no solution. Alarm numbers but P33 are recalled."""
 
+from dataclasses import replace
 from decimal import Decimal
 
 from contoursolve.controls.chain.language import (
@@ -20,7 +21,7 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
 )
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.controls.mitsubishi.language import (
     ALONG_ARC,
     FROM_END,
@@ -34,8 +35,8 @@ from contoursolve.controls.mitsubishi.language import (
 )
 from contoursolve.controls.mitsubishi.lexicon import BOOK
 from contoursolve.diagnostics.finding import Alarm, Severity
-from contoursolve.diagnostics.source import Evidence
-from contoursolve.reading.rules import Parallel, Value, all_of, row, some
+from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.reading.rules import Condition, Parallel, Rule, Value, all_of, some
 from contoursolve.solving import RefusalKind
 
 _BESIDE = tuple(f"beside-{axis}" for axis in "XYZA")
@@ -45,6 +46,8 @@ _LINES, _ARCS = (LINE, OVER_LINE), (ARC, OVER_CIRCLE)
 _ANY = (*_LINES, *_ARCS)
 _CORNER, _FIRST, _SECOND = (",C", ",R"), ("first", "first-step"), ("second", "second-step")
 _BOOK = BOOK.printed("linear angle command, p. 375")
+
+_FORMAT = "P395 (address or format)"
 
 _MILL = "G17 G90 G00 X0 Y0\n"
 _CUT = _MILL + "G01 X30. ,C5.\nX40. Y40."
@@ -62,134 +65,158 @@ def _alarm(number: str) -> Alarm:
     return Alarm(number, Evidence.PRINTED if number.startswith("P33 ") else Evidence.ASSUMED)
 
 
-_FORMAT = _alarm("P395 (address or format)")
+def _row(
+    code: str,
+    message: str,
+    help_: str,
+    source: Source,
+    when: Condition,
+    roles: tuple[str, ...],
+    good: str,
+    *bad: tuple[str, str] | str,
+    alarm: str = "",
+    **more: object,
+) -> Rule:
+    """A row; what is wrong is a program, or two texts of which the second stands for the first in the right one."""
+    rejected = tuple(each if isinstance(each, str) else good.replace(*each) for each in bad)
+    return Rule(
+        f"mitsubishi-{code}", message, help_, source, (good,), rejected,
+        roles=roles, when=when, alarm=_alarm(alarm) if alarm else None, **more,  # type: ignore[arg-type]
+    )  # fmt: skip
+
 
 _ROWS = (
-    row("mitsubishi-two-corners", "{words}: a block takes ,C or ,R, not both", "keep one of them",
-        BOOK.assumed("not described"), all_of(*_CORNER), _CUT, (",C5.", ",C5. ,R5."), roles=_ANY, alarm=_FORMAT),
-    row("mitsubishi-corner-without-next", "{words}: a corner needs an element behind it, and none follows",
-        "put the next element right behind it, or delete it",
-        BOOK.assumed("corner chamfering: the first block"), some(*_CORNER) & some(LAST) & ~some(RAPID), _CUT,
-        ("\nX40.", "\nM8\nX40."), ("\nX40.", "\nG00 X40."), roles=_ANY),
-    row("mitsubishi-corner-rapid", "{words}: the control makes a corner in a cutting move, not in G00", "write G01",
-        BOOK.derived("corner"), some(*_CORNER) & some(RAPID), _CUT, ("G01 ", ""), roles=_ANY),
-    row("mitsubishi-corner-arc",
-        "{words}: with corner chamfering I this control makes corners between lines alone, and this is an arc",
-        "write its lines and corners out; with option II set corner=II",
-        BOOK.assumed("corner chamfering I"), some(*STATED_POINT, *STATED_CENTER, "R", *_CORNER) & some(STRAIGHT_ONLY),
-        _ARC, roles=_ARCS),
-    row("mitsubishi-chamfer-along-arc", "a chamfer whose size is measured along an arc is not computed",
-        "set chamfer-on-arc=chord, or write the chamfer out",
-        BOOK.assumed("not described"), some(*STATED_POINT, *STATED_CENTER, "R") & some(ALONG_ARC), _ARC, roles=_ARCS),
-    row("mitsubishi-outside-plane", "{words} does not belong to the plane of the contour",
-        "delete it, or move that axis in a block of its own",
-        BOOK.printed("p. 375: in the selected plane"), some(*_BESIDE, "wrong-center"), _CUT,
-        ("X40. Y40.", "G02 X40. Y10. K10."), ("X30.", "X30. Z-5."), ("X30.", "X30. A20. ,A0"), roles=_ANY),
-    row("mitsubishi-plane-changes", "the plane changes inside the contour", "select the plane before its first block",
-        BOOK.assumed("one plane"), some(OTHER_PLANE), _CUT, ("X40. Y40.", "G18 X40. Z40."), roles=_ANY,
-        alarm=_alarm("P396 (plane changed)")),
-    row("mitsubishi-center-on-line", "{words}: a line has no centre and no radius", "delete it; a rounding is ,R",
-        BOOK.derived("lines and arcs"), some(*STATED_CENTER, "R"), _CUT, ("Y40.", "Y40. R5."), roles=_LINES),
-    row("mitsubishi-angle-ignored", "{words} is ignored, because both coordinates are there{comparison}",
-        "delete {words}, or delete the coordinate that is to be computed",
-        _BOOK, all_of(_FIRST, _SECOND, "A"), _ANGLED, ("A30.", "Y20. A30."), roles=(LINE,), ignores="A",
-        severity=Severity.WARNING),
-    row("mitsubishi-angle-rapid", "{words}: the control works out a line by its angle in G01, not in G00",
-        "write G01; where A is an axis, set angle-word=,A",
-        _BOOK, some("A") & some(RAPID), _ANGLED, ("G01 ", ""), roles=(LINE,)),
-    row("mitsubishi-angle-on-arc", "{words}: the control works out angles in G01, not in G02 and G03",
-        "write G01, or delete {words}",
-        _BOOK, some("A"), _TOUCHING, ("R30.", "R30. A20."), roles=_ARCS),
-    row("mitsubishi-high-speed", "{words}: in high-speed machining the control takes no angle",
-        "end that mode before, with G05 P0",
-        BOOK.printed("p. 375"), some(HIGH_SPEED) & some("A"), _ANGLED, ("G01", "G05 P2\nG01"), roles=_LINES,
-        alarm=_alarm("P33 (angle in high-speed machining)")),
-    row("mitsubishi-angle-range", "{words} is more than a turn; it is taken as {within}, the same direction",
-        "write {within} if that is meant",
-        _BOOK, Value(("A",), least=Decimal(-360), most=Decimal(360)), _ANGLED, ("A30.", "A390."), roles=_LINES,
-        severity=Severity.WARNING),
-    row("mitsubishi-end-missing", "{words} alone does not say where the line ends",
-        "add a coordinate; or let a block follow that tells where it goes",
-        BOOK.assumed("p. 377: two blocks in a row"), some("A") & ~some(*STATED_POINT, FOLLOWED), _VERTEX,
-        ("\nX80.", "\nM8\nX80."), roles=(LINE,), alarm=_FORMAT),
-    row("mitsubishi-second-rapid", "the block before has no end, so this block must cut, and G00 does not", "write G01",
-        BOOK.assumed("p. 377"), some(RAPID), _VERTEX, ("\nX80.", "\nG00 X80."), roles=(OVER_LINE,),
-        alarm=_alarm("P394 (the second block is not linear)"), note="without the option Geometric the alarm is P390"),
-    row("mitsubishi-second-incremental",
-        "{words}: the block before has no end, so this block must give its own in absolute coordinates",
-        "write it with G90",
-        BOOK.printed("p. 377: absolute position"), some("first", "second") & some(INCREMENTAL), _VERTEX,
-        ("\n", "\nG91 "), roles=(OVER_LINE, OVER_CIRCLE), alarm=_alarm("P393 (the second block is incremental)")),
-    row("mitsubishi-second-line-incomplete", "the block before has no end, so this line needs {lacking}, too",
-        "add {lacking}",
-        BOOK.printed("p. 377 and 379"), ~all_of("first", "second", "A") & ~some(RAPID), _VERTEX, (" A-30.", ""),
-        ("X80. ", ""), roles=(OVER_LINE,), alarm=_FORMAT),
-    row("mitsubishi-second-arc-incomplete", "the block before has no end, so this arc needs {lacking}, too",
-        "add {lacking}",
-        BOOK.printed("p. 378 and 379"), ~all_of("first", "second", (*STATED_CENTER, "R")), _TOUCHING, (" R30.", ""),
-        ("X70. ", ""), roles=(OVER_CIRCLE,), alarm=_FORMAT,
-        note="without the option for arcs the alarm is P391 or P398"),
-    row("mitsubishi-center-and-radius", "{words}: the arc has both a centre and a radius", "keep one of them",
-        BOOK.assumed("not described"), all_of((*STATED_CENTER, *CENTER_AT), "R"), _ARC, ("J0", "J0 R20."), roles=_ARCS,
-        alarm=_FORMAT),
-    row("mitsubishi-circle-undefined", "the arc has neither a centre nor a radius", "add I, J or K of the plane, or R",
-        BOOK.assumed("not described"), ~some(*STATED_CENTER, *CENTER_AT, "R"), _ARC, (" I20. J0", ""), roles=(ARC,)),
-    row("mitsubishi-radius-without-end", "{words}: with R the arc needs its end",
-        "add the coordinates of its end, or give the centre instead",
-        BOOK.assumed("not described"), some("R") & ~some(*STATED_POINT, FOLLOWED), _ARC, ("X60. Y20. I20. J0", "R20."),
-        roles=(ARC,)),
-    row("mitsubishi-two-radii", "{words}: two arcs that touch are not found by two radii",
-        "give the centre of one of them by I, J or K",
-        BOOK.printed("p. 378: two-arc contact"), all_of("1:R", "2:R"), _ARCS_TOUCH, ("I0 J30.", "R30."),
-        roles=(CIRCLE_CIRCLE,), alarm=_FORMAT),
-    row("mitsubishi-no-full-circle", "the arc of {words} ends where it meets the next block; it is no full circle",
-        "for a full circle write its end, too, or set arc-without-end=circle",
-        BOOK.derived("p. 378"), some("1:center-first", "1:center-second") & ~some("1:H"), _LEAVING, (" H0", ""),
-        _ARCS_TOUCH, roles=(CIRCLE_LINE, CIRCLE_CIRCLE), severity=Severity.WARNING),
-    row("mitsubishi-centre-from-end", "{words}: a centre that is counted from the end to be found is not computed",
-        "set first-centre=start, or write both blocks out",
-        BOOK.derived("p. 378"), some(*STATED_CENTER) & some(FOLLOWED) & some(FROM_END), _LEAVING, roles=(ARC,)),
-    row("mitsubishi-centre-half", "{words}: of a centre by P and Q, one coordinate is missing", "write both",
-        BOOK.derived("p. 378"), some(*CENTER_AT) & ~all_of(*CENTER_AT), _CENTERED, (" Q0", ""), roles=_ARCS),
-    row("mitsubishi-centre-place",
-        "{words}: P and Q are the centre of an arc without an end or another centre, before a line",
-        "let a line with its end and its angle follow, or give the centre by I and J",
-        BOOK.printed("p. 378: format list 3"),
-        some(*CENTER_AT) & (some(*STATED_POINT, *STATED_CENTER) | ~some(FOLLOWED)), _CENTERED, ("H0", "I30. H0"),
-        ("P30.", "X40. P30."), ("\nG01 X20.", "\nM8\nG01 X20."), roles=_ARCS),
-    row("mitsubishi-centre-of-two-arcs",
-        "{words}: P and Q are the centre of an arc that a line meets, and here an arc follows",
-        "write I and J in place of P and Q",
-        BOOK.printed("p. 378: format list 3"), some(*(f"{block}:{name}" for block in (1, 2) for name in CENTER_AT)),
-        _ARCS_TOUCH, ("I0 J30.", "P0 Q30."), roles=(CIRCLE_CIRCLE,), alarm=_FORMAT),
-    row("mitsubishi-centre-of-diameter", "{words}: where X is a diameter, no page says whether P is one, too",
-        "write I and K in place of P and Q",
-        BOOK.assumed("not described"), some(*CENTER_AT) & some(TURNED), _CENTERED, roles=_ARCS),
-    row("mitsubishi-centre-on-line", "{words}: P and Q belong to an arc without an end", "delete them",
-        BOOK.derived("p. 378"), some("P", "Q") & ~some(HIGH_SPEED), _ANGLED, ("A30.", "A30. P5."), roles=_LINES),
-    row("mitsubishi-angles-parallel",
-        "{words}: the two lines are parallel to less than 1 deg, so the control computes no vertex",
-        "correct one of the angles",
-        BOOK.assumed("alarm P392"), Parallel(("1:A", "2:A"), _GUARD) & ~some("1:" + UNGUARDED), _VERTEX,
-        ("A-30.", "A70.5"), ("A-30.", "A250."), roles=(LINE_LINE,), alarm=_alarm("P392 (angle less than 1 deg)"),
-        is_about_geometry=True),
-    row("mitsubishi-h-value", "H is neither 0 nor 1", "choose: H0 is the shorter line, H1 the longer one",
-        BOOK.printed("p. 378"), some(PICKS_NOTHING), _CROSSING, ("H0", "H2"), roles=_ARCS, alarm=_FORMAT),
-    row("mitsubishi-h-missing", "H is missing: the line crosses the circle twice",
-        "choose: H0 is the shorter line, H1 the longer one",
-        BOOK.assumed("not described"),
-        some("1:center-first", "1:center-at-first", "2:center-first") & ~some("1:H", "2:H")
-            & some("1:" + PICK_REQUIRED),
-        _CROSSING, roles=(LINE_CIRCLE, CIRCLE_LINE)),
+    _row("two-corners", "{words}: a block takes ,C or ,R, not both", "keep one of them",
+         BOOK.assumed("not described"), all_of(*_CORNER), _ANY, _CUT, (",C5.", ",C5. ,R5."), alarm=_FORMAT),
+    _row("corner-without-next", "{words}: a corner needs an element behind it, and none follows",
+         "put the next element right behind it, or delete it",
+         BOOK.assumed("corner chamfering: the first block"), some(*_CORNER) & some(LAST) & ~some(RAPID), _ANY,
+         _CUT, ("\nX40.", "\nM8\nX40."), ("\nX40.", "\nG00 X40.")),
+    _row("corner-rapid", "{words}: the control makes a corner in a cutting move, not in G00", "write G01",
+         BOOK.derived("corner"), some(*_CORNER) & some(RAPID), _ANY, _CUT, ("G01 ", "")),
+    _row("corner-arc",
+         "{words}: with corner chamfering I this control makes corners between lines alone, and this is an arc",
+         "write its lines and corners out; with option II set corner=II",
+         BOOK.assumed("corner chamfering I"), some(*STATED_POINT, *STATED_CENTER, "R", *_CORNER) & some(STRAIGHT_ONLY),
+         _ARCS, _ARC),
+    _row("chamfer-along-arc", "a chamfer whose size is measured along an arc is not computed",
+         "set chamfer-on-arc=chord, or write the chamfer out",
+         BOOK.assumed("not described"), some(*STATED_POINT, *STATED_CENTER, "R") & some(ALONG_ARC), _ARCS, _ARC),
+    _row("outside-plane", "{words} does not belong to the plane of the contour",
+         "delete it, or move that axis in a block of its own",
+         BOOK.printed("p. 375: in the selected plane"), some(*_BESIDE, "wrong-center"), _ANY,
+         _CUT, ("X40. Y40.", "G02 X40. Y10. K10."), ("X30.", "X30. Z-5."), ("X30.", "X30. A20. ,A0")),
+    _row("plane-changes", "the plane changes inside the contour", "select the plane before its first block",
+         BOOK.assumed("one plane"), some(OTHER_PLANE), _ANY, _CUT, ("X40. Y40.", "G18 X40. Z40."),
+         alarm="P396 (plane changed)"),
+    _row("center-on-line", "{words}: a line has no centre and no radius", "delete it; a rounding is ,R",
+         BOOK.derived("lines and arcs"), some(*STATED_CENTER, "R"), _LINES, _CUT, ("Y40.", "Y40. R5.")),
+    _row("angle-ignored", "{words} is ignored, because both coordinates are there{comparison}",
+         "delete {words}, or delete the coordinate that is to be computed",
+         _BOOK, all_of(_FIRST, _SECOND, "A"), (LINE,), _ANGLED, ("A30.", "Y20. A30."),
+         ignores="A", severity=Severity.WARNING),
+    _row("angle-rapid", "{words}: the control works out a line by its angle in G01, not in G00",
+         "write G01; where A is an axis, set angle-word=,A", _BOOK, some("A") & some(RAPID), (LINE,),
+         _ANGLED, ("G01 ", "")),
+    _row("angle-on-arc", "{words}: the control works out angles in G01, not in G02 and G03",
+         "write G01, or delete {words}", _BOOK, some("A"), _ARCS, _TOUCHING, ("R30.", "R30. A20.")),
+    _row("high-speed", "{words}: in high-speed machining the control takes no angle",
+         "end that mode before, with G05 P0", BOOK.printed("p. 375"), some(HIGH_SPEED) & some("A"), _LINES,
+         _ANGLED, ("G01", "G05 P2\nG01"), alarm="P33 (angle in high-speed machining)"),
+    _row("angle-range", "{words} is more than a turn; it is taken as {within}, the same direction",
+         "write {within} if that is meant", _BOOK, Value(("A",), least=Decimal(-360), most=Decimal(360)), _LINES,
+         _ANGLED, ("A30.", "A390."), severity=Severity.WARNING),
+    _row("end-missing", "{words} alone does not say where the line ends",
+         "add a coordinate; or let a block follow that tells where it goes",
+         BOOK.assumed("p. 377: two blocks in a row"), some("A") & ~some(*STATED_POINT, FOLLOWED), (LINE,),
+         _VERTEX, ("\nX80.", "\nM8\nX80."), alarm=_FORMAT),
+    _row("second-rapid", "the block before has no end, so this block must cut, and G00 does not", "write G01",
+         BOOK.assumed("p. 377"), some(RAPID), (OVER_LINE,), _VERTEX, ("\nX80.", "\nG00 X80."),
+         alarm="P394 (the second block is not linear)", note="without the option Geometric the alarm is P390"),
+    _row("second-incremental",
+         "{words}: the block before has no end, so this block must give its own in absolute coordinates",
+         "write it with G90",
+         BOOK.printed("p. 377: absolute position"), some("first", "second") & some(INCREMENTAL),
+         (OVER_LINE, OVER_CIRCLE), _VERTEX, ("\n", "\nG91 "), alarm="P393 (the second block is incremental)"),
+    _row("second-line-incomplete", "the block before has no end, so this line needs {lacking}, too", "add {lacking}",
+         BOOK.printed("p. 377 and 379"), ~all_of("first", "second", "A") & ~some(RAPID), (OVER_LINE,),
+         _VERTEX, (" A-30.", ""), ("X80. ", ""), alarm=_FORMAT),
+    _row("second-arc-incomplete", "the block before has no end, so this arc needs {lacking}, too", "add {lacking}",
+         BOOK.printed("p. 378 and 379"), ~all_of("first", "second", (*STATED_CENTER, "R")), (OVER_CIRCLE,),
+         _TOUCHING, (" R30.", ""), ("X70. ", ""),
+         alarm=_FORMAT, note="without the option for arcs the alarm is P391 or P398"),
+    _row("center-and-radius", "{words}: the arc has both a centre and a radius", "keep one of them",
+         BOOK.assumed("not described"), all_of((*STATED_CENTER, *CENTER_AT), "R"), _ARCS, _ARC, ("J0", "J0 R20."),
+         alarm=_FORMAT),
+    _row("circle-undefined", "the arc has neither a centre nor a radius", "add I, J or K of the plane, or R",
+         BOOK.assumed("not described"), ~some(*STATED_CENTER, *CENTER_AT, "R"), (ARC,), _ARC, (" I20. J0", "")),
+    _row("radius-without-end", "{words}: with R the arc needs its end",
+         "add the coordinates of its end, or give the centre instead",
+         BOOK.assumed("not described"), some("R") & ~some(*STATED_POINT, FOLLOWED), (ARC,),
+         _ARC, ("X60. Y20. I20. J0", "R20.")),
+    _row("two-radii", "{words}: two arcs that touch are not found by two radii",
+         "give the centre of one of them by I, J or K",
+         BOOK.printed("p. 378: two-arc contact"), all_of("1:R", "2:R"), (CIRCLE_CIRCLE,), _ARCS_TOUCH,
+         ("I0 J30.", "R30."), alarm=_FORMAT),
+    _row("no-full-circle", "the arc of {words} ends where it meets the next block; it is no full circle",
+         "for a full circle write its end, too, or set arc-without-end=circle",
+         BOOK.derived("p. 378"), some("1:center-first", "1:center-second") & ~some("1:H"), (CIRCLE_LINE, CIRCLE_CIRCLE),
+         _LEAVING, (" H0", ""), _ARCS_TOUCH, severity=Severity.WARNING),
+    _row("centre-from-end", "{words}: a centre that is counted from the end to be found is not computed",
+         "set first-centre=start, or write both blocks out",
+         BOOK.derived("p. 378"), some(*STATED_CENTER) & some(FOLLOWED) & some(FROM_END), (ARC,), _LEAVING),
+    _row("centre-half", "{words}: of a centre by P and Q, one coordinate is missing", "write both",
+         BOOK.derived("p. 378"), some(*CENTER_AT) & ~all_of(*CENTER_AT), _ARCS, _CENTERED, (" Q0", "")),
+    _row("centre-place", "{words}: P and Q are the centre of an arc without an end or another centre, before a line",
+         "let a line with its end and its angle follow, or give the centre by I and J",
+         BOOK.printed("p. 378: format list 3"),
+         some(*CENTER_AT) & (some(*STATED_POINT, *STATED_CENTER) | ~some(FOLLOWED)), _ARCS,
+         _CENTERED, ("H0", "I30. H0"), ("P30.", "X40. P30."), ("\nG01 X20.", "\nM8\nG01 X20.")),
+    _row("centre-of-two-arcs", "{words}: P and Q are the centre of an arc that a line meets, and here an arc follows",
+         "write I and J in place of P and Q", BOOK.printed("p. 378: format list 3"),
+         some(*(f"{block}:{name}" for block in (1, 2) for name in CENTER_AT)), (CIRCLE_CIRCLE,),
+         _ARCS_TOUCH, ("I0 J30.", "P0 Q30."), alarm=_FORMAT),
+    _row("centre-of-diameter", "{words}: where X is a diameter, no page says whether P is one, too",
+         "write I and K in place of P and Q", BOOK.assumed("not described"), some(*CENTER_AT) & some(TURNED), _ARCS,
+         _CENTERED),
+    _row("centre-on-line", "{words}: P and Q belong to an arc without an end", "delete them",
+         BOOK.derived("p. 378"), some("P", "Q") & ~some(HIGH_SPEED), _LINES, _ANGLED, ("A30.", "A30. P5.")),
+    _row("angles-parallel", "{words}: the two lines are parallel to less than 1 deg, so the control computes no vertex",
+         "correct one of the angles",
+         BOOK.assumed("alarm P392"), Parallel(("1:A", "2:A"), _GUARD) & ~some("1:" + UNGUARDED), (LINE_LINE,),
+         _VERTEX, ("A-30.", "A70.5"), ("A-30.", "A250."), alarm="P392 (angle less than 1 deg)", is_about_geometry=True),
+    _row("h-value", "H is neither 0 nor 1", "choose: H0 is the shorter line, H1 the longer one",
+         BOOK.printed("p. 378"), some(PICKS_NOTHING), _ARCS, _CROSSING, ("H0", "H2"), alarm=_FORMAT),
+    _row("h-missing", "H is missing: the line crosses the circle twice",
+         "choose: H0 is the shorter line, H1 the longer one", BOOK.assumed("not described"),
+         some("1:center-first", "1:center-at-first", "2:center-first") & ~some("1:H", "2:H")
+         & some("1:" + PICK_REQUIRED),
+         (LINE_CIRCLE, CIRCLE_LINE), _CROSSING),
 )  # fmt: skip
 
 
-_MISSED = _alarm("P397 (no crossing or contact)")
-_OWN = (
-    told("mitsubishi-circle-missed", RefusalKind.CIRCLE_MISSED, _CROSSING, ("A10.", "A80."), alarm=_MISSED),
-    told("mitsubishi-no-point", RefusalKind.NO_POINT, _TOUCHING, ("R30.", "R3."), alarm=_MISSED),
-    told("mitsubishi-radius-difference", RefusalKind.RADIUS_DIFFERENCE, _ARC, ("I20.", "I18.")),
-    told("mitsubishi-corner-too-large", RefusalKind.CORNER_TOO_LARGE, _CUT, (",C5.", ",C31.")),
-)
+def _geometry() -> tuple[Rule, ...]:
+    """The rows about geometry with this control's alarm and with examples of its own."""
+    rows = {rule.about: rule for rule in (*GEOMETRY_RULES, *COMMON_RULES)}
+    missed = "P397 (no crossing or contact)"
+    told = {
+        RefusalKind.CIRCLE_MISSED: (_CROSSING, _CROSSING.replace("A10.", "A80."), missed),
+        RefusalKind.NO_POINT: (_TOUCHING, _TOUCHING.replace("R30.", "R3."), missed),
+        RefusalKind.RADIUS_DIFFERENCE: (_ARC, _ARC.replace("I20.", "I18."), ""),
+        RefusalKind.CORNER_TOO_LARGE: (_CUT, _CUT.replace(",C5.", ",C31."), ""),
+    }
+    return tuple(
+        replace(
+            rows[about],
+            code=f"mitsubishi-{rows[about].code}",
+            alarm=_alarm(alarm) if alarm else None,
+            accepted=(good,),
+            rejected=(bad,),
+        )
+        for about, (good, bad, alarm) in told.items()
+    )
+
+
+_OWN = _geometry()
 _COMMON = tuple(rule for rule in COMMON_RULES if rule.about is not RefusalKind.NO_POINT)
 RULES = (*_COMMON, *_ROWS, *_OWN, *GEOMETRY_RULES)

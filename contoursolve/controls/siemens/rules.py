@@ -15,7 +15,6 @@ from contoursolve.controls.chain.language import (
     STATED_CENTER,
 )
 from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, rules_of
-from contoursolve.controls.geometry_rules import told
 from contoursolve.controls.siemens.language import ALONG_ARC, NO_STEPS, STRICT_ANGLE
 from contoursolve.controls.siemens.lexicon import BOOK
 from contoursolve.diagnostics.finding import Alarm, Severity
@@ -52,50 +51,53 @@ _row = MANUAL.row
 
 _OWN = (
     _row("two-chamfers", "{words}: a block takes one size of a chamfer", "keep one of them",
-         all_of("CHR", "CHF"), MANUAL.cut, ("RND=5", "CHR=5 CHF=5"), roles=ANY),
+         all_of("CHR", "CHF"), ANY, MANUAL.cut, ("RND=5", "CHR=5 CHF=5")),
     *(
         _row(f"{word.lower()}-ignored", "{words}: the control makes the rounding alone, without a message",
-             f"delete {word}, or delete RND",
-             all_of(word, "RND"), MANUAL.cut, ("RND=5", f"{word}=2 RND=5"), roles=ANY, evidence=Evidence.PRINTED,
-             ignores=word, severity=Severity.WARNING)
+             f"delete {word}, or delete RND", all_of(word, "RND"), ANY, MANUAL.cut, ("RND=5", f"{word}=2 RND=5"),
+             evidence=Evidence.PRINTED, ignores=word, severity=Severity.WARNING)
         for word in ("CHR", "CHF")
     ),
     _row("chamfer-along-arc", "a chamfer that is measured along an arc is not computed",
-         "set chamfer-on-arc=chord, or write the chamfer out",
-         some("CHR") & some(ALONG_ARC) & some(BESIDE_ARC), MANUAL.arc, roles=ANY),
-    _row("angle-redundant", "{words} is one word too many beside both coordinates{comparison}",
+         "set chamfer-on-arc=chord, or write the chamfer out", some("CHR") & some(ALONG_ARC) & some(BESIDE_ARC), ANY,
+         MANUAL.arc),
+    _row("angle-redundant",
+         "{words} is one word too many beside both coordinates{comparison}",
          "delete one of the three; where the control checks it, set redundant-angle=check",
-         all_of(FIRST, SECOND, "ANG") & ~some(FOLLOWED) & some(STRICT_ANGLE), MANUAL.angled, ("X40", "X40 Y20"),
-         roles=(LINE,), ignores="ANG"),
+         all_of(FIRST, SECOND, "ANG") & ~some(FOLLOWED) & some(STRICT_ANGLE), (LINE,), MANUAL.angled,
+         ("X40", "X40 Y20"), ignores="ANG"),
     _row("closing-increment", "{words}: the second of two lines gives its end by coordinates", "write X=AC( ), or G90",
-         some(*STEPS) & some(NO_STEPS), MANUAL.vertex, roles=(OVER_LINE,)),
+         some(*STEPS) & some(NO_STEPS), (OVER_LINE,), MANUAL.vertex),
     _row("rounding-negative", "{words}: a rounding has no sign", "delete the minus sign; RNDM=0 ends the roundings",
-         Value(("RNDM",), least=Decimal(0)), MANUAL.cut.replace("RND", "RNDM"), ("=5", "=-5"), roles=ANY),
+         Value(("RNDM",), least=Decimal(0)), ANY, MANUAL.cut.replace("RND", "RNDM"), ("=5", "=-5")),
     _row("shape-on-tangent", "{words}: the centre and the radius of CT follow from the move before it",
-         "delete it, or write G2 or G3",
-         some(*STATED_CENTER, "R") & some(SMOOTH), _START + "G1 X20\nCT X40 Y20", ("CT X40 Y20", "CT X40 Y20 CR=20"),
-         ("CT X40 Y20", "CT X40 Y20 I0 J20"), roles=(ARC,)),
+         "delete it, or write G2 or G3", some(*STATED_CENTER, "R") & some(SMOOTH), (ARC,),
+         _START + "G1 X20\nCT X40 Y20", ("CT X40 Y20", "CT X40 Y20 CR=20"), ("CT X40 Y20", "CT X40 Y20 I0 J20")),
     _row("diameter-changes", "X is a diameter in one block of the contour and a radius in another",
-         "write DIAMON, DIAMOF or DIAM90 before its first block",
-         some(OTHER_DIAMETER), "G18 DIAMON G90 G0 X20 Z0\nG1 X40 RND=2\nZ-50", ("Z-50", "DIAMOF Z-50"), roles=ANY),
+         "write DIAMON, DIAMOF or DIAM90 before its first block", some(OTHER_DIAMETER), ANY,
+         "G18 DIAMON G90 G0 X20 Z0\nG1 X40 RND=2\nZ-50",
+         ("Z-50", "DIAMOF Z-50")),
     _row("no-tangent", "CT goes on from a line or an arc, and no G1, G2, G3 or CT is right before it",
-         "put a line or an arc right before it, or write G2 or G3 with CR",
-         some(NO_TANGENT), _START + "G1 X20\nCT X40 Y20", _START + "CT X40 Y20", roles=(ARC,),
-         evidence=Evidence.PRINTED),
+         "put a line or an arc right before it, or write G2 or G3 with CR", some(NO_TANGENT), (ARC,),
+         _START + "G1 X20\nCT X40 Y20", _START + "CT X40 Y20", evidence=Evidence.PRINTED),
 )  # fmt: skip
 
 
-_GEOMETRY = (
-    MANUAL.told(RefusalKind.CORNER_TOO_LARGE, MANUAL.cut, ("RND=5", "CHR=31")),
-    MANUAL.told(RefusalKind.CORNER_STRAIGHT, MANUAL.cut, ("X40 Y40", "X60")),
-    MANUAL.told(RefusalKind.RADIUS_DIFFERENCE, MANUAL.arc, ("I20", "I18")),
-)
-_HELPS = (
-    told("stray-character", FaultKind.STRAY_CHARACTER, MANUAL.cut, ("X30", "X30 !"),
-         help="delete it, or put it into a comment behind a semicolon"),
-    told("number-malformed", FaultKind.NUMBER_MALFORMED, MANUAL.cut, ("RND=5", "RND5"),
-         help="write digits with at most one point; behind a name write an equals sign, such as RND=5"),
-)  # fmt: skip
+_GEOMETRY = {
+    RefusalKind.CORNER_TOO_LARGE: (MANUAL.cut, MANUAL.cut.replace("RND=5", "CHR=31")),
+    RefusalKind.CORNER_STRAIGHT: (MANUAL.cut, MANUAL.cut.replace("X40 Y40", "X60")),
+    RefusalKind.RADIUS_DIFFERENCE: (MANUAL.arc, MANUAL.arc.replace("I20", "I18")),
+}
+_HELPS = {
+    FaultKind.STRAY_CHARACTER: (
+        "delete it, or put it into a comment behind a semicolon",
+        MANUAL.cut.replace("X30", "X30 !"),
+    ),
+    FaultKind.NUMBER_MALFORMED: (
+        "write digits with at most one point; behind a name write an equals sign, such as RND=5",
+        MANUAL.cut.replace("RND=5", "RND5"),
+    ),
+}
 RULES = rules_of(MANUAL, _OWN, _GEOMETRY, _HELPS)
 _REDUCED = "; the control makes it smaller by itself, to a size that is not printed"
 RULES_REDUCING = tuple(

@@ -31,7 +31,7 @@ from contoursolve.geometry import (
     Unit,
 )
 from contoursolve.reading import ContourForm, FactRow, Modes, ParsedContour, State, apply_modes
-from contoursolve.reading.rules import at_most, row, some
+from contoursolve.reading.rules import Rule, at_most, some
 from contoursolve.solving import NoteKind, RefusalKind
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 
@@ -133,7 +133,7 @@ def _step(values: Mapping[str, Decimal], state: State, axis: int) -> float:
     return float(values.get(increment, 0))
 
 
-_ROLES = ("arc",)
+_ROLE = "arc"
 _START = "G00 X40. Z0.\nG01 X50. F0.2\n"
 _GOOD = _START + "G02 X70. Z-10. R10."
 _CENTERED = _START + "G02 X70. Z-10. I10. K0"
@@ -141,31 +141,66 @@ _BEFORE = "\nG00 X40. Z0.\nG111 A180. K-30. B120. X100."
 _ARCS = BOOK.assumed("circular interpolation: not on the pages that we have")
 
 ARC_RULES = (
-    row("arc-without-center", "the arc has neither a centre (I, K) nor a radius (R)",
-        "add I and K, the distances from the start to the centre, or R",
-        _ARCS, at_most(0, *CENTERS, "R"), (_GOOD + _BEFORE, _CENTERED + _BEFORE), _START + "G02 X70. Z-10.",
-        roles=_ROLES),
-    row("arc-center-outside-plane", "{words}: a lathe has no Y axis; the centre is given by I along X and K along Z",
-        "write I and K",
-        _ARCS, some(*WRONG_CENTER), _CENTERED + _BEFORE, _START + "G02 X70. Z-10. I10. J0", roles=_ROLES),
-    row("arc-radius-too-small",
-        "{words}: the radius of {actual} is less than half the distance from the start to the end, {limit}",
-        "write at least {limit}, or correct the end",
-        _ARCS, RefusalKind.RADIUS_TOO_SMALL, _GOOD + _BEFORE, _START + "G02 X70. Z-10. R5.", roles=_ROLES),
-    row("arc-undefined", "{words} {define} no circle: the radius is 0, or the arc ends where it begins",
-        "give an end away from the start, or a full circle by I and K",
-        _ARCS, RefusalKind.CIRCLE_UNDEFINED, (_GOOD + _BEFORE, _START + "G02 I5. K0" + _BEFORE),
-        _START + "G02 X50. Z0. R10.", _START + "G02 R10.", _START + "G02 X70. Z-10. I0 K0", roles=_ROLES),
-    row("arc-radius-difference",
-        "{words}: start and end of the arc differ in their distance from the centre by {off}, allowed {limit}",
-        "correct the end or the centre",
-        BOOK.assumed("circular interpolation; the allowed difference is our choice"), RefusalKind.RADIUS_DIFFERENCE,
-        (_CENTERED + _BEFORE, _START + "G02 X70. Z-10.005 I10. K0" + _BEFORE), _START + "G02 X70. Z-10.5 I10. K0",
-        roles=_ROLES),
-    row("arc-radius-differs",
-        "{words}: start and end of the arc differ in their distance from the centre by {off}, within the allowed "
-            "{limit}",
-        "correct the end or the centre",
-        BOOK.assumed("circular interpolation; the allowed difference is our choice"), NoteKind.RADIUS_DIFFERS,
-        _CENTERED + _BEFORE, roles=_ROLES, severity=Severity.INFO),
-)  # fmt: skip
+    Rule(
+        code="arc-without-center",
+        message="the arc has neither a centre (I, K) nor a radius (R)",
+        help="add I and K, the distances from the start to the centre, or R",
+        source=_ARCS,
+        roles=(_ROLE,),
+        when=at_most(0, *CENTERS, "R"),
+        accepted=(_GOOD + _BEFORE, _CENTERED + _BEFORE),
+        rejected=(_START + "G02 X70. Z-10.",),
+    ),
+    Rule(
+        code="arc-center-outside-plane",
+        message="{words}: a lathe has no Y axis; the centre is given by I along X and K along Z",
+        help="write I and K",
+        source=_ARCS,
+        roles=(_ROLE,),
+        when=some(*WRONG_CENTER),
+        accepted=(_CENTERED + _BEFORE,),
+        rejected=(_START + "G02 X70. Z-10. I10. J0",),
+    ),
+    Rule(
+        code="arc-radius-too-small",
+        message="{words}: the radius of {actual} is less than half the distance from the start to the end, {limit}",
+        help="write at least {limit}, or correct the end",
+        source=_ARCS,
+        roles=(_ROLE,),
+        about=RefusalKind.RADIUS_TOO_SMALL,
+        accepted=(_GOOD + _BEFORE,),
+        rejected=(_START + "G02 X70. Z-10. R5.",),
+    ),
+    Rule(
+        code="arc-undefined",
+        message="{words} {define} no circle: the radius is 0, or the arc ends where it begins",
+        help="give an end away from the start, or a full circle by I and K",
+        source=_ARCS,
+        roles=(_ROLE,),
+        about=RefusalKind.CIRCLE_UNDEFINED,
+        accepted=(_GOOD + _BEFORE, _START + "G02 I5. K0" + _BEFORE),
+        rejected=(_START + "G02 X50. Z0. R10.", _START + "G02 R10.", _START + "G02 X70. Z-10. I0 K0"),
+    ),
+    Rule(
+        code="arc-radius-difference",
+        message="{words}: start and end of the arc differ in their distance from the centre by {off}, allowed {limit}",
+        help="correct the end or the centre",
+        source=BOOK.assumed("circular interpolation; the allowed difference is our choice"),
+        roles=(_ROLE,),
+        about=RefusalKind.RADIUS_DIFFERENCE,
+        accepted=(_CENTERED + _BEFORE, _START + "G02 X70. Z-10.005 I10. K0" + _BEFORE),
+        rejected=(_START + "G02 X70. Z-10.5 I10. K0",),
+    ),
+    Rule(
+        code="arc-radius-differs",
+        message="{words}: start and end of the arc differ in their distance from the centre by {off}, within the "
+        "allowed {limit}",
+        help="correct the end or the centre",
+        source=BOOK.assumed("circular interpolation; the allowed difference is our choice"),
+        roles=(_ROLE,),
+        severity=Severity.INFO,
+        about=NoteKind.RADIUS_DIFFERS,
+        accepted=(_CENTERED + _BEFORE,),
+        rejected=(),
+    ),
+)

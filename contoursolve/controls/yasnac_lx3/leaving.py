@@ -11,7 +11,7 @@ from contoursolve.diagnostics.source import Evidence
 from contoursolve.gcode import Block
 from contoursolve.geometry import FIRST, SECOND, Coordinate, CornerShape, Given, Level, Line, Offset, Role, Unit
 from contoursolve.reading import ContourForm, CornerRow, FactRow, Modes, ParsedContour, Sample, State, apply_modes
-from contoursolve.reading.rules import Value, all_of, at_most, row, some
+from contoursolve.reading.rules import Rule, Value, all_of, at_most, some
 from contoursolve.solving import RefusalKind
 
 ALONG_Z, ALONG_X = "leaving Z", "leaving X"
@@ -75,7 +75,7 @@ def claim_leaving(block: Block, code: int, state: State, modes: Modes) -> Parsed
     return claim_of(block, form, code, state, after, modes, supplied=supplied)
 
 
-_ROLES = ("leaving",)
+_ROLE = "leaving"
 _X, _Z = ("X", "U"), ("Z", "W")
 _START = "G00 X30. Z0.\n"
 _BEVEL = _START + "G11 Z-20. I8. F30."
@@ -87,44 +87,115 @@ _PAGE = BOOK.printed("p. 31-32")
 _BOTH_AXES = Alarm("050", Evidence.PRINTED)
 
 LEAVING_RULES = (
-    row("g11-both-axes", "{words:X U Z W}: the block moves along both axes, and a corner leaves one axis",
-        "write each axis in a block of its own: X(U) with K, Z(W) with I",
-        _PAGE, all_of(_X, _Z), (_GOOD, _ROUND, _BY_G01), _START + "G11 X80. Z-20. I8.", _START + "G12 U50. W-20. K8.",
-        roles=_ROLES, alarm=_BOTH_AXES),
-    row("g11-axis-twice", "{words}: both give the end along one axis", "keep one of them",
-        BOOK.derived("p. 31-32: one axis a block"), all_of("Z", "W"), _GOOD, _BEVEL + " W-20.", roles=(ALONG_Z,)),
-    row("g11-axis-twice-x", "{words}: both give the end along one axis", "keep one of them",
-        BOOK.derived("p. 31-32: one axis a block"), all_of("X", "U"), _GOOD, _START + "G11 X80. U50. K-7.",
-        roles=(ALONG_X,)),
-    row("g11-axis-missing", "{words:I K}: the block moves along no axis that a corner could leave",
-        "add X(U) to a K, Z(W) to an I",
-        _PAGE, at_most(0, _X, _Z) & at_most(2, "I", "K"), (_GOOD, _ROUND), _START + "G11 I8.", _GOOD + "\nK2.",
-        roles=_ROLES),
-    row("g11-corner-missing",
-        "under G11 and G12, a block along Z needs I: how far the corner leaves, and to which side",
-        "add I, or write G00 or G01 for a move without a corner",
-        _PAGE, some(*_Z) & ~some(*_X) & at_most(0, "I", "K"), (_GOOD, _ROUND + "\nG01 Z-50."), _BEVEL + "\nZ-50.",
-        _START + "G12 W-20.", roles=(ALONG_Z,)),
-    row("g11-corner-missing-x",
-        "under G11 and G12, a block along X needs K: how far the corner leaves, and to which side",
-        "add K, or write G00 or G01 for a move without a corner",
-        _PAGE, some(*_X) & ~some(*_Z) & at_most(0, "I", "K"), (_GOOD, _ROUND + "\nG01 X90."), _BEVEL + "\nX80.",
-        _START + "G12 U50.", roles=(ALONG_X,)),
-    row("g11-corner-letter", "for an X move write K, not {words:I}", "write K for {words:I}",
-        _PAGE, some(*_X) & ~some(*_Z) & some("I"), _GOOD, _START + "G11 X80. I8.", _START + "G11 X80. K-7. I8.",
-        roles=(ALONG_X,)),
-    row("g11-corner-letter-z", "for a Z move write I, not {words:K}", "write I for {words:K}",
-        _PAGE, some(*_Z) & ~some(*_X) & some("K"), _GOOD, _START + "G11 Z-20. K8.", _START + "G01 Z-20. I8. K8.",
-        roles=(ALONG_Z,)),
-    row("g11-corner-zero", "{words}: a corner of size 0 is an error",
-        "write its size, or G00 or G01 and no {words} for a move without a corner",
-        _PAGE, Value(("I", "K"), excluding=Decimal(0)), (_GOOD, _ROUND), _START + "G11 Z-20. I0",
-        _START + "G12 X80. K0", roles=_ROLES),
-    row("g11-other-g", "{words:other G} uses the axis words of the block itself, and so do G11 and G12",
-        "write it in a block of its own",
-        BOOK.assumed("p. 31-32: modal, group A; two codes of one group"), some(OTHER_G), _GOOD,
-        _START + "G01 G11 Z-20. I8.", roles=_ROLES),
-    row("g11-corner-too-large", "{words} is larger than the move: {actual}, {fits}", "{smaller}, or move farther",
-        _PAGE, RefusalKind.CORNER_TOO_LARGE, (_GOOD, _START + "G11 Z-8. I8."), _START + "G11 Z-5. I8.",
-        _START + "G12 U10. K-7.", _START + "G01 W-2. I3.", roles=_ROLES),
-)  # fmt: skip
+    Rule(
+        code="g11-both-axes",
+        message="{words:X U Z W}: the block moves along both axes, and a corner leaves one axis",
+        help="write each axis in a block of its own: X(U) with K, Z(W) with I",
+        source=_PAGE,
+        alarm=_BOTH_AXES,
+        roles=(_ROLE,),
+        when=all_of(_X, _Z),
+        accepted=(_GOOD, _ROUND, _BY_G01),
+        rejected=(_START + "G11 X80. Z-20. I8.", _START + "G12 U50. W-20. K8."),
+    ),
+    Rule(
+        code="g11-axis-twice",
+        message="{words}: both give the end along one axis",
+        help="keep one of them",
+        source=BOOK.derived("p. 31-32: one axis a block"),
+        roles=(ALONG_Z,),
+        when=all_of("Z", "W"),
+        accepted=(_GOOD,),
+        rejected=(_BEVEL + " W-20.",),
+    ),
+    Rule(
+        code="g11-axis-twice-x",
+        message="{words}: both give the end along one axis",
+        help="keep one of them",
+        source=BOOK.derived("p. 31-32: one axis a block"),
+        roles=(ALONG_X,),
+        when=all_of("X", "U"),
+        accepted=(_GOOD,),
+        rejected=(_START + "G11 X80. U50. K-7.",),
+    ),
+    Rule(
+        code="g11-axis-missing",
+        message="{words:I K}: the block moves along no axis that a corner could leave",
+        help="add X(U) to a K, Z(W) to an I",
+        source=_PAGE,
+        roles=(_ROLE,),
+        when=at_most(0, _X, _Z) & at_most(2, "I", "K"),
+        accepted=(_GOOD, _ROUND),
+        rejected=(_START + "G11 I8.", _GOOD + "\nK2."),
+    ),
+    Rule(
+        code="g11-corner-missing",
+        message="under G11 and G12, a block along Z needs I: how far the corner leaves, and to which side",
+        help="add I, or write G00 or G01 for a move without a corner",
+        source=_PAGE,
+        roles=(ALONG_Z,),
+        when=some(*_Z) & ~some(*_X) & at_most(0, "I", "K"),
+        accepted=(_GOOD, _ROUND + "\nG01 Z-50."),
+        rejected=(_BEVEL + "\nZ-50.", _START + "G12 W-20."),
+    ),
+    Rule(
+        code="g11-corner-missing-x",
+        message="under G11 and G12, a block along X needs K: how far the corner leaves, and to which side",
+        help="add K, or write G00 or G01 for a move without a corner",
+        source=_PAGE,
+        roles=(ALONG_X,),
+        when=some(*_X) & ~some(*_Z) & at_most(0, "I", "K"),
+        accepted=(_GOOD, _ROUND + "\nG01 X90."),
+        rejected=(_BEVEL + "\nX80.", _START + "G12 U50."),
+    ),
+    Rule(
+        code="g11-corner-letter",
+        message="for an X move write K, not {words:I}",
+        help="write K for {words:I}",
+        source=_PAGE,
+        roles=(ALONG_X,),
+        when=some(*_X) & ~some(*_Z) & some("I"),
+        accepted=(_GOOD,),
+        rejected=(_START + "G11 X80. I8.", _START + "G11 X80. K-7. I8."),
+    ),
+    Rule(
+        code="g11-corner-letter-z",
+        message="for a Z move write I, not {words:K}",
+        help="write I for {words:K}",
+        source=_PAGE,
+        roles=(ALONG_Z,),
+        when=some(*_Z) & ~some(*_X) & some("K"),
+        accepted=(_GOOD,),
+        rejected=(_START + "G11 Z-20. K8.", _START + "G01 Z-20. I8. K8."),
+    ),
+    Rule(
+        code="g11-corner-zero",
+        message="{words}: a corner of size 0 is an error",
+        help="write its size, or G00 or G01 and no {words} for a move without a corner",
+        source=_PAGE,
+        roles=(_ROLE,),
+        when=Value(("I", "K"), excluding=Decimal(0)),
+        accepted=(_GOOD, _ROUND),
+        rejected=(_START + "G11 Z-20. I0", _START + "G12 X80. K0"),
+    ),
+    Rule(
+        code="g11-other-g",
+        message="{words:other G} uses the axis words of the block itself, and so do G11 and G12",
+        help="write it in a block of its own",
+        source=BOOK.assumed("p. 31-32: modal, group A; two codes of one group"),
+        roles=(_ROLE,),
+        when=some(OTHER_G),
+        accepted=(_GOOD,),
+        rejected=(_START + "G01 G11 Z-20. I8.",),
+    ),
+    Rule(
+        code="g11-corner-too-large",
+        message="{words} is larger than the move: {actual}, {fits}",
+        help="{smaller}, or move farther",
+        source=_PAGE,
+        roles=(_ROLE,),
+        about=RefusalKind.CORNER_TOO_LARGE,
+        accepted=(_GOOD, _START + "G11 Z-8. I8."),
+        rejected=(_START + "G11 Z-5. I8.", _START + "G12 U10. K-7.", _START + "G01 W-2. I3."),
+    ),
+)

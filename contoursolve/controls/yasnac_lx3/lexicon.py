@@ -101,19 +101,35 @@ _CORNERING = ("G111", "G112")
 
 ASSUMPTIONS = (
     # Where X(U) and Z(W) give line 2, there is no corner 2 to write a word for.
-    Assumption("no-corner-word", "no corner word means a sharp corner",
-               BOOK.assumed("2.8.30, Tables 2.34 and 2.40: C or P, D or Q; of neither of them nothing is said"),
-               _CORNERING, ~(some("C", "P") & ~(at_most(0, "D", "Q") & ~all_of(("X", "U"), ("Z", "W"))))),
-    Assumption("corner-of-zero", "C, P, D or Q of value 0 means no corner",
-               BOOK.assumed("2.8.30, Table 2.33: amount or radius without sign; of 0 nothing is said"),
-               _CORNERING, Value(("C", "P", "D", "Q"), excluding=Decimal(0))),
-    Assumption("feed-in-block", "F may stand in the block",
-               BOOK.assumed("2.8.30: M, S and T are refused, of F nothing is said"),
-               _CORNERING, some("F")),
-    Assumption("bevel-at-its-limit", "a bevel may begin or end at the virtual intersection",
-               BOOK.assumed("2.8.30, p. 140 Note 3: of a virtual intersection on a 45 degree line nothing is said"),
-               _CORNERING, some(AT_ITS_LIMIT)),
-)  # fmt: skip
+    Assumption(
+        "no-corner-word",
+        "no corner word means a sharp corner",
+        BOOK.assumed("2.8.30, Tables 2.34 and 2.40: C or P, D or Q; of neither of them nothing is said"),
+        _CORNERING,
+        ~(some("C", "P") & ~(at_most(0, "D", "Q") & ~all_of(("X", "U"), ("Z", "W")))),
+    ),
+    Assumption(
+        "corner-of-zero",
+        "C, P, D or Q of value 0 means no corner",
+        BOOK.assumed("2.8.30, Table 2.33: amount or radius without sign; of 0 nothing is said"),
+        _CORNERING,
+        Value(("C", "P", "D", "Q"), excluding=Decimal(0)),
+    ),
+    Assumption(
+        "feed-in-block",
+        "F may stand in the block",
+        BOOK.assumed("2.8.30: M, S and T are refused, of F nothing is said"),
+        _CORNERING,
+        some("F"),
+    ),
+    Assumption(
+        "bevel-at-its-limit",
+        "a bevel may begin or end at the virtual intersection",
+        BOOK.assumed("2.8.30, p. 140 Note 3: of a virtual intersection on a 45 degree line nothing is said"),
+        _CORNERING,
+        some(AT_ITS_LIMIT),
+    ),
+)
 
 MODES = Modes(
     lexicon=Lexicon({row.address: row for row in ADDRESSES}, NUMBERS),
