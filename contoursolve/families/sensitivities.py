@@ -19,7 +19,7 @@ from contoursolve.diagnostics.display import Shown
 from contoursolve.families.branch_rows import add_path
 from contoursolve.families.case_classes import CaseClass, case_in, half_circles, results_of
 from contoursolve.families.free_words import check_block, factor_of
-from contoursolve.families.spec import BlockOptions, FamilyError, first_error, spec_of
+from contoursolve.families.spec import BlockOptions, FamilyError, first_error, spec_of, subject_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble, scalar
 from contoursolve.numeric.angle import direction
@@ -218,7 +218,7 @@ def _tied(system: System) -> frozenset[str]:
 def _fact_name(given: Given, word: Word, profile: Profile) -> str:
     """What a fact gives the value of; of a place, with the axis."""
     axis = given.name.rpartition(".")[2]
-    name = " ".join(word.text.partition("=")[0].split()).lower()
+    name = subject_of(word.text)
     return f"{name} [{profile.plane.axes[int(axis)]}]" if "=" not in word.text and axis.isdigit() else name
 
 

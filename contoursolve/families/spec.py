@@ -272,7 +272,7 @@ def find_words(template: Template, names: Sequence[str]) -> dict[str, Word]:
     program, start, facts = template.program, template.start, template.facts
     words = _words_of(program)
     stated = {
-        _subject(each.text): each
+        subject_of(each.text): each
         for each in (*facts, *(each for block in program.blocks for each in block.directives))
         if "=" in each.text
     }
@@ -320,7 +320,7 @@ def _only(address: str, words: Sequence[Word], where: str, line: str) -> Word:
 
 def _fact_of(name: str, stated: Mapping[str, Directive]) -> Word:
     """A fact whose value is a number, as a word with that number."""
-    fact = stated.get(_subject(name))
+    fact = stated.get(subject_of(name))
     if fact is None:
         raise FamilyError(f"no fact says what {name} is; there are {', '.join(stated) or 'none'}")
     text = fact.text.partition("=")[2].strip()
@@ -331,7 +331,7 @@ def _fact_of(name: str, stated: Mapping[str, Directive]) -> Word:
     return Word(FACT, number, "." in text, fact.text, fact.span)
 
 
-def _subject(text: str) -> str:
+def subject_of(text: str) -> str:
     """What a fact gives the value of, however it is spaced."""
     return " ".join(text.partition("=")[0].split()).lower()
 
@@ -339,7 +339,7 @@ def _subject(text: str) -> str:
 def is_same(typed: Word, other: Word) -> bool:
     """Whether a word, wherever it now stands in its line, is the free word that was typed."""
     is_alike = (typed.span.line, typed.address) == (other.span.line, other.address)
-    return is_alike and (typed.address != FACT or _subject(typed.text) == _subject(other.text))
+    return is_alike and (typed.address != FACT or subject_of(typed.text) == subject_of(other.text))
 
 
 def unit_word(word: Word, *, has_point: bool) -> Word:

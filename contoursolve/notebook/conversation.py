@@ -107,7 +107,7 @@ class Conversation:
         self._drawn = picture_of(answer, self._drawn if is_held else None) if answer else None
         asks: list[Data] = []
         if kind == "fix" and self.exploration is not before:
-            example = explorations.example_of(before, int(action["finding"]), int(action["fix"]))
+            example = explorations.apply_fix(before, int(action["finding"]), int(action["fix"]), is_example=True)
             asks = asked_now(self.exploration, before, self._solved, example)
         return {**self._viewed(is_new=kind in _FITTED), "asks": asks}
 
@@ -132,7 +132,7 @@ class Conversation:
             instead = shown = explorations.select(self.exploration, of["solution"])
         else:
             instead = explorations.apply_fix(self.exploration, of["finding"], of["fix"])
-            shown = explorations.example_of(self.exploration, of["finding"], of["fix"])
+            shown = explorations.apply_fix(self.exploration, of["finding"], of["fix"], is_example=True)
         return {"ghost": {**of, "text": instead.text, "paths": ghost_of(shown, now, self._drawn)}}
 
     def _viewed(self, *, is_new: bool = False) -> Data:

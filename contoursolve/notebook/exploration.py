@@ -15,7 +15,6 @@ from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.fill import FARTHEST
 from contoursolve.diagnosis.solutions import Listed, list_solutions
 from contoursolve.diagnosis.wording import word_keys
-from contoursolve.diagnostics.finding import Diagnostic, Fix
 from contoursolve.gcode import FACT, Program, Word, number_of, parse, spell
 from contoursolve.geometry import Pick, Unit
 from contoursolve.program.pipeline import Result
@@ -157,30 +156,18 @@ def free(exploration: Exploration, key: str) -> Exploration:
     return _change(exploration, word, text)
 
 
-def apply_fix(exploration: Exploration, finding: int, number: int) -> Exploration:
-    """The contour with a fix of one of the result's findings. Raises ValueError if there is none."""
-    fix = _fix(exploration, finding, number)
-    return write(exploration, fixed_text(exploration, exploration.result.diagnostics[finding], fix))
-
-
-def example_of(exploration: Exploration, finding: int, number: int) -> Exploration:
-    """The contour with a fix, whose gaps have the numbers of its example. Raises ValueError as `apply_fix`."""
-    found = _fix(exploration, finding, number)
-    fix = replace(found, replacement=found.example or found.replacement)
-    return write(exploration, fixed_text(exploration, exploration.result.diagnostics[finding], fix))
-
-
-def _fix(exploration: Exploration, finding: int, number: int) -> Fix:
-    findings = exploration.result.diagnostics
+def apply_fix(exploration: Exploration, finding: int, number: int, *, is_example: bool = False) -> Exploration:
+    """The contour with a fix of one of the result's findings, whose gaps have the numbers of its example if
+    `is_example`. Raises ValueError if there is none."""
+    result = exploration.result
+    findings = result.diagnostics
     if not (0 <= finding < len(findings) and 0 <= number < len(findings[finding].fixes)):
         raise ValueError(f"there is no fix {number} of finding {finding}")
-    return findings[finding].fixes[number]
-
-
-def fixed_text(exploration: Exploration, finding: Diagnostic, fix: Fix) -> str:
-    """The whole text with a fix."""
-    new = fix.by_line(exploration.result.lines_of(finding))
-    return "\n".join(new.get(block.line, block.text) for block in exploration.result.program.blocks)
+    fix = findings[finding].fixes[number]
+    if is_example:
+        fix = replace(fix, replacement=fix.example or fix.replacement)
+    new = fix.by_line(result.lines_of(findings[finding]))
+    return write(exploration, "\n".join(new.get(block.line, block.text) for block in result.program.blocks))
 
 
 def select(exploration: Exploration, number: int) -> Exploration:
