@@ -40,8 +40,8 @@ class Dialect:
     * the lexicon in `modes`: addresses, what a number without a point means, G codes, axes;
     * `forms`: the points of a drawing, the facts that words state about them, the path and its corners;
     * `find` reads blocks into claims of a form, and states which of two solutions the control takes, by name;
-    * `rules`: `COMMON_RULES`, rows of its own, then `GEOMETRY_RULES` (of `dialects.geometry`), so that whatever can
-      happen has a row;
+    * `rules`: `COMMON_RULES`, rows of its own, then `GEOMETRY_RULES` (of `controls.geometry_rules`), so that whatever
+      can happen has a row;
     * how it writes numbers is in the lexicon; a target of your own for `expand` is a `Post`.
 
     Names of forms are not those of a built-in control: what sympy has said about these is kept by them.

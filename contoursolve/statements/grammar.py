@@ -180,8 +180,8 @@ class _Reader:
         begin = self.at
         for what, letter in (("circle", "R"), ("line", "A")):
             self.at = begin
-            bracket = self._open() if self._accept(what) else ""
-            if self.at == begin or not (bracket or self._starts_place()):
+            bracket = self._open() if (is_named := self._accept(what)) else ""
+            if not is_named or not (bracket or self._starts_place()):
                 continue
             place, value = self._axis_words(), self._lettered(letter)
             self._close(bracket)

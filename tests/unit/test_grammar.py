@@ -166,6 +166,7 @@ MISTAKES = [
     ("line 1 passes through Z-40. Z3.", "Z3.", "a place such as"),
     ("line 1 tangent to circle [Z0 X0]", "]", "`R` and a number"),
     ("corner 1 tangent to line [Z0 X0]", "]", "`A` and a number"),
+    ("line 1 tangent to Z0 X0 R5", "Z0", "an element, `circle (...)` or `line (...)`"),
     ("line 1 passes [Z0 X0]", "", "`at` and a distance"),
     ("line 1 passes beside [Z0 X0] at", "", "a number"),
     ("line 1 parallel line 2", "parallel", "`parallel to`"),
