@@ -101,7 +101,7 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
         stated = stated_by(word, answer.profile)
         one: Decimal | None = None
         if word.address in claim.lexicon.addresses:
-            limits |= set(limits_beside(template.dialect.rules, claim, word))
+            limits |= set(limits_beside(template.asked.rules, claim, word))
             one = claim.lexicon.value(unit_word(word, has_point=True), answer.unit)
         elif word.address != FACT:
             raise FamilyError(f"{word.text} is no word of the contour")
@@ -132,7 +132,7 @@ def _compared(template: Template, claim: ParsedContour) -> Iterator[tuple[str, s
     for role in claim.form.roles:
         calls = role.names(stated)
         seen = {call: stated[name] for call, name in calls.items()}
-        for rule in template.dialect.rules:
+        for rule in template.asked.rules:
             for pair in rule.when.compared(seen) if role.name in rule.roles and rule.when is not None else ():
                 names = [free[calls[call]] for call in pair if calls.get(call) in free]
                 if len(names) == len(pair):

@@ -185,7 +185,7 @@ def _check_open(answer: Answer) -> None:
 
 def _lines(template: Template) -> set[int]:
     """The lines of the block, and those of the facts beside it."""
-    return {block.line for block in template.program.blocks} | {fact.span.line for fact in template.facts}
+    return {block.line for block in template.program.blocks} | {fact.span.line for fact in template.asked.facts}
 
 
 def _is_one(value: float, other: float) -> bool:
@@ -388,7 +388,7 @@ class _TargetSearch:
         else:
             lexicon, unit = answer.claim.lexicon, answer.unit
             texts = {word: write_word(typed.address, value * self.search.scale, lexicon, unit)}
-        if template.start is not None and typed.span.line not in _lines(template):
-            return "\n".join(template.lines(template.start, texts))
-        facts = template.typed(texts).facts
+        if template.asked.start is not None and typed.span.line not in _lines(template):
+            return "\n".join(template.lines(template.asked.start, texts))
+        facts = template.typed(texts).asked.facts
         return "\n".join([*template.lines(template.program, texts), *(fact.text for fact in facts)])

@@ -15,16 +15,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.examine import Answer, Depth, Policy
-from contoursolve.diagnostics.choices import choice_of
+from contoursolve.diagnosis.examine import Answer, Depth
 from contoursolve.diagnostics.errors import UserError
 from contoursolve.diagnostics.finding import Diagnostic, Severity
 from contoursolve.gcode import FACT, Directive, Program, Word, call, spell
-from contoursolve.geometry import Length
 from contoursolve.numeric.columns import Array
 from contoursolve.program.pipeline import Result, run
 from contoursolve.program.recognise import UnknownControlError, choose
-from contoursolve.program.request import Request
+from contoursolve.program.request import Request, request_for
 from contoursolve.reading import ReadIssue
 from contoursolve.reading.dialect import Dialect
 from contoursolve.tolerance import LARGEST
@@ -196,12 +194,8 @@ class Template(Struct, frozen=True, eq=False):
     blocks, words of the start point, and facts whose value is free."""
 
     program: Program
-    dialect: Dialect
-    unit: Length
-    policy: Policy
-    start: Program | None
-    words: Mapping[str, Word]
-    facts: tuple[Directive, ...] = ()
+    asked: Request
+    words: Mapping[str, Word] = {}
     variables: Mapping[str, tuple[int, int]] = {}
     """Variables that stand for a word: by their names, the line and the column of its value."""
 
@@ -227,9 +221,7 @@ class Template(Struct, frozen=True, eq=False):
 
     def examined(self, depth: Depth = Depth.FULL) -> Result:
         """All that `solve` says of the block as it stands, with every repair."""
-        return run(
-            self.program, Request(self.dialect, self.unit, self.policy, depth, self.start, self.facts, is_strict=True)
-        )
+        return run(self.program, replace(self.asked, depth=depth))
 
     def filled(self, values: Mapping[str, float]) -> "Template":
         """The block with these values written in it, and no word free."""
@@ -239,13 +231,13 @@ class Template(Struct, frozen=True, eq=False):
     def typed(self, texts: Mapping[str, str]) -> "Template":
         """The block with these texts in place of free words, and no word free."""
         program = gcode.parse("\n".join(self.lines(self.program, texts)), self.program.name, syntax=self.program.syntax)
-        start = self.start
+        start = self.asked.start
         if start is not None:
             start = gcode.parse("\n".join(self.lines(start, texts)), start.name, 0, start.syntax)
         free = {self.words[name].span.line: text for name, text in texts.items()}
-        lines = ((each, each.span.line) for each in self.facts)
+        lines = ((each, each.span.line) for each in self.asked.facts)
         facts = tuple(gcode.read_directive(free[line], line) if line in free else each for each, line in lines)
-        return replace(self, program=program, start=start, words={}, facts=facts)
+        return replace(self, program=program, asked=replace(self.asked, start=start, facts=facts), words={})
 
     def lines(self, program: Program, texts: Mapping[str, str]) -> list[str]:
         """The lines of the block, or of the start, with these texts in place of free words."""
@@ -269,7 +261,7 @@ def find_words(template: Template, names: Sequence[str]) -> dict[str, Word]:
     """The words that names such as `A`, `,A`, `2:,A` (of line 2), `start.X` or `length of line 1` (a fact) speak of.
     Raises FamilyError if one does not say which."""
     found: dict[str, Word] = {}
-    program, start, facts = template.program, template.start, template.facts
+    program, start, facts = template.program, template.asked.start, template.asked.facts
     words = _words_of(program)
     stated = {
         subject_of(each.text): each
@@ -382,22 +374,20 @@ class SweepSpec(Struct, frozen=True):
             if not isinstance(text, str):
                 raise TypeError(f"the {name} is a text (str), not {type(text).__name__}")
         program = gcode.parse(self.block, "<block>")
-        unit, policy = choice_of(Length, self.units, "units"), choice_of(Policy, self.rules, "rules")
-        start = gcode.parse(self.start, "<start>", first_line=0) if self.start is not None else None
         dialect = choose(self.control, program, dict(self.settings))
+        asked = request_for(
+            program.name, dialect, start=self.start, units=self.units, rules=self.rules, facts=self.facts, strict=True
+        )
         if dialect is None:
-            unread = run(program, Request(None, unit, policy, start=start, is_strict=True))
+            unread = run(program, replace(asked, facts=()))
             if any(each.about is not ReadIssue.NO_CONTOUR for each in errors_of(unread)):
                 raise RefusedError(unread)
             raise UnknownControlError(f"the block does not show its control: {' or '.join(DIALECTS)}")
-        syntax = dialect.modes.syntax
-        program, start = gcode.spelled(program, syntax), start and gcode.spelled(start, syntax)
-        facts = tuple(gcode.read_directive(fact, -number) for number, fact in enumerate(self.facts, 1))
+        program = gcode.spelled(program, dialect.modes.syntax)
         from contoursolve.families.variables import numbered  # noqa: PLC0415 - it raises errors of this module
 
         program, places = numbered(program, dialect.modes.language, dict(self.variables), self.names)
-        template = Template(program, dialect, unit, policy, start, {}, facts, places)
-        return template.with_words(self.names)
+        return Template(program, asked, variables=places).with_words(self.names)
 
 
 class BlockOptions(TypedDict, total=False):

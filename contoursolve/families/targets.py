@@ -247,8 +247,9 @@ def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> t
     to be all; nothing if they are. `answer` is that of the block as it is. Raises NotMovedError, FamilyError."""
     typed = template.words[word]
     asking = template.typed({word: with_value(typed, "?")})
-    facts = (*asking.facts, read_directive(_stated(goal, answer), -len(asking.facts) - 1))
-    result = replace(asking, facts=facts).examined(Depth.VERDICT)
+    facts = asking.asked.facts
+    facts = (*facts, read_directive(_stated(goal, answer), -len(facts) - 1))
+    result = replace(asking, asked=replace(asking.asked, facts=facts)).examined(Depth.VERDICT)
     unread = [each.message for each in result.diagnostics if each.about in _UNREAD]
     if unread:
         raise FamilyError(unread[0])

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import IO, Any, Protocol
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from contoursolve.execution.machine import needs_running
 from contoursolve.gcode import Block, parse, parse_block
@@ -87,7 +86,7 @@ def rewrite(
         lines: Iterable[str | object] = tape.lines()
     else:
         dialect = configure(dialect, settings)
-        asked = replace(asked, dialect=dialect)
+        asked = asked.of(dialect)
         places = lines_of_facts(parse(tape.read(), tape.name), asked) if asked.facts else {}
         is_certain = bool(named or recogniser.begun) or not recogniser.is_sure
         lines = expand_lines(

@@ -156,9 +156,7 @@ class Run:
     def __init__(self, program: Program, asked: Request, together: Together | None = None) -> None:
         dialect, start = asked.dialect, asked.start
         if dialect is not None:
-            syntax = dialect.modes.syntax
-            program, start = spelled(program, syntax), start and spelled(start, syntax)
-            asked = replace(asked, start=start)
+            program = spelled(program, dialect.modes.syntax)
         program, facts = attach(program, asked)
         control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
         self.frame = Result(program, control, (), (), start, facts, settings, asked.policy, around=asked.around)

@@ -11,7 +11,7 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Depth, Policy
 from contoursolve.diagnostics.choices import choice_of
 from contoursolve.execution.subprograms import ALONE, Surroundings, surroundings_of
-from contoursolve.gcode import Directive, Program, parse, read_directive
+from contoursolve.gcode import Directive, Program, parse, read_directive, spelled
 from contoursolve.geometry import Length
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import Rule
@@ -38,6 +38,10 @@ class Request(Struct, frozen=True):
     is_strict: bool = False
     """Whether every line is told of, and not only that on which a contour depends."""
 
+    def of(self, dialect: Dialect) -> "Request":
+        """The same for a program of this control, as which the start point is read, too."""
+        return replace(self, dialect=dialect, start=self.start and spelled(self.start, dialect.modes.syntax))
+
     @property
     def rules(self) -> tuple[Rule, ...]:
         """The rules by which findings are told."""
@@ -60,8 +64,8 @@ def request_for(  # noqa: PLR0913 - takes what `solve` takes
     """The request that arguments of `solve` state about the program of this name for a control; a text alone is one
     fact. Raises ValueError where units, rules or depth is none of its choices."""
     several = [facts] if isinstance(facts, str) else facts
-    return Request(
-        dialect,
+    asked = Request(
+        None,
         choice_of(Length, units, "units"),
         choice_of(Policy, rules, "rules"),
         choice_of(Depth, depth, "depth"),
@@ -70,6 +74,7 @@ def request_for(  # noqa: PLR0913 - takes what `solve` takes
         surroundings_of(name, variables, folders),
         strict,
     )
+    return asked.of(dialect) if dialect is not None else asked
 
 
 def _fact(fact: "str | Statement", line: int) -> Directive:
