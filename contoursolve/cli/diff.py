@@ -20,7 +20,6 @@ from contoursolve.cli.options import (
 )
 from contoursolve.cli.printing import print_lines, say
 from contoursolve.controls import DIALECTS, PLAIN
-from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import Program
 from contoursolve.geometry import Length
 from contoursolve.program.pipeline import Result, run
@@ -150,5 +149,5 @@ def _dialect_of(
 
 def _has_no_path(result: Result) -> bool:
     """Whether a program has errors; that it has no contour is none here."""
-    errors = (each for each in result.diagnostics if each.severity is Severity.ERROR)
+    errors = (each for each in result.diagnostics if each.is_error)
     return any(each.about is not ReadIssue.NO_CONTOUR for each in errors)

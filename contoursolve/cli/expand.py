@@ -26,7 +26,6 @@ from contoursolve.cli.options import (
 from contoursolve.cli.printing import say, style_of_output
 from contoursolve.diagnosis.examine import Policy
 from contoursolve.diagnosis.wording import count
-from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode.files import Tape, check_target, open_tape, tape_of, write_whole
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.listing import without_repeated
@@ -314,7 +313,7 @@ def print_bytes(pieces: Iterable[bytes]) -> None:
 def report_left(summary: Summary, name: str, style: Style) -> None:
     """Why contours were not expanded, on standard error."""
     for left in summary.left:
-        if all(finding.severity is not Severity.ERROR for finding in left.diagnostics):
+        if all(not finding.is_error for finding in left.diagnostics):
             say(f"{style('error', 'error')}: line {left.lines[0]}: {left.reason}", err=True)
         for finding in without_repeated(left.diagnostics):
             here = tuple(label for label in finding.labels if label.span.line in left.sources)

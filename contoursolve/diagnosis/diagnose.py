@@ -68,7 +68,7 @@ def diagnose(
 def _both(findings: list[Diagnostic]) -> list[int]:
     """The indices of the findings about what is missing and about what contradicts itself, where a contour has both: a
     repair mends either."""
-    errors = {number: each for number, each in enumerate(findings) if each.severity is Severity.ERROR}
+    errors = {number: each for number, each in enumerate(findings) if each.is_error}
     missing = [number for number, each in errors.items() if each.about in _MISSING]
     against = [number for number, each in errors.items() if each.about in _AGAINST]
     return [*missing, *against] if missing and against else []
@@ -153,7 +153,7 @@ def _further_ties(answer: Answer) -> Iterator[Tie]:
         for fact in facts_at(profile, finding.span)[:1] if finding.about in SAID_AGAIN else ():
             words = (profile.givens[name].word for name in tied_with(system, fact))
             addresses = (_address(each) for each in words if each)
-            is_conflict = finding.severity is Severity.ERROR
+            is_conflict = finding.is_error
             yield Tie(tuple(dict.fromkeys(addresses)), "", finding.values.get("off_by_mm", 0.0), is_conflict)
 
 
@@ -302,9 +302,9 @@ def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
         values = found_any if about_values else Layer("values", Verdict.NOT_RUN, blocked)
         return [*layers, values, Layer("geometry", Verdict.NOT_RUN, blocked)]
     layers.append(found_any)
-    if any(each.basis is Basis.RULE and each.severity is Severity.ERROR for each in answer.diagnostics):
+    if any(each.basis is Basis.RULE and each.is_error for each in answer.diagnostics):
         return [*layers, Layer("geometry", Verdict.NOT_RUN, "a rule refuses the block")]
-    found = any(each.severity is Severity.ERROR and each not in about_values for each in numerical)
+    found = any(each.is_error and each not in about_values for each in numerical)
     if about_values and not found and answer.contour is None:
         return [*layers, Layer("geometry", Verdict.NOT_RUN, "the points are not determined")]
     return [*layers, _layer("geometry", found, "intersections exist, direction of travel, room for corners")]

@@ -10,7 +10,7 @@ from contoursolve.diagnosis.edits import AT_MOST, Edit, EditKind, Why, change, d
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.spelling import meant_in, meant_words, respelled, unanswerable
-from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, FaultKind, Word, lookalike_at, number_of
 from contoursolve.geometry import Given, Length, Unit
@@ -37,7 +37,7 @@ def commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     """Words that an error is about, with the comma that their address lacks or without the one that it has not: all
     and each alone."""
     claim = answer.claim
-    blamed = spans_of(each for each in answer.diagnostics if each.severity is Severity.ERROR)
+    blamed = spans_of(each for each in answer.diagnostics if each.is_error)
     meant = meant_words(claim)
     words = dict.fromkeys(
         (*(word for word in claim.unknown if not lookalike_at(meant, word.span)), *claim.words.values())

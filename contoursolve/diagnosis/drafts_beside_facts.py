@@ -13,7 +13,7 @@ from contoursolve.diagnosis.examine import Answer, AskedValue, problems
 from contoursolve.diagnosis.examples import sampled
 from contoursolve.diagnosis.explain import SAID_AGAIN, SINGULAR, facts_at, spans_of
 from contoursolve.diagnosis.subsets import lines_near
-from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, number_of, spell
 from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Offset, Profile, Unit, assemble, scalar
@@ -183,7 +183,7 @@ def _exchanged(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edi
 
 def _corrected(answer: Answer, twice: list[Diagnostic], trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """One word or fact of those that disagree with the value that the others give it: it is asked for instead."""
-    for finding in twice if any(each.severity is Severity.ERROR for each in twice) else ():
+    for finding in twice if any(each.is_error for each in twice) else ():
         for word in _blamed(answer, finding):
             asking = _with_value(word, PLACEHOLDER)
             if not asking:

@@ -159,7 +159,7 @@ class _Notebook:
     def add(self, finding: Diagnostic, status: Status | None = None) -> None:
         if finding not in self.findings:
             self.findings.append(finding)
-        if status and finding.severity is Severity.ERROR:
+        if status and finding.is_error:
             self.statuses.add(status)
 
     @property

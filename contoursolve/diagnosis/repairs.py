@@ -46,7 +46,7 @@ from contoursolve.diagnosis.typo_fixes import (
     slips,
     suspects,
 )
-from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.gcode import Block, FaultKind, Word, number_of
 from contoursolve.geometry import Given, Profile, Radius, Unit
 from contoursolve.reading import ParsedContour, ReadIssue, State, read
@@ -412,7 +412,7 @@ def _slips(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
 def _asked(answer: Answer, word: Word, given: Given) -> Iterator[tuple[str, float]]:
     """The values that errors about a word ask for, in mm (radius) or degrees, and how they are rounded."""
     for finding in answer.diagnostics:
-        if finding.severity is not Severity.ERROR:
+        if not finding.is_error:
             continue
         if finding.about not in OF_CORNERS and finding.labels and finding.labels[0].span == word.span:
             for key in ("expected", "limit"):

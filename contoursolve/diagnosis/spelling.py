@@ -312,7 +312,7 @@ def without_point(context: Context, claim: ParsedContour, findings: Iterable[Dia
     if any(given.word and given.word.number and given.word.has_point for given in claim.givens.values()):
         for word, value in counted.items():
             yield report(context, about, Basis.RULE, [word], actual=value)
-    elif words and _is_slip(claim, words, has_error=any(each.severity is Severity.ERROR for each in findings)):
+    elif words and _is_slip(claim, words, has_error=any(each.is_error for each in findings)):
         yield report(context, about, Basis.RULE, words, actual=join(list(counted.values())))
 
 

@@ -95,6 +95,11 @@ class Diagnostic(Shown, Struct, frozen=True):
     about: Enum | None = None
     """The event that the finding is about, whatever the control calls it; None for a plain rule."""
 
+    @property
+    def is_error(self) -> bool:
+        """Whether its severity is that of an error."""
+        return self.severity is Severity.ERROR
+
 
 class Verdict(Enum):
     """What became of one check."""

@@ -17,7 +17,7 @@ from contoursolve import gcode
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Answer, Depth
 from contoursolve.diagnostics.errors import UserError
-from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.gcode import FACT, Directive, Program, Word, call, spell
 from contoursolve.numeric.columns import Array
 from contoursolve.program.pipeline import Result, run
@@ -170,7 +170,7 @@ def stretches(count: int, size: int) -> Iterator[tuple[int, int]]:
 
 def errors_of(found: Answer | Result) -> list[Diagnostic]:
     """The errors among the findings."""
-    return [each for each in found.diagnostics if each.severity is Severity.ERROR]
+    return [each for each in found.diagnostics if each.is_error]
 
 
 def first_error(found: Answer | Result) -> str:

@@ -107,7 +107,7 @@ def findings_of(item: Answer | Diagnostic, *, is_explained: bool = True) -> tupl
 
 def without_repeated(findings: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
     """The findings about one contour without those that say what another one says."""
-    errors = [each for each in findings if each.severity is Severity.ERROR]
+    errors = [each for each in findings if each.is_error]
     waits = any(each.about in _WAITS for each in findings)
     return tuple(each for each in findings if not _is_repeated(each, errors, waits=waits))
 
@@ -235,9 +235,7 @@ class Totals(Struct, frozen=True):
             self.waiting.update([item.status] * is_waiting)
         findings = [each for each in findings_of(item, is_explained=is_explained) if not _is_nothing(each)]
         self.severities.update(each.severity for each in findings if each.about is not ReadIssue.CONTOUR_WAITS)
-        self.unexamined.update(
-            each.code for each in findings if each.about in _UNEXAMINED and each.severity is Severity.ERROR
-        )
+        self.unexamined.update(each.code for each in findings if each.about in _UNEXAMINED and each.is_error)
 
     def add(self, other: "Totals") -> None:
         """Count what was counted in another program, too."""

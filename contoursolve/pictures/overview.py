@@ -11,7 +11,6 @@ from contoursolve.comparison import Motion, Travel, follow
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import statuses_text
-from contoursolve.diagnostics.finding import Severity
 from contoursolve.geometry import SECOND, Length, Plane, Turn
 from contoursolve.pictures.compose import MOST_ELEMENTS, remarks_of
 from contoursolve.pictures.page import TextRun, visible
@@ -197,7 +196,7 @@ def _remarks(drawn: Sequence[Drawn], total: int) -> Iterator[tuple[TextRun, ...]
 
 def _fault(answer: Answer) -> str:
     """The first thing that is wrong with a contour."""
-    found = next((each for each in answer.diagnostics if each.severity is Severity.ERROR), None)
+    found = next((each for each in answer.diagnostics if each.is_error), None)
     return f": {found.message}" if found is not None else ""
 
 

@@ -7,7 +7,6 @@ from msgspec.structs import replace
 from contoursolve.analysis import analyse
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, count_choices
 from contoursolve.diagnosis.wording import angle_text, length_text
-from contoursolve.diagnostics.finding import Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FaultKind, Word
 from contoursolve.geometry import Given, Unit, assemble
@@ -60,7 +59,7 @@ def unread(answer: Answer) -> Iterator[Span]:
     marked = {
         label.span
         for each in answer.diagnostics
-        if each.severity is Severity.ERROR and isinstance(each.about, FaultKind)
+        if each.is_error and isinstance(each.about, FaultKind)
         for label in each.labels
     }
     for block in answer.claim.blocks:

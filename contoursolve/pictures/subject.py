@@ -254,7 +254,7 @@ def _blamed(answer: Answer, *, is_slip: bool) -> Iterator[Span]:
     words |= {directive.span: FACT for directive in claim.directives}
     for finding in answer.diagnostics:
         is_refusal = isinstance(finding.about, RefusalKind)
-        if finding.severity is not Severity.ERROR or isinstance(finding.about, NoteKind):
+        if not finding.is_error or isinstance(finding.about, NoteKind):
             continue
         if is_slip and finding.basis is Basis.NUMERICAL:
             continue

@@ -9,7 +9,6 @@ from itertools import chain
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import Block, Passage, Syntax, Word, parse_block, spell
 from contoursolve.gcode.comments import comment_out, is_remark, own_comments, remark, with_comments_of
 from contoursolve.geometry import Length
@@ -252,7 +251,7 @@ class Expander:
 
     def _obstacle(self, answer: Answer) -> str:
         """Why a contour cannot be expanded; empty if it can."""
-        errors = [each for each in answer.diagnostics if each.severity is Severity.ERROR]
+        errors = [each for each in answer.diagnostics if each.is_error]
         if errors or answer.contour is None:
             return f"{errors[0].code}: {errors[0].message}" if errors else "the contour is not known"
         if len({block.is_skippable for block in answer.claim.blocks}) > 1:

@@ -10,7 +10,6 @@ from math import cos, radians, sin
 
 from contoursolve.controls.chain import ChainFinder, Joining, Language
 from contoursolve.diagnosis.examine import Answer, Depth
-from contoursolve.diagnostics.finding import Severity
 from contoursolve.gcode import parse, spell
 from contoursolve.geometry import Arc, Corner, CornerShape, Heading, Line, Profile, Unit
 from contoursolve.postprocess.emit import Format, Move, emit
@@ -198,4 +197,4 @@ def _is_accepted(moves: Moves, answer: Answer, target: Dialect, here: Point, for
     head = " ".join(("G00", unit, answer.plane.code, side, *absolute, start))
     text = "\n".join([head, *sense, *lines])
     result = run(parse(text, syntax=target.modes.syntax), Request(target, form.unit, depth=Depth.VERDICT))
-    return all(each.severity is not Severity.ERROR for each in result.diagnostics)
+    return all(not each.is_error for each in result.diagnostics)

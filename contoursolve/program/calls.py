@@ -98,7 +98,7 @@ def _as_warning(step: Step, passed_over: Set[int]) -> Step:
 
 
 def _warning(finding: Diagnostic) -> Diagnostic:
-    if finding.severity is not Severity.ERROR:
+    if not finding.is_error:
         return finding
     note = "the program passes over this line, so that this is a warning only"
     return replace(finding, severity=Severity.WARNING, notes=(note, *finding.notes))
@@ -163,7 +163,7 @@ def _results(answers: Sequence[Answer]) -> str:
     for answer in answers[:MOST_TOLD]:
         values = [None if value is None else float(value) for value in answer.start.values]
         place = measured(values, answer.plane, answer.unit) if answer.start.is_known else "an unknown point"
-        errors = [each.message for each in answer.diagnostics if each.severity is Severity.ERROR]
+        errors = [each.message for each in answer.diagnostics if each.is_error]
         lines = join([str(line) for line in answer.calls])
         called = f"called in line{'s' * (len(answer.calls) > 1)} {lines}" if answer.calls else f"pass {len(told) + 1}"
         told.append(f"{called}: from {place} {errors[0] if errors else answer.status.value}")
@@ -176,7 +176,7 @@ def _of_other_file(answer: Answer, block: Block, rules: tuple[Rule, ...]) -> Ite
     caller = block.callers[0]
     context = Context(rules, answer.unit, place=Span(caller.line, 1, len(caller.text) + 1))
     for each in answer.diagnostics:
-        if each.severity is Severity.ERROR:
+        if each.is_error:
             row = context.row(ReadIssue.SUBPROGRAM_REFUSED)
             yield report(context, row, Basis.RULE, [], file=block.file, line=each.span.line, finding=each.message)
 

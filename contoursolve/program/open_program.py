@@ -23,7 +23,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer, Policy, rank
 from contoursolve.diagnostics.choices import choice_of
-from contoursolve.diagnostics.finding import Diagnostic, Fix, Severity
+from contoursolve.diagnostics.finding import Diagnostic, Fix
 from contoursolve.diagnostics.source import Span
 from contoursolve.execution.machine import needs_running
 from contoursolve.execution.subprograms import surroundings_of
@@ -416,7 +416,7 @@ class OpenProgram:
                 self._bring_up(part)
             blocks = partial(self._lines.between, start, start + part.count)
             for finding in outside.take(part.beside, start + 1, blocks, part.answer, part.known.state):
-                is_told = is_told or finding.severity is Severity.ERROR
+                is_told = is_told or finding.is_error
                 yield finding, (finding.span.line,)
             if part.findings and part.answer is not None:
                 lines = part.answer.lines

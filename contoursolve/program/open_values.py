@@ -8,7 +8,6 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
 from contoursolve.diagnosis.wording import join
-from contoursolve.diagnostics.finding import Severity
 from contoursolve.execution.evaluate import evaluate, variables_of, written
 from contoursolve.execution.language import MacroLanguage, Unknown, Variable
 from contoursolve.gcode import Block, parse_block
@@ -107,7 +106,7 @@ class _Search:
         if not isinstance(found, ParsedContour) or len(found.blocks) != len(claim.blocks):
             return _Trial(value, False, "the blocks are read as another contour")
         answer = examine(found, dialect.rules, self.policy, lambda: None, Depth.VERDICT)
-        error = next((each for each in answer.diagnostics if each.severity is Severity.ERROR), None)
+        error = next((each for each in answer.diagnostics if each.is_error), None)
         return _Trial(value, answer.contour is not None and error is None, error.message if error else "")
 
     def _block(self, number: int, value: float) -> Block:

@@ -92,7 +92,7 @@ class Result(Shown, Struct, frozen=True):
     @property
     def has_errors(self) -> bool:
         """Whether any finding is an error."""
-        return any(each.severity is Severity.ERROR for each in self.diagnostics)
+        return any(each.is_error for each in self.diagnostics)
 
     def lines_of(self, finding: Diagnostic) -> tuple[int, ...]:
         """The lines that a fix of a finding replaces: those of its contour, or its own; a contour tells of the block
@@ -171,7 +171,7 @@ class Run:
             yield examiner.nothing_to_solve(program.blocks)
             return
         for step in self._steps():
-            is_told = is_told or any(each.severity is Severity.ERROR for each in step.findings)
+            is_told = is_told or any(each.is_error for each in step.findings)
             yield from step.findings
             if isinstance(step.answer, Answer):
                 is_told = True

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
 from contoursolve.diagnosis.explain import Context, context_of, report
 from contoursolve.diagnosis.wording import join, measured
-from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic, Severity
+from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic
 from contoursolve.gcode import Block, Passage, parse_block
 from contoursolve.program.stream import View
 from contoursolve.reading import Awaited, Modes, ParsedContour, Position, ReadIssue, State, leave
@@ -140,7 +140,7 @@ class Queue:
         """Where a contour ends, mm: its own end, or with the first fix of its first error that leaves nothing open."""
         if answer.contour is not None:
             return answer.contour.end
-        errors = (each for each in answer.diagnostics if each.severity is Severity.ERROR)
+        errors = (each for each in answer.diagnostics if each.is_error)
         fixes = (fix for each in errors for fix in each.fixes if fix.applicability is not Applicability.PLACEHOLDER)
         fix = next(fixes, None)
         if fix is None or not answer.start.is_known:
@@ -228,7 +228,7 @@ def _lost(claim: ParsedContour, modes: Modes, answer: Answer, origin: Position |
 
 def _awaited(claim: ParsedContour, answer: Answer) -> Position | None:
     """What made the start of a contour unknown, if nothing else is wrong with it."""
-    errors = [each.about for each in answer.diagnostics if each.severity is Severity.ERROR]
+    errors = [each.about for each in answer.diagnostics if each.is_error]
     places = [claim.before.axes[axis] for axis in claim.before.plane.axes]
     unknown = [each for each in places if each.value is None and each.span is not None]
     return unknown[0] if unknown and errors == [ReadIssue.POSITION_UNKNOWN] else None

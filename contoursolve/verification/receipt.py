@@ -76,13 +76,16 @@ class Ledger(Struct):
         return passed
 
     def omit(self, what: str, why: str) -> None:
-        """Write down what was not checked."""
-        self.omissions.append(Omission(what, why))
+        """Write down what was not checked, once."""
+        omission = Omission(what, why)
+        if omission not in self.omissions:
+            self.omissions.append(omission)
 
     def add(self, other: "Ledger", prefix: str = "") -> None:
         """Append what another ledger holds, its checks under a name that begins so."""
         self.checks += [replace(check, name=prefix + check.name) for check in other.checks]
-        self.omissions += [each for each in other.omissions if each not in self.omissions]
+        for each in other.omissions:
+            self.omit(each.what, each.why)
 
     @property
     def failures(self) -> list[Check]:

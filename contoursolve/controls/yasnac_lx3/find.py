@@ -14,7 +14,7 @@ from contoursolve.controls.yasnac_lx3.leaving import claim_leaving
 from contoursolve.diagnosis.examine import Policy, examine
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import angle_text, length_text, place_text
-from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic, Fix, Severity
+from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic, Fix
 from contoursolve.gcode import Block, Macro, Word, parse_block
 from contoursolve.geometry import FIRST, SECOND
 from contoursolve.reading import Code, Effect, Modes, ParsedContour, ReadIssue, State, apply_modes, codes_of, positions
@@ -167,7 +167,7 @@ def _forgotten(name: str, alone: list[Word], block: Block, state: State, context
     meant = restate(block, f"G{CORNERING[name]:02}")
     claim = find([meant], 0, state, modes)
     answer = examine(claim, tuple(context.rules), Policy.ENFORCE) if claim is not None else None
-    if answer is None or answer.contour is None or any(each.severity is Severity.ERROR for each in answer.diagnostics):
+    if answer is None or answer.contour is None or any(each.is_error for each in answer.diagnostics):
         return finding
     end = place_text(answer.profile, {"end.0": answer.contour.end[FIRST], "end.1": answer.contour.end[SECOND]})
     fix = Fix(f"write {name} -> the contour ends at {end}", meant.text, Applicability.CHANGES_CONTOUR)
