@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from msgspec import Struct
 
-from contoursolve.analysis.partition import order
+from contoursolve.analysis.partition import Group, order
 from contoursolve.geometry import Fact, System
 from contoursolve.numeric import modular_rank
 from contoursolve.numeric.inputs import COSINE, SIDE, SINE, lookup
@@ -85,6 +85,22 @@ def analyse(system: System) -> Determinacy:
     """
     known = _shipped().get(system.equations_key)
     return _from_json(known) if known else survey(system)
+
+
+def basis_of(system: System) -> tuple[Fact, ...]:
+    """The first facts that determine as much as all facts of a system do."""
+    return tuple(system.facts[index] for index in analyse(system).basis)
+
+
+def spare_of(system: System) -> tuple[Fact, ...]:
+    """The facts beside the basis: they say what others say already."""
+    basis = analyse(system).basis
+    return tuple(fact for index, fact in enumerate(system.facts) if index not in basis)
+
+
+def groups_of(system: System) -> tuple[Group, ...]:
+    """The groups of the basis of a determined system, in the order in which they are solved."""
+    return order(system, basis_of(system))
 
 
 def survey(system: System) -> Determinacy:

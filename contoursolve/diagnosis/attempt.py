@@ -9,7 +9,7 @@ from itertools import chain, islice
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse, order
+from contoursolve.analysis import analyse, groups_of
 from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
 from contoursolve.diagnosis.examples import ends, propose, sampled
@@ -236,10 +236,9 @@ class Trial(Struct, frozen=True):
         if profile is None or not profile.is_extended:
             return 0
         system = assemble(profile)
-        verdict = analyse(system)
-        if not verdict.is_determined:
+        if not analyse(system).is_determined:
             return 0
-        return max(len(group.unknowns) for group in order(system, [system.facts[index] for index in verdict.basis]))
+        return max(len(group.unknowns) for group in groups_of(system))
 
     def find(self, edits: tuple[Edit, ...]) -> ParsedContour | None:
         """The edited blocks as they are read; None where they are not the same contour any more."""

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse, decompose
+from contoursolve.analysis import analyse, decompose, spare_of
 from contoursolve.diagnosis.attempt import Repair
 from contoursolve.diagnosis.edits import EditKind, apply_edits
 from contoursolve.diagnosis.examine import Answer, Policy, problems
@@ -278,7 +278,7 @@ def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
     parts, verdict = decompose(system), analyse(system)
     size = f"{count(len(system.facts), 'equation')}, {count(len(system.unknowns), 'unknown')}"
     # A point of a circle may be given besides its centre: the control compares the radii, and so do we.
-    spare = [system.facts[index] for index in range(len(system.facts)) if index not in verdict.basis]
+    spare = spare_of(system)
     is_over = any(not isinstance(fact, OnCircle) for fact in spare)
     if spare and not is_over:
         size += f", {count(len(spare), 'check')}"

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
-from contoursolve.analysis import analyse, order
+from contoursolve.analysis import analyse, groups_of
 from contoursolve.diagnosis.wording import (
     angle_text,
     by_line,
@@ -149,12 +149,11 @@ def _placed_before(profile: Profile, finding: Diagnostic) -> Iterator[str]:
     for element, block in zip(profile.figure.path, profile.blocks, strict=True):
         if block.line == finding.span.line and element.tail != profile.figure.start:
             system = assemble(profile)
-            verdict = analyse(system)
-            if not verdict.is_determined:
+            if not analyse(system).is_determined:
                 return
             wanted = {scalar(element.tail, axis) for axis in (FIRST, SECOND)}
             facts: list[Fact] = []
-            for group in reversed(order(system, tuple(system.facts[index] for index in verdict.basis))):
+            for group in reversed(groups_of(system)):
                 if wanted & {*group.unknowns}:
                     facts += group.facts
                     wanted |= {name for fact in group.facts for name in system.unknowns_of(fact)}

@@ -7,7 +7,7 @@ import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from contoursolve.analysis import analyse
+from contoursolve.analysis import basis_of, spare_of
 from contoursolve.families.case_classes import CaseClass, asked_of
 from contoursolve.families.row_boxes import Place, RowBoxes
 from contoursolve.families.spec import Places, stretches
@@ -77,19 +77,17 @@ class BranchRows:
     def __init__(self, case: CaseClass) -> None:
         self.case = case
         self.system: System = case.system
-        basis = analyse(self.system).basis
-        facts = [self.system.facts[index] for index in basis]
-        facts += [fact for index, fact in enumerate(self.system.facts) if index not in basis]
+        basis, spare = basis_of(self.system), spare_of(self.system)
         self.boxes = RowBoxes(case)
         self.steps = [_step(make_kernel(self.system, group)) for group in self.boxes.groups]
         tape = Tape()
         at = lookup(self.system, tape, {})
-        for number, fact in enumerate(facts):
+        for number, fact in enumerate((*basis, *spare)):
             tape.output(f"residual:{number}", fact.residual(at))
         self.solved = [f"residual:{number}" for number in range(len(basis))]
         """The outputs of the equations that are solved."""
         equations = check_residuals(largest(tape.expression(name) for name in self.solved))
-        stated = check_facts(Source(self.system.figure, tape, at), facts[len(basis) :], len(basis))
+        stated = check_facts(Source(self.system.figure, tape, at), spare, len(basis))
         self.corners = compile_path(self.system).corner_residuals
         """The outputs of the equations of the corners."""
         checks = [equations, *stated, *add_path(tape, self.system, case.profile.givens)]

@@ -12,7 +12,7 @@ import numpy
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse, order
+from contoursolve.analysis import groups_of
 from contoursolve.families.case_classes import CaseClass
 from contoursolve.families.spec import Places
 from contoursolve.geometry import FIRST, SECOND, System, Unit, Values, scalar
@@ -115,7 +115,7 @@ class RowBoxes:
 
     def __init__(self, case: CaseClass) -> None:
         self.case, self.system = case, case.system
-        self.groups = order(self.system, tuple(self.system.facts[index] for index in analyse(self.system).basis))
+        self.groups = groups_of(self.system)
 
     def cells(self, values: Mapping[str, Array]) -> Iterator[Cell]:
         """The rows in cells, in an order that follows from the values alone."""

@@ -13,7 +13,7 @@ import numpy
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse
+from contoursolve.analysis import analyse, basis_of
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnostics.display import Shown
 from contoursolve.families.branch_rows import add_path
@@ -266,9 +266,9 @@ def _compile(system: System, givens: frozenset[str], outputs: tuple[str, ...]) -
     for name in system.unknowns:
         tape.input(name)
     at = lookup(system, tape, {})
-    basis = analyse(system).basis
-    for row, index in enumerate(basis):
-        tape.output(f"{row}", system.facts[index].residual(at))
+    basis = basis_of(system)
+    for row, fact in enumerate(basis):
+        tape.output(f"{row}", fact.residual(at))
     add_path(tape, system, givens)
     wanted = [name for name in outputs if name not in system.unknowns]
     return tape.finish(), tape.slopes([*map(str, range(len(basis))), *wanted], tape.inputs)

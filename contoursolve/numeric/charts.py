@@ -13,9 +13,10 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.numeric import intervals
+from contoursolve.numeric.columns import Rows
 from contoursolve.numeric.expressions import Tape, cosine, sine, symbol
 from contoursolve.numeric.inputs import COSINE, SINE
-from contoursolve.numeric.interpreter import Replay
+from contoursolve.numeric.interpreter import Replay, run_steps
 from contoursolve.numeric.intervals import Array, Intervals, constant, down, up
 
 NO_ROOT = -1e-10
@@ -46,27 +47,14 @@ class Bounds(Struct, frozen=True, eq=False):
         return Bounds(self.low[:, boxes], self.high[:, boxes], *rest)
 
 
-def _run_steps(steps: Sequence[tuple[Any, int, int, int]], work: list[Any]) -> None:
-    for operation, first, second, target in steps:
-        work[target] = operation(work[first], work[second]) if second >= 0 else operation(work[first])
-
-
 _JUMPING = (casadi.OP_SIGN, casadi.OP_EQ, casadi.OP_LE, casadi.OP_LT)
 """Instructions whose results are steps."""
 
 
-class _Floats:
+class _Floats(Rows):
     """The functions of plain arrays; what has no value is NaN."""
 
-    root, cosine, sine, magnitude, sign = numpy.sqrt, numpy.cos, numpy.sin, numpy.abs, numpy.sign
-    angle, larger = numpy.arctan2, numpy.maximum
-    equal, at_most, below = numpy.equal, numpy.less_equal, numpy.less
-    opposite = numpy.logical_not
-
-    @staticmethod
-    def chosen(condition: Any, value: Any) -> Any:
-        """The value where the condition is true, else 0."""
-        return numpy.where(condition, value, 0.0)
+    larger = staticmethod(numpy.maximum)
 
 
 class _Enclosure(Replay):
@@ -102,7 +90,7 @@ class _Enclosure(Replay):
             for source, target in self._inputs:
                 if source < self._words:
                     work[target] = words[source]
-            _run_steps(self._moving, work)
+            run_steps(self._moving, work)
         low, high = numpy.zeros((self._count, count)), numpy.zeros((self._count, count))
         for source, target in self._outputs:
             low[target], high[target] = work[source].low, work[source].high
@@ -136,7 +124,7 @@ class _Enclosure(Replay):
             for source, target in self._inputs:
                 if source >= self._words:
                     work[target] = constant(fixed[source - self._words])
-            _run_steps(self._still, work)
+            run_steps(self._still, work)
             self._known = fixed, work
         return work
 

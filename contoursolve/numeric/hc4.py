@@ -26,11 +26,7 @@ class Narrower(Replay):
 
     def narrowed(self, inputs: Sequence[Intervals], count: int) -> tuple[list[Intervals], Any]:
         """The inputs narrowed to what may satisfy the equations, and which of the boxes are not proven to be empty."""
-        work = self._constants.copy()
-        for source, target in self._inputs:
-            work[target] = inputs[source]
-        for operation, first, second, target in self._steps:
-            work[target] = operation(work[first], work[second]) if second >= 0 else operation(work[first])
+        work = self.values(inputs)
         is_empty = numpy.zeros(count, dtype=bool)
         for source, number in self._outputs:
             value = work[source]

@@ -41,6 +41,16 @@ _FUNCTIONS: Mapping[int, str] = {
 }
 
 
+Step = tuple[Callable[..., Any], int, int, int]
+"""Operation, places of the first and the second operand (-1 for none) and of the result."""
+
+
+def run_steps(steps: Sequence[Step], work: list[Any]) -> None:
+    """Put the results of steps, one after the other, in their places."""
+    for operation, first, second, target in steps:
+        work[target] = operation(work[first], work[second]) if second >= 0 else operation(work[first])
+
+
 class Replay:
     """The instructions of a function of one vector to one vector, as a list to run through.
 
@@ -54,8 +64,7 @@ class Replay:
         self._inputs: list[tuple[int, int]] = []
         self._outputs: list[tuple[int, int]] = []
         self._count = function.nnz_out(0)
-        self._steps: list[tuple[Callable[..., Any], int, int, int]] = []
-        """Operation, first and second operand (-1 for none), result."""
+        self._steps: list[Step] = []
         self._constants: list[Any] = [None] * function.n_instructions()
         """The places of all values, with those that are known beforehand."""
         # CasADi reuses places of its work vector; every value gets a place of its own here.
@@ -82,12 +91,15 @@ class Replay:
 
     def __call__(self, inputs: Sequence[Any]) -> list[Any]:
         """The outputs at these inputs; an output that is always zero is the constant 0."""
+        return self.results(self.values(inputs))
+
+    def values(self, inputs: Sequence[Any]) -> list[Any]:
+        """All values at these inputs, by their places."""
         work = self._constants.copy()
         for source, target in self._inputs:
             work[target] = inputs[source]
-        for operation, first, second, target in self._steps:
-            work[target] = operation(work[first], work[second]) if second >= 0 else operation(work[first])
-        return self.results(work)
+        run_steps(self._steps, work)
+        return work
 
     def results(self, work: Sequence[Any]) -> list[Any]:
         """The outputs among all values, by their places."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from contoursolve.analysis import Group, analyse, order
+from contoursolve.analysis import Group, analyse, groups_of, spare_of
 from contoursolve.diagnosis.examine import Answer, list_alternatives
 from contoursolve.diagnosis.wording import angle_text, join, length_text, unknowns_text
 from contoursolve.gcode import FACT
@@ -51,17 +51,15 @@ def construction_lines(answer: Answer) -> list[str]:
     verdict = analyse(system)
     if not verdict.is_determined:
         return [f"  construction: still open: {unknowns_text(verdict.free, profile)}"]
-    groups = order(system, tuple(system.facts[index] for index in verdict.basis))
     scalars, sides = _found(answer)
     lines = ["  construction:"]
-    for number, group in enumerate(_joined(groups), 1):
+    for number, group in enumerate(_joined(groups_of(system)), 1):
         facts = join(list(dict.fromkeys(filter(None, (_phrase(fact, group, profile) for fact in group.facts)))))
         how = _choice(group, system, sides)
         place = _place(group, profile, scalars)
         lines.append(f"    {number}. {_things(group, profile)}: {facts}{how}")
         lines += [f"       -> {place}"] if place else []
-    left = [system.facts[index] for index in range(len(system.facts)) if index not in verdict.basis]
-    words = join([printable(word.text) for word in profile.words_of(left)])
+    words = join([printable(word.text) for word in profile.words_of(spare_of(system))])
     return [*lines, f"    checked besides: {words}"] if words else lines
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse
+from contoursolve.analysis import analyse, basis_of
 from contoursolve.analysis.identities import is_affine
 from contoursolve.gcode import Word
 from contoursolve.geometry import (
@@ -147,7 +147,7 @@ def in_part(profile: Profile) -> Known:
     centres through known points."""
     system = assemble(profile)
     figure = system.figure
-    basis = [system.facts[index] for index in analyse(system).basis]
+    basis = basis_of(system)
     plain = [fact for fact in basis if is_affine([fact])]
     affine = affine_facts(with_facts(profile, plain), plain) if plain else None
     values = {name: value for name, value in affine.fixed_by(plain).items() if is_usable(value)} if affine else {}

@@ -9,7 +9,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse, order
+from contoursolve.analysis import analyse, groups_of
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -126,10 +126,8 @@ def _find(question: _Question) -> Alternatives:
     profile = question.profile
     system = assemble(profile)
     enumeration = enumerate_solutions(profile, system)
-    basis = tuple(system.facts[index] for index in analyse(system).basis)
-    groups = order(system, basis)
     with ball.precision(ball.WORKING):
-        prover = Prover(system, groups, ground_of(profile))
+        prover = Prover(system, groups_of(system), ground_of(profile))
         items = [_alternative(profile, system, prover, found) for found in enumeration.found]
     doubts = enumeration.doubts
     if any(refusal.kind is RefusalKind.NOT_VERIFIED for item in items for refusal in item.solution.refusals):

@@ -7,7 +7,7 @@ from decimal import Decimal
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import Group, analyse, order
+from contoursolve.analysis import Group, analyse, basis_of, groups_of, spare_of
 from contoursolve.analysis.determinacy import survey
 from contoursolve.analysis.identities import is_affine
 from contoursolve.gcode import Word
@@ -84,9 +84,9 @@ def tied_with(system: System, fact: Fact) -> tuple[str, ...]:
     """
     verdict = analyse(system)
     if system.facts.index(fact) in verdict.basis:
-        spare = (each for index, each in enumerate(system.facts) if index not in verdict.basis)
-        return next((names for names in (tied_with(system, each) for each in spare) if fact.given in names), ())
-    basis = tuple(system.facts[index] for index in verdict.basis)
+        found = (tied_with(system, each) for each in spare_of(system))
+        return next((names for names in found if fact.given in names), ())
+    basis = basis_of(system)
     # A fact without unknowns is about the givens alone, and the angles among them tell which.
     replaceable = basis if system.unknowns_of(fact) else ()
     tied = [each for each in replaceable if _rank(system, basis, each, fact) == verdict.rank]
@@ -133,7 +133,7 @@ def settle(profile: Profile, *, is_blaming: bool = True) -> Settlement:
     if not is_blaming or not kinds & {RefusalKind.NO_POINT, RefusalKind.SEARCH_UNFINISHED}:
         return Settlement(solution, alternatives)
     system = assemble(profile)
-    groups = _groups(system)
+    groups = groups_of(system)
     if RefusalKind.NO_POINT in kinds:
         dead = _dead(profile, groups)
         return Settlement(_affine(profile, groups, dead) or _blame(solution, dead, groups, system), alternatives)
@@ -152,7 +152,7 @@ def settle(profile: Profile, *, is_blaming: bool = True) -> Settlement:
 def settled_by(profile: Profile, unknown: str) -> tuple[str, ...]:
     """The givens of the facts that determine an unknown together."""
     system = assemble(profile)
-    groups = _groups(system)
+    groups = groups_of(system)
     return _givens([group for group in groups if unknown in group.unknowns], groups, system)
 
 
@@ -177,7 +177,7 @@ def _last(profile: Profile, unknowns: Sequence[str]) -> Iterator[Profile]:
     system = assemble(profile)
     if len(system.facts) <= len(system.unknowns):
         return
-    for group in _groups(system):
+    for group in groups_of(system):
         for fact in group.facts if not set(unknowns).isdisjoint(group.unknowns) else ():
             rest = (each for each in profile.facts if each is not fact)
             yield replace(profile, layout=Layout(profile.figure, (*rest, fact)))
@@ -192,16 +192,12 @@ def before(profile: Profile, words: Set[Word]) -> Profile | None:
     """The part of a profile that is solved before the group whose facts these words state, all of them and no others;
     None where no group is stated so, or none is before it."""
     system = assemble(profile)
-    groups = _groups(system)
+    groups = groups_of(system)
     for number, group in enumerate(groups):
         stated = (profile.givens[name].word for name in _givens([group], groups, system))
         if number and {word for word in stated if word is not None} == words:
             return _first(profile, groups[:number])
     return None
-
-
-def _groups(system: System) -> tuple[Group, ...]:
-    return order(system, tuple(system.facts[index] for index in analyse(system).basis))
 
 
 def _dead(profile: Profile, groups: tuple[Group, ...]) -> list[Group]:

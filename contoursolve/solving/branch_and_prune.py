@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy
 from msgspec import Struct
 
-from contoursolve.analysis import Group, analyse
+from contoursolve.analysis import Group, basis_of
 from contoursolve.geometry import System
 from contoursolve.numeric import ball, expressions, intervals
 from contoursolve.numeric.ball import Number
@@ -89,8 +89,7 @@ def conditions_of(system: System, group: Group) -> Conditions:
     for name in group.unknowns:
         tape.input(name)
     at = lookup(system, tape, {})
-    true = [system.facts[index] for index in analyse(system).basis]
-    zeros = [*(fact.equation(at) for fact in group.facts), *consequences(group.facts, true, at)]
+    zeros = [*(fact.equation(at) for fact in group.facts), *consequences(group.facts, basis_of(system), at)]
     signs = necessities(system.figure, group.facts, at)
     for number, expression in enumerate((*zeros, *signs)):
         tape.output(str(number), expression)

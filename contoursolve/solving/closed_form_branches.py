@@ -7,7 +7,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.analysis import Group, analyse, order
+from contoursolve.analysis import Group, basis_of, groups_of, spare_of
 from contoursolve.geometry import FIRST, SECOND, ChamferLeg, Fact, Line, Parallel, Radius, System, Values, scalar
 from contoursolve.geometry.lines import moves_of
 from contoursolve.numeric.expressions import (
@@ -89,9 +89,7 @@ def close(system: System) -> ClosedForm:
 class _Closing:
     def __init__(self, system: System) -> None:
         self.system, self.tape = system, Tape()
-        basis = analyse(system).basis
-        self.basis = tuple(system.facts[index] for index in basis)
-        self.checks = tuple(fact for index, fact in enumerate(system.facts) if index not in basis)
+        self.basis, self.checks = basis_of(system), spare_of(system)
         self.scalars: dict[str, Any] = {
             scalar(system.figure.start, axis): self.tape.input(scalar(system.figure.start, axis))
             for axis in (FIRST, SECOND)
@@ -101,7 +99,7 @@ class _Closing:
 
     def run(self) -> ClosedForm:
         system = self.system
-        for group in order(system, self.basis):
+        for group in groups_of(system):
             self._solve(group)
         self._check_senses()
         for fact in self.checks:

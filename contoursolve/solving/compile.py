@@ -7,7 +7,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.analysis import analyse
+from contoursolve.analysis import spare_of
 from contoursolve.geometry import (
     FIRST,
     INCREMENT_OF,
@@ -60,12 +60,7 @@ class _Builder:
         for axis in (FIRST, SECOND):
             name = scalar(system.figure.start, axis)
             self.scalars[name] = self.tape.input(name)
-        basis = analyse(system).basis
-        self.compared = {
-            (fact.point, fact.center)
-            for index, fact in enumerate(system.facts)
-            if isinstance(fact, OnCircle) and index not in basis
-        }
+        self.compared = {(fact.point, fact.center) for fact in spare_of(system) if isinstance(fact, OnCircle)}
         """Points that are compared with a circle that others determine, with its centre."""
         self.short: dict[str, Any] = {}
         """By how much stated radii of half circles are less than their points say."""

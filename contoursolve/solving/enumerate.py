@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from msgspec import Struct
 
-from contoursolve.analysis import Group, analyse, order
+from contoursolve.analysis import Group, groups_of
 from contoursolve.analysis.determinacy import witness_of
 from contoursolve.geometry import Fact, Line, Profile, System, scalar
 from contoursolve.numeric import ball
@@ -73,9 +73,7 @@ def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
 
     Where a ball is too wide to decide, everything is done again with four times the digits.
     """
-    verdict = analyse(system)
-    basis = tuple(system.facts[index] for index in verdict.basis)
-    groups = order(system, basis)
+    groups = groups_of(system)
     enumeration = Enumeration((), ())
     for bits, close in ((ball.WORKING, Close.REFUSE), (ball.HIGHEST, Close.DOUBLE)):
         with ball.precision(bits):

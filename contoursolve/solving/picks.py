@@ -7,7 +7,7 @@ from functools import lru_cache
 from math import atan2, cos, dist, pi, sin, tau
 from typing import TYPE_CHECKING
 
-from contoursolve.analysis import analyse, order
+from contoursolve.analysis import analyse, groups_of
 from contoursolve.geometry import Arc, Line, Pick, Profile, System, assemble
 from contoursolve.solving.solution import Note, NoteKind, Point, Refusal, RefusalKind
 from contoursolve.tolerance import LENGTH
@@ -107,11 +107,11 @@ def resolved_later(profile: Profile) -> Mapping[str, str]:
 
 @lru_cache(maxsize=256)
 def _resolved_later(system: System) -> Mapping[str, str]:
-    path, verdict = system.figure.path, analyse(system)
-    if not verdict.is_determined:
+    path = system.figure.path
+    if not analyse(system).is_determined:
         return {}
     latest: dict[str, int] = {}
-    for group in order(system, [system.facts[index] for index in verdict.basis]):
+    for group in groups_of(system):
         numbers = [_block_of(fact.given) for fact in group.facts]
         used = (name for fact in group.facts for name in system.unknowns_of(fact) if name in latest)
         latest |= dict.fromkeys(group.unknowns, max([*numbers, *(latest[name] for name in used)], default=0))

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from msgspec import Struct
 
-from contoursolve.analysis import Group, analyse, order
+from contoursolve.analysis import Group, analyse, basis_of, groups_of, spare_of
 from contoursolve.geometry import (
     Arc,
     Collinear,
@@ -102,10 +102,8 @@ def make_plan(system: System) -> Plan:
     sides = [side for fact in system.facts for side in fact.sides()]
     if sides:
         raise NoClosedFormError(f"nothing states {', '.join(dict.fromkeys(sides))}")
-    basis = tuple(system.facts[index] for index in verdict.basis)
-    checks = tuple(fact for index, fact in enumerate(system.facts) if index not in verdict.basis)
-    groups = _starts_first(order(system, basis), system)
-    return Plan(tuple(_step(group, system) for group in groups), basis, checks)
+    groups = _starts_first(groups_of(system), system)
+    return Plan(tuple(_step(group, system) for group in groups), basis_of(system), spare_of(system))
 
 
 def _starts_first(groups: Sequence[Group], system: System) -> Sequence[Group]:
