@@ -231,11 +231,15 @@ class Totals(Struct, frozen=True):
         """Count a contour with its findings, or a finding."""
         if isinstance(item, Answer):
             self.statuses[item.status] += 1
-            is_waiting = any(each.about is ReadIssue.CONTOUR_WAITS for each in item.diagnostics)
-            self.waiting.update([item.status] * is_waiting)
-        findings = [each for each in findings_of(item, is_explained=is_explained) if not _is_nothing(each)]
-        self.severities.update(each.severity for each in findings if each.about is not ReadIssue.CONTOUR_WAITS)
-        self.unexamined.update(each.code for each in findings if each.about in _UNEXAMINED and each.is_error)
+            if any(each.about is ReadIssue.CONTOUR_WAITS for each in item.diagnostics):
+                self.waiting[item.status] += 1
+        for each in findings_of(item, is_explained=is_explained):
+            if _is_nothing(each):
+                continue
+            if each.about is not ReadIssue.CONTOUR_WAITS:
+                self.severities[each.severity] += 1
+            if each.about in _UNEXAMINED and each.is_error:
+                self.unexamined[each.code] += 1
 
     def add(self, other: "Totals") -> None:
         """Count what was counted in another program, too."""

@@ -31,7 +31,7 @@ from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENG
 
 Columns = Mapping[str, NDArray[numpy.float64]]
 
-FEWEST = 8
+FEWEST = 3
 """Contours of one kind below which columns take longer than one by one."""
 
 _MADE_OF = ("begin:", "end:", "center:", "turn:")
@@ -88,21 +88,22 @@ class Batch(Struct):
             while rest and (key not in self.kinds or len(rest) < FEWEST):
                 first = rest.pop(0)
                 answers[first] = examine[first]()
-                self._learn(key, answers[first])
+                if key not in self.kinds:
+                    self._learn(key, answers[first])
             if rest:
                 together = self._solve(self.kinds[key], [claims[number] for number in rest])
                 answers |= {number: answer or examine[number]() for number, answer in zip(rest, together, strict=True)}
         return [answers[number] for number in range(len(claims))]
 
     def _learn(self, key: Hashable, answer: Answer) -> None:
-        """Whether others can be solved as one that was examined."""
+        """Solve others as one that was examined, if there was nothing to say of it."""
         if answer.status is Status.SOLVED and not answer.diagnostics and answer.contour and not answer.alternatives:
             system = assemble(answer.profile)
             machine = compile_system(system)
             wanted = (name for name in machine.function.outputs if name in system.unknowns or name.startswith(_MADE_OF))
             checked = compile_checks(system)
             kind = Kind(answer, system, machine, checked.checks, checked.tape.finish(), tuple(wanted))
-            self.kinds.setdefault(key, kind)
+            self.kinds[key] = kind
 
     def _key(self, claim: ParsedContour) -> Hashable:
         """What contours of one kind have in common; None where more than the words and their values counts."""

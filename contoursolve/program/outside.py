@@ -66,19 +66,24 @@ class Outside:
             else:
                 self._held.append(each)
         if answer is not None:
-            lines, is_counted = _rests_on(answer, before)
             self._contour = line
-            held, self._held = self._held, []
-            # What no axis has from a line now, it never will.
-            later = {place.span.line for place in before.axes.values() if place.span is not None}
-            for each in held:
-                if is_counted or each.span.line in lines or _waits_for_any(each):
-                    yield each
-                elif each.span.line in later:
-                    self._held.append(each)
+            if self._held:
+                yield from self._settle(answer, before)
         self._is_behind = answer is not None or (
             self._is_behind and not any(words_of(block.text) for block in blocks())
         )
+
+    def _settle(self, answer: Answer, before: State) -> Iterator[Diagnostic]:
+        """Of what waits, that on which a contour rests; what no other one can rest on is told no more."""
+        lines, is_counted = _rests_on(answer, before)
+        held, self._held = self._held, []
+        # What no axis has from a line now, it never will.
+        later = {place.span.line for place in before.axes.values() if place.span is not None}
+        for each in held:
+            if is_counted or each.span.line in lines or _waits_for_any(each):
+                yield each
+            elif each.span.line in later:
+                self._held.append(each)
 
     def _is_told(self, finding: Diagnostic) -> bool:
         """Whether a finding waits for nothing."""

@@ -508,15 +508,16 @@ class Examiner:
         block, dialect = blocks[0], self.dialect
         if dialect is None or self.asked.depth is Depth.VERDICT:
             return
-        context = Context(self.rules, self.asked.unit, place=block.span)
         if any(f",{word.address}" in dialect.modes.lexicon.addresses for word in block.words):
             from contoursolve.diagnosis.typo_fixes import explain_commas  # noqa: PLC0415 - few programs need it
 
+            context = Context(self.rules, self.asked.unit, place=block.span)
             self.diagnostics += explain_commas(context, dialect, blocks[:_NEAR], states, self.previous)
         codes = dialect.modes.codes
         if any(word.address == "G" and word.number is not None and word.number not in codes for word in block.words):
             from contoursolve.diagnosis.typo_fixes import explain_codes  # noqa: PLC0415 - few programs need it
 
+            context = Context(self.rules, self.asked.unit, place=block.span)
             self.diagnostics = [*explain_codes(context, dialect, blocks[:_NEAR], states[0], self.diagnostics)]
         if has_lookalike_code(block):
             self._check_letters(dialect, blocks[:_NEAR], states[0])

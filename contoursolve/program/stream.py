@@ -38,6 +38,9 @@ class View(Sequence[Block]):
 
     def holds(self, count: int) -> bool:
         """Whether there are at least so many lines, or all that there are up to an event."""
+        if len(self.held) - self.first >= count:
+            # Each is a line or more, or an event.
+            return True
         for place in range(self.first, len(self.held)):
             each = self.held[place]
             count -= len(each.lines) if isinstance(each, Passage) else 1

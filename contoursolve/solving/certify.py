@@ -1,16 +1,16 @@
 """Certifies a contour that was solved in closed form: the same steps once more, in exact numbers and balls."""
 
 from collections.abc import Mapping, Sequence
+from decimal import Decimal
 from functools import lru_cache
 
 from msgspec import Struct
 
-from contoursolve.geometry import FIRST, SECOND, Profile, System, Unit, scalar
+from contoursolve.geometry import INCREMENT_OF, Profile, System
 from contoursolve.numeric import ball
 from contoursolve.numeric.ball import Number
-from contoursolve.numeric.inputs import COSINE, SINE
 from contoursolve.solving.compile import ProofMachine, compile_decision, compile_proof
-from contoursolve.solving.numbers import axes_of
+from contoursolve.solving.numbers import inputs_as
 from contoursolve.solving.solution import Certificate, Proof, up_to_one_digit
 
 BITS = 128
@@ -30,9 +30,9 @@ def certify(profile: Profile, system: System, out: Mapping[str, float], bound: f
     proof = _proof_of(system)
     with ball.precision(BITS):
         start = [(ball.exact(value), float(value)) for value in profile.start.values if value is not None]
-        inputs = _inputs(profile, system, [exact for exact, _ in start])
+        inputs = _inputs(profile, system, proof.machine.inputs)
         try:
-            results = proof.machine.replay([inputs[name] for name in proof.machine.inputs])
+            results = proof.machine.replay(inputs)
         except (ArithmeticError, ValueError):
             return Certificate(Proof.VERIFIED, bound, "interval arithmetic cannot decide a step")
         if any(ball.sign(results[index]) not in signs for index, signs in proof.signs):
@@ -61,10 +61,9 @@ def decide_meeting(profile: Profile, system: System, number: int) -> tuple[int, 
     exact words; and the discriminant, mm**2."""
     machine = compile_decision(system, number)
     with ball.precision(DECISION):
-        start = [ball.exact(value) for value in profile.start.values if value is not None]
-        inputs = _inputs(profile, system, start)
+        inputs = _inputs(profile, system, machine.inputs)
         try:
-            (found,) = machine.replay([inputs[name] for name in machine.inputs])
+            (found,) = machine.replay(inputs)
         except (ArithmeticError, ValueError):
             return 0, 0.0
         return ball.sign(found) or 0, ball.middle(found)
@@ -97,17 +96,13 @@ def _proof_of(system: System) -> _Proof:
     )
 
 
-def _inputs(profile: Profile, system: System, start: Sequence[Number]) -> dict[str, Number]:
-    """All inputs, as in `solve`: coordinates are counted from the start point."""
-    inputs: dict[str, Number] = {scalar(system.figure.start, axis): ball.exact(0) for axis in (FIRST, SECOND)}
-    absolute = axes_of(system)
-    for name, given in profile.givens.items():
-        if given.unit is Unit.DEGREE:
-            inputs[name + COSINE], inputs[name + SINE] = ball.direction(given.value)
-        else:
-            value = ball.exact(given.value)
-            inputs[name] = value - start[absolute[name]] if name in absolute else value
-    inputs |= {name: ball.exact(value) for name, value in profile.increments.items()}
-    for choice in profile.choices:
-        inputs[f"side:{choice.point}"] = ball.exact(choice.side.sign)
-    return inputs
+def _inputs(profile: Profile, system: System, names: Sequence[str]) -> list[Number]:
+    """The inputs of these names, as in `solve`."""
+    inputs = inputs_as(_exact, ball.direction, profile, system)
+    if any(name.startswith(INCREMENT_OF) for name in names):
+        inputs |= {name: ball.exact(value) for name, value in profile.increments.items()}
+    return [inputs[name] for name in names]
+
+
+def _exact(value: Decimal | float, less: Decimal) -> Number:
+    return ball.exact(value) - ball.exact(less) if less else ball.exact(value)

@@ -1,7 +1,9 @@
 """Numbers into a compiled system and out of it: what a profile states as inputs, the outputs as a solution."""
 
 from collections.abc import Callable, Mapping
+from decimal import Decimal
 from functools import lru_cache
+from typing import TypeVar
 
 from contoursolve.geometry import (
     FIRST,
@@ -20,25 +22,46 @@ from contoursolve.numeric.angle import direction
 from contoursolve.numeric.inputs import COSINE, SINE
 from contoursolve.solving.solution import CornerSolution, Point, Solution, Status
 
+Kind = TypeVar("Kind")
+"""A kind of numbers: floats, or what `numeric.ball` makes."""
+
 
 def inputs_of(profile: Profile, system: System) -> dict[str, float]:
     """All inputs of the function of a system. Coordinates are counted from the start point, and the difference is taken
     in decimals: a shifted program has the same numbers, to the last bit. Raises ValueError without a start."""
+    return inputs_as(_float, direction, profile, system) | profile.increments
+
+
+def inputs_as(
+    number: Callable[[Decimal | float, Decimal], Kind],
+    direction: Callable[[Decimal], tuple[Kind, Kind]],
+    profile: Profile,
+    system: System,
+) -> dict[str, Kind]:
+    """The same as numbers of a kind, without increments: `number` makes one of a value less another one, `direction`
+    cosine and sine."""
     first, second = profile.start.values
     if first is None or second is None:
         raise ValueError("the start point is not known")
-    inputs = {scalar(system.figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
+    inputs = {scalar(system.figure.start, axis): number(0.0, _ZERO) for axis in (FIRST, SECOND)}
     absolute = axes_of(system)
     for name, given in profile.givens.items():
         if given.unit is Unit.DEGREE:
             inputs[name + COSINE], inputs[name + SINE] = direction(given.value)
         elif name in absolute:
-            inputs[name] = float(given.value - (second if absolute[name] else first))
+            inputs[name] = number(given.value, second if absolute[name] else first)
         else:
-            inputs[name] = float(given.value)
+            inputs[name] = number(given.value, _ZERO)
     for choice in profile.choices:
-        inputs[f"side:{choice.point}"] = float(choice.side.sign)
-    return inputs | profile.increments
+        inputs[f"side:{choice.point}"] = number(choice.side.sign, _ZERO)
+    return inputs
+
+
+_ZERO = Decimal(0)
+
+
+def _float(value: Decimal | float, less: Decimal) -> float:
+    return float(value - less if isinstance(value, Decimal) and less else value)
 
 
 @lru_cache(maxsize=4096)
