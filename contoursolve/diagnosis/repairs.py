@@ -276,7 +276,9 @@ def _corrections(claim: ParsedContour, dialect: Dialect) -> Iterator[tuple[str, 
         if offence.rule.when is None or not offence.rule.when.reads_values:
             continue
         for name in offence.names:
-            word, given = claim.words[name], claim.givens[name]
+            word, given = claim.words[name], claim.givens.get(name)
+            if given is None:  # Its value is a variable that nobody knows.
+                continue
             if given.unit is Unit.SIGN:
                 yield name, [change(word, f"{word.address}-1"), change(word, f"{word.address}1")]
             elif given.value:

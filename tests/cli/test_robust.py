@@ -288,3 +288,13 @@ def test_marks_stand_below_what_they_mark(comment, column):
     marks = next(line for line in lines if "^" in line)
     assert marks.partition("| ")[2].index("^") == column - 1 + len("G111 X100. A180. ")
     assert marks.count("^") == len("Y5.")
+
+
+@pytest.mark.parametrize("command", [
+    ("check",), ("solve",), ("expand",), ("plot", "-o", "v.svg"), ("report", "-o", "v.html")
+])  # fmt: skip
+def test_a_rule_about_a_value_that_nobody_knows_is_answered(folder, command):
+    """The first fix turns a sign or a value round: of a variable there is none to turn."""
+    Path("v.nc").write_text("G0 X0 Z0\nG1 X#100 ,A30\n")
+    name, *rest = command
+    run(name, "v.nc", "--control", "fanuc-lathe", *rest, status=1, says="underdetermined" if rest else "#100")
