@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from math import atan2, cos, dist, pi, sin, tau
+from itertools import pairwise
+from math import atan2, cos, dist, pi, remainder, sin, tau
 from typing import TYPE_CHECKING
 
 from contoursolve.analysis import analyse, groups_of
@@ -19,10 +20,10 @@ if TYPE_CHECKING:
 def pick(paths: Sequence[Alternative], profile: Profile) -> tuple[list[Alternative], list[Refusal | Note]]:
     """The contours that the picks of a profile leave, and what there is to say of these.
 
-    At each element contours are parted by how they run there, and counted: the nearer end along the element first, of
-    equally near ones the smaller turn to the left from the direction before.
+    At each element contours are parted by how they run there. They are counted in one order, that of the first element
+    in which they part: the nearer end along it first, of equally near ones the smaller turn to the left there.
     """
-    left, events = list(paths), list[Refusal | Note]()
+    left, events = _in_order(paths, profile), list[Refusal | Note]()
     for each in sorted(profile.picks, key=lambda each: each.element) if left else ():
         groups = _groups(left, each.element, profile)
         givens = (each.given,) if each.given else ()
@@ -41,7 +42,7 @@ def pick(paths: Sequence[Alternative], profile: Profile) -> tuple[list[Alternati
 
 def numbers_of(item: Alternative, paths: Sequence[Alternative], profile: Profile) -> list[Pick]:
     """The picks that leave one contour of several: at each element at which they part, in the order of travel."""
-    left, found = list(paths), list[Pick]()
+    left, found = _in_order(paths, profile), list[Pick]()
     for element in range(1, len(profile.figure.path) + 1):
         groups = _groups(left, element, profile)
         number = next(number for number, group in enumerate(groups, 1) if item in group)
@@ -52,45 +53,100 @@ def numbers_of(item: Alternative, paths: Sequence[Alternative], profile: Profile
 
 
 def _groups(paths: Sequence[Alternative], element: int, profile: Profile) -> list[list[Alternative]]:
-    """Contours that run alike at an element, in the order in which they are counted."""
-    groups: list[tuple[tuple[float, float], list[Point], list[Alternative]]] = []
+    """Contours that run alike at an element, as far as it is determined when its block is chosen; in the order of the
+    contours."""
+    groups: list[tuple[list[Point], list[Alternative]]] = []
     for path in paths:
-        run, rank = _run(path, element, profile)
-        same = next((group for group in groups if all(map(_is_same, group[1], run))), None)
+        run = _run(path, element, profile)
+        same = next((group for group in groups if all(map(_is_same, group[0], run))), None)
         if same is None:
-            groups.append((rank, run, [path]))
+            groups.append((run, [path]))
         else:
-            same[2].append(path)
-    groups.sort(key=lambda group: (round(group[0][0], 6), group[0][1]))
-    return [each for _, _, each in groups]
+            same[1].append(path)
+    return [each for _, each in groups]
 
 
 def _is_same(one: Point, other: Point) -> bool:
     return dist(one, other) <= LENGTH
 
 
-def _run(path: Alternative, element: int, profile: Profile) -> tuple[list[Point], tuple[float, float]]:
-    """The points of an element, and its length with the turn to the left at which it begins, from 0 to 360 degrees."""
+def _run(path: Alternative, element: int, profile: Profile) -> list[Point]:
+    """The points that tell how a contour runs at an element."""
     points, own = path.solution.points, profile.figure.path[element - 1]
     tail, head = points[own.tail], points[own.head]
-    begin, _ = _directions(path, element, profile)
+    begin, _ = _directions(path, own)
     # An end that a later block determines is not there yet when this block is chosen.
     ends = [] if own.name in resolved_later(profile) else [head]
     way = (tail[0] + cos(begin), tail[1] + sin(begin))
-    before = _directions(path, element - 1, profile)[1] if element > 1 else 0.0
-    turn = (begin - before) % tau
-    turn = 0.0 if tau - turn < LENGTH else turn
+    return [tail, way, *([points[own.center]] if isinstance(own, Arc) else []), *ends]
+
+
+SAME = 1e-6
+"""mm and radians. Lengths and turns that differ by less count as equal: far more than rounding, and far less than what
+tells two contours apart."""
+
+
+def _in_order(paths: Sequence[Alternative], profile: Profile) -> list[Alternative]:
+    """Contours in the order in which they are counted, which only what they are has a part in: not how the drawing is
+    turned, where it lies, or how its equations were solved."""
+    ranks: list[list[int]] = [[] for _ in paths]
+    ahead = [_ahead(paths, profile)] * len(paths)
+    for own in profile.figure.path:
+        runs = [_directions(path, own) for path in paths]
+        turns = [(begin - before) % tau for (begin, _), before in zip(runs, ahead, strict=True)]
+        turns = [0.0 if tau - turn < SAME else turn for turn in turns]
+        measured = ([_length(path, own) for path in paths], turns, [_radius(path, own) for path in paths])
+        for values in measured:
+            for rank, each in zip(ranks, _ranked(values), strict=True):
+                rank.append(each)
+        ahead = [end for _, end in runs]
+    order = sorted(range(len(paths)), key=ranks.__getitem__)
+    return [paths[index] for index in order]
+
+
+def _ranked(values: Sequence[float]) -> list[int]:
+    """The place of each value among those that differ."""
+    order = sorted(range(len(values)), key=values.__getitem__)
+    ranks, rank = [0] * len(values), 0
+    for before, index in pairwise(order):
+        rank += values[index] - values[before] > SAME
+        ranks[index] = rank
+    return ranks
+
+
+def _ahead(paths: Sequence[Alternative], profile: Profile) -> float:
+    """The direction from which the turn at the first element is measured, radians: from the start to the first place
+    that the drawing states or all contours have, or else the first direction in which all end an element."""
+    figure = profile.figure
+    centers = [each.center for each in figure.path if isinstance(each, Arc)]
+    for name in (*(each.head for each in figure.path), *centers, *figure.points):
+        places = [each.solution.points[name] for each in paths]
+        begin = paths[0].solution.points[figure.start] if paths else (0.0, 0.0)
+        if places and all(_is_same(place, places[0]) for place in places) and dist(begin, places[0]) > SAME:
+            return atan2(places[0][1] - begin[1], places[0][0] - begin[0])
+    for own in figure.path:
+        ends = [_directions(path, own)[1] for path in paths]
+        if ends and all(abs(remainder(end - ends[0], tau)) <= SAME for end in ends):
+            return ends[0]
+    return 0.0
+
+
+def _length(path: Alternative, own: Line | Arc) -> float:
+    points = path.solution.points
+    tail, head = points[own.tail], points[own.head]
     if isinstance(own, Line):
-        return [tail, way, *ends], (dist(tail, head) if ends else 0.0, turn)
-    center = points[own.center]
-    angles = [atan2(at[1] - center[1], at[0] - center[0]) for at in (tail, head)]
-    sweep = (own.turn.sign * (angles[1] - angles[0])) % tau
-    return [tail, way, center, *ends], (dist(tail, center) * sweep if ends else 0.0, turn)
+        return dist(tail, head)
+    begin, end = _directions(path, own)
+    return dist(tail, points[own.center]) * ((own.turn.sign * (end - begin)) % tau)
 
 
-def _directions(path: Alternative, element: int, profile: Profile) -> tuple[float, float]:
+def _radius(path: Alternative, own: Line | Arc) -> float:
+    return 0.0 if isinstance(own, Line) else dist(path.solution.points[own.tail], path.solution.points[own.center])
+
+
+def _directions(path: Alternative, own: Line | Arc) -> tuple[float, float]:
     """The directions in which an element begins and ends, radians."""
-    points, own = path.solution.points, profile.figure.path[element - 1]
+    points = path.solution.points
     tail, head = points[own.tail], points[own.head]
     if isinstance(own, Line):
         angle = atan2(head[1] - tail[1], head[0] - tail[0])

@@ -209,7 +209,7 @@ SELECTION = setting(
     "fselect",
     "which of several solutions FSELECT takes",
     {
-        "own_order": "by travel: the nearer end along the element first, then the smaller turn to the left",
+        "own_order": "where solutions first differ: the nearer end along that element, then the smaller left turn",
         "ignore": "none: what the program says besides must choose",
     },
     BOOK.assumed("the order is on no page"),
