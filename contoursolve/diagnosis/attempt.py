@@ -29,11 +29,12 @@ from contoursolve.diagnosis.typo_fixes import (
 from contoursolve.diagnostics.finding import Applicability, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, parse_block
-from contoursolve.geometry import Heading, Profile, assemble
+from contoursolve.geometry import Heading, Profile, Unit, assemble
 from contoursolve.reading import ParsedContour, ReadIssue, State, advance, leave, read
 from contoursolve.reading.dialect import Dialect
 from contoursolve.solving import NoteKind, Point, Status
 from contoursolve.solving.affine import affine_facts
+from contoursolve.solving.compare import opposes
 from contoursolve.solving.contour import Contour, LineSegment, Segment
 from contoursolve.solving.plan import is_closed
 from contoursolve.tolerance import AGREEMENT
@@ -216,7 +217,8 @@ class Trial(Struct, frozen=True):
     def _now_agrees(self, finding: Diagnostic) -> bool:
         """Whether a finding that the block did not have before says only that a word now agrees."""
         is_new = finding.code not in self.codes and not self.is_redundant and finding.severity is Severity.WARNING
-        return is_new and finding.values.get("off_by_mm", float("inf")) <= AGREEMENT
+        is_near = finding.values.get("off_by_mm", float("inf")) <= AGREEMENT
+        return is_new and is_near and not opposes(finding.values, Unit.DEGREE)
 
     def examine(self, edits: tuple[Edit, ...]) -> Answer | None:
         """The answer to the edited blocks; None where they are not read as the same contour any more."""

@@ -1,6 +1,6 @@
 """Adds to findings why they are so and what to write instead, and which checks a contour went through."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from msgspec.structs import replace
 
@@ -15,12 +15,12 @@ from contoursolve.diagnosis.wording import SHOWN, count, join, length_text, plac
 from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Fix, Label, Layer, Severity, Tie, Verdict
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Block, FaultKind, Word
-from contoursolve.geometry import OnCircle, Profile, System, assemble
+from contoursolve.geometry import OnCircle, Profile, System, Unit, assemble
 from contoursolve.reading import ReadIssue, State, read
 from contoursolve.reading.dialect import Dialect
-from contoursolve.solving import NoteKind, RefusalKind, scalars_of
+from contoursolve.solving import NoteKind, Point, RefusalKind, scalars_of
 from contoursolve.solving.affine import NO_CIRCUITS, AffineFacts, Circuit, affine_facts
-from contoursolve.solving.compare import compare_affine, is_conflict
+from contoursolve.solving.compare import compare_affine, is_conflict, is_turned, opposes
 
 
 def diagnose(
@@ -134,8 +134,13 @@ def _tie(answer: Answer, affine: AffineFacts, circuit: Circuit) -> Tie:
         addresses=tuple(_address(word) for word in answer.profile.words_of(circuit.facts)),
         identity=identity(answer.profile, circuit.facts),
         off_by_mm=max(circuit.off),
-        is_conflict=is_conflict(circuit, answer.profile, affine),
+        is_conflict=is_conflict(circuit, answer.profile, affine)
+        or is_turned(circuit, answer.profile, affine, _points_of(answer)),
     )
+
+
+def _points_of(answer: Answer) -> Mapping[str, Point]:
+    return answer.contour.points if answer.contour else {}
 
 
 def _address(word: Word) -> str:
@@ -187,12 +192,17 @@ def _reasons(
     finding: Diagnostic,
 ) -> Iterator[str]:
     profile = answer.profile
+    unit = next(
+        (each.unit for each in profile.givens.values() if each.word and each.word.span == finding.span), Unit.MM
+    )
+    is_opposite = opposes(finding.values, unit)
     if affine is not None and finding.about in _ABOUT_TIES:
         for circuit in circuits:
             addresses = {word.address for word in profile.words_of(circuit.facts)}
             about = addresses if finding.about in SINGULAR else addresses.intersection(finding.addresses)
             if about and about <= {*finding.addresses}:
-                yield from conflict_reasons(profile, affine, circuit)
+                is_about_direction = is_opposite or is_turned(circuit, profile, affine, _points_of(answer))
+                yield from conflict_reasons(profile, affine, circuit, is_about_direction=is_about_direction)
     if finding.about in _ABOUT_FREEDOM:
         lost = _points_lost(profile, affine) if affine is not None else set()
         yield from freedom_reasons(profile, [each for each in diagnosis.freedoms if each.point not in lost])

@@ -32,7 +32,7 @@ from contoursolve.diagnosis.wording import (
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Word, spell
-from contoursolve.geometry import Arc, Fact, Length, ParallelLines, Profile, Radius, Role, Unit, assemble
+from contoursolve.geometry import Arc, Fact, Heading, Length, ParallelLines, Profile, Radius, Role, Unit, assemble
 from contoursolve.reading import ParsedContour, ReadIssue
 from contoursolve.reading.rules import VERBS, Offence, Rule
 from contoursolve.solving import (
@@ -46,9 +46,9 @@ from contoursolve.solving import (
     lookup,
     scalars_of,
 )
-from contoursolve.solving.compare import allowance, increments_of
+from contoursolve.solving.compare import allowance, increments_of, opposes
 from contoursolve.solving.contour import Contour, against_angles, dropped_corners
-from contoursolve.tolerance import AGREEMENT
+from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING
 
 if TYPE_CHECKING:
     from contoursolve.solving.alternatives import Alternatives
@@ -220,15 +220,20 @@ def explain_ignored(context: Context, offence: Offence, profile: Profile, soluti
     comparison = "; they leave it no value to have"
     label = ""
     if expected is not None:
-        gap = abs(values["actual"] - expected)
-        is_within = values["off_by_mm"] <= allowance(fact, at, increments_of(profile))
-        agrees = "; it agrees with them" if is_within else ""
-        comparison = agrees or (
-            f"; they make it {tell_apart((expected, values['actual']), angle_text)[0]}, {angle_text(gap)} "
-            f"({length_text(values['off_by_mm'], context.unit)}) away"
-        )
+        comparison = _compared(values, allowance(fact, at, increments_of(profile)), context.unit)
         label = f"ignored; the line runs at {angle_text(expected)}"
     return report(context, offence.rule, Basis.NUMERICAL, [word], values, [label], comparison=comparison)
+
+
+def _compared(values: Mapping[str, float], allowed: float, unit: Length) -> str:
+    """How an angle that is ignored compares with the one that the other words give."""
+    gap, off = abs(values["actual"] - values["expected"]), values["off_by_mm"]
+    given = f"; they make it {tell_apart((values['expected'], values['actual']), angle_text)[0]}"
+    if opposes(values, Unit.DEGREE):
+        return f"{given}, the opposite direction" if off <= allowed else f"{given}, {angle_text(gap)} away"
+    if off <= allowed:
+        return "; it agrees with them" + (" to its least increment" if off > ERROR_BOUND_WARNING else "")
+    return f"{given}, {angle_text(gap)} ({length_text(off, unit)}) away"
 
 
 def explain_missing(context: Context, profile: Profile, verdict: Determinacy, claim: ParsedContour) -> Diagnostic:
@@ -316,6 +321,8 @@ def explain_result(
     context: Context, event: Refusal | Note, profile: Profile, alternatives: Alternatives | None = None
 ) -> Diagnostic:
     """A refusal or a remark of the solver; `alternatives` is what a search found."""
+    if event.kind is NoteKind.WORDS_AGREE and opposes(event.values, profile.givens[event.subject].unit):
+        return _explain_opposite(context, event.subject, event.values["expected"], profile)
     names = [name for name in event.givens if name in profile.givens]
     givens = [profile.givens[name] for name in names]
     stated = [profile.givens[name].word or context.words.get(name) for name in names]
@@ -541,13 +548,22 @@ def explain_path(context: Context, profile: Profile, solution: Solution, contour
         values, subject = {"limit": 0.0, "actual": radius, "off_by_mm": abs(radius)}, crossing.element.name
         about = ReadIssue.AXIS_CROSSED
         yield report(context, about, Basis.NUMERICAL, [], values, subject=subject, start=start, place=place)
-    for name, line in against_angles(profile, contour):
-        given = profile.givens[name]
-        actual = float(given.value)
-        expected = actual - 180 if actual > 0 else actual + 180
-        values, shown, about = {"actual": actual, "expected": expected}, angle_text(expected), ReadIssue.ANGLE_OPPOSITE
-        yield report(context, about, Basis.NUMERICAL, [given.word], values, subject=line.name, expected=shown)
+    told = {remark.subject for remark in solution.remarks if remark.kind is NoteKind.WORDS_AGREE}
+    for name, _ in against_angles(profile, contour):
+        if name not in told:
+            actual = float(profile.givens[name].value)
+            yield _explain_opposite(context, name, actual - 180 if actual > 0 else actual + 180, profile)
     for corner, turn in dropped_corners(profile, solution):
         word, values, shown = profile.givens[corner.size].word, {"actual": abs(turn)}, angle_text(abs(turn))
         about = ReadIssue.CORNER_DROPPED
         yield report(context, about, Basis.NUMERICAL, [word], values, subject=corner.name, actual=shown)
+
+
+def _explain_opposite(context: Context, name: str, expected: float, profile: Profile) -> Diagnostic:
+    """An angle of a line that runs the other way."""
+    given = profile.givens[name]
+    tails = {fact.tail for fact in profile.facts if isinstance(fact, Heading) and fact.given == name}
+    line = next(each for each in profile.figure.path if each.tail in tails)
+    values = {"actual": float(given.value), "expected": expected}
+    shown, about = angle_text(expected), ReadIssue.ANGLE_OPPOSITE
+    return report(context, about, Basis.NUMERICAL, [given.word], values, subject=line.name, expected=shown)

@@ -15,6 +15,7 @@ from contoursolve.diagnosis.wording import (
     join,
     length_text,
     limit_text,
+    number_text,
     place_text,
     statement_text,
 )
@@ -23,7 +24,7 @@ from contoursolve.geometry import FIRST, SECOND, Arc, Fact, Heading, Line, Profi
 from contoursolve.solving import RefusalKind, lookup
 from contoursolve.solving.affine import AffineFacts, Circuit
 from contoursolve.solving.compare import is_conflict
-from contoursolve.tolerance import AGREEMENT, REGULAR
+from contoursolve.tolerance import REGULAR
 
 
 def identity(profile: Profile, facts: Iterable[Fact]) -> str:
@@ -50,10 +51,13 @@ def _shipped() -> dict[str, str]:
     return table
 
 
-def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) -> Iterator[str]:
+def conflict_reasons(
+    profile: Profile, affine: AffineFacts, circuit: Circuit, *, is_about_direction: bool
+) -> Iterator[str]:
     """Where the facts of a circuit put the point that they are about, and how far apart.
 
-    The last fact that is not an angle is compared with the others, because a place can be compared.
+    The last fact that is not an angle is compared with the others, because a place can be compared; where a direction
+    is only opposite (`is_about_direction`), no place tells.
     """
     places = [fact for fact in circuit.facts if not isinstance(fact, Heading)] or list(circuit.facts)
     single = places[-1]
@@ -61,9 +65,8 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
     fixed = affine.fixed_by(others)
     point = getattr(single, "point", "")
     known = {name: value for name, value in fixed.items() if name.partition(".")[0] == point}
-    disagrees = is_conflict(circuit, profile, affine)
-    # Of a direction that is only opposite, no place tells.
-    if known and single.given and not (disagrees and max(circuit.off) <= AGREEMENT):
+    disagrees = is_conflict(circuit, profile, affine) or is_about_direction
+    if known and single.given and not is_about_direction:
         given = profile.givens[single.given]
         row = affine.facts.index(single)
         axis = next(axis for axis in (FIRST, SECOND) if scalar(point, axis) in single.reads())
@@ -77,7 +80,9 @@ def conflict_reasons(profile: Profile, affine: AffineFacts, circuit: Circuit) ->
             f"and {given.word.text if given.word else 'what is not written'} puts it at "
             f"{place_text(profile, {scalar(point, axis): own})}: {ending}"
         )
-    agreeing = [text for fact in circuit.facts if (text := _agreeing(profile, affine, circuit, fact))]
+    # No other length turns a line round.
+    able = [fact for fact in circuit.facts if isinstance(fact, Heading) or not is_about_direction]
+    agreeing = [text for fact in able if (text := _agreeing(profile, affine, circuit, fact))]
     if disagrees and agreeing:
         several = f"change one: {', '.join(agreeing[:-1])} or {agreeing[-1]}"
         yield several if len(agreeing) > 1 else f"write {agreeing[0]} instead"
@@ -96,7 +101,9 @@ def _agreeing(profile: Profile, affine: AffineFacts, circuit: Circuit, fact: Fac
     value, given = fact.implied(at), profile.givens[fact.given]
     if value is None or given.word is None:
         return ""
-    return statement_text(given, value * (2 if given.is_diameter else 1), profile)
+    shown, stated = (each * (2 if given.is_diameter else 1) for each in (value, float(given.value)))
+    is_same = number_text(shown, given.unit, profile.unit) == number_text(stated, given.unit, profile.unit)
+    return "" if is_same else statement_text(given, shown, profile)
 
 
 def freedom_reasons(profile: Profile, freedoms: Sequence[Freedom]) -> Iterator[str]:

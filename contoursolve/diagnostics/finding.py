@@ -136,7 +136,8 @@ class Tie(Struct, frozen=True):
     """A smallest set of words that say the same, each following from the others.
 
     `identity` is the formula that ties them for all values, where one is kept. `off_by_mm` is by how much
-    they disagree; `is_conflict` whether that is more than the least increment.
+    they disagree; `is_conflict` whether that is more than the least increment, or
+    a line runs against its angle.
     """
 
     addresses: tuple[str, ...]

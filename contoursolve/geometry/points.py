@@ -7,7 +7,7 @@ from msgspec import Struct
 
 from contoursolve.geometry.figure import Lookup
 from contoursolve.geometry.system import Equation, cross, dot, step
-from contoursolve.tolerance import RADIUS_DIFFERENCE
+from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 
 
 class Coordinate(Equation, Struct, frozen=True):
@@ -81,7 +81,7 @@ class Heading(Equation, Struct, frozen=True):
 
     def implied(self, at: Lookup) -> float | None:
         first, second = step(at, self.tail, self.head)
-        return degrees(atan2(second, first)) if hypot(first, second) > 0 else None
+        return degrees(atan2(second, first)) if hypot(first, second) > LENGTH else None
 
 
 class Ray(Heading, frozen=True):

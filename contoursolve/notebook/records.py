@@ -11,7 +11,7 @@ from contoursolve.controls import DIALECTS, Dialect
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import axis_labels, count
 from contoursolve.diagnostics.display import Shown
-from contoursolve.diagnostics.finding import Diagnosis, Diagnostic
+from contoursolve.diagnostics.finding import Diagnosis, Diagnostic, Tie
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
 from contoursolve.gcode import Block, Program, Word
 from contoursolve.output.catalogue import rule_lines
@@ -25,6 +25,7 @@ from contoursolve.reading import Lexicon
 from contoursolve.reading.rules import Rule
 from contoursolve.sketch import Drawings, Drawn, Sketch
 from contoursolve.solving.contour import Contour
+from contoursolve.tolerance import AGREEMENT
 
 MOST_ROWS = 200
 """Rows of a table."""
@@ -142,14 +143,18 @@ def diagnosis_tables(diagnosis: Diagnosis) -> Iterator[Table]:
         (each.point, "lies anywhere" if each.angle is None else f"slides along {each.angle:.4f} deg")
         for each in diagnosis.freedoms
     ]
-    ties = [
-        (" ".join(tie.addresses), tie.identity, f"{tie.off_by_mm:.4f} mm apart" if tie.is_conflict else "they agree")
-        for tie in diagnosis.ties
-    ]
+    ties = [(" ".join(tie.addresses), tie.identity, _disagreement(tie)) for tie in diagnosis.ties]
     if freedoms:
         yield Table("What can still move", ("point", "how"), freedoms, left=(0, 1, 2))
     if ties:
         yield Table("What says the same", ("words", "formula", "disagreement"), ties, left=(0, 1, 2))
+
+
+def _disagreement(tie: Tie) -> str:
+    """By how much words that say the same disagree."""
+    if not tie.is_conflict:
+        return "they agree"
+    return "opposite directions" if tie.off_by_mm <= AGREEMENT else f"{tie.off_by_mm:.4f} mm apart"
 
 
 def _contour(contour: Contour) -> list[str]:

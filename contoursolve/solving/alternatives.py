@@ -9,7 +9,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse, groups_of
+from contoursolve.analysis import analyse, groups_of, spare_of
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -126,6 +126,10 @@ def _find(question: _Question) -> Alternatives:
     profile = question.profile
     system = assemble(profile)
     enumeration = enumerate_solutions(profile, system)
+    # Where a direction that was not needed leaves nothing, it is what disagrees.
+    stated = frozenset(fact for fact in spare_of(system) if fact.given and fact.sense_reads())
+    if stated and not enumeration.found:
+        enumeration = enumerate_solutions(profile, system, stated)
     with ball.precision(ball.WORKING):
         prover = Prover(system, groups_of(system), ground_of(profile))
         items = [_alternative(profile, system, prover, found) for found in enumeration.found]

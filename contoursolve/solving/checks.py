@@ -35,7 +35,7 @@ from contoursolve.numeric.columns import Array, difference, directions, replay_r
 from contoursolve.numeric.expressions import Tape, at_most, below, larger, largest, magnitude, opposite, sqrt, true
 from contoursolve.numeric.inputs import COSINE, SINE, lookup
 from contoursolve.numeric.interpreter import Replay
-from contoursolve.solving.compare import allowance
+from contoursolve.solving.compare import allowance, is_directed
 from contoursolve.solving.compile import Machine, compile_plainly, compile_system
 from contoursolve.solving.corners import Pair
 from contoursolve.solving.numbers import axes_of, inputs_of
@@ -287,6 +287,9 @@ def _compare(source: Source, fact: Fact, off: Any) -> Iterator[tuple[RefusalKind
         yield kind, subject, larger(limit - off, limit - excess)
         yield kind, subject, larger(limit + off, limit + excess)
         return
+    elif isinstance(fact, Heading) and is_directed(fact, source.figure):
+        (first, second), (cosine, sine) = source.way(fact.tail, fact.head), source.at.direction(fact.given)
+        yield kind, subject, first * cosine + second * sine + LENGTH
     elif not fact.given:
         kind = RefusalKind.FACT_DISAGREES
     yield kind, subject, limit - off

@@ -1,6 +1,6 @@
 """Do facts that say the same agree? What each of them would have to state, and by how much it is off."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from math import hypot, inf, pi
 from typing import Any
 
@@ -11,7 +11,9 @@ from contoursolve.geometry import (
     SECOND,
     Coordinate,
     Fact,
+    Figure,
     Heading,
+    Line,
     Offset,
     OnCircle,
     ParallelLines,
@@ -24,9 +26,12 @@ from contoursolve.geometry import (
 )
 from contoursolve.geometry.system import step
 from contoursolve.solving.affine import AffineFacts, Circuit
-from contoursolve.solving.numbers import lookup
+from contoursolve.solving.numbers import lookup, scalars_of
 from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind
 from contoursolve.tolerance import AGREEMENT, RESIDUAL
+
+QUARTER_TURN, FULL_TURN = 90.0, 360.0
+"""Degrees."""
 
 Increments = Callable[[str], Any]
 """The least increment of a coordinate by its axis, or of a value by its name."""
@@ -81,17 +86,44 @@ def is_conflict(circuit: Circuit, profile: Profile, affine: AffineFacts) -> bool
     return circuit.off[-1] > float(allowance(last, lookup(profile, fixed), increments_of(profile)))
 
 
+def is_directed(fact: Fact, figure: Figure) -> bool:
+    """Whether a fact states the direction in which a line of the path must run."""
+    return isinstance(fact, Heading) and any(
+        isinstance(line, Line) and line.heading == fact.given for line in figure.path
+    )
+
+
+def opposes(values: Mapping[str, float], unit: Unit) -> bool:
+    """Whether an angle, compared as by `compare`, states the direction against the one that it would need to state. Its
+    equation is true of both."""
+    return unit is Unit.DEGREE and abs(values.get("expected", 0.0) - values.get("actual", 0.0)) > QUARTER_TURN
+
+
+def is_turned(
+    circuit: Circuit, profile: Profile, affine: AffineFacts, points: Mapping[str, tuple[float, float]]
+) -> bool:
+    """Whether facts about lines that say the same have one among them whose line runs the other way, at the points of
+    the contour, or at those that the facts themselves fix where there is none."""
+    at = lookup(profile, scalars_of(points) if points else affine.fixed_by(circuit.facts))
+    angles = [each for each in circuit.facts if isinstance(each, Heading) and at.scalars.keys() >= {*each.reads()}]
+    return any(opposes(compare(each, profile, at), Unit.DEGREE) for each in angles)
+
+
 def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
     """What a fact states beside what it would need to state at these points, and the gap in mm.
 
-    An expected angle is given by the turn number of the stated one, so that the two can be compared.
+    An expected angle is given by the turn number of the stated one, so that the two can be compared; of two that are
+    half a turn away, by the smaller number.
     """
     given = profile.givens[fact.given]
     values = {"actual": float(given.value), "off_by_mm": abs(float(fact.residual(at)))}
     expected = fact.implied(at)
     if expected is not None:
         if given.unit is Unit.DEGREE:
-            expected += 360 * round((float(given.value) - expected) / 360)
+            expected += FULL_TURN * round((values["actual"] - expected) / FULL_TURN)
+            other = expected - FULL_TURN if expected > values["actual"] else expected + FULL_TURN
+            if abs(expected - values["actual"]) >= FULL_TURN / 2 - AGREEMENT:
+                expected = min(expected, other, key=abs)
         values["expected"] = expected
     return values
 
@@ -124,7 +156,8 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
     gap = inf if is_word else abs(values.get("expected", inf) - values.get("actual", inf))
     # The equation alone is true of the opposite direction, too.
     is_opposite = any(float(sense) < -AGREEMENT for sense in fact.senses(at))
-    if not is_opposite and (off <= allowance(fact, at, increments_of(profile)) or gap <= AGREEMENT):
+    is_against = is_opposite or (is_directed(fact, system.figure) and opposes(values, Unit.DEGREE))
+    if not is_against and (off <= allowance(fact, at, increments_of(profile)) or gap <= AGREEMENT):
         return Note(NoteKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
     kind = RefusalKind.WORDS_DISAGREE if "expected" in values else RefusalKind.FACT_DISAGREES
     return Refusal(kind, name, givens, values)

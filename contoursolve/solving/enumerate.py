@@ -68,8 +68,9 @@ class Enumeration(Struct, frozen=True):
         return not self.doubts
 
 
-def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
-    """All solutions of a determined system at the values of a profile, whatever the choices of the control.
+def enumerate_solutions(profile: Profile, system: System, unsensed: frozenset[Fact] = frozenset()) -> Enumeration:
+    """All solutions of a determined system at the values of a profile, whatever the choices of the control, and
+    whichever way what `unsensed` facts are about runs.
 
     Where a ball is too wide to decide, everything is done again with four times the digits.
     """
@@ -77,7 +78,7 @@ def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
     enumeration = Enumeration((), ())
     for bits, close in ((ball.WORKING, Close.REFUSE), (ball.HIGHEST, Close.DOUBLE)):
         with ball.precision(bits):
-            enumeration = enumerate_on(ground_of(profile), system, groups, close, DRAWING)
+            enumeration = enumerate_on(ground_of(profile), system, groups, close, DRAWING, unsensed)
         # More digits do not finish a search.
         if not any(doubt.obstacle in (Obstacle.TOUCHING, Obstacle.UNDECIDED) for doubt in enumeration.doubts):
             break
@@ -85,11 +86,16 @@ def enumerate_solutions(profile: Profile, system: System) -> Enumeration:
 
 
 def enumerate_on(
-    ground: Ground, system: System, groups: tuple[Group, ...], close: Close, effort: Effort
+    ground: Ground,
+    system: System,
+    groups: tuple[Group, ...],
+    close: Close,
+    effort: Effort,
+    unsensed: frozenset[Fact] = frozenset(),
 ) -> Enumeration:
     """All solutions on a ground, with the balls of the precision that is set. Where the ground is a whole box of
     values, each one is proven for all of them."""
-    (found,) = enumerate_many([ground], system, groups, close, effort)
+    (found,) = enumerate_many([ground], system, groups, close, effort, unsensed)
     if not isinstance(found, Enumeration):
         raise found
     return found
@@ -100,11 +106,16 @@ Undecidable = ArithmeticError | ValueError
 
 
 def enumerate_many(
-    grounds: Sequence[Ground], system: System, groups: tuple[Group, ...], close: Close, effort: Effort
+    grounds: Sequence[Ground],
+    system: System,
+    groups: tuple[Group, ...],
+    close: Close,
+    effort: Effort,
+    unsensed: frozenset[Fact] = frozenset(),
 ) -> list[Enumeration | Undecidable]:
     """All solutions on each ground, or the error in which the search ended; what has no closed form is searched for on
     all of them together."""
-    searches = [_Search(system, groups, ground, close, effort).run() for ground in grounds]
+    searches = [_Search(system, groups, ground, close, effort, unsensed).run() for ground in grounds]
     found: dict[int, Enumeration | Undecidable] = {}
     waiting: dict[int, tuple[Group, Task]] = {}
 
@@ -139,7 +150,15 @@ MOST_SOLUTIONS = 512
 
 
 class _Search:
-    def __init__(self, system: System, groups: tuple[Group, ...], ground: Ground, close: Close, effort: Effort) -> None:
+    def __init__(
+        self,
+        system: System,
+        groups: tuple[Group, ...],
+        ground: Ground,
+        close: Close,
+        effort: Effort,
+        unsensed: frozenset[Fact],
+    ) -> None:
         self.system = system
         self.groups = groups
         self.ground = ground
@@ -150,7 +169,9 @@ class _Search:
         self.left = effort.intervals
         self.reach = ground.reach(system)
         self.senses: list[Sense] = [
-            (fact, frozenset(system.unknowns_among(fact.sense_reads()))) for fact in system.facts
+            (fact, frozenset(system.unknowns_among(fact.sense_reads())))
+            for fact in system.facts
+            if fact not in unsensed
         ]
         lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
         carriers = [line for line in lines if line.name in system.figure.carriers]

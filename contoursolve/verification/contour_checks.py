@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.gcode import Word
-from contoursolve.geometry import Choice, Coordinate
+from contoursolve.geometry import Choice, Coordinate, Fact, Heading
 from contoursolve.reading import ParsedContour, unused_words
 from contoursolve.statements import apply_statements
 from contoursolve.tolerance import AGREEMENT, RESIDUAL
@@ -44,6 +44,7 @@ from contoursolve.verification.status import (
     allowance,
     candidates,
     expected,
+    is_against,
     prepare,
 )
 
@@ -87,7 +88,7 @@ def _check_contour(found: Found, claimed: ClaimedContour, ledger: Ledger) -> boo
     is_checked = _check_status(case, claimed, solutions, ledger)
     _check_count(case, claimed, solutions, ledger)
     if claimed.diagnosis is not None:
-        _check_diagnosis(case, claimed.diagnosis, solutions, ledger)
+        _check_diagnosis(case, claimed.diagnosis, solutions, values, ledger)
     return is_checked or values is not None
 
 
@@ -304,7 +305,9 @@ CLEARLY = 2.0
 """1. Within so many times the allowed amount or one part of so many it is left open whether words agree."""
 
 
-def _check_diagnosis(case: Case, diagnosis: ClaimedDiagnosis, found: Sequence[Candidate], ledger: Ledger) -> None:
+def _check_diagnosis(
+    case: Case, diagnosis: ClaimedDiagnosis, found: Sequence[Candidate], path: Array | None, ledger: Ledger
+) -> None:
     """What can still move and which words say the same, where the facts are about lines between points."""
     facts = (*case.profile.facts, *case.profile.ignored)
     system, is_whole = replace(case.system, facts=facts), not case.profile.is_extended
@@ -336,9 +339,23 @@ def _check_diagnosis(case: Case, diagnosis: ClaimedDiagnosis, found: Sequence[Ca
         gap, values, is_fixed = rank.compare(rows, off, others, last)
         share = gap / allowance(case, facts[last], values, {}) if is_fixed else tie.off / AGREEMENT
         is_right = claimed.is_conflict == (share > 1) or 1 / CLEARLY < share < CLEARLY
+        if _is_turned(case, rows, off, [(each, facts[each]) for each in tie.facts], path):
+            is_right = claimed.is_conflict
         ledger.require("they conflict if that is more than the least increments", words, is_right)
     rest = [" ".join(each) for each in names]
     ledger.require("the ties name all words that say the same", rest, not names, "the result lacks these")
+
+
+def _is_turned(case: Case, rows: Array, off: Array, tied: Sequence[tuple[int, Fact]], path: Array | None) -> bool:
+    """Whether a line runs against the direction that one of some facts states: on the path, or where these facts put
+    its ends."""
+    numbers = [number for number, _ in tied]
+    is_fixed = rank.fixed(rows[numbers]) if path is None else numpy.full(rows.shape[1], fill_value=True)
+    at = case.system.at(rank.solved(rows[numbers], off[numbers]) if path is None else path, {})
+    return any(
+        isinstance(fact, Heading) and bool(is_fixed[rows[number] != 0].all()) and is_against(case, fact, at)
+        for number, fact in tied
+    )
 
 
 def _address(word: Word) -> str:

@@ -22,6 +22,7 @@ from contoursolve.geometry import (
     Directed,
     Fact,
     Heading,
+    Line,
     Offset,
     OnCircle,
     Profile,
@@ -40,7 +41,7 @@ from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH, REGULAR, RESIDUAL
 from contoursolve.verification import rank
 from contoursolve.verification.decode import ClaimedContour, Status
 from contoursolve.verification.drawing import Drawing, Path, side_of
-from contoursolve.verification.residuals import Array, ResidualSystem, norm, residual, senses, system_of
+from contoursolve.verification.residuals import Array, Place, ResidualSystem, norm, residual, senses, system_of
 
 EPSILON = 2.0**-52
 """1. Two neighbouring doubles differ by this share of their size."""
@@ -336,9 +337,19 @@ def allowance(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -
 def difference(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> tuple[float, float]:
     """How far a fact that is not needed is from being true of a solution, and how far it may be, mm."""
     off, allowed = abs(case.missed_by(fact, values, signs)), allowance(case, fact, values, signs)
-    if isinstance(fact, TurnBetween | Directed | Ray) and min(senses(fact, case.system.at(values, signs))) < 0:
+    at = case.system.at(values, signs)
+    if isinstance(fact, TurnBetween | Directed | Ray) and min(senses(fact, at)) < 0:
+        off = inf
+    lines = (each for each in case.profile.figure.path if isinstance(each, Line))
+    if isinstance(fact, Heading) and any(each.heading == fact.given for each in lines) and is_against(case, fact, at):
         off = inf
     return off, allowed
+
+
+def is_against(case: Case, fact: Heading, at: Place) -> bool:
+    """Whether a line runs against the direction that a fact states."""
+    way, along = at.way(fact.tail, fact.head), case.system.directions[fact.given]
+    return float(way[0] * along[0] + way[1] * along[1]) < -LENGTH
 
 
 def agrees(case: Case, fact: Fact, values: Array, signs: Mapping[str, int]) -> bool:
