@@ -47,14 +47,18 @@ def _block(line: LineReader) -> Term | str:
     return line.target()
 
 
-def _if(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
+def _if(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
     condition = line.term()
     if line.take("GOTO"):
         yield Jump(_block(line), condition)
+        line.hide(found.start(), line.at)
         return
     line.need("THEN")
+    line.hide(found.start(), line.at)
+    begin = line.at
     then = line.read_statements()
-    yield When(condition, tuple(then)) if then else If(condition)
+    has_words = line.keeps(begin)
+    yield When(condition, tuple(then), has_words) if then or has_words else If(condition)
 
 
 def _while(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
@@ -127,7 +131,7 @@ def _profile(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
 _TABLE = (
     Spelling(r"(?=#)", _assign),
     Spelling(r"[BD]PRNT[ \t]*+\[.*+", nothing),
-    Spelling(r"IF[ \t]*+(?=[\[#])", _if),
+    Spelling(r"IF[ \t]*+(?=[\[#])", _if, stays=True),
     Spelling(r"WHILE[ \t]*+(?=[\[#])", _while),
     Spelling(r"DO[ \t]*+(\d++)", lambda _, found: [Loop(number_of(found[1]))]),
     Spelling(r"END[ \t]*+(\d++)", lambda _, found: [EndLoop(number_of(found[1]))]),

@@ -187,6 +187,8 @@ class When(Struct, frozen=True, tag=True):
 
     condition: Term
     then: tuple["MacroStatement", ...]
+    has_words: bool = False
+    """Whether the words of the line run only then: `IF [#1 GT 0] THEN G01 X5.`"""
 
 
 class Strange(Struct, frozen=True, tag=True):

@@ -109,6 +109,12 @@ class LineReader:
             if self.text[place] != " ":
                 self._rest[place] = " "
 
+    def keeps(self, begin: int) -> bool:
+        """Whether anything but comments is left of the line from a place on."""
+        return any(
+            kept.strip() and typed.strip() for kept, typed in zip(self._rest[begin:], self.text[begin:], strict=True)
+        )
+
     def read_statements(self) -> list[MacroStatement]:
         """The statements up to the end of the line."""
         found, skip = list[MacroStatement](), compiled(self._form.skip)
@@ -118,12 +124,12 @@ class LineReader:
                 match = compiled(spelling.pattern).match(self.text, begin)
                 if match is None:
                     continue
-                self.at = match.end()
+                self.at, stays = match.end(), spelling.stays
                 try:
                     said = [*spelling.read(self, match)]
                 except UnreadableTermError:
-                    said, self.at = [strange(self.text[begin:])], len(self.text)
-                if said and not spelling.stays:
+                    said, self.at, stays = [strange(self.text[begin:])], len(self.text), False
+                if said and not stays:
                     self.hide(begin, self.at)
                 found += said
                 break

@@ -1,7 +1,7 @@
 """Runs a program as a control does: assignments, jumps, loops, calls and profiles, from block to block."""
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from msgspec import Struct, field
 from msgspec.structs import replace
@@ -32,7 +32,7 @@ from contoursolve.execution.language import (
     Variable,
     When,
 )
-from contoursolve.execution.subprograms import Library, Source, Surroundings
+from contoursolve.execution.subprograms import Library, Part, Source, Surroundings
 from contoursolve.execution.variables import Known, Variables
 from contoursolve.gcode import Block, Caller, Program, Substitution, Syntax, parse_block, split_lines
 
@@ -63,18 +63,19 @@ def machine_of(
 
 
 class _Loop(Struct):
-    """A loop that is open: the index of its first line, and the last value and the step of what it counts."""
+    """A loop that is open: its lines, and the last value and the step of what it counts."""
 
-    name: str
-    first: int
+    lines: Part
     last: float | None = None
     step: float = 1.0
     is_certain: bool = True
 
 
 class _Branch(Struct):
-    """An If that is open: whether one of its parts has run; where that is not known, why, and the values before it."""
+    """An If that is open: its lines, and whether one of its parts has run; where that is not known, why, and the values
+    before it."""
 
+    lines: Part
     has_run: bool
     reason: str = ""
     before: Mapping[str, Known] = {}
@@ -95,6 +96,14 @@ class _Frame(Struct):
     """Its local variables, if it has some of its own."""
     loops: list[_Loop] = field(default_factory=list)
     branches: list[_Branch] = field(default_factory=list)
+    here: int = 0
+    """The index of the line that runs."""
+    rest: list[MacroStatement] = field(default_factory=list)
+    """What that line says besides, and has not been carried out: it waits for what it calls."""
+
+    def go_to(self, index: int) -> None:
+        """Go on at a line: what the line that runs still says is left out."""
+        self.at, self.rest = index, []
 
 
 class _RefusedError(Exception):
@@ -233,7 +242,7 @@ class Machine:
         while self._frames:
             frame = self._frames[-1]
             is_known = not (self._is_reached or frame.callers) and frame.at in self._visited
-            if frame.at > frame.last or is_known:
+            if not frame.rest and (frame.at > frame.last or is_known):
                 yield from self._leave(frame)
                 continue
             if self._steps >= MOST_STEPS:
@@ -241,7 +250,7 @@ class Machine:
                 yield ProgramEvent(EventKind.STOPPED, frame.source.blocks[frame.at].line, told)
                 return
             # A long program is no endless one.
-            self._steps += frame.source is not self.main or frame.at in self._visited
+            self._steps += not frame.rest and (frame.source is not self.main or frame.at in self._visited)
             try:
                 for each in self._step(frame):
                     if isinstance(each, ProgramEvent) and each.kind is not EventKind.BARRIER:
@@ -249,9 +258,10 @@ class Machine:
                     yield each
             except _RefusedError as error:
                 # The control stops here; what follows is examined as if it went on.
+                frame.rest = []
                 if self._is_alone:
-                    yield self._as_written(frame, frame.at - 1)
-                yield ProgramEvent(EventKind.STOPPED, self._line(frame, frame.at - 1), str(error))
+                    yield self._as_written(frame, frame.here)
+                yield ProgramEvent(EventKind.STOPPED, self._line(frame, frame.here), str(error))
 
     def _says_something(self, index: int) -> bool:
         """Whether a line of the main file has more than its number, comments and blanks."""
@@ -262,25 +272,74 @@ class Machine:
     # One line
 
     def _step(self, frame: _Frame) -> Iterator[Block | ProgramEvent]:
-        """Run the next line of a frame."""
-        index = frame.at
+        """Run the next line of a frame, or the rest of the line that waited for what it called."""
+        if not frame.rest:
+            yield from self._begin_line(frame)
+        while frame.rest and self._frames and self._frames[-1] is frame:
+            yield from self._do(frame, frame.here, frame.rest.pop(0))
+
+    def _begin_line(self, frame: _Frame) -> Iterator[Block | ProgramEvent]:
+        """Run the words of the next line of a frame; what it says besides waits in `rest`."""
+        index = frame.here = frame.at
         yield from self._join(frame, index)
+        is_new = frame.source is self.main and index not in self._visited
         if frame.source is self.main:
-            if self._is_passing_over and index not in self._visited:
+            if self._is_passing_over and is_new:
                 self.passed_over.add(frame.source.blocks[index].line)
             self._visited.add(index)
         block, code = frame.source.blocks[index], frame.source.code(index)
         frame.at += 1
         if self.language.declares and self._has_strange_words(block, code):
             code = replace(code, rest=block.text, statements=())
+        code, moving = self._assign_first(block, code)
+        when = next((each for each in moving if isinstance(each, When) and each.has_words), None)
+        if when is not None:
+            yield from self._run_words_if(when, frame, code, is_new=is_new)
+            return
+        frame.rest, told = _ends_last(moving), _in_doubt(block, moving)
+        if told and self._is_alone:
+            yield block
+            frame.rest = [each for each in frame.rest if isinstance(each, ProgramEnd | Return)]
+        else:
+            yield from self._run_words(frame, block, code)
+        if told:
+            yield ProgramEvent(EventKind.STOPPED, self._line(frame, index), told)
+
+    def _run_words_if(
+        self, when: When, frame: _Frame, code: CodeLine, *, is_new: bool
+    ) -> Iterator[Block | ProgramEvent]:
+        """Run the words of a line if a condition holds; where that is not known, what follows does not rest on them."""
+        index, block = frame.here, frame.source.blocks[frame.here]
+        truth, line = self.variables.truth(when.condition), self._line(frame, index)
+        if isinstance(truth, Unknown) and self._is_alone:
+            yield block
+            yield ProgramEvent(EventKind.LOST, line, truth.reason)
+        elif isinstance(truth, Unknown):
+            frame.rest = [when]
+            yield ProgramEvent(EventKind.ENTER, line)
+            yield from self._run_words(frame, block, code)
+            yield ProgramEvent(EventKind.LEAVE, line)
+            yield ProgramEvent(EventKind.LOST, line, truth.reason)
+        elif truth or (index in self._untaken and not self._is_reached):
+            frame.rest = [when] if truth else []
+            yield from self._run_words(frame, block, code)
+        elif is_new:
+            self._keep(frame, index)
+            self._visited.discard(index)
+
+    def _assign_first(self, block: Block, code: CodeLine) -> tuple[CodeLine, list[MacroStatement]]:
+        """Carry out the assignments with which a line begins; what else it says, and the statements behind them."""
         rest = iter(code.statements)
-        moving = list[MacroStatement]()
         for statement in rest:
             if not isinstance(statement, Assign | Forget):
-                moving = [statement, *rest]
-            elif not self.variables.assign(statement) and self._is_alone:
+                return code, [statement, *rest]
+            if not self.variables.assign(statement) and self._is_alone:
                 code = replace(code, rest=block.text)
-        if frame.callers and any(isinstance(each, Return) for each in moving):
+        return code, []
+
+    def _run_words(self, frame: _Frame, block: Block, code: CodeLine) -> Iterator[Block | ProgramEvent]:
+        """Run the words of a line."""
+        if frame.callers and any(isinstance(each, Return) for each in frame.rest):
             code = replace(code, rest=_without_return(code.rest, block))
         ran = self._block(frame, block, code)
         if not self._is_passed_over(frame, code, ran):
@@ -289,8 +348,6 @@ class Machine:
             self._last = (frame, block.line)
             yield replace(ran, mark=self._here) if self._is_marking else ran
             self._go_on()
-        for statement in moving:
-            yield from self._do(frame, index, statement)
 
     def _has_strange_words(self, block: Block, code: CodeLine) -> bool:
         """Whether what looks like assignments stands among words, to variables that nobody has declared: `G1 X5 AGN=30`
@@ -330,6 +387,9 @@ class Machine:
             else:
                 reason = value.reason if isinstance(value, Unknown) else f"{value!r} is no number"
                 changes.append(Substitution(word.begin, word.end, typed, "", reason))
+        if self._is_alone and not block.text[:1].isspace():
+            # Nothing stands where a statement stood.
+            text = text.lstrip()
         ran = block if text == block.text else parse_block(text, block.line, block.syntax)
         return replace(
             ran,
@@ -367,6 +427,11 @@ class Machine:
 
     def _do_when(self, frame: _Frame, index: int, when: When) -> Iterator[Block | ProgramEvent]:
         truth = self.variables.truth(when.condition)
+        if truth is True:
+            frame.rest[:0], told = _ends_last(when.then), _in_doubt(frame.source.blocks[index], when.then)
+            if told:
+                yield ProgramEvent(EventKind.STOPPED, self._line(frame, index), told)
+            return
         for statement in when.then:
             if isinstance(truth, Unknown) and isinstance(statement, Assign | Forget):
                 name = self.variables.name(statement.variable)
@@ -375,8 +440,6 @@ class Machine:
                 yield from self._jump(frame, index, replace(statement, condition=when.condition))
             elif isinstance(truth, Unknown):
                 yield from self._unclear(frame, index, truth.reason)
-            elif truth:
-                yield from self._do(frame, index, statement)
 
     def _line(self, frame: _Frame, index: int) -> int:
         """The line of the main file at which something on a line happens."""
@@ -412,9 +475,29 @@ class Machine:
             self._check_repetition(frame, index, target)
         elif jump.condition is not None:
             self._keep(frame, index + 1)
-        frame.at = target
-        frame.loops = [each for each in frame.loops if each.first <= target]
-        frame.branches = []
+        yield from self._land(frame, index, target)
+
+    def _land(self, frame: _Frame, index: int, target: int) -> Iterator[ProgramEvent]:
+        """Go on at the target of a jump. It leaves the loops and branches in which its target is not; what begins there
+        begins anew; and how often a loop runs into which it jumps, nobody knows."""
+        for other in frame.rest:
+            # CASE decides among several jumps at once.
+            if isinstance(other, Jump) and (place := self._target(frame, index, other)) is not None:
+                self._keep(frame, place)
+        frame.go_to(target)
+        frame.loops = [each for each in frame.loops if each.lines.has(target)]
+        frame.branches = [each for each in frame.branches if each.lines.has(target)]
+        nesting, open_loops = frame.source.nesting, [each.lines for each in frame.loops]
+        loops = {each for each in nesting.loops.values() if each.has(target)}.difference(open_loops)
+        branches = {each for each in nesting.branches.values() if each.has(target)}
+        frame.loops += (_Loop(each, is_certain=False) for each in sorted(loops))
+        frame.branches += (
+            _Branch(each, has_run=True) for each in sorted(branches.difference(each.lines for each in frame.branches))
+        )
+        if loops:
+            line, begun = self._line(frame, index), frame.source.blocks[min(loops).first].line
+            told = f"line {line} jumps into the loop that line {begun} begins: how often that runs then is not known"
+            yield ProgramEvent(EventKind.STOPPED, line, told)
 
     def _check_repetition(self, frame: _Frame, index: int, target: int) -> None:
         """Refuse to go back to a line where everything was the same before: that would go on for ever."""
@@ -456,36 +539,53 @@ class Machine:
     # Branches
 
     def _begin_branch(self, frame: _Frame, index: int, branch: If | ElseIf) -> Iterator[Block | ProgramEvent]:
-        truth = self.variables.truth(branch.condition)
+        truth, lines = self.variables.truth(branch.condition), self._branch_lines(frame, index)
         if isinstance(truth, Unknown):
-            frame.branches.append(_Branch(True, truth.reason, dict(self.variables.values)))
+            frame.branches.append(_Branch(lines, True, truth.reason, dict(self.variables.values)))
             if self._is_alone:
                 yield self._as_written(frame, index)
             yield ProgramEvent(EventKind.ENTER, self._line(frame, index))
             return
-        frame.branches.append(_Branch(truth))
+        frame.branches.append(_Branch(lines, truth))
         if truth:
             self._keep_parts(frame, index)
         else:
             self._keep(frame, index + 1)
-            frame.at = self._end(frame, index, frame.source.next_part(index, frame.last), "IF")
+            frame.go_to(frame.source.nesting.next_parts[index])
+
+    def _branch_lines(self, frame: _Frame, index: int) -> Part:
+        """The lines of the branch that a line begins or goes on with. Raises if it has no end."""
+        lines = frame.source.nesting.branches.get(index)
+        if lines is None or lines.last > frame.last:
+            raise _RefusedError(f"the IF of line {self._line(frame, index)} has no end")
+        return lines
 
     def _keep_parts(self, frame: _Frame, index: int) -> None:
         """Keep what is known now for the parts of a branch behind the one that runs."""
-        part = frame.source.next_part(index, frame.last)
-        while part is not None and any(isinstance(each, Else | ElseIf) for each in frame.source.code(part).statements):
+        nesting = frame.source.nesting
+        while (part := nesting.next_parts.get(index)) is not None and part < nesting.branches[index].last:
             self._keep(frame, part + 1)
-            part = frame.source.next_part(part, frame.last)
+            index = part
+
+    def _open_branch(self, frame: _Frame, index: int) -> _Branch | None:
+        """The branch that is open and goes on with a line or ends there; those in it have ended."""
+        lines = frame.source.nesting.branches.get(index)
+        while any(each.lines == lines for each in frame.branches):
+            if frame.branches[-1].lines == lines:
+                return frame.branches[-1]
+            frame.branches.pop()
+        return None
 
     def _next_branch(self, frame: _Frame, index: int, part: ElseIf | Else) -> Iterator[Block | ProgramEvent]:
-        branch = frame.branches[-1] if frame.branches else _Branch(True)
-        if branch.reason:
+        branch = self._open_branch(frame, index)
+        if branch is not None and branch.reason:
             # Nobody knows which part runs: this one begins where the first one did.
             self.variables.values = dict(branch.before)
             yield ProgramEvent(EventKind.LEAVE, self._line(frame, index))
             yield ProgramEvent(EventKind.ENTER, self._line(frame, index))
-        elif branch.has_run:
-            frame.at = self._end(frame, index, frame.source.next_part(index, frame.last), "IF")
+        elif branch is None or branch.has_run:
+            self._branch_lines(frame, index)
+            frame.go_to(frame.source.nesting.next_parts[index])
         elif isinstance(part, ElseIf):
             frame.branches.pop()
             yield from self._begin_branch(frame, index, part)
@@ -493,51 +593,49 @@ class Machine:
             branch.has_run = True
 
     def _end_branch(self, frame: _Frame, index: int, _end: EndIf) -> Iterator[Block | ProgramEvent]:
-        branch = frame.branches.pop() if frame.branches else _Branch(True)
+        branch = self._open_branch(frame, index)
+        if branch is None:
+            return
+        frame.branches.pop()
         if branch.reason:
             # Whatever one of its parts may have set.
-            first = frame.source.last_if(index)
-            self.variables.lose(self._assigned_in(frame, first, index), branch.reason)
+            self.variables.lose(self._assigned_in(frame, branch.lines.first, index), branch.reason)
             yield ProgramEvent(EventKind.LEAVE, self._line(frame, index))
             yield from self._unclear(frame, index, branch.reason)
-
-    def _end(self, frame: _Frame, index: int, found: int | None, what: str) -> int:
-        """The end of what begins on a line. Raises if there is none."""
-        if found is None:
-            raise _RefusedError(f"the {what} of line {self._line(frame, index)} has no end")
-        return found
 
     # Loops
 
     def _begin_loop(self, frame: _Frame, index: int, loop: Loop | For) -> Iterator[Block | ProgramEvent]:
-        known = next((each for each in frame.loops if each.first == index), None)
+        lines = frame.source.nesting.loops.get((index, loop.name))
+        if lines is None or lines.last > frame.last:
+            raise _RefusedError(f"the loop of line {self._line(frame, index)} has no end")
+        known = next((each for each in frame.loops if each.lines == lines), None)
         if isinstance(loop, For):
-            yield from self._count(frame, index, loop, known)
+            yield from self._count(frame, loop, lines, known)
             return
         truth = self.variables.truth(loop.condition) if loop.condition is not None else True
         if truth is False:
-            self._leave_loop(frame, index, loop.name)
-        elif known is None or not isinstance(truth, Unknown):
-            frame.loops = [*frame.loops, _Loop(loop.name, index)] if known is None else frame.loops
+            self._leave_loop(frame, lines)
+        elif known is None:
+            frame.loops.append(_Loop(lines))
             if isinstance(truth, Unknown):
-                yield from self._enter_unknown_loop(frame, index, loop.name, truth)
+                yield from self._enter_unknown_loop(frame, lines, truth)
 
-    def _enter_unknown_loop(self, frame: _Frame, index: int, name: str, why: Unknown) -> Iterator[Block | ProgramEvent]:
+    def _enter_unknown_loop(self, frame: _Frame, lines: Part, why: Unknown) -> Iterator[Block | ProgramEvent]:
         """Run a loop once of which nobody knows how often it runs."""
         frame.loops[-1].is_certain = False
-        last = self._end(frame, index, frame.source.loop_end(index, frame.last, name), "loop")
-        self.variables.lose(self._assigned_in(frame, index, last), why.reason)
-        yield from self._unclear(frame, index, why.reason)
+        self.variables.lose(self._assigned_in(frame, lines.first, lines.last), why.reason)
+        yield from self._unclear(frame, lines.first, why.reason)
 
-    def _count(self, frame: _Frame, index: int, loop: For, known: _Loop | None) -> Iterator[Block | ProgramEvent]:
+    def _count(self, frame: _Frame, loop: For, lines: Part, known: _Loop | None) -> Iterator[Block | ProgramEvent]:
         name = self.variables.name(loop.variable)
         first, last, step = (self.variables.value(each) for each in (loop.first, loop.last, loop.step))
         if known is None:
-            frame.loops.append(_Loop(loop.name, index))
+            frame.loops.append(_Loop(lines))
             if not (isinstance(name, str) and isinstance(first, float) and isinstance(last, float)):
                 why = next(each for each in (name, first, last) if not isinstance(each, float) and each is not None)
                 told = why if isinstance(why, Unknown) else Unknown(f"{why} counts what is not known")
-                yield from self._enter_unknown_loop(frame, index, loop.name, told)
+                yield from self._enter_unknown_loop(frame, lines, told)
                 return
             frame.loops[-1].last = last
             frame.loops[-1].step = step if isinstance(step, float) else 1.0
@@ -546,33 +644,36 @@ class Machine:
         state = frame.loops[-1]
         is_over = isinstance(current, float) and state.last is not None and (current - state.last) * state.step > 0
         if is_over:
-            self._leave_loop(frame, index, loop.name)
+            self._leave_loop(frame, lines)
 
-    def _leave_loop(self, frame: _Frame, index: int, name: str) -> None:
+    def _leave_loop(self, frame: _Frame, lines: Part) -> None:
         """Go on behind a loop."""
-        frame.loops = [each for each in frame.loops if each.first != index]
-        frame.at = self._end(frame, index, frame.source.loop_end(index, frame.last, name), "loop") + 1
+        frame.loops = [each for each in frame.loops if each.lines != lines]
+        frame.go_to(lines.last + 1)
 
     def _end_loop(self, frame: _Frame, index: int, end: EndLoop) -> Iterator[Block | ProgramEvent]:
-        loop = next((each for each in reversed(frame.loops) if not end.name or each.name == end.name), None)
+        loop = next((each for each in frame.loops if each.lines.last == index), None)
         if loop is None:
             return
+        # Loops that begin in it have been left.
+        frame.loops = frame.loops[: frame.loops.index(loop) + 1]
         until = self.variables.truth(end.until) if end.until is not None else False
         if not loop.is_certain or isinstance(until, Unknown):
             reason = until.reason if isinstance(until, Unknown) else "how often the loop runs is not known"
-            self.variables.lose(self._assigned_in(frame, loop.first, index), reason)
+            self.variables.lose(self._assigned_in(frame, loop.lines.first, index), reason)
             frame.loops.remove(loop)
             yield from self._unclear(frame, index, reason)
         elif until:
             frame.loops.remove(loop)
         else:
-            counting = next((each for each in frame.source.code(loop.first).statements if isinstance(each, For)), None)
+            first = loop.lines.first
+            counting = next((each for each in frame.source.code(first).statements if isinstance(each, For)), None)
             if counting is not None:
                 value, name = self.variables.value(counting.variable), self.variables.name(counting.variable)
                 if isinstance(value, float) and isinstance(name, str):
                     self.variables.set(name, value + loop.step)
-            self._check_repetition(frame, index, loop.first)
-            frame.at = loop.first
+            self._check_repetition(frame, index, first)
+            frame.go_to(first)
 
     # Calls
 
@@ -584,15 +685,20 @@ class Machine:
             self.variables.lose_all(found.reason)
             yield from self._unclear(frame, index, found.reason)
             return
+        source, first, last = found
+        if last < first:
+            begins, ends = (source.blocks[each].line for each in (first, last))
+            runs = f"repeats from line {begins} up to itself" if last == index - 1 else f"runs from line {begins}"
+            behind = "that line stands behind it" if last == index - 1 else f"its last line, {ends}, stands before that"
+            raise _RefusedError(f"{text} {runs}, but {behind}")
         if len(self._frames) >= DEEPEST:
-            yield from self._unwind(found[0], found[1])
+            yield from self._unwind(source, first)
             raise _RefusedError(f"line {line} calls itself again and again: {DEEPEST} calls in one another")
         if isinstance(count, Unknown):
             yield from self._unclear(frame, index, f"how often {text} runs is not known: {count.reason}")
         times = int(count) if isinstance(count, float) else 1
         if times < 1:
             return
-        source, first, last = found
         is_behind = call.cycle.startswith("G") and source is frame.source and first > index
         is_inside = any(each.call is not None and each.call.kind is CallKind.PROFILE for each in self._frames)
         if call.kind is CallKind.PROFILE and is_inside:
@@ -692,6 +798,28 @@ _DO: Mapping[type[MacroStatement], Callable[..., Iterator[Block | ProgramEvent]]
     EndLoop: Machine._end_loop,
     Strange: Machine._do_strange,
 }
+
+
+def _in_doubt(block: Block, statements: Sequence[MacroStatement]) -> str:
+    """Why it is not known what a line does; empty if that is clear."""
+    ends = {type(each) for each in statements if isinstance(each, ProgramEnd | Return)}
+    does = [told for kind, told in _DOES.items() if any(isinstance(each, kind) for each in statements)]
+    if not ends or len(does) == 1:
+        return ""
+    return f"line {block.line} {' and '.join(does)} in one block: which comes first is not known; write two blocks"
+
+
+_DOES: Mapping[type[MacroStatement], str] = {
+    ProgramEnd: "ends the program",
+    Return: "returns",
+    Call: "calls a subprogram",
+    Jump: "jumps",
+}
+
+
+def _ends_last(statements: Sequence[MacroStatement]) -> list[MacroStatement]:
+    """The statements of a line, in whatever order they stand: what ends a program comes last."""
+    return sorted(statements, key=lambda each: (isinstance(each, ProgramEnd | Return), isinstance(each, Return)))
 
 
 def _first(values: Iterable[int | None]) -> int | None:

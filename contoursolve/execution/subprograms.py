@@ -51,6 +51,27 @@ def surroundings_of(
     return Surroundings(known, (*own, *map(Path, folders)))
 
 
+class Part(Struct, frozen=True, order=True):
+    """The lines of a loop or of a branch: the indices of its first and its last one."""
+
+    first: int
+    last: int
+
+    def has(self, index: int) -> bool:
+        """Whether a line is in it: behind its first one, which begins it."""
+        return self.first < index <= self.last
+
+
+class Nesting(Struct, frozen=True):
+    """The loops of a file by the indices of their first lines and by their names; its branches by the indices of the
+    lines that begin them, go on with them or end them; and by the line that begins one part of a branch, the line with
+    the next part or the end."""
+
+    loops: Mapping[tuple[int, str], Part]
+    branches: Mapping[int, Part]
+    next_parts: Mapping[int, int]
+
+
 class Source:
     """One file with programs, and what each of its lines says."""
 
@@ -123,39 +144,30 @@ class Source:
         later = (index for index in self.sections.values() if index > first)
         return min(later, default=len(self)) - 1
 
-    def next_part(self, index: int, last: int) -> int | None:
-        """The index of the line with the next part of the branch that a line begins or goes on with, or with its end;
-        None if there is none up to the last line."""
-        depth = 0
-        for other in range(index + 1, last + 1):
-            for statement in self.code(other).statements:
-                if isinstance(statement, If):
-                    depth += 1
-                elif isinstance(statement, EndIf) and depth:
-                    depth -= 1
-                elif isinstance(statement, EndIf | Else | ElseIf) and not depth:
-                    return other
-        return None
-
-    def loop_end(self, index: int, last: int, name: str) -> int | None:
-        """The index of the last line of the loop that a line begins; None if there is none up to the last line."""
-        depth = 0
-        for other in range(index + 1, last + 1):
-            for statement in self.code(other).statements:
-                if not isinstance(statement, Loop | For | EndLoop) or (name and statement.name != name):
-                    continue
-                if not isinstance(statement, EndLoop):
-                    depth += 1
-                elif depth:
-                    depth -= 1
-                else:
-                    return other
-        return None
-
-    def last_if(self, index: int) -> int:
-        """The index of the last line up to another that begins a branch; 0 if there is none."""
-        lines = range(index, -1, -1)
-        return next((each for each in lines if any(isinstance(one, If) for one in self.code(each).statements)), 0)
+    @cached_property
+    def nesting(self) -> Nesting:
+        """Its loops and branches."""
+        loops, open_loops = dict[tuple[int, str], Part](), dict[str, list[int]]()
+        branches, next_parts, open_branches = dict[int, Part](), dict[int, int](), list[list[int]]()
+        for index in range(len(self)):
+            code = self.code(index)
+            if code.begins is not None:
+                open_loops, open_branches = {}, []
+            for each in code.statements:
+                if isinstance(each, Loop | For):
+                    open_loops.setdefault(each.name, []).append(index)
+                elif isinstance(each, EndLoop) and open_loops.get(each.name):
+                    first = open_loops[each.name].pop()
+                    loops[first, each.name] = Part(first, index)
+                elif isinstance(each, If):
+                    open_branches.append([index])
+                elif isinstance(each, Else | ElseIf | EndIf) and open_branches and open_branches[-1][-1] < index:
+                    next_parts[open_branches[-1][-1]] = index
+                    open_branches[-1].append(index)
+                    if isinstance(each, EndIf):
+                        lines = open_branches.pop()
+                        branches |= dict.fromkeys(lines, Part(lines[0], index))
+        return Nesting(loops, branches, next_parts)
 
 
 class Library:

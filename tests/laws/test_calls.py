@@ -4,6 +4,7 @@ import json
 import random
 import re
 from collections import defaultdict
+from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -57,9 +58,11 @@ def test_contours_are_those_of_the_flat_program(control, seed):
 
 
 def moves(text: str) -> list[list[tuple[str, float | None]]]:
-    """The words of each line that moves."""
-    bare = (re.sub(r"\([^)]*\)|;.*|^N\d+|^\d+ |^[O%].*|.*PGM.*| ", "", line) for line in text.split("\n"))
-    words = (re.findall(r"(CC|DR|[A-Z])=?([-+]?\d*\.?\d*)", line) for line in bare if re.search("[XYZ][-+=.0-9]", line))
+    """The words of each line that moves; a centre is that of the arc behind it."""
+    bare = [re.sub(r"\([^)]*\)|;.*|^N\d+|^\d+ |^[O%].*|.*PGM.*| ", "", line) for line in text.split("\n")]
+    moving = [line for line in bare if re.search("[XYZ][-+=.0-9]", line)]
+    used = [line for line, behind in pairwise([*moving, ""]) if line[:2] != "CC" or behind[:1] == "C"]
+    words = (re.findall(r"(CC|DR|[A-Z])=?([-+]?\d*\.?\d*)", line) for line in used)
     return [[(name, float(each) if each.strip("+-") else None) for name, each in line] for line in words]
 
 

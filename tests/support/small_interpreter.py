@@ -104,7 +104,17 @@ class Decided:
     """Whether it is written with jumps, where a language has both."""
 
 
-Node = Assignment | Lines | Called | Counting | Decided
+@dataclass(eq=False)
+class Left:
+    """A jump behind the loop in which it stands, or behind so many more around that, where a comparison holds."""
+
+    sign: str
+    left: Expr
+    right: Expr
+    more: int
+
+
+Node = Assignment | Lines | Called | Counting | Decided | Left
 
 
 @dataclass
@@ -113,31 +123,47 @@ class Tree:
     subprograms: dict[int, list[Node]]
 
 
-def runs(tree: Tree) -> Iterator[tuple[Lines, list[str]]]:
-    """What runs: blocks as they are in the tree, and with numbers for their values."""
-    known: dict[int, float] = {}
+class LeftError(Exception):
+    """A loop is left, and so many more around it."""
 
-    def walk(nodes: list[Node]) -> Iterator[tuple[Lines, list[str]]]:
+
+class Runner:
+    """Runs a tree: blocks as they are in the tree, and with numbers for their values."""
+
+    def __init__(self, tree: Tree) -> None:
+        self.tree = tree
+        self.known: dict[int, float] = {}
+
+    def walk(self, nodes: list[Node]) -> Iterator[tuple[Lines, list[str]]]:
         for node in nodes:
             match node:
                 case Assignment():
-                    known[node.number] = value(node.value, known)
+                    self.known[node.number] = value(node.value, self.known)
                 case Lines():
-                    numbers = ((text, [number(value(each, known)) for each in given]) for text, given in node.blocks)
+                    numbers = ((text, [number(value(each, self.known)) for each in own]) for text, own in node.blocks)
                     yield node, [text.format(*given) for text, given in numbers]
                 case Called():
                     for _ in range(node.count):
-                        yield from walk(tree.subprograms[node.name])
+                        yield from self.walk(self.tree.subprograms[node.name])
                 case Counting():
-                    known[node.number] = 0.0
-                    while known[node.number] < node.last:
-                        yield from walk(node.body)
-                        known[node.number] += 1
+                    yield from self.count(node)
                 case Decided():
-                    is_so = COMPARED[node.sign](value(node.left, known), value(node.right, known))
-                    yield from walk(node.then if is_so else node.otherwise)
+                    yield from self.walk(node.then if self.holds(node) else node.otherwise)
+                case Left() if self.holds(node):
+                    raise LeftError(node.more)
 
-    yield from walk(tree.main)
+    def count(self, node: Counting) -> Iterator[tuple[Lines, list[str]]]:
+        self.known[node.number] = 0.0
+        try:
+            while self.known[node.number] < node.last:
+                yield from self.walk(node.body)
+                self.known[node.number] += 1
+        except LeftError as error:
+            if error.args[0]:
+                raise LeftError(error.args[0] - 1) from None
+
+    def holds(self, node: Decided | Left) -> bool:
+        return COMPARED[node.sign](value(node.left, self.known), value(node.right, self.known))
 
 
 def number(amount: float) -> str:
@@ -175,6 +201,8 @@ class Writer:
         self.places: dict[int, int] = {}
         self.labels = 0
         self.depth = 0
+        self.ends: list[int] = []
+        """The labels behind the loops that are open."""
 
     def write(self, tree: Tree) -> Typed:
         main = lambda: self._main(tree)  # noqa: E731
@@ -183,7 +211,7 @@ class Writer:
             each()
         self.lines += self.flat_foot
         flat, origins = [*self.flat_head, *filter(None, [self.modes])], {}
-        for node, blocks in runs(tree):
+        for node, blocks in Runner(tree).walk(tree.main):
             first = self.places[id(node)]
             for offset, block in enumerate(blocks):
                 flat.append(self.block(block))
@@ -211,9 +239,15 @@ class Writer:
                     self.call(node.name, node.count)
                 case Counting():
                     self.assign(node.number, 0.0)
+                    self.ends.append(6000 + self.label())
                     self.count(node)
+                    if any(isinstance(each, Left) for each in all_of(node.body)):
+                        self.mark(self.ends[-1])
+                    self.ends.pop()
                 case Decided():
                     self.decide(node)
+                case Left():
+                    self.leave(node, self.ends[-1 - node.more])
 
     def move(self, node: Lines) -> None:
         given = [[self.in_word(each) for each in values] for _, values in node.blocks]
@@ -245,7 +279,7 @@ class Writer:
         is_bare = isinstance(expr, Var | Of) or (isinstance(expr, float) and expr >= 0)
         return self.term(expr) if is_bare else self.bracketed(self.term(expr))
 
-    def condition(self, node: Decided) -> str:
+    def condition(self, node: Decided | Left) -> str:
         return f"{self.operand(node.left)}{self.signs[node.sign]}{self.operand(node.right)}"
 
     # Fanuc
@@ -269,6 +303,12 @@ class Writer:
         self.assign(node.number, Op("+", Var(node.number), 1.0))
         self.lines.append(f"END{self.depth}")
         self.depth -= 1
+
+    def leave(self, node: Left, label: int) -> None:
+        self.lines.append(f"IF [{self.condition(node)}] GOTO {label}")
+
+    def mark(self, label: int) -> None:
+        self.lines.append(f"N{label}")
 
     def decide(self, node: Decided) -> None:
         then, end = 100 * self.label(), 100 * self.label()
@@ -307,6 +347,12 @@ class SinumerikWriter(Writer):
         self.assign(node.number, Op("+", Var(node.number), 1.0))
         self.lines.append("ENDWHILE")
 
+    def leave(self, node: Left, label: int) -> None:
+        self.lines.append(f"IF {self.condition(node)} GOTOF ENDS_{label}")
+
+    def mark(self, label: int) -> None:
+        self.lines.append(f"ENDS_{label}:")
+
     def decide(self, node: Decided) -> None:
         if node.jumps:
             then, end = f"THEN_{self.label()}", f"END_{self.label()}"
@@ -344,6 +390,12 @@ class IsgWriter(SinumerikWriter):
         self.nodes(node.body)
         self.assign(node.number, Op("+", Var(node.number), 1.0))
         self.lines.append("$ENDWHILE")
+
+    def leave(self, node: Left, label: int) -> None:
+        self.lines.append(f"$IF {self.condition(node)} $GOTO N{label}")
+
+    def mark(self, label: int) -> None:
+        Writer.mark(self, label)
 
     def decide(self, node: Decided) -> None:
         self.lines.append(f"$IF {self.condition(node)}")
@@ -408,11 +460,17 @@ class KlartextWriter(Writer):
         self.assign(node.number, Op("+", Var(node.number), 1.0))
         self.lines.append(f"FN 12: IF +Q{node.number} LT +{node.last} GOTO LBL {again}")
 
-    def decide(self, node: Decided) -> None:
-        then, end = 5000 + self.label(), 5000 + self.label()
+    def leave(self, node: Decided | Left, label: int) -> None:
         left, right = self.in_word(node.left), self.in_word(node.right)
         number_of = {"EQ": 9, "NE": 10, "GT": 11, "LT": 12}[node.sign]
-        self.lines.append(f"FN {number_of}: IF {left} {self.signs[node.sign]} {right} GOTO LBL {then}")
+        self.lines.append(f"FN {number_of}: IF {left} {self.signs[node.sign]} {right} GOTO LBL {label}")
+
+    def mark(self, label: int) -> None:
+        self.lines.append(f"LBL {label}")
+
+    def decide(self, node: Decided) -> None:
+        then, end = 5000 + self.label(), 5000 + self.label()
+        self.leave(node, then)
         self.nodes(node.otherwise)
         self.lines += [f"FN 9: IF +0 EQU +0 GOTO LBL {end}", f"LBL {then}"]
         self.nodes(node.then)
@@ -500,7 +558,7 @@ class Drawing:
 
     def __init__(self, control: Control, seed: int) -> None:
         self.control, self.draw = control, Random(seed)
-        self.counters = 50
+        self.counters, self.loops = 50, 0
 
     def tree(self) -> Tree:
         names = [10 * each for each in range(1, self.draw.randint(1, 3) + 1)]
@@ -516,12 +574,18 @@ class Drawing:
         return [self.node(names, depth) for _ in range(self.draw.randint(1, 3))]
 
     def node(self, names: list[int], depth: int) -> Node:
+        if self.loops and self.draw.random() < 0.2:
+            sides = Var(self.draw.randint(1, 5)), self.expr()
+            return Left(self.draw.choice([*COMPARED]), *sides, self.draw.randrange(self.loops))
         kind = self.draw.randrange(12)
         if kind < 3 and names:
             return Called(self.draw.choice(names), self.draw.choice((1, 1, 2)))
         if kind < 4 and depth:
             self.counters += 1
-            return Counting(self.counters, self.draw.randint(1, 3), self.nodes(names, depth - 1))
+            counter, self.loops = self.counters, self.loops + 1
+            body = self.nodes(names, depth - 1)
+            self.loops -= 1
+            return Counting(counter, self.draw.randint(1, 3), body)
         if kind < 6 and depth:
             sign, sides = self.draw.choice([*COMPARED]), (Var(self.draw.randint(1, 5)), self.expr())
             then, otherwise = self.nodes(names, depth - 1), self.nodes(names, depth - 1)

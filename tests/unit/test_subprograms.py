@@ -9,6 +9,7 @@ from examples_heidenhain import PROGRAMS
 
 from contoursolve import Status, expand, solve, solve_file
 from contoursolve.cli import main
+from contoursolve.controls import DIALECTS
 from contoursolve.output.document import to_json
 from contoursolve.verification import Document, Verdict, verify
 
@@ -249,3 +250,134 @@ def test_words_beside_a_contour_keep_their_formulas():
     found = expand(text, control="siemens-840d", comments=False).text
     assert "F=R2*2" in found
     assert "SQRT" not in found
+
+
+ENDS = {
+    "fanuc": ("O1\nG21 G90 G0 X0. Y0.\n{}\nO9001\nG1 X10. ,R1. F100\nY10.\nM99", "M98 P9001", ("M30", "M02", "M99")),
+    "siemens": ("G90 G0 X0 Y0\n{}\n%_N_SUB1_SPF\nG1 X10 RND=1 F100\nY10\nM17", "SUB1", ("M30", "M2", "M17", "RET")),
+    "isg": ("%MAIN\nG90 G0 X0 Y0\n{}\n%L S\nG1 X10 #RND5 F100\nY10\nM17", "L S", ("M30", "M02", "M17")),
+    "heidenhain": ("L X+0 Y+0 F100\nL X+1 {}\nLBL 1\nFL X+10 AN+0\nLBL 0", "CALL LBL 1", ("M30", "M2")),
+}
+LIKE = {"siemens-840d": "siemens", "siemens-808d": "siemens", "isg": "isg", "heidenhain": "heidenhain"}
+
+
+@pytest.mark.parametrize("control", DIALECTS)
+def test_an_end_and_a_call_in_one_block_is_told_whatever_their_order(control):
+    text, call, ends = ENDS[LIKE.get(control, "fanuc")]
+    for end in ends:
+        one, two = (solve(text.format(each), control=control) for each in (f"{end} {call}", f"{call} {end}"))
+        told = [each.message for each in one.diagnostics]
+        assert told == [each.message for each in two.diagnostics]
+        if one.answers:
+            assert any("in one block: which comes first is not known" in each for each in told)
+            assert {each.status for each in one.answers} <= {Status.UNDERDETERMINED, Status.REJECTED}
+        inline = expand(text.format(f"{end} {call}"), control=control, inline=True, keep_going=True)
+        assert f"{end} {call}" in inline.text
+
+
+PASSES = "G17 G90 G0 X0 Y0\n{}\nM30"
+STEP = "G1 X=IC(10) RND=1\nY=IC(10)"
+INNER = {
+    "LOOP": f"LOOP\nIF R2>=2 GOTOF EX2\nR2=R2+1\n{STEP}\nENDLOOP",
+    "WHILE": f"WHILE R2<9\nIF R2>=2 GOTOF EX2\nR2=R2+1\n{STEP}\nENDWHILE",
+    "FOR": f"FOR R2=1 TO 9\nIF R2>2 GOTOF EX2\n{STEP}\nENDFOR",
+    "REPEAT": f"REPEAT\nIF R2>=2 GOTOF EX2\nR2=R2+1\n{STEP}\nUNTIL R2>9",
+    "IF in LOOP": f"LOOP\nIF R2>=2\nGOTOF EX2\nELSE\nR2=R2+1\n{STEP}\nENDIF\nENDLOOP",
+}
+OUTER = {
+    "FOR": "FOR R1=1 TO 2\nR2=0\n{}\nEX2:\nENDFOR",
+    "WHILE": "WHILE R1<2\nR1=R1+1\nR2=0\n{}\nEX2:\nENDWHILE",
+    "LOOP": "LOOP\nR1=R1+1\nR2=0\n{}\nEX2: IF R1>=2 GOTOF ALLEND\nENDLOOP\nALLEND:",
+    "REPEAT": "REPEAT\nR1=R1+1\nR2=0\n{}\nEX2:\nUNTIL R1>=2",
+    "IF": "LOOP\nR1=R1+1\nIF R1<=2\nR2=0\n{}\nEX2:\nELSE\nGOTOF ALLEND\nENDIF\nENDLOOP\nALLEND:",
+}
+
+
+@pytest.mark.parametrize("inner", INNER)
+@pytest.mark.parametrize("outer", OUTER)
+def test_a_jump_ends_the_loops_that_it_leaves(inner, outer):
+    text = PASSES.format("R1=0\n" + OUTER[outer].format(INNER[inner]))
+    result = solve(text, control="siemens-840d")
+    assert [each.start.values for each in result.answers] == [(10 * at, 10 * at) for at in range(4)]
+    assert not result.diagnostics
+    assert expand(text, control="siemens-840d", inline=True).summary.replaced == 4
+
+
+FANUC_LOOP = """G21 G90 G0 X0. Y0.
+#1=0
+#3=0
+WHILE[#1 LT 2]DO1
+#1=#1+1
+#2=0
+WHILE[#2 LT 9]DO2
+#2=#2+1
+IF[#2 GT 2]GOTO 50
+#3=#3+10.
+G1 X#3 ,R1. F100
+Y#3
+END2
+N50
+END1
+M30"""
+
+
+def test_jumps_out_of_and_into_loops_of_macro_b():
+    result = solve(FANUC_LOOP, control=MILL)
+    assert [each.start.values for each in result.answers] == [(10 * at, 10 * at) for at in range(4)]
+    into = solve(FANUC_LOOP.replace("#1=0", "GOTO 60").replace("#2=#2+1", "N60 #2=1"), control=MILL)
+    told = [each.message for each in into.diagnostics if each.code == "not-followed"]
+    assert told == ["line 2 jumps into the loop that line 4 begins: how often that runs then is not known"]
+    assert {each.status for each in into.answers} == {Status.UNDERDETERMINED}
+
+
+@pytest.mark.parametrize("value", [1, 2, 3])
+def test_case_jumps_once(value):
+    text = f"""R1={value}
+G17 G90 G0 X0 Y0
+CASE R1 OF 1 GOTOF AA1 2 GOTOF AA2 DEFAULT GOTOF AA3
+AA1: G1 X10 ANG=45
+GOTOF AA4
+AA2: G1 X20 ANG=45
+GOTOF AA4
+AA3: G1 X30 ANG=45
+AA4: G1 X50 ANG=0
+M30"""
+    assert [each.start.values[0] for each in solve(text, control="siemens-840d").answers] == [0, 0, 0, 10 * value]
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "told"),
+    [
+        (
+            "heidenhain",
+            "L X+0 Y+0 F100\nCALL LBL 1 REP2\nFL X+50 AN+20\nM30\nLBL 1\nL IX+5\nLBL 0",
+            "CALL LBL 1 REP2 repeats from line 5 up to itself, but that line stands behind it",
+        ),
+        (
+            "siemens-840d",
+            "G17 G90 G0 X0 Y0\nREPEAT AAA P=2\nG1 X50 ANG=20\nM30\nAAA: G1 X=IC(5)\nM17",
+            "REPEAT AAA P=2 repeats from line 5 up to itself, but that line stands behind it",
+        ),
+        (
+            "siemens-840d",
+            "G17 G90 G0 X0 Y0\nBBB: X1\nAAA: X2\nREPEAT AAA BBB\nG1 X50 ANG=20",
+            "REPEAT AAA BBB runs from line 3, but its last line, 2, stands before that",
+        ),
+    ],
+)
+def test_a_repetition_of_what_stands_behind_it_is_told(control, text, told):
+    result = solve(text, control=control)
+    assert told in [each.message for each in result.diagnostics if each.code == "not-followed"]
+    assert result.answers[0].status is Status.UNDERDETERMINED
+    inline = expand(text, control=control, inline=True, keep_going=True)
+    assert told.partition(" repeats")[0].partition(" runs")[0] in inline.text
+    assert inline.summary.left
+
+
+@pytest.mark.parametrize(("value", "start"), [("1", 25), ("2", 20), ("#5041", None)])
+def test_words_behind_then_run_if_the_condition_holds(value, start):
+    text = f"#100={value}\nG00 X40. Z0.\nIF [#100 EQ 1] THEN G01 X50. F.2\nG01 Z-20. ,R1.\nX60."
+    assert solve(text, control="haas-lathe").answers[0].start.values[1] == start
+    inline = expand(text, control="haas-lathe", inline=True, keep_going=True)
+    assert ("G01 X50. F.2" in inline.text.split("\n")) is (start == 25)
+    assert ("THEN" in inline.text) is (start is None)
