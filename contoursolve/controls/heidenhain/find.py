@@ -42,6 +42,8 @@ from contoursolve.controls.heidenhain.lexicon import (
     LEXICON,
     MOVES,
     REFERRED,
+    REFERRING,
+    REFERRING_TO_LINES,
     ROUNDING,
     SELECTION,
     STRAIGHT,
@@ -52,9 +54,11 @@ from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Choice, Given, Pick, Side, Turn, Unit, assemble
 from contoursolve.reading import Convention, Modes, ParsedContour, State, apply_modes, read
 
-NO_SENSE, NO_BLOCK, NO_POLE, NO_BEFORE = "@no-sense", "@no-block", "@no-pole", "@no-before"
-"""An arc without DR; a block that data refer to and that is not there, or no line; polar data without a pole; a tangent
-element behind none."""
+NO_SENSE, NO_POLE, NO_BEFORE = "@no-sense", "@no-pole", "@no-before"
+"""An arc without DR; polar data without a pole; a tangent element behind none."""
+NO_BLOCK, TWO_BLOCKS, NO_LINE = "@no-block ", "@two-blocks ", "@no-line "
+"""Before the name of a word that refers to a block: that block is not there; there are two; it is an arc, where the
+word refers to a line."""
 NO_TURN = "@no-turn"
 """CT behind what is still to be found: to which side it turns is not known before."""
 TURNS_BACK, CONTINUED, NEVER_CLOSED = "@turns-back", "@continued", "@never-closed"
@@ -65,7 +69,7 @@ CUT, TOOL, CLOSES_NOTHING = "@cut", "@tool-axis", "@closes-nothing"
 _CORNERS = {"RND": ROUNDING, "CHF": CHAMFER}
 _BESIDE_ANY = frozenset({"N", "G", "F", "M", "S"})
 _POINTS = frozenset(f"{point}{axis}" for point in POINTS for axis in PLANE)
-_SHARED = frozenset({f"{BESIDE}X", f"{BESIDE}Y", "D", "CLSD", "Z", "IZ", *(f"R{name}" for name in REFERRED)})
+_SHARED = frozenset({f"{BESIDE}X", f"{BESIDE}Y", "D", "CLSD", "Z", "IZ", *REFERRING[1:]})
 _LINE_WORDS = frozenset({*OF_LINES, "P1X", "P1Y", "P2X", "P2Y", "PAR", "DP"}) | _SHARED
 _ARC_WORDS = frozenset({*OF_ARCS, "DR"}) | _POINTS | _SHARED
 _ENDS = frozenset({"X", "Y", "Z", "IX", "IY", "IZ"})
@@ -267,7 +271,8 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
     for number, member in enumerate(members, 1):
         prefix = f"{number}:"
         own = _own_words(member, repeated)
-        element, lacking = _element(member, own, number, numbers, opening, is_closed=is_closed)
+        referred = dict(_referred(member, own, members, numbers))
+        element, lacking = _element(member, own, number, referred, opening, is_closed=is_closed)
         if number > 1 and member.function == "FCT" and _is_same_circle(members[number - 2].block, member.block):
             element = replace(element, goes_round=elements[-1].turn is element.turn)
             lacking += [TURNS_BACK] * (not element.goes_round)
@@ -360,7 +365,7 @@ def _is_placed(own: Set[str]) -> bool:
 
 
 _CONTINUES = re.compile(r"~[ \t]*(?:;.*)?$")
-_NO_FACTS = frozenset({TANGENCY, "DR", "CLSD+", "FSELECT", "Z", "IZ", *(f"R{name}" for name in REFERRED)})
+_NO_FACTS = frozenset({TANGENCY, "DR", "CLSD+", "FSELECT", "Z", "IZ", *REFERRING[1:]})
 """Words that state no equation, or not always: they say which one it is."""
 
 
@@ -416,41 +421,52 @@ def _numbers(chain: _Chain) -> dict[Decimal, int]:
     for number, (word, member) in enumerate(zip(stated, chain.members, strict=True), 1):
         own = word.number if word is not None else None if is_numbered else Decimal(member.block.line - 1)
         if own is not None:
-            # A number that two blocks have tells of neither.
-            found[own] = number if own not in found else -1
+            found[own] = number if own not in found else _TWICE
     first, where = chain.members[0].block, [chain.start.axes[axis].span for axis in PLANE]
     if found and where[0] is not None and where[0] == where[1]:
         found.setdefault(next(iter(found)) - (first.line - where[0].line), 0)
     return found
 
 
+_TWICE = -1
+"""A number that two blocks have tells of neither."""
+
+
+def _referred(
+    member: _Member, own: Mapping[str, Word], members: Sequence[_Member], numbers: Mapping[Decimal, int]
+) -> Iterator[tuple[str, int | str]]:
+    """The words of a block that refer to another one, each with the number of its element, or with what is wrong."""
+    place = members.index(member)
+    for name in REFERRING:
+        word = own.get(name)
+        if word is None or name not in _ALLOWED[member.function]:
+            continue
+        other = numbers.get(word.number) if word.number is not None else None
+        refers_to_line = name in REFERRING_TO_LINES
+        if other == _TWICE:
+            yield name, TWO_BLOCKS
+        elif other is None or other > place or (refers_to_line and not other):
+            yield name, NO_BLOCK
+        elif refers_to_line and members[other - 1].function not in STRAIGHT:
+            yield name, NO_LINE
+        else:
+            yield name, other
+
+
 def _element(
     member: _Member,
     own: Mapping[str, Word],
     number: int,
-    numbers: Mapping[Decimal, int],
+    referred: Mapping[str, int | str],
     opening: int,
     *,
     is_closed: bool,
 ) -> tuple[Element, list[str]]:
     """The element of a block, and what it lacks."""
-    lacking: list[str] = []
-    counted: list[tuple[str, int]] = []
+    lacking = [wrong + name for name, wrong in referred.items() if isinstance(wrong, str)]
+    known = {name: other for name, other in referred.items() if isinstance(other, int)}
+    counted = tuple((f"I{name}", known[f"R{name}"]) for name in REFERRED if f"R{name}" in known)
     is_line = member.function in STRAIGHT
-    for name in REFERRED:
-        word = own.get(f"R{name}")
-        if word is not None:
-            other = numbers.get(word.number) if word.number is not None else None
-            if other is None or not 0 <= other < number or (name == "AN" and not other):
-                lacking.append(NO_BLOCK)
-            else:
-                counted.append((f"I{name}", other))
-    parallel, word = 0, own.get("PAR")
-    if word is not None:
-        parallel = numbers.get(word.number, 0) if word.number is not None else 0
-        if not 0 < parallel < number:
-            lacking.append(NO_BLOCK)
-            parallel = 0
     sense = _sign_of(member.block, "DR")
     if not is_line and member.function not in TANGENT[2:] and not sense:
         lacking.append(NO_SENSE)
@@ -475,8 +491,8 @@ def _element(
         member.function,
         turn,
         member.pole,
-        tuple(counted),
-        parallel,
+        counted,
+        known.get("PAR", 0),
         touching,
         is_entered=stated[0],
         is_ended=stated[1] and not is_line,

@@ -172,6 +172,10 @@ def _rows() -> dict[str, Address]:
 
 REFERRED = ("X", "Y", "PR", "PA", "AN", "CCX", "CCY", "CCPR", "CCPA")
 """Increments that may count from another block: I and these, whose block R and these name."""
+REFERRING = ("PAR", *(f"R{name}" for name in REFERRED))
+"""Words whose number is that of another block."""
+REFERRING_TO_LINES = ("PAR", "RAN")
+"""Those of them that name a line: no page tells which direction of an arc they would mean."""
 
 LEXICON = Lexicon(_rows(), NUMBERS)
 

@@ -1,7 +1,10 @@
 """Free contour programming: what a block must state together, and what has no solution."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from decimal import Decimal
+from functools import reduce
+from operator import or_
 
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
@@ -13,13 +16,15 @@ from contoursolve.controls.heidenhain.find import (
     NEVER_CLOSED,
     NO_BEFORE,
     NO_BLOCK,
+    NO_LINE,
     NO_POLE,
     NO_SENSE,
     NO_TURN,
     TOOL,
     TURNS_BACK,
+    TWO_BLOCKS,
 )
-from contoursolve.controls.heidenhain.lexicon import BOOK, REFERRED
+from contoursolve.controls.heidenhain.lexicon import BOOK, REFERRED, REFERRING, REFERRING_TO_LINES
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.gcode import FaultKind
@@ -45,6 +50,7 @@ _TANGENT = START + "2 FL X+30 Y+0\n3 FCT DR+ R10 CCA+0\n4 END PGM A MM"
 _ROUND = START + "2 FC DR- R25 CCX+25 CCY+0 X+25 Y+25\n3 FCT DR- CCX+25 CCY+0 X+50 Y+0"
 _TURNING = START + "2 FL AN+0\n3 FCT DR+ R10 CCA+0\n4 FLT X+40 Y+30"
 _NUMBERED = START + "2 FL X+30 Y+0\n3 FL IX+5 IY+20 RX 2\n4 END PGM A MM"
+_FAR = START + "2 FL X+30 Y+0\n3 FL X+50 Y+10\n4 FL IX+5 IY+20 RX 2\n5 END PGM A MM"
 _CHOSEN = START + "2 FL LEN40 P1X+30 P1Y+10\n3 FSELECT 1\n4 FL X+80 Y+20"
 _TOOL = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S100\n2 L X+0 Y+0\n" + "3 FL AN+60\n4 FL X+80 Y+20 AN-30"
 
@@ -69,8 +75,13 @@ def _row(  # noqa: PLR0913 - a row has these columns
     )  # fmt: skip
 
 
-_REFERRING = tuple(f"R{name}" for name in REFERRED)
+_PRINTED_REFERENCE = BOOK.printed("data relative to a block")
 _LEAST = Decimal("0.001")
+
+
+def _referring(trouble: str, names: Sequence[str] = REFERRING) -> Condition:
+    """A word that names a block, in this trouble."""
+    return reduce(or_, (some(trouble + name) & some(name) for name in names))
 
 
 def _half(*words: str) -> Condition:
@@ -101,10 +112,20 @@ _ROWS = (
          "the chain is still open where a conventional move follows; FL, FC, RND, CHF, APPR or DEP may",
          "complete the chain before it, or write the move as FL or FC", _ERRORS, some(CUT), _ANY, _LINES,
          ("3 FL X+80 Y+20 AN-30", "3 L X+80 Y+20"), alarm=_ILLEGAL),
-    _row("block-missing", "{words}: no block of this number is before it in the chain, or it is none that fits",
-         "write the number of a block of this chain that stands before; PAR and RAN name a line",
-         BOOK.printed("data relative to a block"), some(NO_BLOCK) & some("PAR", *_REFERRING), _FK, _NUMBERED,
-         ("RX 2", "RX 7")),
+    _row("block-missing", "{words}: no element of this number stands before it in the chain",
+         "write the number of a block of this chain that stands before it", _PRINTED_REFERENCE,
+         _referring(NO_BLOCK), _FK, _NUMBERED, ("RX 2", "RX 7")),
+    _row("block-twice", "{words}: two elements of the chain have this block number, so it tells of neither",
+         "number the blocks anew, so that each number stands once", BOOK.assumed("data relative to a block"),
+         _referring(TWO_BLOCKS), _FK, _FAR, ("3 FL X+50", "2 FL X+50")),
+    _row("block-no-line", "{words} names the block of an arc, and PAR and RAN name a line",
+         "write the number of a line, or state the direction by AN", BOOK.assumed("data relative to a block"),
+         _referring(NO_LINE, REFERRING_TO_LINES), _FK, _PARALLEL,
+         ("2 FL X+50 Y+0", "2 FC X+50 Y+0 DR- R40")),
+    _row("reference-alone", "{words} names the block from which an increment counts, and the increment is missing",
+         "write the increment before it, or delete {words}", _PRINTED_REFERENCE,
+         reduce(or_, (some(f"R{name}") & ~some(f"I{name}") for name in REFERRED)), _FK, _NUMBERED,
+         ("IX+5", "X+35"), severity=Severity.WARNING),
     _row("pole-missing", "{words}: polar data need a pole, and no FPOL is in force; CC does not serve here",
          "write FPOL X Y before the chain or in it", BOOK.printed("pole of FK"),
          some(NO_POLE) & some(*sorted(POLAR)), _FK, _POLAR,
