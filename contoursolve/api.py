@@ -415,7 +415,7 @@ def convert(
     G01 X100. ,A120.
     """
     # Only this function needs them.
-    from contoursolve.comparison import compare, follow, whole  # noqa: PLC0415
+    from contoursolve.comparison import compare, follow  # noqa: PLC0415
     from contoursolve.postprocess.expansion_report import Conversion, ConversionError  # noqa: PLC0415
     from contoursolve.postprocess.post_processors import machine_of, post_of  # noqa: PLC0415
     from contoursolve.postprocess.translate import language_of  # noqa: PLC0415
@@ -439,7 +439,7 @@ def convert(
     asked = request_for(name, units=units, rules=rules, strict=True)
     axes = tuple(sorted({*dialect.modes.axes, *target.modes.axes}))
     old, new = (
-        follow(run(gcode.parse(program, name), replace(asked, dialect=whole(each))), each, asked.unit, axes)
+        follow(run(gcode.parse(program, name), replace(asked, dialect=each)), each, asked.unit, axes)
         for program, each in ((text, dialect), (found.text, target))
     )
     comparison = compare(old, new, _CONVERTED_WITHIN)

@@ -6,7 +6,7 @@ from msgspec import Struct
 
 from contoursolve import gcode
 from contoursolve.api import solve
-from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, change, drop
+from contoursolve.diagnosis.edits import Edit, EditKind, change, drop, edited
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.gcode import Program
 from contoursolve.program.pipeline import Result
@@ -56,7 +56,7 @@ def what_if(
     if last is None:
         raise ValueError("the block has no words")
     edits += [Edit(EditKind.ADD, word, text=word, line=last.line) for word in add]
-    text = "\n".join(apply_edits(program.blocks, edits))
+    text = edited(program.blocks, edits)
     return solve(text, control=control, start=start, units=units, rules=rules, settings=settings)
 
 

@@ -90,7 +90,7 @@ def diff(
     contoursolve diff shaft.nc shaft_by_hand.nc
     contoursolve diff shaft.nc shaft.ngc --new-control linuxcnc --tolerance 0.002
     """
-    from contoursolve.comparison import compare, follow, whole  # noqa: PLC0415 - only here
+    from contoursolve.comparison import compare, follow  # noqa: PLC0415 - only here
     from contoursolve.output import differences  # noqa: PLC0415 - only here
 
     if old == new == "-":
@@ -102,7 +102,7 @@ def diff(
         is_kept = control is not None and before is not None and _reads_what_shows_others(before, program)
         dialect = _dialect_of(program, own or (before if is_kept else None), before, assignments)
         asked = request_for(
-            program.name, whole(dialect), units=unit, rules=rules, variables=variables, folders=folders, strict=True
+            program.name, dialect, units=unit, rules=rules, variables=variables, folders=folders, strict=True
         )
         sides.append((run(program, asked), dialect, asked.unit))
     results = [result for result, _, _ in sides]

@@ -4,7 +4,7 @@ Two programs come in, their first difference goes out. Begin with `compare`.
 """
 
 from contoursolve.comparison.compare import Comparison, Difference, compare
-from contoursolve.comparison.follow import Path, follow, whole
+from contoursolve.comparison.follow import Path, follow
 from contoursolve.comparison.travel import Motion, Place, Step, Travel, Unfollowed
 
 __all__ = [
@@ -18,5 +18,4 @@ __all__ = [
     "Unfollowed",
     "compare",
     "follow",
-    "whole",
 ]

@@ -3,7 +3,6 @@ them."""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace as replace_fields
 from decimal import Decimal
 from math import atan2, ceil, cos, dist, hypot, radians, sin, tau
 
@@ -59,11 +58,6 @@ def follow(result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...]
         examiner = Examiner(Request(dialect, unit, result.policy, Depth.VERDICT, result.start))
         steps = follower.run(examiner.steps(machine.run_all_alone()))
     return Path(result.program.name, dialect.name, axes, tuple(steps))
-
-
-def whole(dialect: Dialect) -> Dialect:
-    """A control that finds as contours all that must be solved where a whole program is followed."""
-    return dialect if dialect.writing is None else replace_fields(dialect, find=dialect.writing.find)
 
 
 class _Follower:

@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.analysis import analyse, groups_of
-from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts
+from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts, edited
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
 from contoursolve.diagnosis.examples import ends, propose, sampled
 from contoursolve.diagnosis.spelling import shapes_of
@@ -134,7 +134,7 @@ class Trial(Struct, frozen=True):
         texts = apply_edits(claim.blocks, edits)
         if texts == tuple(block.text for block in claim.blocks) and all(edit.is_in_block for edit in edits):
             return None
-        replacement = "\n".join(texts)
+        replacement = edited(claim.blocks, edits)
         if any(edit.is_placeholder for edit in edits):
             example, kind = self._example(edits), Applicability.PLACEHOLDER
             return Repair(edits, replacement, kind, None, 0.0, example=example) if example else None
@@ -247,9 +247,14 @@ class Trial(Struct, frozen=True):
         claim, dialect = self.claim, self.dialect
         texts = apply_edits(claim.blocks, edits)
         lines = [
-            (part, block.line) for text, block in zip(texts, claim.blocks, strict=True) for part in text.split("\n")
+            (part, block.line)
+            for text, block in zip(texts, claim.blocks, strict=True)
+            for part in text.split("\n")
+            if text or not block.text
         ]
         ahead, blocks, behind = _parted([parse_block(*line, dialect.modes.syntax) for line in lines], edits)
+        if not blocks:
+            return None
         state = claim.before
         for block in ahead:
             state = advance(state, block, dialect.modes)

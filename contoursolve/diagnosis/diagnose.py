@@ -6,7 +6,7 @@ from msgspec.structs import replace
 
 from contoursolve.analysis import analyse, decompose, spare_of
 from contoursolve.diagnosis.attempt import Repair
-from contoursolve.diagnosis.edits import EditKind, apply_edits
+from contoursolve.diagnosis.edits import EditKind, edited
 from contoursolve.diagnosis.examine import Answer, Policy, problems
 from contoursolve.diagnosis.explain import SAID_AGAIN, SINGULAR, facts_at, spans_of
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
@@ -244,7 +244,7 @@ def _fix(answer: Answer, repair: Repair) -> Fix:
     dropped = [edit.old for edit in repair.edits if edit.kind is EditKind.DROP and edit.errand]
     is_beside = len(dropped) == len(repair.edits)
     effect = f"drops {join(dropped)}" if is_beside else ""
-    example = "\n".join(apply_edits(blocks, repair.example)) if numbers else ""
+    example = edited(blocks, repair.example) if numbers else ""
     return Fix(description, repair.replacement, repair.applicability, effect, example)
 
 

@@ -7,11 +7,20 @@ from itertools import combinations, product
 
 from contoursolve.analysis import analyse
 from contoursolve.diagnosis.attempt import Trial
-from contoursolve.diagnosis.drafts import marked, mended_words, missing_points, unreadable, variants
+from contoursolve.diagnosis.drafts import (
+    OF_CORNERS,
+    fitting,
+    marked,
+    mended_words,
+    missing_points,
+    unreadable,
+    variants,
+)
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, add, change, drop, rounded, write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue, problems
 from contoursolve.diagnosis.examples import sampled
 from contoursolve.diagnosis.explain import SAID_AGAIN, SINGULAR, facts_at, spans_of
+from contoursolve.diagnosis.spelling import shapes_of
 from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.diagnostics.source import Span
@@ -31,6 +40,7 @@ MOST_ADDED = 2
 MOST_HELPING, MOST_SHOWN = 20, 12
 """Of a chain in which any word may stand: the words that are combined, and the sets of them that are tried."""
 
+_NO_CORNERS = (RefusalKind.CORNER_REVERSES, RefusalKind.CORNER_STRAIGHT, ReadIssue.CORNER_TWICE)
 _TWICE = (*SAID_AGAIN, RefusalKind.RADIUS_DIFFERENCE)
 _NOT_TOGETHER = (*SINGULAR, ReadIssue.FACTS_SINGULAR, RefusalKind.NO_POINT, RefusalKind.SEARCH_UNFINISHED)
 _USELESS = (ReadIssue.FACT_UNREADABLE, ReadIssue.FACT_IMPOSSIBLE)
@@ -58,12 +68,24 @@ def further_drafts(answer: Answer, trial: Trial) -> Iterator[Iterable[tuple[Edit
     drops = [[(drop(word),) for word in _blamed(answer, each)] for each in twice]
     yield [tuple(dict.fromkeys(sum(choice, ()))) for choice in product(*drops, missing) if any(choice)]
     yield _corrected(answer, twice, trial)
+    yield fitting(answer)
+    yield _without_corners(answer, findings)
     yield _swapped(answer, findings)
     yield _slips(answer, findings)
     nowhere = spans_of(findings, ReadIssue.CORNER_NOWHERE)
     # Corners after which nothing says where the path leads.
     yield [tuple(drop(word) for word in answer.claim.words.values() if word.span in nowhere)] if nowhere else ()
     yield _exchanged(answer, [each for each in findings if each.about in _NOT_TOGETHER])
+
+
+def _without_corners(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
+    """The corners that cannot be made, left out: all, and each alone."""
+    spans = spans_of(each for each in findings if each.about in OF_CORNERS or each.about in _NO_CORNERS)
+    found = [drop(answer.claim.words[name]) for name in shapes_of(answer.claim) if name in answer.claim.words]
+    edits = [edit for edit in found if edit.span in spans]
+    yield from ((edit,) for edit in edits)
+    if len(edits) > 1:
+        yield tuple(edits)
 
 
 def _picked(answer: Answer) -> Iterator[tuple[Edit, ...]]:

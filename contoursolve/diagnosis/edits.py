@@ -188,7 +188,7 @@ _REASONS = {EditKind.DROP: Why.NOT_NEEDED, EditKind.ADD: Why.MISSING, EditKind.M
 
 def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ...]:
     """The texts of the blocks with the edits made; blanks that a dropped word leaves double are merged. A block from
-    which words are moved has several lines."""
+    which words are moved has several lines; the text of one of which too little is left is empty."""
     edits = tuple(edits)
     texts = []
     for block in blocks:
@@ -207,9 +207,18 @@ def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ..
             elif edit.kind is EditKind.ADD and edit.line == block.line:
                 insert = _with_code if edit.address == "G" else _insert
                 text = insert(text, edit.text, block.syntax)
+        bare = block.syntax.bare_number
+        if bare and bare.fullmatch(text) and own and not any(edit.kind is EditKind.MOVE for edit in own):
+            text = ""
         is_fact_dropped = any(edit.address == FACT and not edit.text for edit in own)
         texts.append(_with_moved(_tidy(text) if is_fact_dropped else text, own))
     return tuple(texts)
+
+
+def edited(blocks: Sequence[Block], edits: Iterable[Edit]) -> str:
+    """The lines of the blocks with the edits made, without those of which too little is left."""
+    texts = zip(blocks, apply_edits(blocks, edits), strict=True)
+    return "\n".join(text for block, text in texts if text or not block.text)
 
 
 def _with_moved(text: str, edits: Iterable[Edit]) -> str:

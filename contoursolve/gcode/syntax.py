@@ -45,6 +45,8 @@ class Syntax:
     parts: Callable[[re.Match[str]], tuple[str, str | None, bool]] = letter_parts
     skip: re.Pattern[str] = _SKIP
     """What begins a block that a switch at the machine skips."""
+    bare_number: re.Pattern[str] | None = None
+    """A block with its number alone, where none may be left with that."""
 
 
 # Runs are possessive (`++`, `*+`): what they take is never tried again, so that a line takes time by its length.

@@ -1,7 +1,6 @@
 """A program with its contours written as plain G-code, or in plain words of its control."""
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 
 from msgspec.structs import replace as replace_fields
 
@@ -46,7 +45,7 @@ def expand_lines(
     if writing is not None and options.post is SAME:
         kind = InOwnWords
     elif writing is not None:
-        kind, dialect = InGCodes, replace(dialect, find=writing.find)
+        kind = InGCodes
     together = Batch(dialect, asked.policy, is_proven=False)
     blocks: Iterable[Line] = lines.blocks()
     machine = None

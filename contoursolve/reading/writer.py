@@ -8,7 +8,6 @@ from typing import NamedTuple, Protocol
 from msgspec import Struct
 
 from contoursolve.gcode import Block
-from contoursolve.reading.follow import Finder
 from contoursolve.reading.modal_dependence import Carried
 from contoursolve.reading.modal_state import State
 
@@ -64,13 +63,12 @@ class Plain(Protocol):
 class Writing:
     """How programs of a control are written: in its own words, and in G codes.
 
-    `find` finds what is solved where a whole program is written in G codes. `opening` stands before such a program
-    if the target asks for nothing else. `number` matches what is, or may name, the number of a block.
+    `opening` stands before a program in G codes if the target asks for nothing else. `number` matches what is, or may
+    name, the number of a block.
     """
 
     own: Callable[[], Own]
     plain: Callable[[], Plain]
-    find: Finder
     opening: str
     number: re.Pattern[str]
     number_prefix: str = ""

@@ -159,6 +159,34 @@ def test_the_numbers_of_the_control_come_with_their_causes(blocks, alarm):
     assert any(alarm in text for text in found), found
 
 
+ARC = "FC X+50 Y+20 CCX+30 CCY+20 DR+ R20"
+
+
+@pytest.mark.parametrize(
+    ("blocks", "code", "word"),
+    [
+        ([ARC, "FL LEN30 AN+20 PAR 2"], "heidenhain-block-no-line", "PAR 2"),
+        ([ARC, "FL LEN30 PAR 2 DP10"], "heidenhain-block-no-line", "PAR 2"),
+        ([ARC, "FL LEN30 IAN+20 RAN 2"], "heidenhain-block-no-line", "RAN 2"),
+        ([ARC, "FL LEN30 PAR 9"], "heidenhain-block-missing", "PAR 9"),
+        ([ARC, "FL IX+10 IY+20 RX 2 RY 7"], "heidenhain-block-missing", "RY 7"),
+        ([ARC, "FL LEN30 X+60 Y+45 RX 2"], "heidenhain-reference-alone", "RX 2"),
+    ],
+)
+def test_a_reference_to_a_block_that_it_cannot_mean_is_told(blocks, code, word):
+    found = solved(chain(*blocks, before="L X+10 Y+20")).diagnostics
+    (own,) = (each for each in found if each.code == code)
+    assert own.message.startswith(word)
+
+
+def test_a_block_number_that_stands_twice_is_told_where_data_refer_to_it():
+    text = chain("FL X+30 Y+0", "FL X+30 Y+10", "FL LEN30 PAR 2").replace("3 FL", "2 FL")
+    found = [(each.code, each.message) for each in solved(text).diagnostics if each.is_error]
+    assert found[0] == (
+        "heidenhain-block-twice", "PAR 2: two elements of the chain have this block number, so it tells of neither",
+    )  # fmt: skip
+
+
 def test_a_circle_that_may_slide_lacks_one_word():
     text = chain(
         "FL X+5 Y+15",

@@ -22,7 +22,7 @@ HEIDENHAIN = Dialect(
     rules=RULES,
     find=find,
     signs=shown_by,
-    contours="free contours: FL, FLT, FC, FCT",
+    contours="free contours with FL, FLT, FC and FCT; moves with RND, CHF or CT",
     settings=SETTINGS,
     writing=WRITING,
 )

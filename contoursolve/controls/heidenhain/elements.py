@@ -1,12 +1,13 @@
 """The elements of a chain of lines and arcs, and what each word states about them: one row of facts a word."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from operator import attrgetter
 
 from msgspec import Struct
 
+from contoursolve.controls.chain.language import TITLES
 from contoursolve.controls.heidenhain.lexicon import (
     BOOK,
     CHAMFER,
@@ -433,9 +434,10 @@ def compose(elements: tuple[Element, ...], labels: tuple[str, ...]) -> ContourFo
     beside = tuple(f"{each.prefix}{point}" for each in places for point in (*POINTS, BESIDE))
     arcs = [each for each in places if not each.element.is_line]
     radii = [name for row in rows for name in row.fact.reads() if name.endswith((" distance", " from", " to"))]
+    name = _form_name(elements)
     return ContourForm(
-        name="free-contour",
-        title="free contour FK",
+        name=name,
+        title=_TITLES[name],
         roles=(
             *(Role(each.element.role, (each.prefix,)) for each in places),
             *(Role(POLE, (f"{pole}:",)) for pole in poles),
@@ -471,6 +473,16 @@ def compose(elements: tuple[Element, ...], labels: tuple[str, ...]) -> ContourFo
         companions=dict(_companions(places)),
         poles=poles,
     )
+
+
+_TITLES = {**TITLES, "free-contour": "free contour FK"}
+
+
+def _form_name(elements: Sequence[Element]) -> str:
+    """What the form is called: by its free elements, or else as other controls call conventional moves in a row."""
+    if any(each.function in FREE for each in elements):
+        return "free-contour"
+    return "tangent" if any(each.function in TANGENT for each in elements) else "corners"
 
 
 def _companions(places: tuple[Place, ...]) -> Iterator[tuple[str, str]]:

@@ -1,13 +1,12 @@
 """Which blocks make a chain that is solved together, and what they state.
 
-A chain goes through free elements in a row, and through conventional moves that a corner or a tangency joins to them.
+A chain goes through free elements in a row, and through conventional moves that a corner or a tangency joins.
 """
 
 import re
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import replace as replace_fields
 from decimal import Decimal
-from functools import partial
 from itertools import count
 
 from msgspec import Struct
@@ -32,6 +31,7 @@ from contoursolve.controls.heidenhain.follow import (
     TOOL_AXIS,
     begins_chain,
     pole_of,
+    says_nothing,
     senses,
     set_pole,
 )
@@ -59,12 +59,18 @@ NO_SENSE, NO_POLE, NO_BEFORE = "@no-sense", "@no-pole", "@no-before"
 NO_BLOCK, TWO_BLOCKS, NO_LINE = "@no-block ", "@two-blocks ", "@no-line "
 """Before the name of a word that refers to a block: that block is not there; there are two; it is an arc, where the
 word refers to a line."""
+NO_CENTER, NO_RADIUS, NO_SIZE = "@no-center", "@no-radius", "@no-size"
+"""C without a CC in force; CR without R; RND or CHF without a number."""
 NO_TURN = "@no-turn"
 """CT behind what is still to be found: to which side it turns is not known before."""
 TURNS_BACK, CONTINUED, NEVER_CLOSED = "@turns-back", "@continued", "@never-closed"
 """An arc that goes back on the circle before it; a block that goes on in the next line; CLSD+ without CLSD-."""
 CUT, TOOL, CLOSES_NOTHING = "@cut", "@tool-axis", "@closes-nothing"
 """A conventional move behind a chain that is still open; a tool axis that is not Z; CLSD- without CLSD+, or alone."""
+
+FIRST_CORNER, LAST_CORNER, CORNERED, AT_ARC = "@first-corner", "@last-corner", "@cornered", "@at-arc"
+"""A corner behind no element; an element with a corner, behind which none follows; an element beside a corner; an
+element with a corner, of which that or the next one is an arc."""
 
 _CORNERS = {"RND": ROUNDING, "CHF": CHAMFER}
 _BESIDE_ANY = frozenset({"N", "G", "F", "M", "S"})
@@ -106,8 +112,8 @@ class _Member(Struct):
     pole: str
     center_at: tuple[Decimal, Decimal] | None
     """Where CC is, mm, for a conventional arc about it."""
-    corner: Block | None = None
-    corner_index: int = 0
+    corners: tuple[tuple[int, Block], ...] = ()
+    """The blocks of corners behind it, with their places in the chain: more than one is refused."""
     picked: Word | None = None
     sense: int = 0
     """Of a conventional arc that has no DR, where it is known: 1 is counter-clockwise."""
@@ -125,8 +131,8 @@ class _Chain:
         """The poles by name: a block with its place, or coordinates that were in force before the chain."""
         self.is_cut = False
 
-    def read(self, blocks: Sequence[Block], index: int) -> bool:
-        """Read the chain that begins at a block; whether there is one."""
+    def read(self, blocks: Sequence[Block], index: int) -> None:
+        """Read the chain that begins at a block."""
         self._keep(POLE, "pole 0")
         for place in count(index):
             try:
@@ -135,17 +141,16 @@ class _Chain:
                 break
             if block.macro is None and not block.words and not block.faults:
                 continue
-            if block.macro is not None or not self._take(block):
+            if not self._take(block):
                 break
         while self.blocks and self.blocks[-1] is not self._last_block():
             self.blocks.pop()
         self.poles = {name: pole for name, pole in self.poles.items() if not _is_behind(pole, self.blocks)}
-        return any(member.function in FREE for member in self.members)
 
     def _last_block(self) -> Block:
         """The last block that belongs to an element."""
         last = self.members[-1]
-        own = (last.block, last.corner)
+        own = (last.block, *(block for _, block in last.corners))
         return next(block for block in reversed(self.blocks) if block in own or block.find("FSELECT"))
 
     def _keep(self, function: str, name: str) -> None:
@@ -156,31 +161,28 @@ class _Chain:
     def _take(self, block: Block) -> bool:
         """Whether a block belongs to the chain; then it is taken."""
         function, last = function_of(block), self.members[-1] if self.members else None
-        is_free = function in FREE
-        if function in MOVES and not is_free and not _is_in_plane(block):
-            # A move of the tool axis alone may stand between.
-            return self._pass(block) if last else False
-        if function in MOVES:
-            is_joined = last is None or is_free or last.corner is not None or function in TANGENT
-            if not is_joined:
-                self.is_cut = True
-                return False
+        if last is None:
+            self._add(block, "L" if function in _CORNERS else function)
+            if function in _CORNERS:
+                # The corner of no element: that of a line of no length, which is refused.
+                self.members[0].corners = ((0, block),)
+            return function not in _CORNERS
+        if _stands_between(block, function):
+            if function == "FSELECT":
+                last.picked = block.find("FSELECT")
+            elif function == POLE:
+                self.poles[f"pole {len(self.poles) + 1}"] = len(self.blocks), block
+            elif function == CENTER:
+                self.state = set_pole(self.state, block, CENTER, self.modes)
+            return self._pass(block)
+        if function in _CORNERS:
+            last.corners = (*last.corners, (len(self.blocks), block))
+            return self._pass(block)
+        if function in FREE or function in TANGENT or (last.corners and function in MOVES):
             self._add(block, function)
             return True
-        if last is None:
-            return False
-        if function in _CORNERS and last.corner is None:
-            last.corner, last.corner_index = block, len(self.blocks)
-        elif function == "FSELECT":
-            last.picked = block.find("FSELECT")
-        elif function == POLE:
-            self.poles[f"pole {len(self.poles) + 1}"] = len(self.blocks), block
-        elif function == CENTER:
-            self.state = set_pole(self.state, block, CENTER, self.modes)
-        elif function not in ("", "STOP"):
-            self.is_cut = not function.startswith(("APPR", "DEP"))
-            return False
-        return self._pass(block)
+        self.is_cut = block.macro is None and not function.startswith(("APPR", "DEP"))
+        return False
 
     def _pass(self, block: Block) -> bool:
         self.state = apply_modes(self.state, block, self.modes)
@@ -199,6 +201,15 @@ class _Chain:
         self.members.append(_Member(block, function, self.state, index, pole, center))
 
 
+def _stands_between(block: Block, function: str) -> bool:
+    """Whether a block may stand between two elements, and is no corner."""
+    if block.macro is not None:
+        return says_nothing(block)
+    # A move of the tool axis alone may, too.
+    is_beside = function in MOVES and function not in FREE and not _is_in_plane(block)
+    return is_beside or function in ("", "STOP", "FSELECT", POLE, CENTER)
+
+
 def _is_behind(pole: Pole, blocks: Sequence[Block]) -> bool:
     """Whether the block of a pole stands behind the last one of a chain."""
     return isinstance(pole[1], Block) and pole[1] not in blocks
@@ -211,44 +222,41 @@ def _is_in_plane(block: Block) -> bool:
 _MOVING = frozenset({"X", "Y", "IX", "IY", "PR", "PA", "IPR", "IPA", "DR", "R"})
 
 
-def find(
-    blocks: Sequence[Block], index: int, state: State, modes: Modes, *, is_joined: bool = False
-) -> ParsedContour | None:
-    """The chain that begins at a block, if any; also one of conventional moves alone that are joined (`is_joined`)."""
+def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> ParsedContour | None:
+    """The chain that begins at a block, if any: with a free element, a move with a corner, one that the next element
+    touches, or a corner behind no element."""
     block = blocks[index]
     if block.macro is not None or not block.words:
         return None
-    function = function_of(block)
-    is_known = state.start().is_known
-    if function not in MOVES or (function not in FREE and not is_known):
-        return None
-    if not is_known and begins_chain(function, block):
+    function, is_known = function_of(block), state.start().is_known
+    if function in FREE:
         # A chain may begin with where it begins.
-        return None
-    if function not in FREE and not _leads_on(blocks, index):
+        is_begun = is_known or not begins_chain(function, block)
+    elif function in MOVES:
+        # What touches a move from an unknown place cannot be found.
+        joins = (*_CORNERS, *TANGENT) if is_known else tuple(_CORNERS)
+        is_begun = _is_in_plane(block) and _next_function(blocks, index) in joins
+    else:
+        is_begun = function in _CORNERS
+    if not is_begun:
         return None
     chain = _Chain(state, modes)
-    if not chain.read(blocks, index) and not (is_joined and len(chain.members) > 1):
-        return None
+    chain.read(blocks, index)
     return _claim(chain, state, modes)
 
 
-find_joined = partial(find, is_joined=True)
-
-
-def _leads_on(blocks: Sequence[Block], index: int) -> bool:
-    """Whether a conventional move is joined to what follows: by a corner or a tangency."""
+def _next_function(blocks: Sequence[Block], index: int) -> str:
+    """The function of the next element or corner behind a block; empty if something else comes first."""
     for place in count(index + 1):
         try:
             block = blocks[place]
         except IndexError:
-            return False
-        if block.macro is None and not block.words:
-            continue
+            return ""
         function = function_of(block)
-        if block.macro is not None or function not in (POLE, CENTER):
-            return block.macro is None and (function in _CORNERS or function in TANGENT)
-    return False
+        says_something = block.words or block.faults or block.macro is not None
+        if says_something and not _stands_between(block, function):
+            return function if block.macro is None else ""
+    return ""
 
 
 def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
@@ -278,7 +286,7 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
             lacking += [TURNS_BACK] * (not element.goes_round)
         elements.append(element)
         words |= {prefix + name: word for name, word in own.items()}
-        circumstances |= {prefix + each for each in lacking}
+        circumstances |= {prefix + each for each in (*lacking, *_corner_circumstances(members, number))}
         is_behind_line = number > 1 and elements[-2].is_line
         given = _givens(member, own, modes, is_behind_line=is_behind_line)
         ended = givens.get(f"{number - 1}:CCA")
@@ -293,8 +301,8 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
         vocabulary |= {prefix + name: (word.address, member.index) for name, word in own.items()}
         if number == 1 and member.function in FREE:
             vocabulary.setdefault(f"{prefix}CLSD+", ("CLSD", member.index))
-        if member.corner is not None:
-            vocabulary |= {prefix + name: (name, member.corner_index) for name in (ROUNDING, CHAMFER)}
+        for place, _ in member.corners[:1]:
+            vocabulary |= {prefix + name: (name, place) for name in (ROUNDING, CHAMFER)}
         if member.picked is not None and member.picked.number is not None:
             picks.append(Pick(number, int(member.picked.number), prefix + "FSELECT"))
         radius = own.get("R") if member.function == "CR" else None
@@ -378,8 +386,8 @@ def _sign_of(block: Block, address: str) -> int:
 def _own_words(member: _Member, repeated: list[Word]) -> dict[str, Word]:
     """The words about an element by their names; those that are there twice are added to `repeated`."""
     own: dict[str, Word] = {}
-    for block in (member.block, member.corner):
-        for word in block.words if block else ():
+    for block in dict.fromkeys((member.block, *(corner for _, corner in member.corners))):
+        for word in block.words:
             if word.address in _BESIDE_ANY or word.address not in LEXICON.addresses:
                 continue
             name = word.address
@@ -470,13 +478,15 @@ def _element(
     sense = _sign_of(member.block, "DR")
     if not is_line and member.function not in TANGENT[2:] and not sense:
         lacking.append(NO_SENSE)
-    if member.function in TANGENT[2:] and not member.sense:
+    if member.function in TANGENT[2:] and not member.sense and number > 1:
         lacking.append(NO_TURN)
     if own.keys() & POLAR and not member.pole:
         lacking.append(NO_POLE)
     tool = member.here.memory.get(TOOL_AXIS)
     holds = {
         NO_BEFORE: number == 1 and (member.function in TANGENT or ("IAN" in own and "RAN" not in own)),
+        NO_CENTER: member.function in ("C", "CP") and member.center_at is None,
+        NO_RADIUS: member.function == "CR" and "R" not in own,
         CLOSES_NOTHING: "CLSD-" in own and not 0 < opening < number,
         CONTINUED: _CONTINUES.search(member.block.text),
         NEVER_CLOSED: number == opening and not is_closed,
@@ -529,6 +539,20 @@ def _givens(member: _Member, own: Mapping[str, Word], modes: Modes, *, is_behind
     return stated
 
 
+def _corner_circumstances(members: Sequence[_Member], number: int) -> Iterator[str]:
+    """What holds of an element because of the corners at its ends."""
+    pair = members[number - 1 : number + 1]
+    has_corner = bool(pair[0].corners)
+    holds = {
+        NO_SIZE: any(block.find(_CORNERS[function_of(block)]) is None for _, block in pair[0].corners),
+        FIRST_CORNER: has_corner and pair[0].corners[0][1] is pair[0].block,
+        LAST_CORNER: has_corner and len(pair) == 1,
+        CORNERED: has_corner or (number > 1 and bool(members[number - 2].corners)),
+        AT_ARC: has_corner and any(each.function not in STRAIGHT for each in pair),
+    }
+    return (name for name, is_so in holds.items() if is_so)
+
+
 def _may_state(member: _Member, own: Set[str]) -> Iterator[str]:
     """The words that a free element may have: those that stand alone, and those that the others need."""
     if member.function in FREE:
@@ -556,6 +580,6 @@ def _makes(chain: _Chain, labels: Sequence[str]) -> Iterator[tuple[str, ...]]:
     by_block: dict[int, tuple[str, ...]] = {}
     for label, member in zip(labels, chain.members, strict=True):
         by_block[member.index] = (f"{'line' if member.function in STRAIGHT else 'arc'} {label}",)
-        if member.corner is not None:
-            by_block[member.corner_index] = (f"corner {label}",)
+        for place, _ in member.corners:
+            by_block[place] = (*by_block.get(place, ()), f"corner {label}")
     return (by_block.get(index, ()) for index in range(len(chain.blocks)))

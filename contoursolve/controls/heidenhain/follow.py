@@ -127,6 +127,15 @@ _HARMLESS = re.compile(
 """What begins a statement that moves nothing."""
 
 
+_SAYS_NOTHING = re.compile(BLOCK_NUMBER + r"(?:\*|\(|LBL\b(?![ \t]*0\b)|BLK\b|TOOL[ \t]+DEF\b)", re.IGNORECASE)
+"""Statements that leave everything as it is: headings, labels, and what defines blanks and tools."""
+
+
+def says_nothing(block: Block) -> bool:
+    """Whether a statement may stand between the blocks of a contour."""
+    return _SAYS_NOTHING.match(block.text) is not None
+
+
 def _statement(state: State, block: Block, modes: Modes) -> State:
     """The state behind a block that is no list of words."""
     begins = _BEGIN.match(block.text)

@@ -95,7 +95,7 @@ _WORDS = (
     rf"(?P<long>{_LONG})[ \t]*+{_value('long')}",
     rf"(?P<corner>RND|CHF)(?![A-Z])[ \t]*+(?>(?:R[ \t]*+)?){_value('corner')}",
     # R0 is no radius: it ends the compensation.
-    rf"(?!R0(?![\w.,]))(?P<letter>{_AXIS}|[A-Z])(?![A-Z])[ \t]*+{_value('letter')}",
+    rf"(?!R0(?![\w.,]))(?P<letter>{_AXIS}|[A-Z])(?!(?!Q[LRS]?\d)[A-Z])[ \t]*+{_value('letter')}",
 )
 BLOCK_NUMBER = r"[ \t/]*+(?>(?:N?(?P<number>\d++)(?![.,\w])[ \t]*+)?)"
 """What a statement begins with: its sign to skip it and its number, if any."""
@@ -122,6 +122,7 @@ SYNTAX = Syntax(
     codes=_NAMES,
     parts=_parts,
     skip=re.compile(r"[ \t]*+/"),
+    bare_number=re.compile(r"[ \t/]*+N?\d++[ \t]*+"),
 )
 """Words of letters and a number without an equals sign, comments behind a semicolon, a number before each block."""
 
@@ -189,6 +190,10 @@ def function_of(block: Block) -> str:
                 return name
         elif word.address in _BY_WORD:
             return _BY_WORD[word.address]
+    for fault in block.faults:
+        if fault.text.strip().upper() in _BY_WORD.values():
+            # Its number is missing, or cannot be read.
+            return fault.text.strip().upper()
     return "L" if any(word.address in LEXICON.addresses for word in block.words) else ""
 
 

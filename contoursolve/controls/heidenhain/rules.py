@@ -8,23 +8,30 @@ from operator import or_
 
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
-from contoursolve.controls.heidenhain.elements import ARC, LINE, PLAIN, POLAR, POLE, TANGENCY
+from contoursolve.controls.heidenhain.elements import ARC, CORNERS, LINE, PLAIN, POLAR, POLE, TANGENCY
 from contoursolve.controls.heidenhain.find import (
+    AT_ARC,
     CLOSES_NOTHING,
     CONTINUED,
+    CORNERED,
     CUT,
+    FIRST_CORNER,
+    LAST_CORNER,
     NEVER_CLOSED,
     NO_BEFORE,
     NO_BLOCK,
+    NO_CENTER,
     NO_LINE,
     NO_POLE,
+    NO_RADIUS,
     NO_SENSE,
+    NO_SIZE,
     NO_TURN,
     TOOL,
     TURNS_BACK,
     TWO_BLOCKS,
 )
-from contoursolve.controls.heidenhain.lexicon import BOOK, REFERRED, REFERRING, REFERRING_TO_LINES
+from contoursolve.controls.heidenhain.lexicon import BOOK, CHAMFER, REFERRED, REFERRING, REFERRING_TO_LINES
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.gcode import FaultKind
@@ -50,6 +57,8 @@ _TANGENT = START + "2 FL X+30 Y+0\n3 FCT DR+ R10 CCA+0\n4 END PGM A MM"
 _ROUND = START + "2 FC DR- R25 CCX+25 CCY+0 X+25 Y+25\n3 FCT DR- CCX+25 CCY+0 X+50 Y+0"
 _TURNING = START + "2 FL AN+0\n3 FCT DR+ R10 CCA+0\n4 FLT X+40 Y+30"
 _NUMBERED = START + "2 FL X+30 Y+0\n3 FL IX+5 IY+20 RX 2\n4 END PGM A MM"
+_CORNER = START + "2 L X+40 Y+0\n3 RND R5\n4 L X+40 Y+30\n5 END PGM A MM"
+_BOW = _CORNER.replace("4 L X+40 Y+30", "4 CR X+40 Y+30 R15 DR+")
 _FAR = START + "2 FL X+30 Y+0\n3 FL X+50 Y+10\n4 FL IX+5 IY+20 RX 2\n5 END PGM A MM"
 _CHOSEN = START + "2 FL LEN40 P1X+30 P1Y+10\n3 FSELECT 1\n4 FL X+80 Y+20"
 _TOOL = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S100\n2 L X+0 Y+0\n" + "3 FL AN+60\n4 FL X+80 Y+20 AN-30"
@@ -75,6 +84,7 @@ def _row(  # noqa: PLR0913 - a row has these columns
     )  # fmt: skip
 
 
+_CORNERS = BOOK.derived("RND and CHF stand between two elements")
 _PRINTED_REFERENCE = BOOK.printed("data relative to a block")
 _LEAST = Decimal("0.001")
 
@@ -101,8 +111,10 @@ _ROWS = (
     ),
     _row("beside", "{words}: a point beside the element takes PDX, PDY and D", "write all three", _ERRORS,
          _half("PDX", "PDY", "D"), _FK, _BESIDE, (" D0", ""), (" PDY+20", ""), alarm=_INCOMPLETE),
-    _row("sense", "the arc has no DR", "add DR+ (counter-clockwise) or DR-", _ERRORS, some(NO_SENSE), (ARC, PLAIN),
+    _row("sense", "the arc has no DR", "add DR+ (counter-clockwise) or DR-", _ERRORS, some(NO_SENSE), (ARC,),
          _ARC, (" DR+", ""), alarm=_INCOMPLETE),
+    _row("arc-sense", "the arc has no DR", "add DR+ (counter-clockwise) or DR-", BOOK.assumed("path functions"),
+         some(NO_SENSE), (PLAIN,), _BOW, (" DR+", "")),
     _row("distance-alone", "{words}: a distance needs the block of the line to which it is parallel",
          "add PAR and the number of that block", _ERRORS, some("DP") & ~some("PAR"), (LINE,), _PARALLEL,
          (" PAR 2", ""), alarm=_INCOMPLETE),
@@ -138,6 +150,26 @@ _ROWS = (
          "write CLSD+ into the first block of the contour", BOOK.printed("closed contour"),
          some(CLOSES_NOTHING) & some("CLSD-"), _FK,
          _CLOSED, (" CLSD+", "")),
+    _row("centre-missing", "the arc turns about CC, and no CC is in force", "write CC X Y before it",
+         BOOK.assumed("path functions"), some(NO_CENTER), (PLAIN,),
+         _CORNER.replace("4 L X+40 Y+30", "4 CC X+40 Y+20\n5 C X+60 Y+20 DR+"), ("4 CC X+40 Y+20\n", "")),
+    _row("radius-missing", "CR is an arc by its radius, and R is missing", "add R",
+         BOOK.printed("path functions"), some(NO_RADIUS), (PLAIN,), _BOW, (" R15", "")),
+    _row("corner-size-missing", "RND or CHF behind this block has no size", "write it: RND R5, CHF 5",
+         BOOK.printed("path functions"), some(NO_SIZE), _ANY, _CORNER, ("RND R5", "RND")),
+    _row("corner-without-next", "{words}: a corner needs an element behind it, and none follows",
+         "put the next line or arc right behind it, or delete it", _CORNERS,
+         some(*CORNERS) & some(LAST_CORNER) & ~some(FIRST_CORNER), _ANY, _CORNER, ("4 L X+40 Y+30\n", "")),
+    _row("corner-first", "{words}: a corner needs a line or an arc right before it, and none is there",
+         "put it right behind the block that leads to the corner, or delete it", _CORNERS,
+         some(*CORNERS) & some(FIRST_CORNER), (PLAIN,), _CORNER, ("2 L X+40 Y+0\n", "2 APPR LT X+40 Y+0 LEN5 RL\n")),
+    _row("corner-outside-plane", "{words} leads out of the plane of the corner beside it",
+         "move the tool axis in a block of its own", BOOK.printed("RND: both elements lie in the plane of the arc"),
+         some("Z", "IZ") & some(CORNERED) & ~some(TOOL), _ANY, _CORNER, ("X+40 Y+30", "X+40 Y+30 Z-5")),
+    _row("chamfer-beside-arc", "{words}: the manual has CHF between two lines, and here is an arc beside it",
+         "check it on the control, or write RND", BOOK.printed("path functions: chamfer between two lines"),
+         some(CHAMFER) & some(AT_ARC), _ANY, _CORNER.replace("RND R5", "CHF 5"),
+         ("4 L X+40 Y+30", "4 CR X+40 Y+30 R15 DR+"), severity=Severity.WARNING),
     _row("size", "{words}: a radius, and a distance from the pole, is larger than 0", "write a positive number",
          BOOK.assumed("polar coordinates"), Value(("PR", "CCPR", "R", "LEN"), least=_LEAST), _FK, _POLAR,
          ("PR+20", "PR-20")),
@@ -152,9 +184,9 @@ _ROWS = (
     _row("tangent-arc", "to which side CT turns is not known before the blocks before it are solved",
          "write FCT with DR+ or DR-", BOOK.assumed("CT behind a free contour"), some(NO_TURN), (PLAIN,), _TURNING,
          ("FCT DR+ R10 CCA+0", "CT X+40 Y+10")),
-    _row("tool-axis", "free contours are solved in X and Y, and the tool axis is another one",
-         "check TOOL CALL: contoursolve reads free contours with the tool axis Z", BOOK.assumed("planes"), some(TOOL),
-         _FK, _TOOL, ("1 Z S", "1 X S")),
+    _row("tool-axis", "contours are solved in X and Y, and the tool axis is another one",
+         "check TOOL CALL: contoursolve reads contours with the tool axis Z", BOOK.assumed("planes"), some(TOOL),
+         _ANY, _TOOL, ("1 Z S", "1 X S")),
 )  # fmt: skip
 
 
@@ -188,6 +220,15 @@ def _touching() -> Rule:
     )  # fmt: skip
 
 
+def _repeated() -> Rule:
+    """RND and CHF behind an element belong to it."""
+    row = next(rule for rule in COMMON_RULES if rule.about is ReadIssue.REPEATED_ADDRESS)
+    return replace(
+        row, code="heidenhain-repeated", message="{words} is given twice for this element",
+        accepted=(_CORNER,), rejected=(_CORNER.replace("RND R5", "RND R5\nRND R3"),),
+    )  # fmt: skip
+
+
 def _agreeing() -> Rule:
     """What is said twice and agrees is accepted, with a note."""
     row = next(rule for rule in COMMON_RULES if rule.about is NoteKind.WORDS_AGREE)
@@ -213,4 +254,15 @@ _SPELLING = Rule(
     "check the spelling: moves are L, C, CR, CT, FL, FLT, FC and FCT, with a blank behind them",
     BOOK.printed("path functions"), (_LINES,), (_LINES.replace("3 FL", "3 FTL"),), about=FaultKind.NUMBER_MISSING,
 )  # fmt: skip
-RULES = (_SPELLING, _UNKNOWN, *_OWN, _agreeing(), _touching(), _PARAMETER, *COMMON_RULES, *_ROWS, *GEOMETRY_RULES)
+RULES = (
+    _SPELLING,
+    _UNKNOWN,
+    *_OWN,
+    _repeated(),
+    _agreeing(),
+    _touching(),
+    _PARAMETER,
+    *COMMON_RULES,
+    *_ROWS,
+    *GEOMETRY_RULES,
+)

@@ -6,7 +6,6 @@ from math import atan2, degrees, dist
 
 from msgspec.structs import replace
 
-from contoursolve.controls.heidenhain.find import find_joined
 from contoursolve.controls.heidenhain.follow import CENTER, PLANE, begins_chain, follow, pole_of
 from contoursolve.controls.heidenhain.lexicon import BLOCK_NUMBER, CODES, LEXICON, MOVES, SYNTAX, function_of
 from contoursolve.gcode import Block, Word
@@ -365,7 +364,6 @@ def _center(block: Block, function: str, before: State, start: Point, end: Point
 WRITING = Writing(
     own=_Own,
     plain=_Plain,
-    find=find_joined,
     opening="G17 {unit} G90 G94",
     number=re.compile(r"(?m)^[ \t/]*+N?(\d{1,5})(?![\d.,])"),
 )

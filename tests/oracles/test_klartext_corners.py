@@ -1,0 +1,160 @@
+"""Corners between plain moves in Klartext: RND and CHF make what `,R` and `,C` make of the same moves."""
+
+from math import cos, hypot, pi, sin
+from random import Random
+
+import pytest
+from examples import some_of
+
+import contoursolve
+from contoursolve import ArcSegment
+from contoursolve.families import Code, family
+
+BEGIN, END = "0 BEGIN PGM A MM\n", "99 END PGM A MM\n"
+
+
+def klartext(*blocks, before="L X+0 Y+0 R0 F500"):
+    numbered = "".join(f"{number} {block}\n" for number, block in enumerate((before, *blocks), 1))
+    return BEGIN + numbered + END
+
+
+def drawn(rng):
+    """A chain of moves with corners in Klartext, and the same for a Fanuc mill."""
+    at, own, other = (0.0, 0.0), [], []
+    count = rng.randint(2, 5)
+    for number in range(count):
+        way, length = rng.uniform(0, 2 * pi), rng.uniform(8, 60)
+        end = (round(at[0] + length * cos(way), 3), round(at[1] + length * sin(way), 3))
+        first, second = f"{end[0]:+.3f}", f"{end[1]:+.3f}"
+        size, kind = round(rng.uniform(0.5, 7), 3), rng.choice("RC")
+        form, chord = rng.choice(["L", "L", "CR", "C"]), hypot(end[0] - at[0], end[1] - at[1])
+        sense, code = rng.choice([("DR-", "G2"), ("DR+", "G3")])
+        corner = f" ,{kind}{size}" if number < count - 1 else ""
+        if form == "L":
+            own.append(f"L X{first} Y{second}")
+            other.append(f"G1 X{first} Y{second}{corner}")
+        elif form == "CR":
+            radius = f"{rng.choice('+-')}{chord * rng.uniform(0.55, 1.5):.3f}"
+            own.append(f"CR X{first} Y{second} R{radius} {sense}")
+            other.append(f"{code} X{first} Y{second} R{radius}{corner}")
+        else:
+            height = rng.uniform(-1, 1) * chord
+            center = [
+                (at[0] + end[0]) / 2 - height * (end[1] - at[1]) / chord,
+                (at[1] + end[1]) / 2 + height * (end[0] - at[0]) / chord,
+            ]
+            own += [f"CC X{center[0]:+.6f} Y{center[1]:+.6f}", f"C X{first} Y{second} {sense}"]
+            other.append(f"{code} X{first} Y{second} I{center[0] - at[0]:.6f} J{center[1] - at[1]:.6f}{corner}")
+        if corner:
+            own.append(f"RND R{size}" if kind == "R" else f"CHF {size}")
+        at = end
+    return klartext(*own), "G90 G17 G0 X0 Y0\n" + "\n".join(other) + "\nM30\n"
+
+
+def path(answer):
+    """The elements, each with its end, and of an arc its centre; None without a contour."""
+    if answer.contour is None:
+        return None
+    return [
+        (*each.end, *((*each.center, each.turn.sign) if isinstance(each, ArcSegment) else ()))
+        for each in answer.contour.elements
+    ]
+
+
+@some_of("seed", range(48), only=range(12))
+def test_corners_between_plain_moves_are_those_of_other_controls(seed):
+    own, other = drawn(Random(seed))
+    ours, theirs = contoursolve.solve(own), contoursolve.solve(other, control="fanuc-mill")
+    if any(each.code == "fanuc-corner-dropped" for each in theirs.diagnostics):
+        # It makes no corner where the direction hardly changes.
+        return
+    one, two = (path(each.answers[0]) for each in (ours, theirs))
+    assert (one is None) is (two is None)
+    for mine, yours in zip(one or (), two or (), strict=True):
+        assert mine == pytest.approx(yours, abs=1e-5)
+    assert theirs.has_errors is ours.has_errors
+
+
+PATHS = {
+    "as a mill": (["L X+40 Y+0 RL", "RND R20", "L X+40 Y+20"], [(20, 0), (40, 20, 20, 20, 1)]),
+    "its own feed": (["L X+40 Y+0", "RND R5 F100", "L X+40 Y+30"], [(35, 0), (40, 5, 35, 5, 1), (40, 30)]),
+    "words between": (
+        ["L X+40", "M8", "RND 5", "* - PART", "M9", "L Y+30"],
+        [(35, 0), (40, 5, 35, 5, 1), (40, 30)],
+    ),
+    "chamfer": (["L X+40 Y+0", "CHF 5", "L IY+30", "L X+0"], [(35, 0), (40, 5), (40, 30)]),
+    "behind a tangent arc": (
+        ["L X+40", "CT X+60 Y+20", "RND R5", "L X+80 Y+20"],
+        # The rounding touches the circle about (40, 20) from outside: 5 below the line, 25 from that centre.
+        [(40, 0), (40 + 0.8 * 600**0.5, 16, 40, 20, 1), (40 + 600**0.5, 20, 40 + 600**0.5, 15, -1), (80, 20)],
+    ),
+    "parameter": (["Q1 = 2 + 3", "L X+40 Y+0 FQ1", "RND RQ1", "L X+40 Y+30"], [(35, 0), (40, 5, 35, 5, 1), (40, 30)]),
+    "an element of no corner before": (
+        ["L X+40 Y+0", "L X+40 Y+30", "RND R5", "L X+0"],
+        [(40, 25), (35, 30, 35, 25, 1), (0, 30)],
+    ),
+}
+
+
+@pytest.mark.parametrize(("blocks", "drawn"), PATHS.values(), ids=PATHS)
+def test_a_corner_between_plain_moves_is_made(blocks, drawn):
+    (answer,) = contoursolve.solve(klartext(*blocks)).answers
+    for found, meant in zip(path(answer), drawn, strict=True):
+        assert found == pytest.approx(meant, abs=1e-9)
+
+
+WRONG = {
+    "too large": (["L X+6 Y+0", "RND R12", "L X+6 Y+7"], "corner-too-large"),
+    "first": (["APPR LT X+40 Y+0 LEN5 RL", "RND R5", "L X+40 Y+30"], "heidenhain-corner-first"),
+    "last": (["L X+40 Y+0", "CHF 5"], "heidenhain-corner-without-next"),
+    "before the end": (["L X+40 Y+0", "RND R5", "M30"], "heidenhain-corner-without-next"),
+    "behind a free element": (["FL X+40 Y+0", "RND R5", "DEP LT LEN5"], "heidenhain-corner-without-next"),
+    "reversal": (["L X+40 Y+0", "CHF 5", "L X+10"], "corner-reverses"),
+    "straight on": (["L X+40 Y+0", "RND R5", "L X+60"], "corner-straight"),
+    "two shapes": (["L X+40 Y+0", "RND R5", "CHF 3", "L X+40 Y+30"], "corner-twice"),
+    "twice": (["L X+40 Y+0", "RND R5", "RND R3", "L X+40 Y+30"], "heidenhain-repeated"),
+    "no size": (["L X+40 Y+0", "RND", "L X+40 Y+30"], "heidenhain-no-word"),
+    "negative": (["L X+40 Y+0", "RND R-5", "L X+40 Y+30"], "corner-negative"),
+    "out of the plane": (["L X+40 Y+0", "RND R5", "L X+40 Y+30 Z-5"], "heidenhain-corner-outside-plane"),
+    "no CC": (["L X+40 Y+0", "RND R5", "C X+60 Y+20 DR+"], "heidenhain-centre-missing"),
+    "no R": (["L X+40 Y+0", "RND R5", "CR X+60 Y+20 DR+"], "heidenhain-radius-missing"),
+    "no DR": (["L X+40 Y+0", "RND R5", "CR X+60 Y+20 R20"], "heidenhain-arc-sense"),
+}
+
+
+@pytest.mark.parametrize(("blocks", "code"), WRONG.values(), ids=WRONG)
+def test_a_corner_between_plain_moves_that_cannot_be_made_is_told(blocks, code):
+    result = contoursolve.solve(klartext(*blocks))
+    assert code in [each.code for each in result.diagnostics if each.is_error]
+    assert [each.contour for each in result.answers] == [None]
+
+
+def test_a_corner_behind_a_move_from_an_unknown_place_asks_for_it():
+    found = contoursolve.solve(klartext("RND R5", "L X+40 Y+30", before="L X+40 Y+0"))
+    assert [each.code for each in found.diagnostics] == ["position-unknown"]
+
+
+def test_a_fix_leaves_no_block_with_its_number_alone():
+    found = contoursolve.solve(klartext("L X+6 Y+0", "RND R12", "L X+6 Y+7")).diagnostics
+    assert [fix.replacement for each in found for fix in each.fixes] == [
+        "2 L X+6 Y+0\n3 RND R6\n4 L X+6 Y+7", "2 L X+6 Y+0\n4 L X+6 Y+7",
+    ]  # fmt: skip
+
+
+def test_an_arc_beside_a_chamfer_is_told():
+    found = contoursolve.solve(klartext("L X+40 Y+0", "CHF 5", "CR X+60 Y+20 R20 DR-"))
+    assert [each.code for each in found.diagnostics] == ["heidenhain-chamfer-beside-arc"]
+    assert found.answers[0].contour is not None
+
+
+def test_a_row_of_a_family_is_the_contour_of_its_blocks():
+    blocks, sizes, ends = ["L X+40 Y+0", "RND R5", "CR X+60 Y+20 R20 DR-"], (2, 4, 40), (35, 40, 45)
+    vary = {"ROUNDING": sizes, "1:X": ends}
+    found = family("\n".join(blocks), control="heidenhain", start="X0 Y0", vary=vary, paired=True)
+    for row, (size, end) in enumerate(zip(sizes, ends, strict=True)):
+        (alone,) = contoursolve.solve(klartext(f"L X+{end} Y+0", f"RND R{size}", blocks[2])).answers
+        assert Code(int(found["status"][row])).status is alone.status
+        if alone.contour is not None:
+            _, corner, _ = alone.contour.elements
+            at = tuple(found[f"corner 1.center.{axis}"][row] for axis in "XY")
+            assert at == pytest.approx(corner.center, abs=1e-9)
