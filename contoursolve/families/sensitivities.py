@@ -25,6 +25,7 @@ from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble,
 from contoursolve.numeric.angle import direction
 from contoursolve.numeric.expressions import Compiled, Tape
 from contoursolve.numeric.inputs import COSINE, SIDE, SINE, lookup
+from contoursolve.numeric.linear_algebra import condition
 from contoursolve.solving import NoteKind, Solution, Status
 from contoursolve.tolerance import RESIDUAL
 
@@ -233,7 +234,7 @@ def _implicit_rates(profile: Profile, solution: Solution, outputs: tuple[str, ..
         numpy.array([[at[f"{row} by {name}"] for name in by] for row in range(len(unknowns))])
         for by in (unknowns, inputs)
     )
-    if not numpy.linalg.cond(matrix) < SINGULAR_CONDITION:  # true for NaN
+    if condition(matrix) >= SINGULAR_CONDITION:
         raise FamilyError("two solutions have become one, so that no derivative exists")
     rows = dict(zip(unknowns, -numpy.linalg.solve(matrix, right), strict=True))
     found: dict[str, dict[str, float]] = {}

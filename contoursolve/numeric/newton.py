@@ -6,6 +6,8 @@ from typing import Any
 import casadi
 import numpy
 
+from contoursolve.numeric.linear_algebra import shortest_solution
+
 SETTINGS = {"line_search": True, "max_iter": 100, "error_on_fail": False, "show_eval_warnings": False}
 """Of CasADi's newton. It can neither abort nor print. Its status is not read: it reports success with NaN at a singular
 Jacobian, and with a point that is no root of a redundant system."""
@@ -45,7 +47,7 @@ def _polished(point: Any, values_of: Callable[[Any], list[Any]]) -> list[float] 
     """A point after Newton steps for as long as they bring the largest residual down; None if it is not finite."""
     residuals, slopes = values_of(point)
     for _ in range(POLISH_STEPS):
-        following = point - numpy.linalg.lstsq(slopes, residuals, rcond=None)[0].ravel()
+        following = point - shortest_solution(slopes, residuals).ravel()
         nearer, steeper = values_of(following)
         if not abs(nearer).max() < abs(residuals).max():
             break

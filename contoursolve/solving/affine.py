@@ -17,6 +17,7 @@ from msgspec.structs import replace
 from contoursolve.analysis.identities import is_affine
 from contoursolve.diagnostics.finding import Freedom
 from contoursolve.geometry import FIRST, SECOND, Fact, Profile, assemble, scalar
+from contoursolve.numeric.linear_algebra import pinv, shortest_solution, svd
 from contoursolve.solving.numbers import lookup
 from contoursolve.tolerance import REGULAR
 
@@ -100,7 +101,7 @@ class AffineFacts(Struct, frozen=True):
         part = next(part for part in self.parts if index in part.rows)
         rows = [row for row in part.rows if self.facts[row] in kept]
         row, others = self.matrix[index, list(part.columns)], self.matrix[numpy.ix_(rows, part.columns)]
-        weights = numpy.linalg.lstsq(others.T, row, rcond=None)[0] if others.size else numpy.zeros(len(rows))
+        weights = shortest_solution(others.T, row) if others.size else numpy.zeros(len(rows))
         if (abs(row - weights @ others) > REGULAR).any():
             return None
         gap = abs(float(self.constants[index] - weights @ self.constants[rows]))
@@ -120,7 +121,7 @@ class AffineFacts(Struct, frozen=True):
             columns = [self.unknowns.index(scalar(point, axis)) for axis in (FIRST, SECOND)]
             moving = null[(abs(null[:, columns]) > REGULAR).any(axis=1)]
             if len(moving):
-                _, values, right = numpy.linalg.svd(moving[:, columns], full_matrices=False)
+                _, values, right = svd(moving[:, columns], full_matrices=False)
                 along = right[0] if right[0][numpy.argmax(abs(right[0]))] > 0 else -right[0]
                 is_line = int((values > REGULAR).sum()) == 1
                 direction = (float(along[0]), float(along[1])) if is_line else None
@@ -204,7 +205,7 @@ def _decompose(matrix: numpy.ndarray, constants: numpy.ndarray | None = None) ->
     """The null spaces of a matrix, and the unknowns that satisfy its facts best."""
     if not matrix.size:
         return _Decomposed(numpy.eye(len(matrix)), numpy.eye(matrix.shape[1]), numpy.zeros(matrix.shape[1]))
-    left, sizes, right = numpy.linalg.svd(matrix)
+    left, sizes, right = svd(matrix)
     rank = int((sizes > REGULAR).sum())
     known = numpy.zeros(len(matrix)) if constants is None else constants
     values = right[:rank].T @ (left[:, :rank].T @ -known / sizes[:rank])
@@ -233,7 +234,7 @@ def _leading(tied: numpy.ndarray) -> numpy.ndarray:
             chosen.append(row)
             along = rest[row] / size
             rest = rest - numpy.outer(rest @ along, along)
-    return tied @ numpy.linalg.pinv(tied[chosen])
+    return tied @ pinv(tied[chosen])
 
 
 def _connected(tied: numpy.ndarray) -> list[tuple[int, ...]]:
@@ -254,9 +255,9 @@ def _supports(tied: numpy.ndarray) -> tuple[list[tuple[int, ...]], bool]:
     ties = leading.shape[1]
     if ties == 1 or comb(len(tied), ties - 1) > MOST_SUBSETS:
         return _present(leading.T), ties == 1
-    basis = numpy.linalg.svd(tied)[0][:, :ties]
+    basis = svd(tied)[0][:, :ties]
     absent = numpy.array(list(combinations(range(len(tied)), ties - 1)))
-    _, values, right = numpy.linalg.svd(basis[absent])
+    _, values, right = svd(basis[absent])
     is_alone = values.min(axis=1) > _INDEPENDENT
     return _present(right[is_alone, -1] @ basis.T), True
 

@@ -14,6 +14,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Heading, Level, Offset, Radius, scalar
+from contoursolve.numeric.linear_algebra import pinv, shortest_solution, svd
 from contoursolve.tolerance import REGULAR
 from contoursolve.verification.residuals import Array, ResidualSystem, direction
 
@@ -68,7 +69,7 @@ def is_linear(system: ResidualSystem) -> bool:
 
 def _null_space(rows: Array) -> Array:
     """Directions, one a row, in which the unknowns can move."""
-    _, sizes, right = numpy.linalg.svd(rows)
+    _, sizes, right = svd(rows)
     null: Array = right[int((sizes > REGULAR).sum()) :]
     return null
 
@@ -85,7 +86,7 @@ def freedoms(rows: Array, system: ResidualSystem) -> dict[str, tuple[float, floa
     for point in system.figure.points:
         moves = null[:, [system.unknowns.index(scalar(point, axis)) for axis in (FIRST, SECOND)]]
         if abs(moves).max(initial=0.0) > REGULAR:
-            _, lengths, ways = numpy.linalg.svd(moves, full_matrices=False)
+            _, lengths, ways = svd(moves, full_matrices=False)
             is_line = int((lengths > REGULAR).sum()) == 1
             found[point] = (float(ways[0][FIRST]), float(ways[0][SECOND])) if is_line else None
     return found
@@ -107,7 +108,7 @@ def rigid(system: ResidualSystem) -> dict[str, float]:
 
 def solved(rows: Array, off: Array) -> Array:
     """The values, of all the shortest ones, that make linear facts true as nearly as they can be."""
-    return numpy.linalg.lstsq(rows, -off, rcond=None)[0] if len(rows) else numpy.zeros(rows.shape[1])
+    return shortest_solution(rows, -off) if len(rows) else numpy.zeros(rows.shape[1])
 
 
 def compare(rows: Array, off: Array, others: Sequence[int], last: int) -> tuple[float, Array, bool]:
@@ -140,7 +141,7 @@ def ties(rows: Array, off: Array) -> list[Tie] | None:
             if any(set(other.facts) <= set(each) for other in found):
                 continue
             # How often each row must be taken for all to add up to nothing.
-            left, sizes, _ = numpy.linalg.svd(rows[list(each)])
+            left, sizes, _ = svd(rows[list(each)])
             if int((sizes > REGULAR * max(1.0, float(sizes.max(initial=0.0)))).sum()) < size:
                 least = float(abs(left[:, -1]).min())
                 found.append(Tie(each, abs(float(left[:, -1] @ off[list(each)])) / least, 1 / least))
@@ -173,8 +174,8 @@ def correct(
     off, slopes = system.residuals(facts, values, signs), system.jacobian(facts, values, signs)
     if not slopes.size or not numpy.isfinite(slopes).all():
         return Correction(numpy.full(len(values), numpy.nan), system.zero)
-    left, sizes, right = numpy.linalg.svd(slopes)
-    inverse = numpy.linalg.pinv(slopes, rcond=1e-15)
+    left, sizes, right = svd(slopes)
+    inverse = pinv(slopes, rcond=1e-15)
     apart = Correction(-inverse @ off, abs(inverse).sum(axis=1) * noise)
     if sizes[-1] > NEARLY * sizes[0]:
         return apart

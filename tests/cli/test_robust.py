@@ -1,5 +1,6 @@
 """What a user can type, name or close never ends in a traceback: there is a message, and a status that says which."""
 
+import json
 import os
 import signal
 import subprocess
@@ -26,6 +27,17 @@ def run(*arguments: str, status: int | None = None, says: str = "") -> Result:
     assert result.exit_code in (0, 1, 2) if status is None else result.exit_code == status, result.output
     assert says in result.output
     return result
+
+
+@pytest.mark.parametrize("command", ["check", "solve"])
+def test_nothing_but_the_document_is_on_standard_output(tmp_path, command):
+    """Seen from outside the process: libraries print past `sys.stdout`."""
+    text = "G17 G90 G00 X0. Y0.\nG02 I20. J0. R20. F500\nG03 X80. Y0. R25. H0\n"
+    (tmp_path / "arcs.nc").write_text(text)
+    words = [sys.executable, "-m", "contoursolve", command, "--format", "json", "--control", "mitsubishi", "arcs.nc"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (1, "")
+    assert "mitsubishi-two-radii" in {each["code"] for each in json.loads(done.stdout)["diagnostics"]}
 
 
 @pytest.fixture

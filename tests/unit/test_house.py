@@ -91,6 +91,18 @@ def test_only_numeric_imports_sympy_casadi_and_flint():
     assert outside == []
 
 
+def test_what_may_print_or_never_return_is_called_behind_one_door():
+    """Of NumPy's linear algebra, what iterates: LAPACK prints on standard output or hangs at what is not finite."""
+    eliminating = {"inv", "solve", "det", "norm", "LinAlgError"}
+    used = {
+        (str(module.relative_to(HOUSE).as_posix()), node.attr)
+        for module in MODULES
+        for node in ast.walk(ast.parse(module.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Attribute) and ast.unparse(node.value) == "numpy.linalg"
+    }
+    assert {module for module, name in used if name not in eliminating} == {"numeric/linear_algebra.py"}
+
+
 G111 = "contoursolve.solve('G111 X100. A180. K-30. {}', start='X40. Z0.').answers[0]"
 PAIR = r"contoursolve.solve('G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1').answers[0]"
 
