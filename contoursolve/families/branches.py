@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis.wording import join
-from contoursolve.families.case_classes import ORIGIN, CaseClass, Follows
+from contoursolve.families.case_classes import INSTEAD, ORIGIN, CaseClass, Follows
 from contoursolve.families.spec import NotClosedError
 from contoursolve.geometry import Choice, Fact, System
 from contoursolve.numeric.charts import Bounds, Chart, Following
@@ -92,9 +92,6 @@ def compile_margins(system: System, words: int, follows: Follows) -> Margins:
     outputs = {str(number): checked.margins[number] for number in kept}
     return Margins(tuple(kept.values()), Chart(checked.tape, outputs, words, dict(follows)))
 
-
-INSTEAD = "solve it value by value with `family` (`contoursolve sweep`)"
-"""What to do where no range can be told."""
 
 PLACES, LEVEL = 64, 1e-10
 """What is less than this, mm, at so many places drawn at random is zero everywhere: the checks are analytic between the

@@ -4,6 +4,7 @@ the free words, and what its results are.
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
+from itertools import pairwise, product
 from math import isfinite, nan
 from typing import Any
 
@@ -16,14 +17,25 @@ from contoursolve.analysis import analyse
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, count_choices
 from contoursolve.diagnosis.wording import join
 from contoursolve.diagnostics.finding import Basis
-from contoursolve.families.free_words import factor_of, kind_of, limits_of, stated_by, value_of
-from contoursolve.families.spec import FamilyError, Places, Ranges, Template, called, errors_of, read_limits
-from contoursolve.gcode import Word
+from contoursolve.families.free_words import bordered, factor_of, kind_of, limits_of, stated_by, value_of
+from contoursolve.families.spec import (
+    FamilyError,
+    NotClosedError,
+    Places,
+    Ranges,
+    Template,
+    called,
+    errors_of,
+    read_limits,
+)
+from contoursolve.families.traced_reading import OWN, Alike, Reading, trace_reading
+from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import FIRST, SECOND, CornerShape, Profile, Question, Start, System, Unit, assemble, scalar
 from contoursolve.numeric.charts import Following
 from contoursolve.numeric.columns import Array, difference, directions
+from contoursolve.numeric.formulas import Affine
 from contoursolve.numeric.inputs import COSINE, SINE
-from contoursolve.reading import ReadIssue
+from contoursolve.reading import ParsedContour, ReadIssue
 from contoursolve.solving import NoteKind, Solution, Status, is_closed, points_with_two_solutions
 from contoursolve.solving.checks import Check, compile_checks
 from contoursolve.solving.compile import Machine, compile_system
@@ -234,31 +246,55 @@ class CaseClass(Struct, frozen=True, eq=False):
 
 def case_of(template: Template, values: Mapping[str, float], answer: Answer | None = None) -> CaseClass:
     """The class of the row with these values; `answer` is its single solve. Raises FamilyError where a word cannot
-    vary."""
+    vary, and where only each row itself tells how it is read."""
     answer = answer or template.solve(values)
-    moving = [name for name, word in template.words.items() if not stated_by(word, answer.profile)]
-    words = {name: word for name, word in template.words.items() if name not in moving}
-    case = case_in(answer, words, values)
-    if case.status is not None:
+    status = verdict_of(answer)
+    if status is not None:
         # What is refused may not even state the value.
+        return CaseClass(answer.profile, status, {})
+    reading = trace_reading(template, values, answer)
+    if reading.is_by_row:
+        names = join([called(name) for name in template.words])
+        raise NotClosedError(f"each value of {names} decides how the block is read; {INSTEAD}")
+    following = {word for each in (*reading.givens.values(), *reading.start.values()) for word in each.factors}
+    facts = {name: word for name, word in template.words.items() if word.address == FACT}
+    for name, word in template.words.items():
+        if name not in following and not (name in facts and stated_by(word, answer.profile)):
+            raise FamilyError(f"{word.text} cannot vary: the contour has no value of it")
+    free = {name: _linear(each) for name, each in reading.givens.items()}
+    free |= case_in(answer, facts, values).free
+    moves = {axis: _linear(each) for axis, each in reading.start.items()}
+    return replace(case_in(answer, {}, values), free=free, moves=moves)
+
+
+def _linear(value: Affine) -> Linear:
+    ((word, factor),) = value.factors.items()
+    return Linear(word, factor, value.constant)
+
+
+INSTEAD = "solve it value by value with `family` (`contoursolve sweep`)"
+"""What to do where no range can be told."""
+
+
+class ByRow(Struct, frozen=True, eq=False):
+    """How the rows of one key are read one by one: at the place of which contour, none if all of the program is read;
+    and the number of the class of each kind of reading."""
+
+    like: ParsedContour | None
+    classes: dict[Alike, int]
+
+
+def case_alone(template: Template, values: Mapping[str, float]) -> CaseClass:
+    """The class of rows that are read as the one with these values, whatever numbers each of them states."""
+    answer = template.solve(values)
+    facts = {name: word for name, word in template.words.items() if word.address == FACT}
+    case = case_in(answer, facts, values)
+    if case.status is not None:
         return case
-    moves = {axis: move for name in moving for axis, move in _moves(template, values, name, answer)}
-    still = [template.words[name].text for name in moving if name not in [move.word for move in moves.values()]]
-    if still:
-        raise FamilyError(f"{still[0]} cannot vary: the contour has no value of it")
-    return replace(case, moves=moves)
-
-
-def _moves(template: Template, values: Mapping[str, float], name: str, answer: Answer) -> Iterator[tuple[int, Linear]]:
-    """How the start point follows a word, by axis. Raises FamilyError where other values follow it, too."""
-    other = template.solve({**values, name: values[name] + 1})
-    one, two = ({each.name: each.value for each in it.profile.givens.values()} for it in (answer, other))
-    if one != two:
-        raise FamilyError(f"{name} cannot vary: words that count from it change, too")
-    for axis, (value, changed) in enumerate(zip(answer.start.values, other.start.values, strict=True)):
-        if value is not None and changed is not None and value != changed:
-            factor = changed - value
-            yield axis, Linear(name, factor, value - factor * Decimal(repr(values[name])))
+    begins = enumerate(answer.start.values)
+    moves = {axis: Linear(f"{OWN}start {axis}", Decimal(1)) for axis, value in begins if value is not None}
+    free = {name: Linear(OWN + name, Decimal(1)) for name in answer.claim.givens}
+    return replace(case, free={**case.free, **free}, moves=moves)
 
 
 def case_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, float]) -> CaseClass:
@@ -341,10 +377,24 @@ class FreeWords:
         """The range in which a word is looked at. Raises FamilyError for one that is none."""
         return read_limits(self.names[number], within, LARGEST / self.scales[number], self.units[number])
 
-    def marks(self, number: int, low: float, high: float) -> list[float]:
-        """The ends of a range of a word, and the limits of the rules in it."""
-        limits = self._limits[number]
-        return [low, *(each for bound in limits.bounds if low < (each := bound / limits.scale) < high), high]
+    def marks(self, within: Sequence[tuple[float, float]]) -> list[list[float]]:
+        """The ends of a range of each word, and in it the limits of the rules and what else decides how it is read."""
+        known: dict[tuple[float, ...], Reading] = {}
+        while True:
+            marks = [
+                [low, *(each for bound in limits.bounds if low < (each := bound / limits.scale) < high), high]
+                for limits, (low, high) in zip(self._limits, within, strict=True)
+            ]
+            middles = [tuple((low + high) / 2 for low, high in cell) for cell in product(*map(pairwise, marks))]
+            for middle in middles:
+                if middle not in known:
+                    known[middle] = trace_reading(self.template, self.at(middle), self.answer_at(*middle))
+            alike = (known[middle] for middle in middles)
+            borders = (border for each in alike if not each.is_by_row for border in each.borders)
+            more = bordered(self._limits, self.names, borders)
+            if more == self._limits:
+                return marks
+            self._limits = more
 
 
 # Results ---------------------------------------------------------------------------------------------------------

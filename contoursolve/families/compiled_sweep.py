@@ -1,7 +1,7 @@
 """A case that is ready to be evaluated, any stretch of its rows at a time."""
 
 import threading
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from itertools import product
 from math import nan
@@ -15,10 +15,12 @@ from contoursolve.families.branch_rows import BLOCK, BranchRows
 from contoursolve.families.case_classes import (
     ORIGIN,
     Behind,
+    ByRow,
     CaseClass,
     Input,
     Results,
     asked_of,
+    case_alone,
     case_of,
     fill_row,
     half_circles,
@@ -30,6 +32,7 @@ from contoursolve.families.case_classes import (
 from contoursolve.families.export import Measure, measures_of
 from contoursolve.families.free_words import Examples
 from contoursolve.families.spec import Places, Ranges, SweepSpec, Template, stretches
+from contoursolve.families.traced_reading import place_of_contour, read_alone
 from contoursolve.geometry import System
 from contoursolve.numeric.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
 from contoursolve.numeric.expressions import where
@@ -63,12 +66,15 @@ class CompiledSweep(Struct, eq=False):
     cases: tuple[CaseClass, ...]
     numbers: NDArray[numpy.int64]
     """The class of each example."""
+    by_row: Mapping[int, ByRow] = {}
+    """How rows are read one by one, by their key."""
     local: threading.local = field(default_factory=threading.local)
 
     @property
     def is_one_function(self) -> bool:
         """Whether one function answers all rows."""
-        return len(self.cases) == 1 and self.cases[0].status is None and self.cases[0].is_closed
+        case = self.cases[0]
+        return len(self.cases) == 1 and case.status is None and case.is_closed and not self.by_row
 
     def columns(self) -> dict[str, type[numpy.generic]]:
         """The names and types of all results, in order."""
@@ -102,10 +108,15 @@ class CompiledSweep(Struct, eq=False):
         if ranges.is_long:
             ranges, first, last = ranges.rows(first, last), 0, last - first
         places = {word: ranges.places(word, first, last) for word in ranges.values}
-        number = numpy.zeros(last - first, numpy.int64)
-        if len(self.cases) > 1:
+        number, alone = numpy.zeros(last - first, numpy.int64), dict[int, list[tuple[int, Mapping[str, float]]]]()
+        if len(self.cases) > 1 or self.by_row:
             key = self.examples.key(list(ranges.values.values()), list(places.values()))
             number = self.numbers[numpy.searchsorted([each.key for each in self.examples.rows], key)]
+            for row in numpy.flatnonzero(numpy.isin(key, [*self.by_row])).tolist() if self.by_row else ():
+                by_row = self.by_row[int(key[row])]
+                reading = read_alone(self.template, ranges.row(places, row), by_row.like)
+                number[row] = NO_CLASS
+                alone.setdefault(by_row.classes[reading.kind], []).append((row, reading.values))
         classes: list[_ClassRows] = self.local.__dict__.setdefault("classes", [])
         if not classes:
             classes += map(_ClassRows, self.cases)
@@ -119,6 +130,23 @@ class CompiledSweep(Struct, eq=False):
                 target = slice(begin, end) if own is None else own[begin:end]
                 part = {word: place[target] for word, place in places.items()}
                 rows.solve(ranges, part, target, table)
+        for each, read in sorted(alone.items()):
+            self._solve_alone(classes[each], read, table)
+
+    def _solve_alone(self, rows: "_ClassRows", read: Sequence[tuple[int, Mapping[str, float]]], table: Results) -> None:
+        """Fill in the results of rows of one class that were read one by one."""
+        target = numpy.array([row for row, _ in read])
+        if rows.case.status is not None:
+            table["status"][target] = code_of(rows.case.status)
+            return
+        for begin, end in stretches(target.size, rows.most):
+            part = {name: numpy.array([values[name] for _, values in read[begin:end]]) for name in read[0][1]}
+            places = dict.fromkeys(part, numpy.arange(end - begin))
+            rows.solve(Ranges(part, is_paired=True), places, target[begin:end], table)
+
+
+NO_CLASS = -1
+"""The class of a row that is read by itself."""
 
 
 class _ClassRows:
@@ -244,12 +272,18 @@ def _compile(system: System, varied: frozenset[str], shown: tuple[Behind, ...], 
     return compile_columns(kept, varied)
 
 
-def cases_of(template: Template, examples: Examples) -> tuple[tuple[CaseClass, ...], NDArray[numpy.int64]]:
-    """The classes of the example rows, each once, and the number of the class of each example. Raises FamilyError."""
-    items: list[CaseClass] = []
-    numbers: list[int] = []
+def cases_of(
+    template: Template, examples: Examples
+) -> tuple[tuple[CaseClass, ...], NDArray[numpy.int64], dict[int, ByRow]]:
+    """The classes of the example rows, each once, the number of the class of each example, and how the rows are read
+    that are read one by one. Raises FamilyError."""
+    items, numbers, by_row = list[CaseClass](), list[int](), dict[int, ByRow]()
     for row in examples.rows:
-        case = case_of(template, dict(zip(template.words, row.values, strict=True)))
+        values = dict(zip(template.words, row.values, strict=True))
+        case = (case_alone if row.is_by_row else case_of)(template, values)
         numbers.append(next((number for number, each in enumerate(items) if case.is_like(each)), len(items)))
         items += [case] if numbers[-1] == len(items) else []
-    return tuple(items), numpy.array(numbers, numpy.int64)
+        if row.is_by_row:
+            own = by_row.setdefault(row.key, ByRow(place_of_contour(template, values), {}))
+            own.classes[read_alone(template, values, own.like).kind] = numbers[-1]
+    return tuple(items), numpy.array(numbers, numpy.int64), by_row

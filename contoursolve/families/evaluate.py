@@ -105,7 +105,8 @@ def compile_sweep(spec: SweepSpec, ranges: Ranges) -> CompiledSweep:
 
 
 def _compiled(spec: SweepSpec, examples: Examples, ranges: Ranges, template: Template) -> CompiledSweep:
-    return CompiledSweep(spec, examples, ranges, template, *cases_of(template, examples))
+    cases, numbers, by_row = cases_of(template, examples)
+    return CompiledSweep(spec, examples, ranges, template, cases, numbers, by_row)
 
 
 def family(

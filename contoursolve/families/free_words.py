@@ -2,7 +2,7 @@
 alike, and one row of each class that the rules may tell apart.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from itertools import pairwise, product
 from math import prod
@@ -10,28 +10,34 @@ from typing import Any
 
 import numpy
 from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.wording import join
 from contoursolve.diagnostics.finding import Basis
 from contoursolve.families.spec import (
+    LONGEST,
     FamilyError,
     Places,
     Ranges,
     RefusedError,
     Template,
+    called,
     errors_of,
     first_error,
     is_same,
+    stretches,
     unit_word,
 )
+from contoursolve.families.traced_reading import Alike, Reading, place_of_contour, read_alone, trace_reading
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Given, Profile, Unit
 from contoursolve.numeric.columns import Array
+from contoursolve.numeric.formulas import Affine
 from contoursolve.reading import ParsedContour, ReadIssue
 from contoursolve.reading.rules import Rule
 from contoursolve.solving import Status
-from contoursolve.solving.row_outcome import Codes
 from contoursolve.tolerance import LARGEST
 
 
@@ -72,6 +78,13 @@ def factor_of(answer: Answer, typed: Word, given: Given, number: Decimal) -> Dec
     return answer.claim.lexicon.value(one, answer.unit) or Decimal(1)
 
 
+WIDE = 256
+"""Intervals that have a number of one byte."""
+
+SAME = 1e-12
+"""What two limits may differ by that are one, as a share of them."""
+
+
 class WordLimits(Struct, frozen=True):
     """The mm or degrees for each unit of a word, and the limits of the rules for its values so scaled."""
 
@@ -83,18 +96,25 @@ class WordLimits(Struct, frozen=True):
         """How many intervals there are; a bound is an interval of its own."""
         return 2 * len(self.bounds) + 1
 
-    def intervals(self, values: Array) -> Codes:
+    def intervals(self, values: Array) -> NDArray[Any]:
         """The number of the interval in which each value lies."""
         limits, scaled = numpy.array(self.bounds), values * self.scale
         places = numpy.searchsorted(limits, scaled, "left") + numpy.searchsorted(limits, scaled, "right")
-        return places.astype(numpy.uint8)
+        return places.astype(numpy.uint8 if self.count <= WIDE else numpy.int64)
+
+    def bordered(self, value: float) -> "WordLimits":
+        """The same with one value of the word more as a limit."""
+        bound = value * self.scale
+        if any(abs(bound - each) <= SAME * max(1.0, abs(each)) for each in self.bounds):
+            return self
+        return WordLimits(self.scale, tuple(sorted((*self.bounds, bound))))
 
 
 def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimits]:
-    """The limits between which the values of each free word are treated alike. Raises FamilyError where those of two
-    words depend on each other."""
+    """The limits of the rules between which the values of each free word are treated alike. Raises FamilyError where
+    the rules compare two words."""
     answer = template.solve(values)
-    claim, tied = answer.claim, list[str]()
+    claim = answer.claim
     found: list[WordLimits] = []
     for name, word in template.words.items():
         limits = {Decimal(0), -Decimal(LARGEST), Decimal(LARGEST)}
@@ -107,19 +127,20 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
             raise FamilyError(f"{word.text} is no word of the contour")
         elif stated:
             one = factor_of(answer, word, stated[0], Decimal(repr(values[name])))
-        for given in stated:
-            if given.name in claim.limits:
-                limits.add(claim.limits[given.name])
-                tied.append(word.text)
-        if not stated and claim.limits and word.address != FACT:
-            tied.append(name)
         found.append(WordLimits(float(one or 1), tuple(sorted(map(float, limits)))))
     for first, second in _compared(template, claim):
         raise FamilyError(f"the control compares {first} and {second} with each other: vary one of them at a time")
-    if len(tied) > 1:
-        raise FamilyError(
-            f"{' and '.join(tied)} together say on which side of its centre the arc ends: vary one of them at a time"
-        )
+    return found
+
+
+def bordered(limits: Sequence[WordLimits], words: Sequence[str], borders: Iterable[Affine]) -> list[WordLimits]:
+    """The limits of words with those values besides at which one word alone decides how a block is read."""
+    found = list(limits)
+    for border in borders:
+        if len(border.factors) == 1:
+            ((word, factor),) = border.factors.items()
+            number = words.index(word)
+            found[number] = found[number].bordered(float(-border.constant / factor))
     return found
 
 
@@ -153,11 +174,13 @@ def limits_beside(rules: Sequence[Rule], claim: ParsedContour, word: Word) -> It
 
 
 class Example(Struct, frozen=True):
-    """A row of a class that the rules may tell apart: its key, its values, and how many rows have this key."""
+    """A row of a class that the rules or the reading may tell apart: its key, its values, and how many rows are in the
+    class. With `is_by_row`, every row of this key is read by itself, and those that are read alike are a class."""
 
     key: int
     values: tuple[float, ...]
     count: int
+    is_by_row: bool = False
 
 
 class Examples(Struct, frozen=True):
@@ -173,9 +196,62 @@ class Examples(Struct, frozen=True):
         return _key_of([limits.intervals(each)[at] for each, at, limits in words], self.limits)
 
 
+MOST_BY_ROW = 200_000
+"""Rows that are read one by one: some minutes."""
+
+
 def examples_of(template: Template, ranges: Ranges) -> Examples:
-    """A row for each set of intervals in which the values lie. Raises FamilyError."""
+    """A row of each class. What decides how a row is read divides the rows until none is left that is read in another
+    way than its example. Raises FamilyError."""
+    names, known = list(ranges.values), dict[tuple[float, ...], Reading]()
     limits = tuple(limits_of(template, {name: float(values[0]) for name, values in ranges.values.items()}))
+    while True:
+        found = _examples_between(limits, ranges)
+        for row in found.rows:
+            if row.values not in known:
+                known[row.values] = reading_of(template, dict(zip(names, row.values, strict=True)))
+        alike = (known[row.values] for row in found.rows)
+        borders = (border for each in alike if not each.is_by_row for border in each.borders)
+        more = tuple(bordered(limits, names, borders))
+        if more == limits:
+            break
+        limits = more
+    rows = [row for row in found.rows if not known[row.values].is_by_row]
+    rest = {row.key: row for row in found.rows if known[row.values].is_by_row}
+    rows += _kinds_of(template, ranges, found, rest) if rest else ()
+    return replace(found, rows=tuple(sorted(rows, key=lambda row: row.key)))
+
+
+def _kinds_of(template: Template, ranges: Ranges, found: Examples, rest: Mapping[int, Example]) -> Iterator[Example]:
+    """A row of each kind among the rows of some keys, which are read one by one. Raises FamilyError for too many."""
+    count = sum(row.count for row in rest.values())
+    if count > MOST_BY_ROW:
+        told = join([called(name) for name in ranges.values])
+        raise FamilyError(
+            f"each value of {told} decides how its row is read; these are {count:,} rows, read one by one; "
+            f"take at most {MOST_BY_ROW:,}"
+        )
+    names = list(ranges.values)
+    likes = {key: place_of_contour(template, dict(zip(names, row.values, strict=True))) for key, row in rest.items()}
+    kinds: dict[tuple[int, Alike], Example] = {}
+    for first, last in stretches(ranges.count, LONGEST):
+        part = ranges.rows(first, last)
+        keys = found.key(list(part.values.values()), [numpy.arange(last - first)] * len(names))
+        for row in numpy.flatnonzero(numpy.isin(keys, [*rest])).tolist():
+            key, values = int(keys[row]), {name: float(column[row]) for name, column in part.values.items()}
+            kind = key, read_alone(template, values, likes[key]).kind
+            before = kinds.get(kind) or Example(key, tuple(values.values()), 0, is_by_row=True)
+            kinds[kind] = replace(before, count=before.count + 1)
+    yield from kinds.values()
+
+
+def reading_of(template: Template, values: Mapping[str, float]) -> Reading:
+    """How the row of these values is read. Raises FamilyError as `Template.solve`."""
+    return trace_reading(template, values, template.solve(values))
+
+
+def _examples_between(limits: tuple[WordLimits, ...], ranges: Ranges) -> Examples:
+    """A row for each set of intervals in which the values lie."""
     if prod(each.count for each in limits) >= 2**63:
         raise FamilyError(f"{len(limits)} words are too many to vary at once")
     words = list(ranges.values.values())

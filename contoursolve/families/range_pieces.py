@@ -12,8 +12,8 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis.wording import value_text
-from contoursolve.families.branches import INSTEAD, Branch, branches_of
-from contoursolve.families.case_classes import CaseClass, FreeWords
+from contoursolve.families.branches import Branch, branches_of
+from contoursolve.families.case_classes import INSTEAD, CaseClass, FreeWords
 from contoursolve.families.spec import FamilyError, NotClosedError, Template
 from contoursolve.families.subdivision import FEW, SAMPLES, STRETCHES, STRETCHES_FIRST, section, subdivide
 from contoursolve.geometry import Unit
@@ -212,7 +212,7 @@ class RangeSearch(FreeWords):
 
     def pieces(self, low: float, high: float) -> list[RangePiece]:
         """The range in order: stretches, with the value between two of them wherever it may differ from both."""
-        marks = self.marks(0, low, high)
+        (marks,) = self.marks([(low, high)])
         cases = [self.case_at(self.stated if a < self.stated < b else (a + b) / 2) for a, b in pairwise(marks)]
         found = [self._value(low)]
         begin = low

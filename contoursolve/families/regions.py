@@ -128,7 +128,7 @@ class _RegionSearch(FreeWords):
             if kind is Unit.SIGN:
                 raise FamilyError(f"{template.words[word].text} has no range; name words that state lengths or angles")
         self.within = [self.limits_within(axis, each) for axis, each in enumerate(within)]
-        self.ticks = [self.marks(axis, *each) for axis, each in enumerate(self.within)]
+        self.ticks = self.marks(self.within)
         self.cases: dict[tuple[int, int], CaseClass] = {}
 
     def run(self, spec: SweepSpec, fixed: Mapping[str, float]) -> Region:

@@ -196,15 +196,13 @@ def _implicit(answer: Answer, words: Mapping[str, Word], *, is_twice_fine: bool)
     outputs = {name: output for name, (output, _) in results.items() if not name.endswith(".room")}
     rates = _implicit_rates(profile, solution, tuple(outputs.values()))
     names = {id(word): name for name, word in words.items()}
-    stated = [
-        (
-            given,
-            names.get(id(given.word)) or _fact_name(given, given.word, profile),
-            nan if given.name in tied else float(factor_of(answer, given.word, given, given.word.number or Decimal(0))),
-        )
-        for given in profile.givens.values()
-        if given.word is not None and given.unit is not Unit.SIGN
-    ]
+    stated = []
+    for given in profile.givens.values():
+        own = profile.givens[given.follows] if given.follows else given
+        if own.word is not None and given.unit is not Unit.SIGN:
+            name = names.get(id(own.word)) or _fact_name(own, own.word, profile)
+            factor = float(factor_of(answer, own.word, own, own.word.number or Decimal(0)))
+            stated.append((given, name, nan if given.name in tied else factor))
     return {name: _by_word(rates[output], stated, ()) for name, output in outputs.items()}
 
 

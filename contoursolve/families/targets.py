@@ -92,8 +92,8 @@ def place_of(name: str, contour: Contour | None) -> Point | None:
         return None
     if name == "end":
         return contour.end
-    if name in contour.points:
-        return contour.points[name]
+    if name in contour.places:
+        return contour.places[name]
     element, _, part = name.rpartition(".")
     for each in contour.elements:
         if each.name == element:

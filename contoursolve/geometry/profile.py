@@ -49,13 +49,15 @@ class Plane(Struct, frozen=True):
 class Given(Struct, frozen=True):
     """A value that the block states: `name` is its name in the equations, `value` is in mm (radius)
     or degrees. `word` is None for a value that the control supplies by itself. `is_diameter` tells that
-    the word is written as twice the value."""
+    the word is written as twice the value. `follows` is the name of another value from which the control makes it, by
+    adding the same whatever that is."""
 
     name: str
     value: Decimal
     unit: Unit
     word: Word | None
     is_diameter: bool = False
+    follows: str = ""
 
 
 class Question(Struct, frozen=True):

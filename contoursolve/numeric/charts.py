@@ -148,12 +148,12 @@ class Chart:
         symbols = [symbol(f"word {number}") for number in range(words)]
         added, inputs = dict[str, Any](), dict[str, Any]()
         for given, each in follows.items():
+            added[given] = symbol(given)
             if each.is_angle:
                 ((word, factor),) = each.words
-                turned = symbols[word] * (factor * pi / 180)
+                turned = (symbols[word] * factor + added[given]) * (pi / 180)
                 inputs |= {given + COSINE: cosine(turned), given + SINE: sine(turned)}
             else:
-                added[given] = symbol(given)
                 parts = [symbols[word] * factor for word, factor in each.words]
                 inputs[given] = reduce(add, parts) + added[given]
         stay, expressions = tape.replaced(inputs, outputs)

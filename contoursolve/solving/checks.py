@@ -226,7 +226,9 @@ def _check_step(source: Source, number: int, step: Step) -> Checks:
         yield Check(kind, subject, "", Test.APART, REGULAR, givens, is_doubtful=True), out(f"determinant:{number}")
         return
     if isinstance(step, DistanceStep):
-        yield Check(RefusalKind.CIRCLE_UNDEFINED, step.circle.center, "", Test.ABOVE, LENGTH), out(step.circle.radius)
+        # What is compared with a circle of no radius at all, a single solve tells.
+        kind, center = RefusalKind.CIRCLE_UNDEFINED, step.circle.center
+        yield Check(kind, center, "", Test.ABOVE, LENGTH, is_doubtful=True), out(step.circle.radius)
         return
     kind, is_half = RefusalKind.CIRCLE_MISSED, False
     if isinstance(step, TwoCirclesStep):

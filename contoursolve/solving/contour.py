@@ -74,6 +74,8 @@ class Contour(Shown):
     points: Mapping[str, Point]
     elements: tuple[Segment, ...]
     plane: Plane = field(compare=False)
+    places: Mapping[str, Point] = field(default_factory=dict, compare=False, repr=False)
+    """All points of its drawing, such as the centres of arcs and the virtual intersections at corners."""
 
     def table(self) -> list[dict[str, str | float | None]]:
         """A row for each element, as `pandas.DataFrame` takes them; None for what an element does not have.
@@ -196,7 +198,7 @@ def trace(profile: Profile, solution: Solution) -> Contour:
                 turn = Turn.CCW if built.turn > 0 else Turn.CW
                 here = add(ArcSegment(corner.name, here, built.end, built.center, built.radius, turn))
     shown = {name: points[name] for name in profile.figure.points if name in profile.intersections}
-    return Contour(start, here, shown, tuple(elements), profile.plane)
+    return Contour(start, here, shown, tuple(elements), profile.plane, points)
 
 
 def dropped_corners(profile: Profile, solution: Solution) -> Iterator[tuple[Corner, float]]:

@@ -226,10 +226,8 @@ def test_types_are_as_documented_and_reasons_have_names():
         (BLOCK, {"length of line 1": [180]}, "no fact says what length of line 1 is; there are none"),
         (BLOCK, {"start.U": [180]}, "the start point has no word U; its words are X, Z"),
         (BLOCK + " (contoursolve: length of line 1 = ?)", {"length of line 1": [1]}, "? is no number"),
-        ("G112 X100. K-30. I10. R20.", {"X": [1], "start.X": [1]}, "vary one of them at a time"),
         (BLOCK + "\n" + BLOCK, {"1:A": [180]}, "2 contours"),
         (BLOCK + "\n" + BLOCK, {"A": [180]}, "the block has 2 words A; write 1:A or 2:A"),
-        ("G112 X100. K-30. I10. R20.", {"X": [1], "I": [1]}, "vary one of them at a time"),
     ],
 )
 def test_what_makes_no_family_is_refused_with_its_reason(block, vary, message):

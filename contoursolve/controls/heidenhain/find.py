@@ -262,7 +262,8 @@ def _next_function(blocks: Sequence[Block], index: int) -> str:
 def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
     """What the blocks of a chain state."""
     members, numbers, labels = chain.members, _numbers(chain), _labels(chain)
-    tangents = dict(senses(chain.blocks, before, modes))
+    bends = any(member.function in TANGENT[2:] for member in members)
+    tangents = dict(senses(chain.blocks, before, modes)) if bends else {}
     for member in members:
         member.sense = tangents.get(member.block.line, 0)
     opening = next((n for n, each in enumerate(members, 1) if _sign_of(each.block, "CLSD") > 0), 0)
@@ -294,7 +295,7 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
             # The line goes on where CCA of the arc before ends, a quarter of a turn from that direction.
             quarter = 90 * elements[-2].turn.sign if elements[-2].turn else 0
             tangent = replace(own[TANGENCY], has_point=True)
-            given[ALONG] = replace(ended, value=ended.value + quarter, word=tangent)
+            given[ALONG] = replace(ended, value=ended.value + quarter, word=tangent, follows=ended.name)
         givens |= {prefix + name: replace(each, name=prefix + name) for name, each in given.items()}
         lasting |= {prefix + name for name in own if name in _NO_FACTS or name in element.touching}
         vocabulary |= {prefix + name: (name, member.index) for name in _may_state(member, own.keys())}

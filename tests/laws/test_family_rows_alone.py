@@ -1,0 +1,128 @@
+"""Every row of a family is what a single solve says of its block, whatever row stands first."""
+
+from collections import Counter
+from random import Random
+
+import numpy as np
+import pytest
+from examples import few_and_many
+from generate_families import BLOCKS, ROWS, draw
+
+from contoursolve import FamilyError, family, find_word, sensitivity, solve, tolerances
+from contoursolve.families import Code, feasible
+from contoursolve.families.spec import name_of, spec_of
+
+NEAR = 1e-7  # mm, or of the coordinate
+
+
+def alone(block, values, **options):
+    """What a single solve says of a block with these values in their places."""
+    return spec_of(block, [*values], **options).template().solve({name_of(word): each for word, each in values.items()})
+
+
+def difference(row, answer):
+    """By what a row differs from a single solve; empty if by nothing."""
+    status = Code(int(row["status"])).status
+    if status is not answer.status:
+        return f"{status}, alone {answer.status}"
+    if answer.contour is None:
+        return ""
+    places = {name: at for name, at in answer.contour.places.items() if name != answer.profile.figure.start}
+    for name, at in places.items():
+        for axis, value in zip(answer.plane.axes, at, strict=True):
+            if not abs(row[f"{name}.{axis}"] - value) <= NEAR * max(1, abs(value)):  # true for NaN
+                return f"{name}.{axis} is {row[f'{name}.{axis}']}, alone {value}"
+    return "" if row["residual"] <= NEAR else f"off by {row['residual']}"
+
+
+@pytest.mark.parametrize("form", BLOCKS)
+@few_and_many(4, 120)
+def test_every_row_is_what_a_single_solve_says(form, count):
+    wrong, seen, number = [], Counter(), 0
+    while seen["answered"] < count:
+        number += 1
+        asked = draw(Random(f"{form} {number}"), form)
+        options = {"control": asked.control} | ({} if asked.start is None else {"start": asked.start})
+        try:
+            found = family(asked.block, vary=asked.vary, paired=True, **options)
+        except FamilyError:
+            continue
+        seen["answered"] += 1
+        for row in range(ROWS):
+            answer = alone(asked.block, {word: each[row] for word, each in asked.vary.items()}, **options)
+            off = difference({name: found[name][row] for name in found.columns}, answer)
+            seen["solved"] += answer.contour is not None
+            wrong += [(asked, row, off)] if off else []
+    assert not wrong, wrong[0]
+    assert seen["solved"] >= count
+
+
+HANDED_ON = "FL AN+0 LEN20\nFCT DR+ R10 CCA+0\nFLT LEN10"
+TURNED = "G17 G90 G1 X18.169 Y18.888\nCT X43.512 Y24.063\nCT X62.863 Y26.403\nCT X98.566 Y12.069"
+KLARTEXT = {"control": "heidenhain", "start": "X0 Y0"}
+SINUMERIK = {"control": "siemens-840d", "start": "X0 Y0"}
+
+
+@pytest.mark.parametrize("order", [[30, 90], [90, 30], [0, 90, 30]])
+def test_the_direction_that_an_arc_hands_to_a_line_is_that_of_its_row(order):
+    found = family(HANDED_ON, vary={"2:CCA": order}, **KLARTEXT)
+    (at,) = np.flatnonzero(np.array(order) == 90)
+    assert (found["P3.X"][at], found["P3.Y"][at]) == pytest.approx((10, 20))
+
+
+def test_tangent_arcs_turn_to_the_side_of_their_row():
+    found = family(TURNED, vary={"2:Y": [24, 26, 28.8582, 30]}, **SINUMERIK)
+    assert found["status"].tolist() == [Code.SOLVED] * 4
+    assert found["r3"][2:] == pytest.approx([104.8299, 2589.4814], abs=5e-5)
+
+
+def test_a_start_that_moves_turns_an_arc_that_ends_on_the_other_side_of_its_centre():
+    block = "G112 X100. K-30. I10. R20."
+    found = family(block, vary={"X": [100, 60], "start.X": [80, 140]}, control="yasnac-lx3", start="X80. Z0.")
+    for row, (end, begin) in enumerate([(100, 80), (100, 140), (60, 80), (60, 140)]):
+        (answer,) = solve(block.replace("X100.", f"X{end}."), control="yasnac-lx3", start=f"X{begin}. Z0.").answers
+        assert Code(int(found["status"].ravel()[row])).status is answer.status
+
+
+def test_a_word_that_others_count_from_varies_with_them():
+    found = family("L X+3 Y+4\nRND R1\nFL IX20 IY0", vary={"start.X": [0, 1], "1:X": [3, 5]}, **KLARTEXT)
+    assert found["P2.X"].ravel() == pytest.approx([23, 25, 23, 25])
+
+
+def test_a_word_is_found_that_turns_what_stands_behind_it():
+    found = find_word(HANDED_ON, "2:CCA", "end X25", within=(10, 360), **KLARTEXT)
+    assert [hit.value for hit in found.hits] == pytest.approx([24.295189, 245.704811])
+    assert found.is_complete
+    near = find_word(HANDED_ON, "2:CCA", "end X25", within=(10, 60), **KLARTEXT)
+    assert [hit.value for hit in near.hits] == pytest.approx([24.295189])
+
+
+def test_a_centre_and_the_end_of_a_chain_are_points_that_a_word_brings_somewhere():
+    block = "FL AN+30 LEN20\nFCT DR- R10 CCA+30\nFLT LEN15"
+    (hit,) = find_word(block, "1:LEN", "C2 X25", **KLARTEXT).hits
+    assert hit.value == pytest.approx(20 / 3**0.5 * 2, abs=1e-9)
+    (hit,) = find_word(block, "3:LEN", "P3 X40", within=(1, 100), **KLARTEXT).hits
+    assert hit.point[0] == pytest.approx(40)
+
+
+def test_where_only_a_row_tells_which_way_an_arc_turns_no_range_is_told():
+    with pytest.raises(FamilyError, match=r"each value of Y of block 2 decides how the block is read; solve it value"):
+        feasible(TURNED, "2:Y", within=(20, 40), **SINUMERIK)
+
+
+def test_derivatives_by_a_direction_that_is_handed_on_count_all_that_it_turns():
+    block = "FL AN+30 LEN20\nFCT DR- R10 CCA+30\nFLT LEN15"
+    slopes = sensitivity(block, **KLARTEXT).slopes
+    assert set(slopes["P3.X"]) == {"AN", "1:LEN", "R", "CCA", "3:LEN"}
+    step = 1e-3
+    for word, (name, value) in {"CCA": ("2:CCA", 30), "AN": ("AN", 30), "R": ("R", 10)}.items():
+        low, high = (alone(block, {name: value + way * step}, **KLARTEXT).contour for way in (-1, 1))
+        for axis in (0, 1):
+            rate = (high.end[axis] - low.end[axis]) / (2 * step)
+            assert slopes[f"P3.{'XY'[axis]}"][word] == pytest.approx(rate, abs=1e-6)
+
+
+@pytest.mark.parametrize("point", ["P3", "C2", "end"])
+def test_tolerances_are_told_of_the_end_of_a_chain_and_of_centres(point):
+    found = tolerances("FL AN+30 LEN20\nFCT DR- R10 CCA+30\nFLT LEN15", {"R": 0.1}, point=point, **KLARTEXT)
+    assert found.spread[0].worst == pytest.approx({"P3": 0.136603, "end": 0.136603, "C2": 0.05}[point], abs=1e-6)
