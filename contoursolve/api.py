@@ -19,7 +19,8 @@ from contoursolve.gcode.contents import decode
 from contoursolve.gcode.files import ANY_TEXT, tape_in_memory
 from contoursolve.program.pipeline import Result, Run, run
 from contoursolve.program.project import configure, find_settings, restate_control, stated_settings
-from contoursolve.program.recognise import choose, find_dialect
+from contoursolve.program.readers import choose_alike
+from contoursolve.program.recognise import find_dialect
 from contoursolve.program.request import request_for
 from contoursolve.reading.dialect import Dialect
 
@@ -284,7 +285,6 @@ def follow_program(
     """The same as a stream of contours and findings, for a program of any length; `strict` as for `check`."""
     asked = request_for(
         program.name,
-        choose(control, program, settings),
         start=start,
         units=units,
         rules=rules,
@@ -294,6 +294,8 @@ def follow_program(
         folders=folders,
         strict=strict,
     )
+    dialect = choose_alike(control, program, asked, settings)
+    asked = asked if dialect is None else asked.of(dialect)
     together = None
     if asked.dialect is not None and len(program.blocks) >= _MANY:
         from contoursolve.program.batch import Batch  # noqa: PLC0415 - a few blocks are solved before it is imported
@@ -425,7 +427,7 @@ def convert(
         raise ConversionError(
             f"contours cannot be written in the words of {target.name}: its blocks are of another kind"
         )
-    dialect = choose(control, gcode.parse(text, name), settings)
+    dialect = choose_alike(control, gcode.parse(text, name), request_for(name, units=units, rules=rules), settings)
     if dialect is not None and machine_of(dialect) is not machine_of(target):
         kinds = f"{dialect.name} is a {machine_of(dialect).value}, {target.name} a {machine_of(target).value}"
         switches = (each.name for each in (dialect, target) if any(one.name == "machine" for one in each.settings))

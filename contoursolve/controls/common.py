@@ -376,12 +376,33 @@ READING_RULES = (
     ),
     Rule(
         code="control-unknown",
-        message="control not recognised; with --control {control}: {finding}",
+        message="control not recognised; {readings}",
         help="name the control by --control {control}, or in contoursolve.toml",
         source=_READING,
         about=ReadIssue.CONTROL_UNKNOWN,
         accepted=(_GOOD,),
         rejected=("G17 G90 G0 X0 Y0\nG1 X50 A30\nG1 X10 Y20",),
+    ),
+    Rule(
+        code="control-alike",
+        message="{controls} make the same contours of this program, read as one for {control}; --control names yours",
+        help="with yours by --control, or in contoursolve.toml, rules, alarms and fixes are its own",
+        source=_READING,
+        about=ReadIssue.CONTROL_ALIKE,
+        severity=Severity.INFO,
+        accepted=(_GOOD,),
+        rejected=("G00 X40. Z2.\nG01 Z0. F0.2\nX60. ,C2.\nZ-20.\nX70.",),
+    ),
+    Rule(
+        code="machine-taken",
+        message="X and Z move alone and no plane is selected: the program is read as one for a lathe, in G18; for a mill, "
+        "--set {setting}=mill",
+        help="write G18 into the program, or state {setting} in contoursolve.toml",
+        source=_READING,
+        about=ReadIssue.MACHINE_TAKEN,
+        severity=Severity.INFO,
+        accepted=(_GOOD, "G18 G90 DIAMON\nG0 X60 Z2\nG1 X40 F0.2\nZ-20 RND=2\nX52"),
+        rejected=("G90 DIAMON\nG0 X60 Z2\nG1 X40 F0.2\nZ-20 RND=2\nX52",),
     ),
 )
 

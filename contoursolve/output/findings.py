@@ -34,6 +34,8 @@ def effect_of(fix: Fix, finding: Diagnostic) -> str:
     return APPLICABILITY[fix.applicability]
 
 
+_CONCLUDED = (ReadIssue.CONTROL_ALIKE, ReadIssue.MACHINE_TAKEN)
+
 Piece = tuple[str, str]
 """A text and its role: error, warning, info, frame, bold, place (line and column of the program), or none."""
 
@@ -71,13 +73,17 @@ def finding_pieces(
 ) -> list[list[Piece]]:
     """The same lines, each as the pieces that a style may set apart."""
     role = finding.severity.value
+    heading: list[Piece] = [(f"{role}[{finding.code}]", role), (f": {finding.message}", "bold")]
+    if finding.about in _CONCLUDED and not is_explained:
+        # It is about no place in the program.
+        return [[(printable(text), kind) for text, kind in heading], []]
     gutter = max((len(_margin(label.span.line)) for label in finding.labels), default=1)
     bar: list[Piece] = [(" " * (gutter + 1), ""), ("|", "frame")]
     place = f"{printable(name)}:{finding.span.line}:{finding.span.column}"
     if finding.span.line <= 0:
         place = f"{_margin(finding.span.line)}:{finding.span.column}"
     lines: list[list[Piece]] = [
-        [(f"{role}[{finding.code}]", role), (f": {finding.message}", "bold")],
+        heading,
         [(" " * gutter, ""), ("-->", "frame"), (" ", ""), (place, "place")],
         bar,
     ]

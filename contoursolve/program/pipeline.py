@@ -22,7 +22,7 @@ from contoursolve.diagnosis.spelling import (
     explain_words,
     respelled,
 )
-from contoursolve.diagnosis.wording import either
+from contoursolve.diagnosis.wording import either, join
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.errors import ProgramError
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
@@ -170,6 +170,8 @@ class Run:
         if own is not None and not self.is_strict and begins_for_another(program.blocks, own):
             yield examiner.nothing_to_solve(program.blocks)
             return
+        if own is not None:
+            yield from examiner.conclusions(program.blocks)
         for step in self._steps():
             is_told = is_told or any(each.is_error for each in step.findings)
             yield from step.findings
@@ -622,7 +624,11 @@ class Examiner:
                 for slip in self._slips_as(dialect, looked_at):
                     context = Context(self.rules, self.asked.unit, place=slip.span)
                     row = context.row(ReadIssue.CONTROL_UNKNOWN)
-                    return report(context, row, Basis.RULE, [], control=name, finding=slip.message)
+                    readers = self._taking(slip.span, looked_at)
+                    word = looked_at[slip.span.line - 1].text[slip.span.column - 1 : slip.span.end_column - 1]
+                    taken = f"with {join(readers)}, {word} is a word of a contour; " if readers else ""
+                    told = f"{taken}with --control {name}: {slip.message}"
+                    return report(context, row, Basis.RULE, [], control="|".join([*readers, name]), readings=told)
         controls = (self.dialect,) if self.dialect else DIALECTS.values()
         triggers = [f"of {each.name}: {each.contours}" for each in controls]
         shown = (
@@ -644,6 +650,23 @@ class Examiner:
         finding = report(context, row, Basis.RULE, [], triggers="; ".join(triggers))
         slight = Severity.WARNING if self.outside.is_strict else Severity.INFO
         return replace(finding, notes=tuple(notes)) if notes else replace(finding, severity=slight)
+
+    def _taking(self, place: Span, blocks: Sequence[Block]) -> list[str]:
+        """The controls for which the word at a place belongs to a contour."""
+        return [
+            name
+            for name, each in DIALECTS.items()
+            for claim, _ in contours_of(blocks, each.find, each.modes, each.initial_state(self.asked.unit))
+            if any(word.span == place for word in claim.words.values())
+        ]
+
+    def conclusions(self, blocks: Iterable[Block]) -> Iterator[Diagnostic]:
+        """What was concluded about the control, at the first block that shows it."""
+        own = cast("Dialect", self.dialect)
+        place = next((block.span for block in blocks if own.signs(block)), Span(1, 1, 2)) if own.taken else None
+        for each in own.taken:
+            context = Context(self.rules, self.asked.unit, place=cast("Span", place))
+            yield report(context, each.about, Basis.RULE, [], **each.fields)
 
     def _slips_as(self, dialect: Dialect, blocks: Sequence[Block]) -> Iterator[Diagnostic]:
         """The words that make a contour for a control with their comma, in the first lines of a program."""

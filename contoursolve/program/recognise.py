@@ -1,15 +1,17 @@
 """For which control a program is: as its name says, or as its blocks show."""
 
+import re
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from dataclasses import replace
 from itertools import islice
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.wording import either, join
 from contoursolve.diagnostics.errors import ProgramError
-from contoursolve.gcode import Block, Program, Word
+from contoursolve.gcode import Block, Program, Syntax, Word
 from contoursolve.program.project import CONTROL, FIRST_LINES, check_settings, configure, stated_settings
-from contoursolve.reading import plain_lines, words_of
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import ReadIssue, plain_lines, words_of
+from contoursolve.reading.dialect import Dialect, Taken
 
 
 class UnknownControlError(ProgramError, ValueError):
@@ -18,6 +20,10 @@ class UnknownControlError(ProgramError, ValueError):
     def __init__(self, message: str, choices: Iterable[str] = DIALECTS) -> None:
         super().__init__(message)
         self.choices = tuple(choices)
+
+
+class SeveralControlsError(UnknownControlError):
+    """Words of a program are those of several controls: `choices`, which may read it alike."""
 
 
 def choose(
@@ -40,7 +46,48 @@ def choose(
     if found is None:
         check_settings(own)
         return None
-    return configure(found, own)
+    configured = configure(found, own)
+    return (
+        configured
+        if isinstance(control, Dialect)
+        else for_machine(configured, own, (block.text for block in program.blocks))
+    )
+
+
+def for_machine(dialect: Dialect, settings: Mapping[str, str], lines: Iterable[str]) -> Dialect:
+    """A control that is on mills and on lathes, for the kind of machine that a program is for, if nothing states it: a
+    lathe where X and Z move alone and no plane is selected."""
+    name = f"{dialect.name}.{_MACHINE}"
+    if (
+        name in settings
+        or all(each.name != _MACHINE for each in dialect.settings)
+        or not _is_turned(lines, dialect.modes.syntax)
+    ):
+        return dialect
+    turned = configure(dialect, {name: "lathe"})
+    return replace(turned, taken=(*turned.taken, Taken(ReadIssue.MACHINE_TAKEN, {"setting": name})))
+
+
+def _is_turned(lines: Iterable[str], syntax: Syntax) -> bool:
+    """Whether X and Z move, no line has Y, and none selects a plane."""
+    axes = set[str]()
+    for line in lines:
+        shown = shown_of_machine(line, syntax)
+        if shown & _OF_NO_LATHE:
+            return False
+        axes |= shown
+    return axes == {"X", "Z"}
+
+
+def shown_of_machine(line: str, syntax: Syntax) -> frozenset[str]:
+    """The axes of a line, and the codes of planes, as far as it may show for which kind of machine a program is."""
+    found = _OF_MACHINE.findall(syntax.comment.sub(" ", line)) if _OF_MACHINE.search(line) else ()
+    return frozenset(each.upper().replace("G0", "G") for each in found)
+
+
+_MACHINE = "machine"
+_OF_MACHINE = re.compile(r"(?<![A-Z0-9_$.\[,])(?:[XYZ](?=\s*[-+.=\d])|G0?1[789](?!\d))", re.IGNORECASE)
+_OF_NO_LATHE = frozenset({"Y", "G17", "G18", "G19"})
 
 
 def named_control(control: str | Dialect | None, settings: Mapping[str, str] | None) -> Dialect | None:
@@ -134,7 +181,8 @@ class Recogniser:
         if len(fitting) == 1 and (fitting == [*self._own] or not self._own):
             return DIALECTS[fitting[0]]
         if self.signs:
-            raise several_controls({name: self.signs[name] for name in (not self._own and fitting) or self.signs})
+            shown = {name: self.signs[name] for name in (not self._own and fitting) or self.signs}
+            raise several_controls(shown, SeveralControlsError if shown.keys() <= {*fitting} else UnknownControlError)
         return None
 
     def _fits(self, dialect: Dialect) -> bool:
@@ -175,6 +223,29 @@ def recognise(blocks: Iterable[Block]) -> Dialect | None:
     return recogniser.find()
 
 
+def turned_with_corners(blocks: Iterable[Block]) -> tuple[str, ...]:
+    """The lathes whose programs a program may be that shows no control, as it has I, K or R beside the only axis of a
+    line: there they make a corner."""
+    motion, has_corners, axes = -1, False, set[str]()
+    for block in blocks:
+        stated = {word.address for word in block.words}
+        codes = [int(word.number) for word in block.words if word.address == "G" and word.number is not None]
+        motion = next((code for code in codes if code in _MOTIONS), -1 if _CYCLES.intersection(codes) else motion)
+        if "Y" in stated or _PLANES_OF_A_MILL.intersection(codes):
+            return ()
+        moved = {_TURNED[address] for address in stated & _TURNED.keys()}
+        axes |= moved
+        has_corners |= motion == 1 and len(moved) == 1 and bool(stated & _CORNERS_WITHOUT_COMMA)
+    is_turned = has_corners and axes == {*_TURNED.values()}
+    return tuple(name for name, each in DIALECTS.items() if is_turned and any(each.plane.diameters))
+
+
+_CORNERS_WITHOUT_COMMA = frozenset("IKR")
+_MOTIONS, _PLANES_OF_A_MILL = range(4), frozenset({17, 19})
+_CYCLES = frozenset({*range(32, 36), *range(65, 68), *range(70, 95)})
+"""Codes in whose blocks, and behind them, I, K and R mean something else."""
+
+
 def begun_by(block: Block) -> Dialect | None:
     """The control whose programs alone begin with such a line."""
     return next((each for each in DIALECTS.values() if _begins(each.signs(block))), None)
@@ -189,7 +260,9 @@ def _begins(words: Sequence[Word]) -> bool:
     return bool(words) and words[0].address == _BEGIN
 
 
-def several_controls(signs: Mapping[str, str]) -> UnknownControlError:
+def several_controls(
+    signs: Mapping[str, str], kind: type[UnknownControlError] = UnknownControlError
+) -> UnknownControlError:
     """That blocks show more than one control; `signs` say what shows each."""
     by_sign: dict[str, list[str]] = {}
     for name in DIALECTS:
@@ -197,7 +270,7 @@ def several_controls(signs: Mapping[str, str]) -> UnknownControlError:
             by_sign.setdefault(signs[name], []).append(name)
     places = "; ".join(f"{either(names)} by {sign}" for sign, names in by_sign.items())
     reads = "; ".join(f"{name} has {DIALECTS[name].contours}" for name in DIALECTS if name in signs)
-    return UnknownControlError(
+    return kind(
         f"the program looks like more than one control ({places}); {reads}",
         [name for name in DIALECTS if name in signs],
     )

@@ -3,6 +3,8 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from msgspec import Struct
+
 from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane
@@ -10,6 +12,7 @@ from contoursolve.reading.contour_form import Assumption, ContourForm, Setting
 from contoursolve.reading.follow import Finder
 from contoursolve.reading.lexicon import Diameter
 from contoursolve.reading.modal_state import Modes, Position, State, with_diameters
+from contoursolve.reading.parsed_contour import ReadIssue
 from contoursolve.reading.rules import Rule
 from contoursolve.reading.writer import Writing
 
@@ -21,6 +24,13 @@ def _unchanged(dialect: "Dialect") -> "Dialect":
 Follower = Callable[..., Iterator[Diagnostic]]
 """(name of the form, path or None, what gives the state behind it, lines behind it with their numbers, context of
 messages, modes) to the findings about the block behind a contour."""
+
+
+class Taken(Struct, frozen=True):
+    """Something about its control that was concluded from a program: of which kind, and what its reader is told."""
+
+    about: ReadIssue
+    fields: Mapping[str, str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +82,8 @@ class Dialect:
     """What is wrong with the block behind a contour, though it is no part of it."""
     writing: Writing | None = None
     """How its programs are written, where it is not programmed in G codes."""
+    taken: "tuple[Taken, ...]" = ()
+    """What was concluded from the program at hand, where that does not say it."""
 
     @property
     def assumptions(self) -> tuple[Assumption, ...]:

@@ -42,6 +42,8 @@ class ReadIssue(Enum):
     SKIPPABLE_START = "skippable-start"
     NO_CONTOUR = "no-contour"
     CONTROL_UNKNOWN = "control-unknown"
+    CONTROL_ALIKE = "control-alike"
+    MACHINE_TAKEN = "machine-taken"
     TEXT_OUTSIDE = "text-outside"
     UNDERDETERMINED = "underdetermined"
     CORNER_TWICE = "corner-twice"

@@ -1,0 +1,130 @@
+"""For which control a program is where its words are those of several: whether all that read them read them alike."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from itertools import zip_longest
+
+from msgspec import Struct
+from msgspec.structs import replace as replace_fields
+
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis.examine import Answer, Depth
+from contoursolve.diagnosis.wording import coordinates, either, join
+from contoursolve.gcode import Block, Program
+from contoursolve.program.pipeline import run
+from contoursolve.program.project import configure, stated_settings
+from contoursolve.program.recognise import (
+    SeveralControlsError,
+    UnknownControlError,
+    choose,
+    turned_with_corners,
+)
+from contoursolve.program.request import Request
+from contoursolve.reading import ReadIssue
+from contoursolve.reading.dialect import Dialect, Taken
+from contoursolve.tolerance import ERROR_BOUND_WARNING
+
+
+class _Outcome(Struct, frozen=True):
+    """What a control makes of one contour: its lines, its status, the points of its path, and what a reader is told."""
+
+    lines: tuple[int, ...]
+    status: str
+    path: tuple[float, ...]
+    told: str
+
+    def agrees(self, other: "_Outcome | None") -> bool:
+        """Whether another control makes the same of it."""
+        if other is None or (self.lines, self.status, len(self.path)) != (other.lines, other.status, len(other.path)):
+            return False
+        return all(abs(one - two) <= ERROR_BOUND_WARNING for one, two in zip(self.path, other.path, strict=True))
+
+
+class _Reading(Struct, frozen=True):
+    """What a control makes of a program: its contours, and the places of the words that they take."""
+
+    outcomes: tuple[_Outcome, ...]
+    words: frozenset[tuple[int, int]]
+
+
+def choose_alike(
+    control: str | Dialect | None,
+    program: Program,
+    asked: Request,
+    settings: Mapping[str, str] | None = None,
+    recognise_by: Callable[[Iterable[Block]], Dialect | None] | None = None,
+) -> Dialect | None:
+    """The control as `choose` finds it, or else the first of those that have the words of a program and read it alike;
+    the others are told by it (`Dialect.taken`). `asked` says from where and how the program is examined.
+
+    Raises UnknownControlError, which tells what they read differently, and SettingError.
+    """
+    try:
+        found = choose(control, program, settings, recognise_by)
+    except SeveralControlsError as error:
+        names, several = error.choices, error
+    else:
+        names, several = turned_with_corners(program.blocks) if found is None else (), None
+        if not names:
+            return found
+    own = stated_settings(block.text for block in program.blocks) | dict(settings or {})
+    readings = {name: _read(program, configure(DIALECTS[name], own), asked) for name in names}
+    readers = _readers_of_all(readings)
+    if not readers:
+        if several is None:
+            return None
+        raise several
+    first, *others = readers
+    for contour in zip_longest(*(readings[name].outcomes for name in readers)):
+        if not _is_alike(contour):
+            raise UnknownControlError(_differences(dict(zip(readers, contour, strict=True)), several), readers)
+    own_dialect = configure(DIALECTS[first], own)
+    if not others:
+        return own_dialect
+    alike = Taken(ReadIssue.CONTROL_ALIKE, {"controls": join(readers), "control": first})
+    return replace(own_dialect, taken=(*own_dialect.taken, alike))
+
+
+def _read(program: Program, dialect: Dialect, asked: Request) -> _Reading:
+    """What a control makes of a program."""
+    found = run(program, replace_fields(asked.of(dialect), depth=Depth.VERDICT)).answers
+    words = (word for answer in found for word in answer.claim.words.values())
+    return _Reading(tuple(map(_outcome, found)), frozenset((word.span.line, word.span.column) for word in words))
+
+
+def _outcome(answer: Answer) -> _Outcome:
+    contour = answer.contour
+    if contour is None:
+        told = next((each.message for each in answer.diagnostics if each.is_error), answer.status.value)
+        return _Outcome(answer.lines, answer.status.value, (), told)
+    places = [at for each in contour.elements for at in (each.start, each.end, getattr(each, "center", each.end))]
+    told = f"ends at {coordinates(contour.end, answer.plane, answer.unit)}"
+    path = tuple(value for place in (*places, contour.end) for value in place)
+    return _Outcome(answer.lines, answer.status.value, path, told)
+
+
+def _readers_of_all(readings: Mapping[str, _Reading]) -> list[str]:
+    """The controls that take every word of contours that any of them takes; if there is none, all that take some."""
+    taking = {name: each for name, each in readings.items() if each.outcomes}
+    most = frozenset[tuple[int, int]]().union(*(each.words for each in taking.values()))
+    return [name for name, each in taking.items() if each.words == most] or [*taking]
+
+
+def _is_alike(contour: Sequence[_Outcome | None]) -> bool:
+    first, *others = contour
+    return first is not None and all(first.agrees(each) for each in others)
+
+
+def _differences(contour: Mapping[str, _Outcome | None], several: UnknownControlError | None) -> str:
+    """That controls read a contour differently, and what each makes of it."""
+    groups: list[tuple[_Outcome | None, list[str]]] = []
+    for name, each in contour.items():
+        own = next((names for one, names in groups if one is each or (one and one.agrees(each))), None)
+        if own is None:
+            groups.append((each, own := []))
+        own.append(name)
+    lines = min(each.lines for each in contour.values() if each is not None)
+    where = f"program line {lines[0]}" if len(lines) == 1 else f"program lines {lines[0]} to {lines[-1]}"
+    shown = "does not show its control" if several is None else f"fits {either([*contour])}"
+    told = "; ".join(f"{join(names)}: {'no contour there' if each is None else each.told}" for each, names in groups)
+    return f"the program {shown}, and {where} would not be the same ({told})"
