@@ -24,7 +24,7 @@ from contoursolve.gcode import Program
 from contoursolve.geometry import Length
 from contoursolve.program.pipeline import Result, run
 from contoursolve.program.project import CONTROL, configure
-from contoursolve.program.recognise import recognise
+from contoursolve.program.readers import choose_alike
 from contoursolve.program.request import request_for
 from contoursolve.reading import ReadIssue
 from contoursolve.reading.dialect import Dialect
@@ -140,9 +140,10 @@ def _dialect_of(
         settings = settings_of(program, assignments)
         name = control or settings.get(CONTROL)
         named = {**DIALECTS, **PLAIN}[name] if isinstance(name, str) else name
-        dialect = named or recognise(program.blocks) or otherwise
+        shown = None if named else choose_alike(None, program, request_for(program.name), settings)
+        dialect = named or shown or otherwise
         if dialect is not None:
-            return configure(dialect, settings)
+            return shown or configure(dialect, settings)
     choices = "|".join(_ANY_CONTROL)
     raise CouldNotRunError(f"{program.name}: no block shows the control; say which with --control {choices}")
 

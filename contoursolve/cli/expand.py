@@ -338,6 +338,8 @@ def report_told(summary: Summary, post: Post) -> None:
 
 def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
     """What was done, and what is left to do, on standard error."""
+    for finding in summary.concluded:
+        say(f"{style('info', 'info')}[{finding.code}]: {finding.message}", err=True)
     for finding in summary.warned:
         place = (
             f"line {finding.span.line}" if finding.span.line > 0 else "--start" if not finding.span.line else "--fact"

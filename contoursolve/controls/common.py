@@ -385,8 +385,8 @@ READING_RULES = (
     ),
     Rule(
         code="control-alike",
-        message="{controls} make the same contours of this program, read as one for {control}; --control names yours",
-        help="with yours by --control, or in contoursolve.toml, rules, alarms and fixes are its own",
+        message="{controls} read this program alike: its findings are those of {control}; --control names yours",
+        help="name your control by --control or in contoursolve.toml: rules, alarms and fixes are then its own",
         source=_READING,
         about=ReadIssue.CONTROL_ALIKE,
         severity=Severity.INFO,
@@ -395,8 +395,8 @@ READING_RULES = (
     ),
     Rule(
         code="machine-taken",
-        message="X and Z move alone and no plane is selected: the program is read as one for a lathe, in G18; for a mill, "
-        "--set {setting}=mill",
+        message="X and Z move alone and no plane is selected: the program is read as one for a lathe, in G18; "
+        "for a mill, --set {setting}=mill",
         help="write G18 into the program, or state {setting} in contoursolve.toml",
         source=_READING,
         about=ReadIssue.MACHINE_TAKEN,

@@ -18,7 +18,6 @@ SOURCE = "contoursolve"
 CONTROL_UNKNOWN, MORE = "control-unknown", "more-findings"
 SAFE = "safe"
 
-_SEVERAL = "the program looks like"
 _ADVICE = "; choose one in the editor's settings, or name it in a comment: (contoursolve control: NAME)"
 LONGEST_TITLE = 160
 
@@ -29,7 +28,8 @@ MOST_FINDINGS = 500
 def diagnostics_of(opened: Opened) -> list[types.Diagnostic]:
     """All findings about an open program."""
     place, warns = opened.places.whole(1, 1), types.DiagnosticSeverity.Warning
-    told = (f"{each}{_ADVICE if each.startswith(_SEVERAL) else ''}" for each in opened.troubles)
+    asked = opened.program.trouble if opened.program.is_ambiguous else ""
+    told = (f"{each}{_ADVICE if each == asked else ''}" for each in opened.troubles)
     troubles = [types.Diagnostic(place, each, warns, CONTROL_UNKNOWN, source=SOURCE) for each in told]
     if opened.program.trouble:
         return troubles

@@ -52,6 +52,8 @@ class Summary(Struct):
     """The first of them."""
     deviation: float = 0.0
     left: list[Left] = field(default_factory=list)
+    concluded: list[Diagnostic] = field(default_factory=list)
+    """What was concluded about the control, where the program does not say it."""
     unfamiliar: list[Unfamiliar] = field(default_factory=list)
     restated: int = 0
     """Blocks outside contours that were written in G codes, where the program is in other words."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from typing import IO, Any, Protocol
 
 from msgspec import Struct
@@ -16,8 +17,10 @@ from contoursolve.postprocess.expansion_report import Left, Options, Summary, le
 from contoursolve.postprocess.numbering import numbers_of
 from contoursolve.postprocess.post_processors import Numbering
 from contoursolve.program.lines import Lines
+from contoursolve.program.pipeline import Examiner
 from contoursolve.program.project import check_settings, configure
-from contoursolve.program.recognise import Recogniser, named_control
+from contoursolve.program.readers import choose_alike
+from contoursolve.program.recognise import Recogniser, SeveralControlsError, for_machine, named_control
 from contoursolve.program.request import Request
 from contoursolve.reading.dialect import Dialect
 
@@ -76,8 +79,11 @@ def rewrite(
     """
     unread: list[Left] = []
     recogniser = Recogniser()
-    named = named_control(control, settings)
-    dialect = named or _recognise(recogniser, _blocks(tape, unread))
+    named, dialect = named_control(control, settings), None
+    with suppress(SeveralControlsError):
+        dialect = named or _recognise(recogniser, _blocks(tape, unread))
+    if dialect is None and (recogniser.signs or recogniser.may_turn):
+        dialect = choose_alike(None, parse(tape.read(), tape.name), asked, settings)
     summary = Summary()
     body.write(tape.mark)
     if dialect is None:
@@ -86,7 +92,10 @@ def rewrite(
         lines: Iterable[str | object] = tape.lines()
     else:
         dialect = configure(dialect, settings)
+        if not isinstance(control, Dialect):
+            dialect = for_machine(dialect, settings or {}, tape.lines())
         asked = asked.of(dialect)
+        summary.concluded += Examiner(asked).conclusions(())
         places = lines_of_facts(parse(tape.read(), tape.name), asked) if asked.facts else {}
         is_certain = bool(named or recogniser.begun) or not recogniser.is_sure
         lines = expand_lines(

@@ -33,10 +33,20 @@ from contoursolve.geometry import Length, Plane
 from contoursolve.program.outside import Outside
 from contoursolve.program.pipeline import Checkpoint, Examiner, Result, run
 from contoursolve.program.project import CONTROL, FIRST_LINES, SettingError, stated_settings
-from contoursolve.program.recognise import PLANE, Recogniser, UnknownControlError, choose, shown_by
+from contoursolve.program.readers import choose_alike
+from contoursolve.program.recognise import (
+    PLANE,
+    TURNED_AXES,
+    Recogniser,
+    UnknownControlError,
+    may_make_corner,
+    shown_by,
+    shown_of_machine,
+)
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Step
 from contoursolve.program.tape_markers import Marks
+from contoursolve.reading import ReadIssue
 from contoursolve.reading.dialect import Dialect
 
 Place = tuple[int, int]
@@ -168,6 +178,8 @@ class OpenProgram:
         """Whether a comment in the program states it."""
         self.trouble = ""
         """Why the control cannot be told, if it cannot."""
+        self.is_ambiguous = False
+        """Whether that is because the program may be for several."""
         self._control, self._settings = control, dict(settings or {})
         self._asked = Request(None, choice_of(Length, units, "units"), choice_of(Policy, rules, "rules"))
         self._lines = _Lines(_split(text))
@@ -253,7 +265,7 @@ class OpenProgram:
         old = self.dialect
         # Where blocks show several controls, the reason names their lines.
         is_shown = self._shows_something_else(gone, new)
-        if first < FIRST_LINES or self.trouble or is_shown:
+        if first < FIRST_LINES or self.trouble or is_shown or self._concludes_otherwise([*gone, *new]):
             self._choose()
         is_run = self.dialect is not None and (
             self._examiner is None or needs_running(new, self.dialect.modes.language)
@@ -278,17 +290,28 @@ class OpenProgram:
         is_ordered = PLANE in before and taken != given
         return is_ordered or before != {each for each, count in self._shown.items() if count}
 
+    def _concludes_otherwise(self, changed: Sequence[str]) -> bool:
+        """Whether something else may be concluded about the control, now that these lines are gone or have come."""
+        if self.dialect is None:
+            return any(map(may_make_corner, changed))
+        syntax = self.dialect.modes.syntax
+        is_alike = any(each.about is ReadIssue.CONTROL_ALIKE for each in self.dialect.taken)
+        return is_alike or any(shown_of_machine(line, syntax) - TURNED_AXES for line in changed)
+
     def _choose(self) -> None:
         """Find the control."""
         text = self.text
-        self.trouble, self.is_stated, self._shown = "", False, None
+        self.trouble, self.is_ambiguous, self.is_stated, self._shown = "", False, False, None
         try:
             program = Program(self.name, text, Blocks(text, 1, ISO))
             stated = stated_settings(self._lines.texts)
             self.is_stated = CONTROL in stated
-            self.dialect = choose(self._control, program, self._settings | stated, self._recognise)
+            settings = self._settings | stated
+            self.dialect = choose_alike(self._control, program, self._asked, settings, self._recognise)
         except (UnknownControlError, SettingError) as error:
             self.dialect, self.trouble = None, str(error)
+            named = {self._control, self._settings.get(CONTROL)} - {None}
+            self.is_ambiguous = isinstance(error, UnknownControlError) and not named
 
     def _recognise(self, blocks: Iterable[Block]) -> Dialect | None:
         """The control that blocks show, as `recognise` does; it is kept what they show."""
@@ -406,6 +429,8 @@ class OpenProgram:
 
     def found(self) -> Iterator[tuple[Diagnostic, tuple[int, ...]]]:
         """Each finding, with the lines that its fixes replace."""
+        if self._examiner is not None:
+            yield from ((each, (each.span.line,)) for each in self._examiner.conclusions(self._lines))
         if self._examiner is None:
             whole = self._whole()
             yield from ((finding, whole.lines_of(finding)) for finding in whole.diagnostics)

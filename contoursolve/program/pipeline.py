@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from functools import partial
 from itertools import islice
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from msgspec import Struct, field
 from msgspec.structs import replace
@@ -652,10 +652,12 @@ class Examiner:
         return replace(finding, notes=tuple(notes)) if notes else replace(finding, severity=slight)
 
     def _taking(self, place: Span, blocks: Sequence[Block]) -> list[str]:
-        """The controls for which the word at a place belongs to a contour."""
+        """The controls that have the axes of a program and for which the word at a place belongs to a contour."""
+        axes = {word.address for block in blocks for word in block.words} & {*"XYZ"}
         return [
             name
             for name, each in DIALECTS.items()
+            if axes <= each.modes.lexicon.addresses.keys()
             for claim, _ in contours_of(blocks, each.find, each.modes, each.initial_state(self.asked.unit))
             if any(word.span == place for word in claim.words.values())
         ]
@@ -666,7 +668,7 @@ class Examiner:
         place = next((block.span for block in blocks if own.signs(block)), Span(1, 1, 2)) if own.taken else None
         for each in own.taken:
             context = Context(self.rules, self.asked.unit, place=cast("Span", place))
-            yield report(context, each.about, Basis.RULE, [], **each.fields)
+            yield report(context, each.about, Basis.RULE, [], **cast("dict[str, Any]", each.fields))
 
     def _slips_as(self, dialect: Dialect, blocks: Sequence[Block]) -> Iterator[Diagnostic]:
         """The words that make a contour for a control with their comma, in the first lines of a program."""

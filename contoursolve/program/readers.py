@@ -59,12 +59,13 @@ def choose_alike(
 
     Raises UnknownControlError, which tells what they read differently, and SettingError.
     """
+    several: SeveralControlsError | None = None
     try:
         found = choose(control, program, settings, recognise_by)
     except SeveralControlsError as error:
         names, several = error.choices, error
     else:
-        names, several = turned_with_corners(program.blocks) if found is None else (), None
+        names = turned_with_corners(program.blocks) if found is None else ()
         if not names:
             return found
     own = stated_settings(block.text for block in program.blocks) | dict(settings or {})

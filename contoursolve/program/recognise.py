@@ -76,7 +76,7 @@ def _is_turned(lines: Iterable[str], syntax: Syntax) -> bool:
         if shown & _OF_NO_LATHE:
             return False
         axes |= shown
-    return axes == {"X", "Z"}
+    return axes == TURNED_AXES
 
 
 def shown_of_machine(line: str, syntax: Syntax) -> frozenset[str]:
@@ -87,6 +87,9 @@ def shown_of_machine(line: str, syntax: Syntax) -> frozenset[str]:
 
 _MACHINE = "machine"
 _OF_MACHINE = re.compile(r"(?<![A-Z0-9_$.\[,])(?:[XYZ](?=\s*[-+.=\d])|G0?1[789](?!\d))", re.IGNORECASE)
+TURNED_AXES = frozenset({"X", "Z"})
+"""The axes of a lathe."""
+
 _OF_NO_LATHE = frozenset({"Y", "G17", "G18", "G19"})
 
 
@@ -169,6 +172,11 @@ class Recogniser:
         self._is_turned |= _CORNER_ON_Z in shown and PLANE not in self._shown
 
     @property
+    def may_turn(self) -> bool:
+        """Whether it may be the program of a lathe, though no word shows a control."""
+        return self._shown >= {*_TURNED.values()} and _MILLED not in self._shown
+
+    @property
     def is_sure(self) -> bool:
         """Whether a word that only one control has showed it."""
         return bool(self._own)
@@ -238,6 +246,11 @@ def turned_with_corners(blocks: Iterable[Block]) -> tuple[str, ...]:
         has_corners |= motion == 1 and len(moved) == 1 and bool(stated & _CORNERS_WITHOUT_COMMA)
     is_turned = has_corners and axes == {*_TURNED.values()}
     return tuple(name for name, each in DIALECTS.items() if is_turned and any(each.plane.diameters))
+
+
+def may_make_corner(line: str) -> bool:
+    """Whether a line has a letter that may make a corner without a comma."""
+    return not _CORNERS_WITHOUT_COMMA.isdisjoint(line.upper())
 
 
 _CORNERS_WITHOUT_COMMA = frozenset("IKR")

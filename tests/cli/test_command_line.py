@@ -544,7 +544,9 @@ def test_a_program_that_only_looks_as_if_it_had_a_contour_could_not_be_examined(
     assert "program.nc: no contour block, nothing to solve" in output
     status, output, _ = run(command, save("G17 G90 G0 X0 Y0\nG1 X50 A30\nG1 X10 Y20\n"))
     assert (status, output.startswith("error[control-unknown]")) == (2, True)
-    assert "control not recognised; with --control nct-99m: A30 has no comma" in output
+    assert (
+        "control not recognised; with mitsubishi, A30 is a word of a contour; with --control nct-99m: A30 has" in output
+    )
     status, output, _ = run(command, save("G17 G90 G0 X0 Y0\nG1 X30 ,C10\nX40 Y40\n"), "--control", "yasnac-lx3")
     assert (status, output.count("\n")) == (2, 1)
     assert "has no contour block: ,C10 in program line 2 is for nct-99m, " in output

@@ -423,7 +423,7 @@ def test_formatting_numbers_blocks_where_that_is_wanted():
 
 # The control -------------------------------------------------------------------------------------------------
 
-AMBIGUOUS = "G00 X40. Z0.\nG01 Z-30. ,R5.\nX60.\n"
+AMBIGUOUS = "G00 X40. Y0\nG02 X60. Y20. R30. ,R2.\nG01 Y60.\n"
 
 
 def test_the_control_comes_from_a_comment_the_project_the_editor_or_the_program(tmp_path):

@@ -346,7 +346,8 @@ def test_x_is_what_its_command_says():
     for value, expected in (("DIAMOF", as_radius), ("DIAMON", as_diameter), ("DIAM90", as_diameter)):
         assert diameters("G18", diam=value) == near(*expected)
     assert ends("G0 X20 Z0\nG1 X40 Z-30 RND=2\nZ-50", machine="lathe") == near(*as_diameter)
-    assert siemens("G0 X20 Z0\nG1 X40 Z-30 RND=2\nZ-50").answers[0].contour is None
+    assert ends("G0 X20 Z0\nG1 X40 Z-30 RND=2\nZ-50") == near(*as_diameter)
+    assert siemens("G0 X20 Z0\nG1 X40 Z-30 RND=2\nZ-50", machine="mill").answers[0].contour is None
 
 
 def test_a_switch_of_diameters_between_two_blocks_of_a_corner_is_not_passed_over():

@@ -11,10 +11,18 @@ from contoursolve.controls.yasnac_lx3.lexicon import BEVEL, MODES, MOTION_AFTER
 from contoursolve.gcode import Block, Word
 from contoursolve.reading.dialect import Dialect
 
+_OF_A_POCKET = frozenset("DJLQY")
+"""Words of a circular pocket, which G12 is on Haas mills, and of no bevel or quarter circle."""
+
 
 def _signs(block: Block) -> tuple[Word, ...]:
+    """What shows the control. G112 alone is polar interpolation on Fanuc and Haas lathes."""
     addresses = {word.address for word in block.words}
-    codes = {111, 112, 11, 12} if addresses & {*"XUZW"} and addresses & {*"IK"} else {111, 112}
+    codes = {111}
+    if addresses & {*"XUZWIKR"}:
+        codes.add(112)
+    if addresses & {*"XUZW"} and addresses & {*"IK"} and not addresses & _OF_A_POCKET:
+        codes |= {11, 12}
     return tuple(word for word in block.words if word.address == "G" and word.number in codes)
 
 
