@@ -20,7 +20,7 @@ from contoursolve.gcode.files import ANY_TEXT, tape_in_memory
 from contoursolve.program.pipeline import Result, Run, run
 from contoursolve.program.project import configure, find_settings, restate_control, stated_settings
 from contoursolve.program.readers import choose_alike
-from contoursolve.program.recognise import find_dialect
+from contoursolve.program.recognise import find_dialect, for_kind
 from contoursolve.program.request import request_for
 from contoursolve.reading.dialect import Dialect
 
@@ -428,6 +428,8 @@ def convert(
             f"contours cannot be written in the words of {target.name}: its blocks are of another kind"
         )
     dialect = choose_alike(control, gcode.parse(text, name), request_for(name, units=units, rules=rules), settings)
+    if dialect is not None:
+        target = for_kind(target, settings or {}, machine_of(dialect).value)
     if dialect is not None and machine_of(dialect) is not machine_of(target):
         kinds = f"{dialect.name} is a {machine_of(dialect).value}, {target.name} a {machine_of(target).value}"
         switches = (each.name for each in (dialect, target) if any(one.name == "machine" for one in each.settings))

@@ -94,6 +94,7 @@ def convert(
 def _report_failure(found: Conversion, name: str, to: str | Dialect) -> None:
     """Why nothing was written, on standard error."""
     style = style_of_output()
+    report_told(found.summary, _post(to))
     report_left(found.summary, name, style)
     report_misread(found.summary, _post(to), style, is_kept=False)
     difference = found.comparison.difference if found.comparison else None

@@ -250,13 +250,27 @@ def machine_of(dialect: Dialect) -> Machine:
     return Machine.LATHE if dialect.plane.code == "G18" else Machine.MILL
 
 
+_SINUMERIK_LATHE = {
+    "G50": Other("is not known: write LIMS= for the highest spindle speed"),
+    "G92": Other("is not known as a limit of the spindle: write LIMS= for that"),
+    "G98": Other("is not known: write G94 for a feed a minute"),
+    "G99": Other("is not known: write G95 for a feed a revolution"),
+}
+"""What SINUMERIK has instead of codes of the G-code system A."""
+
+_INSTEAD = {name: {Machine.LATHE: _SINUMERIK_LATHE} for name in ("siemens-840d", "siemens-808d")}
+
+
 def post_of(target: Dialect) -> Post:
     """A control as a target in whose own words contours are written: it reads the codes of its tables, and any M."""
     codes, numbers = target.modes.codes, target.modes.lexicon.numbers
     reading = Reading(
         g=frozenset(codes),
         m=_span(range(1000)),
-        otherwise={f"G{number}": Other(f"is {code.meaning}", Risk.PATH, code.effect) for number, code in codes.items()},
+        otherwise={
+            **{f"G{number}": Other(f"is {code.meaning}", Risk.PATH, code.effect) for number, code in codes.items()},
+            **_INSTEAD.get(target.name, {}).get(machine_of(target), {}),
+        },
     )
     steps = {Length.MM: numbers.mm, Length.INCH: numbers.inch}
     decimals = {unit: -int(step.normalize().as_tuple().exponent) for unit, step in steps.items()}

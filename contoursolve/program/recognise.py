@@ -57,15 +57,18 @@ def choose(
 def for_machine(dialect: Dialect, settings: Mapping[str, str], lines: Iterable[str]) -> Dialect:
     """A control that is on mills and on lathes, for the kind of machine that a program is for, if nothing states it: a
     lathe where X and Z move alone and no plane is selected."""
-    name = f"{dialect.name}.{_MACHINE}"
-    if (
-        name in settings
-        or all(each.name != _MACHINE for each in dialect.settings)
-        or not _is_turned(lines, dialect.modes.syntax)
-    ):
+    turned = for_kind(dialect, settings, "lathe")
+    if turned is dialect or not _is_turned(lines, dialect.modes.syntax):
         return dialect
-    turned = configure(dialect, {name: "lathe"})
-    return replace(turned, taken=(*turned.taken, Taken(ReadIssue.MACHINE_TAKEN, {"setting": name})))
+    told = Taken(ReadIssue.MACHINE_TAKEN, {"setting": f"{dialect.name}.{_MACHINE}"})
+    return replace(turned, taken=(*turned.taken, told))
+
+
+def for_kind(dialect: Dialect, settings: Mapping[str, str], kind: str) -> Dialect:
+    """A control that is on mills and on lathes, for one of these kinds of machine, if no setting states it."""
+    name = f"{dialect.name}.{_MACHINE}"
+    is_open = name not in settings and any(each.name == _MACHINE for each in dialect.settings)
+    return configure(dialect, {name: kind}) if is_open else dialect
 
 
 def _is_turned(lines: Iterable[str], syntax: Syntax) -> bool:
