@@ -14,6 +14,7 @@ from contoursolve.gcode import Block, Program
 from contoursolve.program.pipeline import run
 from contoursolve.program.project import configure, stated_settings
 from contoursolve.program.recognise import (
+    CORNERS_WITHOUT_COMMA,
     SeveralControlsError,
     UnknownControlError,
     choose,
@@ -41,10 +42,11 @@ class _Outcome(Struct, frozen=True):
 
 
 class _Reading(Struct, frozen=True):
-    """What a control makes of a program: its contours, and the places of the words that they take."""
+    """What a control makes of a program: its contours, and the places of the words without a comma that they take for
+    corners."""
 
     outcomes: tuple[_Outcome, ...]
-    words: frozenset[tuple[int, int]]
+    corners: frozenset[tuple[int, int]]
 
 
 def choose_alike(
@@ -70,8 +72,8 @@ def choose_alike(
             return found
     own = stated_settings(block.text for block in program.blocks) | dict(settings or {})
     readings = {name: _read(program, configure(DIALECTS[name], own), asked) for name in names}
-    readers = _readers_of_all(readings)
-    if not readers:
+    readers = [*readings] if several else _taking_corners(readings)
+    if not any(each.outcomes for each in readings.values()):
         if several is None:
             return None
         raise several
@@ -90,7 +92,8 @@ def _read(program: Program, dialect: Dialect, asked: Request) -> _Reading:
     """What a control makes of a program."""
     found = run(program, replace_fields(asked.of(dialect), depth=Depth.VERDICT)).answers
     words = (word for answer in found for word in answer.claim.words.values())
-    return _Reading(tuple(map(_outcome, found)), frozenset((word.span.line, word.span.column) for word in words))
+    corners = ((word.span.line, word.span.column) for word in words if word.address in CORNERS_WITHOUT_COMMA)
+    return _Reading(tuple(map(_outcome, found)), frozenset(corners))
 
 
 def _outcome(answer: Answer) -> _Outcome:
@@ -104,11 +107,11 @@ def _outcome(answer: Answer) -> _Outcome:
     return _Outcome(answer.lines, answer.status.value, path, told)
 
 
-def _readers_of_all(readings: Mapping[str, _Reading]) -> list[str]:
-    """The controls that take every word of contours that any of them takes; if there is none, all that take some."""
-    taking = {name: each for name, each in readings.items() if each.outcomes}
-    most = frozenset[tuple[int, int]]().union(*(each.words for each in taking.values()))
-    return [name for name, each in taking.items() if each.words == most] or [*taking]
+def _taking_corners(readings: Mapping[str, _Reading]) -> list[str]:
+    """The controls that take every word for a corner that any of them takes; if there is none, all with contours."""
+    corners = frozenset[tuple[int, int]]().union(*(each.corners for each in readings.values()))
+    having = {name: each for name, each in readings.items() if each.outcomes}
+    return [name for name, each in having.items() if each.corners == corners] or [*having]
 
 
 def _is_alike(contour: Sequence[_Outcome | None]) -> bool:

@@ -246,17 +246,18 @@ def turned_with_corners(blocks: Iterable[Block]) -> tuple[str, ...]:
             return ()
         moved = {_TURNED[address] for address in stated & _TURNED.keys()}
         axes |= moved
-        has_corners |= motion == 1 and len(moved) == 1 and bool(stated & _CORNERS_WITHOUT_COMMA)
+        has_corners |= motion == 1 and len(moved) == 1 and bool(stated & CORNERS_WITHOUT_COMMA)
     is_turned = has_corners and axes == {*_TURNED.values()}
     return tuple(name for name, each in DIALECTS.items() if is_turned and any(each.plane.diameters))
 
 
 def may_make_corner(line: str) -> bool:
     """Whether a line has a letter that may make a corner without a comma."""
-    return not _CORNERS_WITHOUT_COMMA.isdisjoint(line.upper())
+    return not CORNERS_WITHOUT_COMMA.isdisjoint(line.upper())
 
 
-_CORNERS_WITHOUT_COMMA = frozenset("IKR")
+CORNERS_WITHOUT_COMMA = frozenset("IKR")
+"""Addresses of words that make a corner without a comma, beside the only axis of a line on a lathe."""
 _MOTIONS, _PLANES_OF_A_MILL = range(4), frozenset({17, 19})
 _CYCLES = frozenset({*range(32, 36), *range(65, 68), *range(70, 95)})
 """Codes in whose blocks, and behind them, I, K and R mean something else."""

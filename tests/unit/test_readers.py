@@ -55,6 +55,11 @@ def test_what_each_control_makes_of_a_program_that_they_read_differently_is_told
     assert caught.value.choices == ("nct-99m", "fanuc-mill", "haas-mill", "mitsubishi")
 
 
+def test_an_axis_that_another_control_reads_as_an_angle_is_asked_about():
+    with pytest.raises(UnknownControlError, match="would not be the same"):
+        check("G17 G90 G00 X0 Y0\nG01 X50. A30.\nX80. ,R2.\nY60.\nM30")
+
+
 def test_all_lathes_refuse_two_corners_in_one_block():
     codes = [each.code for each in check("G00 X40. Z2.\nG01 X30. ,C1. Z-20. ,R2. F0.2\nX50.\nM30")]
     assert {"fanuc-two-corners", "control-alike"} <= {*codes}
