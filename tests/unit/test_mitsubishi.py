@@ -9,7 +9,7 @@ from examples import law, some_of
 from hypothesis import strategies as st
 from oracle_mitsubishi import ARCS, CONTACT, CROSSING, FORMS, LEVER, RIGHT, VERTEX, random_block
 
-from contoursolve import expand, solve
+from contoursolve import UnknownControlError, expand, solve
 from contoursolve.cli import main
 from contoursolve.controls import DIALECTS
 
