@@ -4,9 +4,18 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from decimal import Decimal
 
-from contoursolve.execution.language import Apply, Constant, Indexed, Quoted, Term, Unknown, Variable
-
-Value = float | str | Unknown
+from contoursolve.execution.language import (
+    VACANT,
+    Apply,
+    Constant,
+    Indexed,
+    Known,
+    Quoted,
+    Term,
+    Unknown,
+    Vacant,
+    Variable,
+)
 
 _NEAR = 1e-12
 """Numbers that differ less, as a part of the larger, are equal: SINUMERIK's manual prints it for comparisons and TRUNC,
@@ -152,7 +161,7 @@ _REASONS = {
 }
 
 
-def evaluate(term: Term, look_up: Callable[[str], Value]) -> Value:
+def evaluate(term: Term, look_up: Callable[[str], Known]) -> Known:
     """The value of an expression. What is not known stays so for the first reason; so does what has no value."""
     match term:
         case Constant() | Quoted():
@@ -166,7 +175,10 @@ def evaluate(term: Term, look_up: Callable[[str], Value]) -> Value:
     return next((each for each in values if isinstance(each, Unknown)), None) or _apply(term.function, values)
 
 
-def _apply(function: str, values: Sequence[Value]) -> Value:
+def _apply(function: str, values: Sequence[Known]) -> Known:
+    if VACANT in values and function in ("equal", "unequal"):
+        return float((values[0] == values[1]) == (function == "equal"))
+    values = [0.0 if isinstance(each, Vacant) else each for each in values]
     numbers = [each for each in values if isinstance(each, float)]
     if len(numbers) < len(values):
         if function in ("equal", "unequal") and not numbers:
@@ -183,17 +195,18 @@ def _apply(function: str, values: Sequence[Value]) -> Value:
     return value if math.isfinite(value) else Unknown("its value is too large")
 
 
-def is_true(value: float | str) -> bool:
+def is_true(value: float | str | Vacant) -> bool:
     """Whether a condition of this value holds."""
-    return value not in (0.0, "")
+    return value not in (0.0, "", VACANT)
 
 
 _NUMBERED = ("#", "R", "P", "Q", "QL", "QR", "QS")
 """What begins the name of a variable whose number follows without brackets."""
 
 
-def name_of_indexed(prefix: str, indices: Sequence[Value], suffix: str = "") -> str | Unknown:
+def name_of_indexed(prefix: str, indices: Sequence[Known], suffix: str = "") -> str | Unknown:
     """The name of a variable whose number is computed: `#101`, `R5`, `A[2,0]`, `V.P.A[3].X`."""
+    indices = [0.0 if isinstance(each, Vacant) else each for each in indices]
     for index in indices:
         if isinstance(index, Unknown):
             return index
@@ -215,6 +228,15 @@ def variables_of(term: Term) -> Iterator[Variable | Indexed]:
         case Apply():
             for each in term.arguments:
                 yield from variables_of(each)
+
+
+def place_in(term: Term, known: Mapping[str, Term]) -> Term:
+    """A term with others in place of variables."""
+    if isinstance(term, Variable):
+        return known.get(term.name, term)
+    if isinstance(term, Apply):
+        return Apply(term.function, tuple(place_in(each, known) for each in term.arguments))
+    return term
 
 
 def written(value: float) -> str:

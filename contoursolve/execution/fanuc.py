@@ -173,8 +173,6 @@ def program_files(name: str) -> tuple[str, ...]:
 
 
 def _unknown(name: str) -> str:
-    if name == "#0":
-        return "#0 is always empty"
     digits = name[1:]
     if digits.isdigit() and int(digits) >= _FIRST_OF_MACHINE:
         return f"{name} is the machine's"
@@ -184,7 +182,7 @@ def _unknown(name: str) -> str:
 @cache
 def fanuc() -> MacroLanguage:
     """Macro B, and the calls, jumps and profiles of the controls that follow Fanuc."""
-    return MacroLanguage("fanuc", _FORM.may_say, _FORM.read, program_files, _unknown, made_by=fanuc)
+    return MacroLanguage("fanuc", _FORM.may_say, _FORM.read, program_files, _unknown, always_empty="#0", made_by=fanuc)
 
 
 _HAAS = structs.replace(_FORM, table=(Spelling(r"M0*+9(?P<kind>7)(?![\d.])", _call), *_TABLE))
@@ -193,4 +191,4 @@ _HAAS = structs.replace(_FORM, table=(Spelling(r"M0*+9(?P<kind>7)(?![\d.])", _ca
 @cache
 def haas() -> MacroLanguage:
     """The same with M97, which calls lines of the same program; on a Fanuc, M97 is the machine's own."""
-    return MacroLanguage("haas", _HAAS.may_say, _HAAS.read, program_files, _unknown, made_by=haas)
+    return MacroLanguage("haas", _HAAS.may_say, _HAAS.read, program_files, _unknown, always_empty="#0", made_by=haas)

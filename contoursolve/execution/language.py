@@ -1,6 +1,6 @@
 """What the lines of a program say besides words with numbers: variables, jumps, loops and calls, for every control."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from enum import Enum
 from typing import Any
 
@@ -11,6 +11,17 @@ class Unknown(Struct, frozen=True):
     """No value, and why: `#5041 is the machine's position`."""
 
     reason: str
+
+
+class Vacant(Struct, frozen=True):
+    """The value of a variable that is empty: `#0`, and what a call of a macro does not give. A word with it is left
+    out, a variable that gets it is empty too, and in a formula it is 0; of comparisons, EQ and NE alone tell it from
+    0. Printed of Fanuc, assumed of its kin."""
+
+
+VACANT = Vacant()
+Known = float | str | Unknown | Vacant
+"""What a variable holds."""
 
 
 class Constant(Struct, frozen=True, tag=True):
@@ -255,10 +266,19 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     """Whether a jump names a block number; Klartext knows labels alone."""
     declares: bool = False
     """Whether variables with names have to be declared: SINUMERIK's DEF."""
+    always_empty: str = ""
+    """The variable that is always empty, where variables may be: `#0`."""
     passes_return: bool = False
     """Whether the end of a subprogram does nothing where none was called: LBL 0."""
     made_by: Callable[[], "MacroLanguage"] | None = None
     """What makes it, by whose name it is sent to another process."""
+
+    def value_of(self, name: str, values: Mapping[str, Known]) -> Known:
+        """What a variable holds, by its name, where others hold values."""
+        if name == self.always_empty:
+            return VACANT
+        found = values.get(name)
+        return found if found is not None else Unknown(self.unknown(name))
 
     def __reduce__(self) -> Any:
         return self.made_by, ()

@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from contoursolve.execution.evaluate import written
 from contoursolve.execution.events import EventKind, ProgramEvent
 from contoursolve.execution.language import (
+    Apply,
     Assign,
     Call,
     CallKind,
@@ -22,18 +23,22 @@ from contoursolve.execution.language import (
     If,
     Jump,
     JumpWay,
+    Known,
     Loop,
     MacroLanguage,
     MacroStatement,
     ProgramEnd,
     Return,
     Strange,
+    Term,
     Unknown,
+    Vacant,
     Variable,
     When,
+    WordFormula,
 )
 from contoursolve.execution.subprograms import Library, Part, Source, Surroundings
-from contoursolve.execution.variables import Known, Variables
+from contoursolve.execution.variables import Variables
 from contoursolve.gcode import Block, Caller, Program, Substitution, Syntax, parse_block, split_lines
 
 MOST_STEPS = 100_000
@@ -379,7 +384,14 @@ class Machine:
             return block
         text, changes = code.rest, list[Substitution]()
         for word in reversed(code.words):
-            value, typed = self.variables.value(word.value), block.text[word.begin : word.end]
+            value, typed = self.variables.value(_unsigned(word.value)), block.text[word.begin : word.end]
+            if isinstance(value, Vacant):
+                text = self._without_word(word, text)
+                changes.append(
+                    Substitution(word.begin, word.end, typed, "", "it is empty, so that this word is left out")
+                )
+                continue
+            value = self.variables.value(word.value)
             if isinstance(value, float):
                 number = written(value)
                 text = word.put(number, text)
@@ -398,6 +410,12 @@ class Machine:
             directives=block.directives,
             substituted=tuple(reversed(changes)),
         )
+
+    def _without_word(self, word: WordFormula, text: str) -> str:
+        """A line without a word."""
+        address = _ADDRESS.search(text, 0, word.begin)
+        begin = address.start() if address is not None else word.begin
+        return text[:begin] + " " * (0 if self._is_alone else word.end - begin) + text[word.end :]
 
     def _join(self, frame: _Frame, index: int) -> Iterator[ProgramEvent]:
         """What is not known on a line because it may have been jumped to."""
@@ -753,6 +771,8 @@ class Machine:
         yield from self._leave(frame)
         if end.to is not None:
             value = self.variables.value(end.to)
+            if isinstance(value, Vacant):
+                return
             target = (
                 caller.source.number(f"{value:.0f}", 0, len(caller.source) - 1) if isinstance(value, float) else None
             )
@@ -820,6 +840,15 @@ _DOES: Mapping[type[MacroStatement], str] = {
 def _ends_last(statements: Sequence[MacroStatement]) -> list[MacroStatement]:
     """The statements of a line, in whatever order they stand: what ends a program comes last."""
     return sorted(statements, key=lambda each: (isinstance(each, ProgramEnd | Return), isinstance(each, Return)))
+
+
+_ADDRESS = re.compile(r",?[A-Z][ \t]*\Z", re.IGNORECASE)
+"""What stands before the value of a word."""
+
+
+def _unsigned(term: Term) -> Term:
+    """A value without the sign before it."""
+    return term.arguments[0] if isinstance(term, Apply) and term.function == "negate" else term
 
 
 def _first(values: Iterable[int | None]) -> int | None:

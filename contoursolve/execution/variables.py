@@ -4,10 +4,18 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 
 from contoursolve.execution.evaluate import evaluate, is_true, name_of_indexed
-from contoursolve.execution.language import Assign, Forget, Indexed, MacroLanguage, Term, Unknown, Variable
-
-Known = float | str | Unknown
-"""What a variable holds."""
+from contoursolve.execution.language import (
+    VACANT,
+    Assign,
+    Forget,
+    Indexed,
+    Known,
+    MacroLanguage,
+    Term,
+    Unknown,
+    Vacant,
+    Variable,
+)
 
 MOST_LOGGED = 10_000
 """Assignments that are kept in mind while it is not known whether a jump took place."""
@@ -39,6 +47,8 @@ class Variables:
     def resolve(self, target: Term | str) -> str | Unknown:
         """The name or the number of what is called."""
         value = target if isinstance(target, str) else self.value(target)
+        if isinstance(value, Vacant):
+            return Unknown("its variable is empty")
         return f"{value:.0f}" if isinstance(value, float) else value
 
     def name(self, variable: Variable | Indexed) -> str | Unknown:
@@ -94,9 +104,9 @@ class Variables:
         if own is not None and name in own:
             return own[name]
         if own is not None and _is_local(name):
-            return Unknown(f"{name} is not given by the call")
-        found = self.values.get(name)
-        return found if found is not None else Unknown(self._language.unknown(name))
+            # The call does not give it.
+            return VACANT
+        return self._language.value_of(name, self.values)
 
 
 def _is_local(name: str) -> bool:

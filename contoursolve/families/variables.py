@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from contoursolve import gcode
 from contoursolve.execution.evaluate import evaluate, variables_of, written
-from contoursolve.execution.language import MacroLanguage, Unknown, Variable, WordFormula
+from contoursolve.execution.language import MacroLanguage, Unknown, Vacant, Variable, WordFormula
 from contoursolve.families.spec import FamilyError
 from contoursolve.gcode import Program
 from contoursolve.program.recognise import choose
@@ -56,10 +56,12 @@ def _number(
         raise FamilyError(f"{told}; a family varies a variable that is the whole value of a word: vary that word")
     if inside:
         return written(values.get(inside[0], _ANY))
-    found = evaluate(word.value, lambda name: values[name] if name in values else Unknown(language.unknown(name)))
+    found = evaluate(word.value, lambda name: language.value_of(name, values))
     if isinstance(found, float):
         return written(found)
     reason = found.reason if isinstance(found, Unknown) else f"{typed} is no number"
+    if isinstance(found, Vacant):
+        raise FamilyError(f"{typed} is empty: the control leaves this word out; delete it, or write a number")
     names = ", ".join(dict.fromkeys(each.name for each in variables_of(word.value) if isinstance(each, Variable)))
     raise FamilyError(f'{reason}; state it with --let "{names or typed}=NUMBER", or vary it')
 

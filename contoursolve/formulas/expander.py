@@ -6,6 +6,7 @@ from itertools import count
 from typing import Any
 
 from contoursolve.diagnosis.examine import Answer, Policy
+from contoursolve.execution.evaluate import place_in
 from contoursolve.execution.language import Assign, ProgramEnd, Term, Variable, When
 from contoursolve.execution.write import write_term
 from contoursolve.formulas.cases import Case, Fork, case_of
@@ -13,7 +14,7 @@ from contoursolve.formulas.check import Runner, difference
 from contoursolve.formulas.contour import Body, Choose, Leg, Said, Statement, Writing
 from contoursolve.formulas.given import STEP, FormulaError, Reader, at
 from contoursolve.formulas.lines import FormulaLines, Free, MacroLine
-from contoursolve.formulas.scratch import Scratch, allocate, apart, names_of, place, place_in, renamed
+from contoursolve.formulas.scratch import Scratch, allocate, apart, names_of, place, renamed
 from contoursolve.formulas.targets import PREFIXES, MacroTarget, TargetWriter, lowered
 from contoursolve.gcode import Block, Passage, parse_block
 from contoursolve.gcode.comments import comment_out

@@ -7,8 +7,8 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.execution.evaluate import evaluate, variables_of
-from contoursolve.execution.language import Assign, CodeLine, Term, Unknown, Variable, When
+from contoursolve.execution.evaluate import evaluate, place_in, variables_of
+from contoursolve.execution.language import Assign, CodeLine, Constant, Known, Term, Unknown, Variable, When
 from contoursolve.families.spec import write
 from contoursolve.gcode import Block, Word, parse_block
 from contoursolve.program.lines import Lines
@@ -72,7 +72,7 @@ class FormulaLines(Lines):
         super().__init__(lines, dialect, *args, **options)
         self.language, self.lets = dialect.modes.language, lets
         self.macros: dict[int, MacroLine] = {}
-        self.values: dict[str, float | str | Unknown] = {**lets}
+        self.values: dict[str, Known] = {**lets}
         """The variables as far as the program has been read."""
 
     def _read(self, line: str, number: int) -> Block:
@@ -84,7 +84,8 @@ class FormulaLines(Lines):
             value = evaluate(word.value, self._look_up)
             if isinstance(value, float):
                 name, number_of = f"value {place + 1} of line {number}", Decimal(str(round(value, DECIMALS)))
-                slots.append(Slot(word.begin, word.end, Free(name, word.value, number_of, self._known(word.value))))
+                term = place_in(word.value, {self.language.always_empty: Constant(0.0)})
+                slots.append(Slot(word.begin, word.end, Free(name, term, number_of, self._known(term))))
         for statement in code.statements:
             self._follow(statement)
         self.macros[number] = MacroLine(code, tuple(slots))
@@ -98,10 +99,10 @@ class FormulaLines(Lines):
         elif isinstance(statement, Assign) and getattr(statement.variable, "name", None) not in (None, *self.lets):
             self.values[getattr(statement.variable, "name", "")] = evaluate(statement.value, self._look_up)
 
-    def _look_up(self, name: str) -> float | str | Unknown:
-        return self.values.get(name, Unknown(f"{name} has no value"))
+    def _look_up(self, name: str) -> Known:
+        return self.language.value_of(name, self.values) if self.language else Unknown(f"{name} has no value")
 
     def _known(self, term: Term) -> dict[str, float]:
         """The values of the variables of an expression that has one."""
         names = [each.name for each in variables_of(term) if isinstance(each, Variable)]
-        return {name: value for name in names if isinstance(value := self.values[name], float)}
+        return {name: value for name in names if isinstance(value := self.values.get(name), float)}

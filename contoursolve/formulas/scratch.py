@@ -8,8 +8,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnostics.errors import UserError
-from contoursolve.execution.evaluate import variables_of
-from contoursolve.execution.language import Apply, Assign, Term, Variable, When
+from contoursolve.execution.evaluate import place_in, variables_of
+from contoursolve.execution.language import Assign, Term, Variable, When
 from contoursolve.formulas.contour import Choose, Leg, Said, Statement, Stop
 from contoursolve.formulas.given import FormulaError
 from contoursolve.numeric.formulas import COMMON
@@ -102,15 +102,6 @@ def renamed(term: Term, prefix: str) -> Term:
     """A term whose numbered variables begin with another prefix: `#100` and `R100`."""
     numbered = {name: Variable(prefix + name[1:]) for name in names_of(term) if name[1:].isdigit()}
     return place_in(term, numbered)
-
-
-def place_in(term: Term, known: Mapping[str, Term]) -> Term:
-    """A term with others in place of variables."""
-    if isinstance(term, Variable):
-        return known.get(term.name, term)
-    if isinstance(term, Apply):
-        return Apply(term.function, tuple(place_in(each, known) for each in term.arguments))
-    return term
 
 
 def _named(statement: Any, known: Mapping[str, Term]) -> Any:

@@ -471,7 +471,6 @@ def test_files_in_which_a_subprogram_may_be(language, name, files):
     ("language", "name", "reason"),
     [
         (fanuc(), "#5041", "#5041 is the machine's"),
-        (fanuc(), "#0", "#0 is always empty"),
         (fanuc(), "#100", "#100 is set by nothing before"),
         (klartext(), "Q108", "Q108 is the machine's"),
         (klartext(), "QL108", "QL108 is set by nothing before"),

@@ -91,3 +91,72 @@ def test_the_command_line_states_values():
 def test_the_explorer_takes_values_of_variables():
     explorer = contoursolve.explore(BLOCK, start="X40. Z0.", variables={"#100": 95, "#101": 4.75})
     assert explorer.text == "G111 A180. K-30. B120. X95. P5. Q4.75"
+
+
+MACRO_B = ("fanuc-lathe", "fanuc-mill", "haas-lathe", "haas-mill", "mitsubishi", "nct-99m", "yasnac-lx3")
+DEFAULTED = """G00 X0. {axis}0.
+G65 P7002 X60. R5.
+G00 X0. {axis}0.
+G65 P7002 X60.
+M30
+O7002
+{test}
+{block}
+M99"""
+TESTS = (
+    "IF[#18 NE #0]GOTO10\n#18=3.\nN10",
+    "IF[#18 EQ #0]THEN #18=3.",
+    "IF [#0 NE #18] GOTO 10\nIF [#18 EQ #0] THEN #18=3.\nN10",
+    "#100=#18\nIF[#100 EQ #0]THEN #18=3.",
+)
+BLOCKS = {"X": "G01 X#24 ,R#18 F1.\n{axis}-40.", "G111": "G111 X#24 A180. K-30. B120. P#18"}
+
+
+@pytest.mark.parametrize("control", MACRO_B)
+@pytest.mark.parametrize("test", TESTS)
+def test_an_argument_that_is_not_given_is_empty(control, test):
+    axis = "Z" if control.endswith(("lathe", "lx3")) else "Y"
+    block = BLOCKS["G111" if control == "yasnac-lx3" else "X"].format(axis=axis)
+    result = contoursolve.solve(DEFAULTED.format(axis=axis, test=test, block=block), control=control)
+    radii = [[each.radius for each in answer.contour.elements if hasattr(each, "radius")] for answer in result.answers]
+    assert [round(each, 6) for each, *_ in radii] == [5, 3]
+    assert not [each for each in result.diagnostics if each.is_error]
+
+
+COMPARED = {
+    "#1 EQ #0": True,
+    "#1 NE #0": False,
+    "#1 EQ 0": False,
+    "#1 NE 0": True,
+    "#1 GE 0": True,
+    "#1 LE 0": True,
+    "#1 GT 0": False,
+    "#1 LT 0": False,
+    "#1 LT 1": True,
+    "[#1+0] EQ #0": False,
+    "[#1*5] EQ 0": True,
+    "[#0+2] EQ 2": True,
+    "#2 EQ #0": True,
+    "#3 EQ #0": False,
+    "#3 EQ 0": True,
+}
+
+
+@pytest.mark.parametrize("condition", COMPARED)
+def test_what_is_empty_is_told_from_0_by_eq_and_ne_alone(condition):
+    text = (
+        f"G0 X0. Y0.\nG65 P9\nM30\nO9\n#2=#1\n#3=0\n#4=10.\nIF[{condition}]THEN #4=20.\nG1 X#4 Y#1 ,C1.\nY30. ,R#0\nM99"
+    )
+    result = contoursolve.expand(text, control="fanuc-mill", inline=True)
+    assert f"G01 X{19 if COMPARED[condition] else 9}. Y0." in result.text
+    assert result.summary.replaced == 1
+
+
+def test_formulas_with_the_empty_variable_are_those_with_0():
+    text = "G17 G21 G90 G0 X0. Y0.\n#101=50.\n#102=2.\nG1 X[#101+{}] ,R#102 F100\nY30.\nM30"
+    one, two = (
+        contoursolve.expand(text.format(each), control="fanuc-mill", formulas=True, comments=False)
+        for each in ("#0", "0.")
+    )
+    assert one.text == two.text
+    assert one.summary.replaced == 1
