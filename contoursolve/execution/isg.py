@@ -25,7 +25,10 @@ from contoursolve.execution.language import (
 )
 from contoursolve.execution.lines import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, number_of, strange
 from contoursolve.execution.notation import ISG, UnreadableTermError
+from contoursolve.gcode.syntax import IN_BRACKETS, nested
 
+COMMENT = nested(r"\(", r"(?:\)|$)", "[^()]++", 4)
+"""A comment in which others may be nested; each may stay open to the end of the line."""
 _MACHINES = ("V.A.", "V.E.", "V.G.", "V.SYS.")
 """What begins the names of variables that belong to the machine, or to programs outside the control."""
 
@@ -87,7 +90,7 @@ def _word(line: LineReader, _: re.Match[str]) -> Iterable[MacroStatement]:
 
 
 _OWN = r"\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)(?!\w)"
-_VARIABLE = r"(?:P[ \t]*+\d++|P[ \t]*+\[[^\]]*+\]|V\.[A-Z]++\.[\w.\[\],]++)"
+_VARIABLE = rf"(?:P[ \t]*+\d++|P[ \t]*+{IN_BRACKETS}|V\.[A-Z]++\.(?>(?:[\w.]++|{IN_BRACKETS})+))"
 _TABLE = (
     Spelling(r"%.*+", nothing),
     Spelling(rf"\#(?!{_OWN[2:]}).*+", nothing),
@@ -114,7 +117,7 @@ _FORM = LineForm(
     ISG,
     head=r"(?:[ \t\ufeff]*+%(?P<part>L[ \t]++)?+[ \t]*+(?P<program>[\w.]++))?[ \t]*+(?>(?:/\d*+)?)[ \t]*+"
     r"(?>(?:N[ \t]*+(?P<number>\d++):?+(?!\.))?)",
-    comment=r"\((?>(?:[^()]++|\((?>(?:[^()]++|\([^()]*+\)?+)*)(?:\)|$))*)(?:\)|$)|;.*+",
+    comment=rf"{COMMENT}|;.*+",
     table=_TABLE,
     skip=r"[ \t]++|\"[^\"]*+\"?+|[A-Z_]{2}\w*+|[\d.]++|.",
     behind_value=r"[A-Z#$,\\]",

@@ -31,13 +31,13 @@ from contoursolve.execution.language import (
 )
 from contoursolve.execution.lines import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, strange
 from contoursolve.execution.notation import SINUMERIK, UnreadableTermError
+from contoursolve.gcode.syntax import IN_BRACKETS, IN_PARENTHESES
 
 _WAYS = {"": JumpWay.ANYWHERE, "C": JumpWay.ANYWHERE, "F": JumpWay.FORWARD, "B": JumpWay.BACKWARD}
 _BY_AXIS = ("POS", "POSA", "FA", "OVRA", "ACC", "SPOS", "SPOSA", "FL")
 """Words with an axis in brackets."""
 _MOST_ELEMENTS = 200
 """Elements of a field that are set one by one."""
-_ARGUMENTS = r"\((?>(?:[^()\"]++|\"[^\"]*+\"|\((?>(?:[^()\"]++|\"[^\"]*+\")*)\))*)\)"
 _LABEL = r"(?:(?!R\d)[A-Z_]\w++|:[ \t]*+\d++)"
 _BEHIND = r"(?![\w$])"
 _NAME_OF_FILE = re.compile(r"(?:.*/)?(?:_N_)?(?P<name>\w+?)(?:_SPF|_MPF|\.\w+)?$", re.IGNORECASE)
@@ -124,7 +124,7 @@ def _given(line: LineReader) -> Iterator[tuple[str, Term]]:
 def _call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
     name = found["name"].upper()
     if name in line.names:
-        line.take(_ARGUMENTS)
+        line.take(IN_PARENTHESES)
         return
     arguments = tuple(_given(line))
     yield Call(CallKind.PROGRAM, name, count=_count(line), arguments=arguments)
@@ -147,7 +147,7 @@ def _between(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
 
 
 def _return(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
-    yield strange(found[0]) if line.take(_ARGUMENTS) else Return()
+    yield strange(found[0]) if line.take(IN_PARENTHESES) else Return()
 
 
 def _profile(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
@@ -243,7 +243,7 @@ _TABLE = (
         ),
         _define,
     ),
-    Spelling(_key(rf"PROC[ \t]++(?P<name>\w++)[ \t]*+(?P<formal>{_ARGUMENTS})?+") + ".*+", _procedure),
+    Spelling(_key(rf"PROC[ \t]++(?P<name>\w++)[ \t]*+(?P<formal>{IN_PARENTHESES})?+") + ".*+", _procedure),
     Spelling(_key("(?:DEF|EXTERN|REDEF|DEFINE)") + ".*+", nothing),
     Spelling(_key("IF"), _if),
     Spelling(_key("ELSE"), lambda *_: [Else()]),
@@ -264,11 +264,11 @@ _TABLE = (
     Spelling(_key("MCALL") + "(?=[ \t]*+[A-Z]).*+", lambda _, found: [strange(found[0])]),
     Spelling(_key("MCALL"), nothing),
     Spelling(_key("RET"), _return),
-    Spelling(rf"(?P<cycle>CYCLE(?:95|62))[ \t]*+(?P<given>{_ARGUMENTS})", _profile),
+    Spelling(rf"(?P<cycle>CYCLE(?:95|62))[ \t]*+(?P<given>{IN_PARENTHESES})", _profile),
     Spelling(r"M0*+17(?![\w.=])", lambda *_: [Return()], stays=True),
     Spelling(PROGRAM_END, lambda *_: [ProgramEnd()], stays=True),
     Spelling(
-        r"(?P<name>\$?[A-Z_]{2}\w*+|[A-Z]\d*+)[ \t]*+(?P<index>\[[^\]]*+\])?+[ \t]*+=(?!=)[ \t]*+",
+        r"(?P<name>\$?[A-Z_]{2}\w*+|[A-Z]\d*+)[ \t]*+(?P<index>" + IN_BRACKETS + r")?+[ \t]*+=(?!=)[ \t]*+",
         _equals,
     ),
     Spelling(r"(?P<name>L\d++)(?![\w.])", _call),

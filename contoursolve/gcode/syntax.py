@@ -51,7 +51,22 @@ class Syntax:
 
 # Runs are possessive (`++`, `*+`): what they take is never tried again, so that a line takes time by its length.
 # Groups that repeat are atomic (`(?>...)`) instead: Python before 3.11.5 reads `(?:...)*+` wrongly (gh-106052).
-_BRACKETS = r"\[(?>(?:[^\[\]]++|\[(?>(?:[^\[\]]++|\[[^\[\]]*+\])*)\])*)\]"
+DEEPEST_BRACKETS = 30
+"""Levels of brackets that are read; Fanuc admits five."""
+
+
+def nested(opening: str, closing: str, inside: str, depth: int = DEEPEST_BRACKETS) -> str:
+    """A pattern for what stands between brackets, with so many levels of them."""
+    pattern = ""
+    for _ in range(depth):
+        pattern = rf"{opening}(?>(?:{inside}{pattern and '|'}{pattern})*){closing}"
+    return pattern
+
+
+IN_BRACKETS = nested(r"\[", r"\]", r"[^\[\]]++")
+"""What stands in square brackets: an expression, or the index of a field."""
+IN_PARENTHESES = nested(r"\(", r"\)", r"[^()\"]++|\"[^\"]*+\"")
+"""What stands in parentheses: an expression, or arguments. Those in a text in quotes do not count."""
 ISO = Syntax(
     "iso",
     token=re.compile(
@@ -61,7 +76,7 @@ ISO = Syntax(
   | (?P<open>\([^)]*+)
   | (?P<word>(?P<comma>,?+)[ \t]*+(?P<letter>[A-Za-z])[ \t]*+
       (?:(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))(?![\d.]|,\d|[eE][+-]?+\d++(?![\d.]))
-        |(?P<expression>[+-]?+(?:\#\d++|\#?+{_BRACKETS}))|(?P<asked>\?)))
+        |(?P<expression>[+-]?+(?:\#++\d++|\#?+{IN_BRACKETS}))|(?P<asked>\?)))
   | (?P<malformed>,?+[ \t]*+[A-Za-z][ \t]*+(?>(?:[\d.+-]|,(?=\d))+)(?>(?:[eE][+-]?+\d++)?))
   | (?P<bare>,?+[ \t]*+[A-Za-z](?>(?:(?![A-Za-z][ \t]*+[+-]?+\.?+\d)[A-Za-z])*))
   | (?P<comma_only>,[^ \tA-Za-z(;]*+)

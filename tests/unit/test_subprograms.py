@@ -255,7 +255,7 @@ def test_words_beside_a_contour_keep_their_formulas():
 ENDS = {
     "fanuc": ("O1\nG21 G90 G0 X0. Y0.\n{}\nO9001\nG1 X10. ,R1. F100\nY10.\nM99", "M98 P9001", ("M30", "M02", "M99")),
     "siemens": ("G90 G0 X0 Y0\n{}\n%_N_SUB1_SPF\nG1 X10 RND=1 F100\nY10\nM17", "SUB1", ("M30", "M2", "M17", "RET")),
-    "isg": ("%MAIN\nG90 G0 X0 Y0\n{}\n%L S\nG1 X10 #RND5 F100\nY10\nM17", "L S", ("M30", "M02", "M17")),
+    "isg": ("%MAIN\nG90 G0 X0 Y0\n{}\n%L S\nG1 X10 #RND=5 F100\nY10\nM17", "L S", ("M30", "M02", "M17")),
     "heidenhain": ("L X+0 Y+0 F100\nL X+1 {}\nLBL 1\nFL X+10 AN+0\nLBL 0", "CALL LBL 1", ("M30", "M2")),
 }
 LIKE = {"siemens-840d": "siemens", "siemens-808d": "siemens", "isg": "isg", "heidenhain": "heidenhain"}
@@ -268,6 +268,8 @@ def test_an_end_and_a_call_in_one_block_is_told_whatever_their_order(control):
         one, two = (solve(text.format(each), control=control) for each in (f"{end} {call}", f"{call} {end}"))
         told = [each.message for each in one.diagnostics]
         assert told == [each.message for each in two.diagnostics]
+        # A lathe has no contour in it.
+        assert one.answers or control == "yasnac-lx3"
         if one.answers:
             assert any("in one block: which comes first is not known" in each for each in told)
             assert {each.status for each in one.answers} <= {Status.UNDERDETERMINED, Status.REJECTED}

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 import contoursolve
 from contoursolve.cli import main
+from contoursolve.controls import DIALECTS
 from contoursolve.families import FamilyError
 
 START = "G00 X40. Z0.\n"
@@ -160,3 +161,26 @@ def test_formulas_with_the_empty_variable_are_those_with_0():
     )
     assert one.text == two.text
     assert one.summary.replaced == 1
+
+
+NESTED = {
+    "#": ("[]", "G0 X0. {axis}0.\n{block}\n{axis}50.", "#{}"),
+    "siemens": ("()", "G17 G90 G0 X0 Y0\nG1 X={} RND=2\nY50", "R{}"),
+    "isg": ("[]", "G17 G90 G0 X0 Y0\nG1 X{} #RND=2\nY50", "P{}"),
+    "heidenhain": ("()", "Q99 = {}\nL X+0 Y+0 R0 F100\nFL X+Q99 AN+20", "Q{}"),
+}
+
+
+@pytest.mark.parametrize("control", DIALECTS)
+@pytest.mark.parametrize("levels", [1, 3, 4, 5, 10])
+def test_every_level_of_brackets_around_an_unset_variable_is_told_alike(control, levels):
+    brackets, text, name = NESTED.get(control.partition("-")[0], NESTED["#"])
+    term = name.format(levels + 1)
+    for level in range(levels, 0, -1):
+        term = f"{brackets[0]}{name.format(level)}+{term}{brackets[1]}"
+    if text is NESTED["#"][1]:
+        axis = "Z" if control.endswith(("lathe", "lx3")) else "Y"
+        block = "G111 X{} A180. K-30. B120." if control == "yasnac-lx3" else "G1 X{} ,R2. F1."
+        text = text.format(axis=axis, block=block)
+    told = {each.code for each in contoursolve.check(text.format(term), control=control) if each.is_error}
+    assert told == {VARIABLE if control == "heidenhain" else "value-variable"}

@@ -5,8 +5,9 @@ from collections.abc import Mapping
 
 from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, lexicon
 from contoursolve.diagnostics.source import Book
-from contoursolve.execution.isg import isg
+from contoursolve.execution.isg import COMMENT, isg
 from contoursolve.gcode import Block, Syntax, Word
+from contoursolve.gcode.syntax import IN_BRACKETS
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import COMMENTED, Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 
@@ -48,27 +49,17 @@ def _parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
 
 _NUMBER = r"[+-]?+(?>\d++\.?+\d*+|\.\d++)"
 _OWN = r"\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)\b"
-_BRACKETS = r"\[(?>(?:[^\[\]]++|\[(?>(?:[^\[\]]++|\[[^\[\]]*+\])*)\])*)\]"
-
-
-def _comment(depth: int) -> str:
-    """A comment in which so many others may be nested; each may stay open to the end of the line."""
-    inner = f"|{_comment(depth - 1)}" if depth else ""
-    return rf"\((?>(?:[^()]++{inner})*)(?:\)|$)"
-
-
-_NESTED = _comment(3)
 SYNTAX = Syntax(
     "isg",
     token=re.compile(
         rf"""
     (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff]++|%.*+)
-  | (?P<comment>{_NESTED}|;.*+)
+  | (?P<comment>{COMMENT}|;.*+)
   | (?P<word>
         (?P<long>{_OWN})[ \t]*+(?>(?:=[ \t]*+)?)(?:(?P<plain>{_NUMBER})(?![\w.+*/\[-])|(?P<wanted>\?)
           |(?P<formula>[^ \t;()]++))
       | (?P<letter>[A-Za-z])(?![A-Za-z_])[ \t]*+(?>(?:=[ \t]*+)?)(?:(?P<short>{_NUMBER})(?![\d.+*/\[-])|(?P<asked>\?)
-          |(?P<expression>[+-]?+(?>(?:[A-Z]*+{_BRACKETS}|[PV][\w.\[\]]*+|\d[\d.]*+|[+*/-])+))))
+          |(?P<expression>[+-]?+(?>(?:[A-Z]*+{IN_BRACKETS}|[PV](?>(?:[\w.]++|{IN_BRACKETS})*)|\d[\d.]*+|[+*/-])+))))
   | (?P<name>\#[^;(]*+|\$[A-Za-z]++[^;(]*+|(?>[A-Za-z_]{{2}}[\w.]*+)|[Ll][ \t]++\w[\w.]*+)
   | (?P<malformed>[A-Za-z][ \t]*+[\d.,+-]++)
   | (?P<bare>[A-Za-z])
@@ -82,7 +73,7 @@ SYNTAX = Syntax(
         r"|ENDWHILE|DO|ENDDO|GOTO|BREAK|CONTINUE)\b))",
         re.IGNORECASE,
     ),
-    comment=re.compile(_NESTED + r"|;.*+"),
+    comment=re.compile(COMMENT + r"|;.*+"),
     parts=_parts,
 )
 

@@ -11,6 +11,7 @@ from contoursolve.diagnostics.source import Book
 from contoursolve.execution.language import MacroLanguage
 from contoursolve.execution.sinumerik import sinumerik
 from contoursolve.gcode import Block, Syntax, Word, long_parts
+from contoursolve.gcode.syntax import IN_BRACKETS, IN_PARENTHESES
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 
@@ -65,7 +66,6 @@ CODES = _codes()
 
 _NUMBER = r"[+-]?+(?>\d++(?>[.,]\d*+)?|[.,]\d++)"
 _OWN = "ANG|RNDM?|CHR|CHF|CR"
-_ARGUMENTS = r"\((?>(?:[^()\"]++|\"[^\"]*+\"|\((?>(?:[^()\"]++|\"[^\"]*+\")*)\))*)\)"
 SYNTAX = Syntax(
     "sinumerik",
     token=re.compile(
@@ -75,13 +75,13 @@ SYNTAX = Syntax(
   | (?P<mistyped>(?:[A-Za-z_]\w*+[ \t]*+=|[A-Za-z](?![A-Za-z_]))[ \t]*+
       [+-]?+[\d.,]++(?-i:[Ool|][\d.,Ool|]*+)(?![\w(\[=]))
   | (?P<word>(?P<comma>)(?:
-        (?>(?P<long>\$?[A-Za-z_]\w*+(?>(?:\[[^\]]*+\])?))[ \t]*+=[ \t]*+)(?:
+        (?>(?P<long>\$?[A-Za-z_]\w*+(?>(?:{IN_BRACKETS})?))[ \t]*+=[ \t]*+)(?:
             (?P<function>[AaIi][Cc])[ \t]*+\([ \t]*+(?:(?P<inner>{_NUMBER})|(?P<unset>\?))[ \t]*+\)
           | (?P<plain>{_NUMBER})(?![\w.,+*/\-\[(])|(?P<wanted>\?)
-          | (?![\d.,+-]++(?:[\s;]|$))(?P<formula>(?>(?:[^\s;()\[\]\"]++|{_ARGUMENTS}|\[[^\]]*+\]|\"[^\"]*+\")+)))
+          | (?![\d.,+-]++(?:[\s;]|$))(?P<formula>(?>(?:[^\s;()\[\]\"]++|{IN_PARENTHESES}|{IN_BRACKETS}|\"[^\"]*+\")+)))
       | (?P<letter>[A-Za-z])(?![A-Za-z_])[ \t]*+(?:(?P<short>{_NUMBER})(?![\d.,])|(?P<asked>\?))))
   | (?P<malformed>(?:(?:{_OWN})[ \t]*+(?>(?:=[ \t]*+)?)|[A-Za-z][ \t]*+)(?=[\d.,+-])[\d.,+-]++)
-  | (?P<name>(?>[A-Za-z_]{{2}}\w*+))[ \t]*+(?>(?:{_ARGUMENTS})?)
+  | (?P<name>(?>[A-Za-z_]{{2}}\w*+))[ \t]*+(?>(?:{IN_PARENTHESES})?)
   | (?P<bare>[A-Za-z])
   | (?P<stray>\"[^\"]*+\"?+|[^ \tA-Za-z;]++)
     """,
