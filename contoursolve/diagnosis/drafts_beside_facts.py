@@ -16,7 +16,7 @@ from contoursolve.diagnosis.drafts import (
     unreadable,
     variants,
 )
-from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, add, change, drop, rounded, write_word
+from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, Why, add, change, drop, rounded, write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue, problems
 from contoursolve.diagnosis.examples import sampled
 from contoursolve.diagnosis.explain import SAID_AGAIN, SINGULAR, facts_at, spans_of
@@ -213,7 +213,7 @@ def _corrected(answer: Answer, twice: list[Diagnostic], trial: Trial) -> Iterato
             other = trial.examine((change(word, asking),))
             for asked in other.answers if other else ():
                 if asked.value is not None and asked.question.word.text == asking:
-                    yield (change(word, _with_value(word, _shown(asked, word, answer))),)
+                    yield (change(word, _with_value(word, _shown(asked, word, answer)), Why.AGREES),)
 
 
 def _with_value(word: Word, value: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
@@ -210,7 +210,9 @@ def examine(
         if word.span not in explained:
             notebook.add(report(context, ReadIssue.WORD_UNUSED, Basis.RULE, [word], form=claim.form.name))
     if is_readable:
-        solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)
+        if claim.form.is_general:
+            profile = _without_cuts(context, profile, claim, analyse(assemble(profile)).free, notebook)
+        profile, solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)
     else:
         solution, alternatives = Solution(Status.REJECTED), None
     for offence in ignoring:
@@ -356,7 +358,7 @@ def _examine_words(context: Context, claim: ParsedContour, notebook: _Notebook) 
 
 def _examine_geometry(
     context: Context, claim: ParsedContour, profile: Profile, notebook: _Notebook, depth: Depth
-) -> tuple[Solution, Alternatives | None]:
+) -> tuple[Profile, Solution, Alternatives | None]:
     """The system for all values, then its solution at the values of the block.
 
     A block that is refused is not solved; but whether its words agree is told. Where something is missing, so is what
@@ -364,25 +366,29 @@ def _examine_geometry(
     """
     is_refused = bool(notebook.statuses & {Status.REJECTED, Status.NO_SOLUTION})
     structure = list(_examine_system(context, claim, profile))
+    against: list[Diagnostic] = []
+    if structure and profile.start.is_known and not (is_refused and profile.is_extended):
+        from contoursolve.solving.ambiguity import said_twice  # noqa: PLC0415 - few blocks lack something
+
+        for event in said_twice(profile):
+            finding = explain_result(context, event, profile)
+            against += [finding] if isinstance(event, Refusal) else []
+            notebook.add(finding)
+            notebook.statuses.add(event.kind.status if isinstance(event, Refusal) else Status.OVERDETERMINED)
     for status, finding in structure:
+        told = _behind(finding, against, claim)
         # What the equations say of a block that a rule has refused already explains, and counts once.
-        notebook.add(replace(finding, severity=Severity.INFO) if is_refused else finding, status)
+        notebook.add(replace(told, severity=Severity.INFO) if is_refused else told, status)
     is_solvable = not structure and profile.start.is_known
     is_open = is_solvable and is_refused and not profile.is_extended and _has_choice(profile)
     is_long = is_open and count_choices(profile) > MOST_CHOICES
     if is_open and not is_long:
         # Which contours the missing word could choose is worth knowing.
-        return Solution(Status.UNDERDETERMINED), _solve(profile, context, notebook, depth)[1]
-    if structure and profile.start.is_known and not (is_refused and profile.is_extended):
-        from contoursolve.solving.ambiguity import said_twice  # noqa: PLC0415 - few blocks lack something
-
-        for event in said_twice(profile):
-            status = event.kind.status if isinstance(event, Refusal) else Status.OVERDETERMINED
-            notebook.add(explain_result(context, event, profile))
-            notebook.statuses.add(status)
+        profile, _, alternatives = _solve(profile, context, claim, notebook, depth)
+        return profile, Solution(Status.UNDERDETERMINED), alternatives
     if not is_solvable or is_long:
-        return Solution(Status.UNDERDETERMINED), None
-    solution, alternatives = _solve(profile, context, notebook, depth)
+        return profile, Solution(Status.UNDERDETERMINED), None
+    profile, solution, alternatives = _solve(profile, context, claim, notebook, depth)
     events: list[Refusal | Note] = [*solution.refusals, *solution.remarks]
     for event in events:
         # A rule about the angles of the block has said that it has no vertex.
@@ -390,26 +396,62 @@ def _examine_geometry(
         if not is_refused or (event.kind in _ABOUT_WORDS and not is_said):
             notebook.add(explain_result(context, event, profile, alternatives))
             notebook.statuses.add(solution.status)
-    return (Solution(solution.status), None) if is_refused else (solution, alternatives)
+    return (profile, Solution(solution.status), None) if is_refused else (profile, solution, alternatives)
+
+
+def _behind(finding: Diagnostic, against: Sequence[Diagnostic], claim: ParsedContour) -> Diagnostic:
+    """What is missing, told behind what contradicts itself: no word that is added can mend that."""
+    first = min((each.span.line for each in against), default=0)
+    if finding.about is not ReadIssue.UNDERDETERMINED or first <= finding.span.line:
+        return finding
+    return replace(finding, span=next((block.span for block in claim.blocks if block.line == first), finding.span))
+
+
+def _without_cuts(
+    context: Context, profile: Profile, claim: ParsedContour, open_: Sequence[str], notebook: _Notebook
+) -> Profile:
+    """The profile with the points in place that only cut a straight line in two, each of them told."""
+    if not open_ or not profile.start.is_known:
+        return profile
+    from contoursolve.solving.free_cuts import place_cuts  # noqa: PLC0415 - few blocks leave something open
+
+    profile, cuts = place_cuts(profile, open_)
+    lines = {name: block for block, names in zip(claim.blocks, claim.makes, strict=True) for name in names}
+    for element in profile.figure.path:
+        if element.head in cuts:
+            place = replace(context, place=lines[element.name].span)
+            notebook.add(explain_result(place, Note(NoteKind.CUT_FREE, element.head), profile))
+    return profile
 
 
 def _solve(
-    profile: Profile, context: Context, notebook: _Notebook, depth: Depth
-) -> tuple[Solution, Alternatives | None]:
-    """The contour that the control makes, or the only one that there is."""
+    profile: Profile, context: Context, claim: ParsedContour, notebook: _Notebook, depth: Depth
+) -> tuple[Profile, Solution, Alternatives | None]:
+    """The contour that the control makes, or the only one that there is; and the profile that it is one of."""
     is_chosen = not profile.is_extended and not _has_choice(profile)
     solution = solve(profile, is_proven=depth is not Depth.PATH) if is_chosen else None
     touches = solution is not None and any(remark.kind is NoteKind.TOUCHES for remark in solution.remarks)
     if solution is not None and not (touches and count_choices(profile) <= MOST_CHOICES):
-        return solution, None
+        return profile, solution, None
     # Unusual combinations, open choices, and lines that touch as far as floats can tell.
     from contoursolve.solving.ambiguity import settle  # noqa: PLC0415
 
     settlement = settle(profile, is_blaming=depth is not Depth.TRIAL)
+    open_ = [
+        name for each in settlement.solution.refusals if each.kind in _LEAVING_OPEN for name in each.subject.split(",")
+    ]
+    is_cut = claim.form.is_general and (settlement.loose or open_)
+    placed = _without_cuts(context, profile, claim, settlement.loose or open_, notebook) if is_cut else profile
+    if placed is not profile:
+        profile, settlement = placed, settle(placed, is_blaming=depth is not Depth.TRIAL)
     if settlement.singular and Status.REJECTED not in notebook.statuses:
         finding = explain_singular(context, settlement.singular, settlement.loose, profile)
         notebook.add(finding, Status.UNDERDETERMINED)
-    return settlement.solution, settlement.alternatives
+    return profile, settlement.solution, settlement.alternatives
+
+
+_LEAVING_OPEN = (RefusalKind.NOT_FIXED, RefusalKind.SEARCH_UNFINISHED)
+"""What tells of unknowns that words leave open at their values."""
 
 
 def _has_choice(profile: Profile) -> bool:
@@ -445,6 +487,6 @@ def _examine_system(context: Context, claim: ParsedContour, profile: Profile) ->
 
 
 def rank(finding: Diagnostic) -> tuple[int, int, bool, Span, str]:
-    """By line, the worst first, and what follows from lines before after what does not."""
-    follows = finding.about is ReadIssue.POSITION_UNKNOWN
+    """By line, the worst first, and what follows from lines before, or is missing, after what is wrong."""
+    follows = finding.about in (ReadIssue.POSITION_UNKNOWN, ReadIssue.UNDERDETERMINED)
     return finding.span.line, list(Severity).index(finding.severity), follows, finding.span, finding.code

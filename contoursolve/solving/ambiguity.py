@@ -120,13 +120,14 @@ class Settlement(Struct, frozen=True):
 def settle(profile: Profile, *, is_blaming: bool = True) -> Settlement:
     """The contour that the control makes of a determined profile, or the only one that there is.
 
-    Where the first facts are singular at their values, those that were not needed are tried instead of them. Which
+    Where the first facts are singular or undecided at their values, those that were not needed are tried instead. Which
     facts are to blame where there is no contour takes searches of its own.
     """
     alternatives = find_alternatives(profile)
-    if not alternatives.items and _singular(alternatives):
-        tried = (find_alternatives(other) for other in (*orders_of(profile), *_last(profile, _singular(alternatives))))
-        alternatives = next((found for found in tried if not _singular(found)), alternatives)
+    unsettled = [] if alternatives.items else _unsettled(alternatives)
+    if unsettled:
+        tried = (find_alternatives(other) for other in (*orders_of(profile), *_last(profile, unsettled)))
+        alternatives = next((found for found in tried if not _unsettled(found)), alternatives)
     nearest = tuple(sorted(alternatives.items, key=_disagreement))
     solution = decide(replace(alternatives, items=nearest), profile)
     kinds = {refusal.kind for refusal in solution.refusals}
@@ -159,6 +160,12 @@ def settled_by(profile: Profile, unknown: str) -> tuple[str, ...]:
 def _singular(alternatives: Alternatives) -> list[str]:
     """The unknowns of a step whose facts do not fix them at their values."""
     doubts = (doubt for doubt in alternatives.doubts if doubt.obstacle is Obstacle.SINGULAR)
+    return list(dict.fromkeys(name for doubt in doubts for name in doubt.unknowns))
+
+
+def _unsettled(alternatives: Alternatives) -> list[str]:
+    """The unknowns of steps that are singular, or too close to decide, at their values."""
+    doubts = (doubt for doubt in alternatives.doubts if doubt.obstacle in (Obstacle.SINGULAR, Obstacle.UNDECIDED))
     return list(dict.fromkeys(name for doubt in doubts for name in doubt.unknowns))
 
 
@@ -264,7 +271,7 @@ def said_twice(profile: Profile) -> tuple[Refusal | Note, ...]:
     """How the facts that are not needed compare with the others, as far as these determine what they speak about.
 
     Facts about lines are compared whatever the others leave free. Of the others, where they leave several places, the
-    one with which most of them agree counts.
+    one with which most of them agree counts; where they leave none, what speaks against that is told.
     """
     affine = affine_facts(profile, profile.facts)
     if affine is not None:
@@ -272,16 +279,20 @@ def said_twice(profile: Profile) -> tuple[Refusal | Note, ...]:
     system = assemble(profile)
     free = analyse(system).free
     part = restrict(profile, (name for name in system.unknowns if name not in free))
-    if len(part.facts) <= len(assemble(part).unknowns) or not analyse(assemble(part)).is_determined:
+    if not part.facts or not analyse(assemble(part)).is_determined:
         return ()
-    items = find_alternatives(part).items
-    compared = [tuple(event for event in _events(item) if event.kind in _COMPARED) for item in items]
-    return min(compared, key=_disagreements) if compared else ()
+    found = find_alternatives(part)
+    compared = [tuple(event for event in _events(item) if event.kind in _COMPARED) for item in found.items]
+    if compared or not found.is_complete:
+        return min(compared, key=_disagreements) if compared else ()
+    return settle(part).solution.refusals
 
 
 def _events(item: Alternative) -> tuple[Refusal | Note, ...]:
     return (*item.solution.refusals, *item.solution.remarks)
 
 
-def _disagreements(events: tuple[Refusal | Note, ...]) -> int:
-    return sum(isinstance(event, Refusal) for event in events)
+def _disagreements(events: tuple[Refusal | Note, ...]) -> tuple[int, float]:
+    """How many facts disagree, and by how much together, mm."""
+    refusals = [event for event in events if isinstance(event, Refusal)]
+    return len(refusals), sum(each.values.get("off_by_mm", 0.0) for each in refusals)

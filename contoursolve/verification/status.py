@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
-from itertools import combinations
+from itertools import combinations, pairwise
 from math import hypot, inf, pi
 from typing import get_args
 
@@ -21,7 +21,9 @@ from contoursolve.geometry import (
     Coordinate,
     Directed,
     Fact,
+    Given,
     Heading,
+    Layout,
     Line,
     Offset,
     OnCircle,
@@ -29,6 +31,7 @@ from contoursolve.geometry import (
     Radius,
     Ray,
     TurnBetween,
+    Unit,
     line_scalars,
     scalar,
 )
@@ -39,7 +42,7 @@ from contoursolve.reading.rules import check as check_rules
 from contoursolve.statements import apply_statements
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH, REGULAR, RESIDUAL
 from contoursolve.verification import rank
-from contoursolve.verification.decode import ClaimedContour, Status
+from contoursolve.verification.decode import PRINTED, ClaimedContour, Status
 from contoursolve.verification.drawing import Drawing, Path, side_of
 from contoursolve.verification.residuals import Array, Place, ResidualSystem, norm, residual, senses, system_of
 
@@ -147,8 +150,9 @@ class Case(Struct, frozen=True):
         return min((float(residual(fact, self.system.at(values, each))) for each in tried), key=abs)
 
 
-def prepare(found: Found) -> Case:
-    """What the words and facts of a contour say, read with the tables of its control."""
+def prepare(found: Found, *, has_cuts: bool = False) -> Case:
+    """What the words and facts of a contour say, read with the tables of its control. Where it `has_cuts`, what the
+    words leave open at their values is where its result has it, as far as that only cuts lines."""
     claim, statuses, ignored = found.claim, dict[str, str](), set[str]()
     unreadable = _unreadable(claim)
     if unreadable:
@@ -174,12 +178,43 @@ def prepare(found: Found) -> Case:
         statuses.setdefault("underdetermined", "the start point is not known")
     system = _with_half_circles(profile, system_of(profile))
     chosen = rank.independent(rank.jacobian_at_random(system), rank.GENERIC) if is_readable else []
+    if claim.form.is_general and is_readable and (has_cuts or len(chosen) < len(system.unknowns)):
+        profile = _with_cuts(profile, found, is_first=has_cuts)
+        system = _with_half_circles(profile, system_of(profile))
+        chosen = rank.independent(rank.jacobian_at_random(system), rank.GENERIC)
     basis = tuple(profile.facts[number] for number in chosen)
     spare = tuple(fact for number, fact in enumerate(profile.facts) if number not in chosen)
     loose = dict(_structure(profile, free=len(system.unknowns) - len(basis), unknowns=len(system.unknowns)))
     if is_readable and not statuses.keys() & {"rejected", "no-solution"}:
         statuses = {**loose, **statuses}  # What a rule refuses counts once.
     return Case(found, profile, system, basis, spare, statuses, loose, is_readable)
+
+
+def _with_cuts(profile: Profile, found: Found, *, is_first: bool) -> Profile:
+    """The profile with the places that a result gives points which only cut a straight line in two, each between its
+    neighbours; what else says where they are comes first, unless these are."""
+    claimed, figure, start = found.claimed, profile.figure, profile.start.values
+    if claimed is None or None in start:
+        return profile
+    at = {**claimed.points, figure.start: (float(start[FIRST] or 0), float(start[SECOND] or 0))}
+    if claimed.end is not None:
+        at[figure.path[-1].head] = claimed.end
+    sharp = {corner.at for corner in figure.corners}
+    facts, givens = list(profile.facts), dict(profile.givens)
+    for first, second in pairwise(figure.path):
+        point, ends = first.head, (first.tail, first.head, second.head)
+        is_cut = isinstance(first, Line) and isinstance(second, Line) and point not in sharp
+        if not is_cut or not at.keys() >= set(ends):
+            continue
+        before, here, behind = (complex(*at[end]) for end in ends)
+        along = (behind - before) / abs(behind - before) if behind != before else 0j
+        part = (here - before) * along.conjugate()
+        if abs(part.imag) <= RESIDUAL + PRINTED and 0 < part.real < abs(behind - before):
+            axis = FIRST if abs(along.real) >= abs(along.imag) else SECOND
+            name = f"{point} as the result has it"
+            givens[name] = Given(name, Decimal(repr(at[point][axis])), Unit.MM, None)
+            facts.insert(0 if is_first else len(facts), Coordinate(name, point, axis))
+    return replace(profile, layout=Layout(figure, tuple(facts)), givens=givens)
 
 
 def _with_half_circles(profile: Profile, system: ResidualSystem) -> ResidualSystem:

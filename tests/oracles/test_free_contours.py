@@ -167,7 +167,7 @@ ARC = "FC X+50 Y+20 CCX+30 CCY+20 DR+ R20"
     [
         ([ARC, "FL LEN30 AN+20 PAR 2"], "heidenhain-block-no-line", "PAR 2"),
         ([ARC, "FL LEN30 PAR 2 DP10"], "heidenhain-block-no-line", "PAR 2"),
-        ([ARC, "FL LEN30 IAN+20 RAN 2"], "heidenhain-block-no-line", "RAN 2"),
+        ([ARC, "FL X+60 Y+60", "FL LEN30 IAN+20 RAN 2"], "heidenhain-block-no-line", "RAN 2"),
         ([ARC, "FL LEN30 PAR 9"], "heidenhain-block-missing", "PAR 9"),
         ([ARC, "FL IX+10 IY+20 RX 2 RY 7"], "heidenhain-block-missing", "RY 7"),
         ([ARC, "FL LEN30 X+60 Y+45 RX 2"], "heidenhain-reference-alone", "RX 2"),
@@ -177,6 +177,11 @@ def test_a_reference_to_a_block_that_it_cannot_mean_is_told(blocks, code, word):
     found = solved(chain(*blocks, before="L X+10 Y+20")).diagnostics
     (own,) = (each for each in found if each.code == code)
     assert own.message.startswith(word)
+
+
+def test_an_angle_may_count_from_the_arc_right_before():
+    alone, named = (solved(chain(ARC, f"FL LEN30 IAN+20{word}", before="L X+10 Y+20")) for word in ("", " RAN 2"))
+    assert ends(named) == ends(alone)
 
 
 def test_a_block_number_that_stands_twice_is_told_where_data_refer_to_it():
@@ -212,6 +217,69 @@ def test_data_that_agree_are_accepted_with_a_note_and_others_are_told_by_how_muc
     assert apart.diagnostics[0].values["off_by_mm"] == pytest.approx(0.917, abs=1e-3)
     parallel = solved(chain("FL AN+60", "FL X+80 Y+20 AN-120"))
     assert parallel.status.value == "no-solution"
+
+
+@pytest.mark.parametrize(
+    ("blocks", "cuts"),
+    [
+        (["FL X+0 Y+20", "FL Y+20", "FL X+50 Y+20", "FL X+50 Y+0"], {"P3": (25, 20)}),
+        (["FL X+0 Y+20", "FL AN+0", "FL X+50 Y+20", "L X+50 Y+0"], {"P3": (25, 20)}),
+        (["FL X+0 Y+20", "FL P1X+10 P1Y+20", "FL X+50 Y+20"], {"P3": (25, 20)}),
+        (["FL X+0 Y+20", "FL Y+20", "FL AN+0", "FL X+60 Y+20"], {"P3": (20, 20), "P4": (40, 20)}),
+        (["FL X+10 Y+20", "FL AN+45", "FL X+50 Y+60 AN+45", "FL X+50 Y+0"], {"P3": (30, 40)}),
+        (["FL X+10 Y+20", "FL AN+45", "FLT X+50 Y+60", "FL X+50 Y+0"], {"P3": (30, 40)}),
+    ],
+)
+def test_a_block_that_only_cuts_a_straight_line_is_told_and_the_path_is_solved(blocks, cuts):
+    answer = solved(chain(*blocks))
+    told = [each.message.split()[0] for each in answer.diagnostics if each.code == "heidenhain-cut-free"]
+    assert told == list(cuts)
+    for point, at in cuts.items():
+        assert answer.contour.points[point] == pytest.approx(at)
+    assert not any(each.is_error for each in answer.diagnostics)
+
+
+@pytest.mark.parametrize(
+    "blocks",
+    [
+        ["FL X+0 Y+20", "FL AN+180", "FL X+50 Y+20"],
+        ["FL X+0 Y+20", "FL", "FL X+50 Y+20"],
+        ["FL X+0 Y+20", "FL Y+20", "RND R2", "FL X+50 Y+20"],
+        ["FL X+0 Y+20", "FL Y+20", "FL X+50 Y+30"],
+    ],
+    ids=["the other way", "anywhere", "with a corner", "not straight"],
+)
+def test_a_point_that_does_more_than_cut_a_line_is_missing_a_word(blocks):
+    answer = solved(chain(*blocks))
+    assert answer.status.value == "underdetermined"
+    assert [each.code for each in answer.diagnostics if each.is_error] == ["words-missing"]
+
+
+@pytest.mark.parametrize(
+    ("blocks", "code", "off"),
+    [
+        (["FC DR+ R20 CCX+0 CCY+20", "FCT DR- R15 CCX+35.917 CCY+20", "FLT"], "radius-difference", 0.917),
+        (
+            ["FL LEN30", "FL AN+45", "FC DR+ R20 CCX+0 CCY+20", "FCT DR- R15 CCX+35.917 CCY+20"],
+            "radius-difference",
+            0.917,
+        ),
+        (["FL X+30 Y+0 LEN25", "FL AN+70"], "words-conflict", 5),
+        (["FL AN+10", "FL X+50 Y+20 AN+60", "FL LEN20 X+80", "FL AN+0"], "no-point", None),
+        (["FL AN+30", "FC DR- R10 CCX+40 CCY+0 X+40 Y+12", "FL AN+0"], "no-point", None),
+    ],
+)
+def test_a_contradiction_is_told_before_what_is_missing(blocks, code, off):
+    first, second = solved(chain(*blocks)).diagnostics[:2]
+    assert (first.code, second.code) == (code, "words-missing")
+    assert first.values.get("off_by_mm") == (off and pytest.approx(off, abs=1e-3))
+
+
+def test_a_closing_line_in_the_wrong_direction_is_told_with_the_right_one():
+    text = chain("FL AN+0 LEN60 CLSD+", "FL AN+90 LEN40", "FL AN+180 LEN60", "FL AN+240 CLSD-")
+    (finding,) = solved(text).diagnostics
+    assert finding.values["off_by_mm"] == pytest.approx(40 / 3**0.5)
+    assert finding.fixes[0].replacement.endswith("FL AN270 CLSD-")
 
 
 # Chains drawn forwards ------------------------------------------------------------------------------------------

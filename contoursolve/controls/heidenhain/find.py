@@ -51,8 +51,9 @@ from contoursolve.controls.heidenhain.lexicon import (
     function_of,
 )
 from contoursolve.gcode import Block, Word
-from contoursolve.geometry import Choice, Given, Pick, Side, Turn, Unit, assemble
+from contoursolve.geometry import Choice, Given, Pick, Profile, Side, Turn, Unit, assemble
 from contoursolve.reading import Convention, Modes, ParsedContour, State, apply_modes, read
+from contoursolve.solving.free_cuts import place_cuts
 
 NO_SENSE, NO_POLE, NO_BEFORE = "@no-sense", "@no-pole", "@no-before"
 """An arc without DR; polar data without a pole; a tangent element behind none."""
@@ -337,9 +338,15 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
         picks=tuple(_picks(picks, len(members), modes)),
         conventions=tuple(_conventions(bool(picks), modes)),
     )
-    if chain.is_cut and not analyse(assemble(read(claim, frozenset()))).is_determined:
+    if chain.is_cut and _is_open(read(claim, frozenset())):
         return replace_fields(claim, circumstances=claim.circumstances | {f"{len(members)}:{CUT}"})
     return claim
+
+
+def _is_open(profile: Profile) -> bool:
+    """Whether something of a path is not determined."""
+    free = analyse(assemble(profile)).free
+    return bool(free) and not place_cuts(profile, free)[1]
 
 
 def _picks(stated: Sequence[Pick], count: int, modes: Modes) -> Iterator[Pick]:
@@ -451,10 +458,11 @@ def _referred(
         if word is None or name not in _ALLOWED[member.function]:
             continue
         other = numbers.get(word.number) if word.number is not None else None
-        refers_to_line = name in REFERRING_TO_LINES
+        # From the element right before, IAN counts anyway, whatever that is.
+        refers_to_line = name in REFERRING_TO_LINES and not (name == "RAN" and other == place)
         if other == _TWICE:
             yield name, TWO_BLOCKS
-        elif other is None or other > place or (refers_to_line and not other):
+        elif other is None or other > place or (name in REFERRING_TO_LINES and not other):
             yield name, NO_BLOCK
         elif refers_to_line and members[other - 1].function not in STRAIGHT:
             yield name, NO_LINE
