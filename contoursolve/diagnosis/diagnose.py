@@ -1,6 +1,6 @@
 """Adds to findings why they are so and what to write instead, and which checks a contour went through."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from msgspec.structs import replace
 
@@ -18,9 +18,9 @@ from contoursolve.gcode import FACT, Block, FaultKind, Word
 from contoursolve.geometry import OnCircle, Profile, System, Unit, assemble
 from contoursolve.reading import ReadIssue, State, read
 from contoursolve.reading.dialect import Dialect
-from contoursolve.solving import NoteKind, Point, RefusalKind, scalars_of
+from contoursolve.solving import NoteKind, RefusalKind, lookup, scalars_of
 from contoursolve.solving.affine import NO_CIRCUITS, AffineFacts, Circuit, affine_facts
-from contoursolve.solving.compare import compare_affine, is_conflict, is_turned, opposes
+from contoursolve.solving.compare import compare_affine, is_conflict, opposes, runs_against
 
 
 def diagnose(
@@ -134,13 +134,16 @@ def _tie(answer: Answer, affine: AffineFacts, circuit: Circuit) -> Tie:
         addresses=tuple(_address(word) for word in answer.profile.words_of(circuit.facts)),
         identity=identity(answer.profile, circuit.facts),
         off_by_mm=max(circuit.off),
-        is_conflict=is_conflict(circuit, answer.profile, affine)
-        or is_turned(circuit, answer.profile, affine, _points_of(answer)),
+        is_conflict=is_conflict(circuit, answer.profile, affine) or _is_turned(answer, affine, circuit),
     )
 
 
-def _points_of(answer: Answer) -> Mapping[str, Point]:
-    return answer.contour.points if answer.contour else {}
+def _is_turned(answer: Answer, affine: AffineFacts, circuit: Circuit) -> bool:
+    """Whether a line runs against the angle of one of the facts that say the same: as the contour runs, or where these
+    facts alone put its ends."""
+    profile, contour = answer.profile, answer.contour
+    known = affine.fixed_by(circuit.facts) | scalars_of(contour.points if contour else {})
+    return runs_against(circuit.facts, profile, lookup(profile, known))
 
 
 def _address(word: Word) -> str:
@@ -201,7 +204,7 @@ def _reasons(
             addresses = {word.address for word in profile.words_of(circuit.facts)}
             about = addresses if finding.about in SINGULAR else addresses.intersection(finding.addresses)
             if about and about <= {*finding.addresses}:
-                is_about_direction = is_opposite or is_turned(circuit, profile, affine, _points_of(answer))
+                is_about_direction = is_opposite or _is_turned(answer, affine, circuit)
                 yield from conflict_reasons(profile, affine, circuit, is_about_direction=is_about_direction)
     if finding.about in _ABOUT_FREEDOM:
         lost = _points_lost(profile, affine) if affine is not None else set()

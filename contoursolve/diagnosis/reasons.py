@@ -23,7 +23,7 @@ from contoursolve.diagnostics.finding import Diagnostic, Freedom
 from contoursolve.geometry import FIRST, SECOND, Arc, Fact, Heading, Line, Profile, assemble, scalar
 from contoursolve.solving import RefusalKind, lookup
 from contoursolve.solving.affine import AffineFacts, Circuit
-from contoursolve.solving.compare import is_conflict
+from contoursolve.solving.compare import is_conflict, runs_against
 from contoursolve.tolerance import REGULAR
 
 
@@ -65,14 +65,15 @@ def conflict_reasons(
     fixed = affine.fixed_by(others)
     point = getattr(single, "point", "")
     known = {name: value for name, value in fixed.items() if name.partition(".")[0] == point}
-    disagrees = is_conflict(circuit, profile, affine) or is_about_direction
-    if known and single.given and not is_about_direction:
+    is_apart = is_conflict(circuit, profile, affine)
+    is_place = (is_apart or not is_about_direction) and not runs_against(others, profile, lookup(profile, fixed))
+    if known and single.given and is_place:
         given = profile.givens[single.given]
         row = affine.facts.index(single)
         axis = next(axis for axis in (FIRST, SECOND) if scalar(point, axis) in single.reads())
         own = -float(affine.constants[row]) / float(affine.matrix[row, affine.unknowns.index(scalar(point, axis))])
         apart = f"{length_text(circuit.off[circuit.facts.index(single)], profile.unit)} apart"
-        ending = apart if disagrees else "the same place"
+        ending = apart if is_apart else "the same place"
         verb = "put" if len(others) > 1 else "puts"
         words = join([word.text for word in profile.words_of(others)])
         yield (
@@ -80,10 +81,8 @@ def conflict_reasons(
             f"and {given.word.text if given.word else 'what is not written'} puts it at "
             f"{place_text(profile, {scalar(point, axis): own})}: {ending}"
         )
-    # No other length turns a line round.
-    able = [fact for fact in circuit.facts if isinstance(fact, Heading) or not is_about_direction]
-    agreeing = [text for fact in able if (text := _agreeing(profile, affine, circuit, fact))]
-    if disagrees and agreeing:
+    agreeing = [text for fact in circuit.facts if (text := _agreeing(profile, affine, circuit, fact))]
+    if (is_apart or is_about_direction) and agreeing:
         several = f"change one: {', '.join(agreeing[:-1])} or {agreeing[-1]}"
         yield several if len(agreeing) > 1 else f"write {agreeing[0]} instead"
     formula = identity(profile, circuit.facts)
@@ -94,9 +93,10 @@ def conflict_reasons(
 
 def _agreeing(profile: Profile, affine: AffineFacts, circuit: Circuit, fact: Fact) -> str:
     """One fact of a circuit as it would be written to agree with the others."""
-    fixed = affine.fixed_by([other for other in circuit.facts if other is not fact])
-    at = lookup(profile, fixed)
-    if not fact.given or not all(name in at.scalars for name in fact.reads()):
+    others = [other for other in circuit.facts if other is not fact]
+    at = lookup(profile, affine.fixed_by(others))
+    # Where the others turn a line round, no length does that makes it agree.
+    if not fact.given or not at.scalars.keys() >= {*fact.reads()} or runs_against(others, profile, at):
         return ""
     value, given = fact.implied(at), profile.givens[fact.given]
     if value is None or given.word is None:

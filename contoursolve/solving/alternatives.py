@@ -17,11 +17,13 @@ from contoursolve.geometry import (
     Choice,
     Contact,
     Coordinate,
+    Directed,
     Foot,
     Line,
     Offset,
     OnCircle,
     Profile,
+    Ray,
     Side,
     System,
     TangentCircles,
@@ -127,7 +129,7 @@ def _find(question: _Question) -> Alternatives:
     system = assemble(profile)
     enumeration = enumerate_solutions(profile, system)
     # Where a direction that was not needed leaves nothing, it is what disagrees.
-    stated = frozenset(fact for fact in spare_of(system) if fact.given and fact.sense_reads())
+    stated = frozenset(fact for fact in spare_of(system) if isinstance(fact, Directed | Ray))
     if stated and not enumeration.found:
         enumeration = enumerate_solutions(profile, system, stated)
     with ball.precision(ball.WORKING):

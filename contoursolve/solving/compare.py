@@ -1,6 +1,6 @@
 """Do facts that say the same agree? What each of them would have to state, and by how much it is off."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from math import hypot, inf, pi
 from typing import Any
 
@@ -26,7 +26,7 @@ from contoursolve.geometry import (
 )
 from contoursolve.geometry.system import step
 from contoursolve.solving.affine import AffineFacts, Circuit
-from contoursolve.solving.numbers import lookup, scalars_of
+from contoursolve.solving.numbers import lookup
 from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind
 from contoursolve.tolerance import AGREEMENT, RESIDUAL
 
@@ -99,13 +99,9 @@ def opposes(values: Mapping[str, float], unit: Unit) -> bool:
     return unit is Unit.DEGREE and abs(values.get("expected", 0.0) - values.get("actual", 0.0)) > QUARTER_TURN
 
 
-def is_turned(
-    circuit: Circuit, profile: Profile, affine: AffineFacts, points: Mapping[str, tuple[float, float]]
-) -> bool:
-    """Whether facts about lines that say the same have one among them whose line runs the other way, at the points of
-    the contour, or at those that the facts themselves fix where there is none."""
-    at = lookup(profile, scalars_of(points) if points else affine.fixed_by(circuit.facts))
-    angles = [each for each in circuit.facts if isinstance(each, Heading) and at.scalars.keys() >= {*each.reads()}]
+def runs_against(facts: Iterable[Fact], profile: Profile, at: Values) -> bool:
+    """Whether a line runs against the angle that one of some facts states, where these values hold its ends."""
+    angles = (each for each in facts if isinstance(each, Heading) and at.scalars.keys() >= {*each.reads()})
     return any(opposes(compare(each, profile, at), Unit.DEGREE) for each in angles)
 
 
