@@ -5,10 +5,18 @@ from collections.abc import Iterable, Iterator, Sequence
 from msgspec.structs import replace
 
 from contoursolve.analysis import analyse, decompose, spare_of
-from contoursolve.diagnosis.attempt import Repair
+from contoursolve.diagnosis.attempt import Repair, Repairs
 from contoursolve.diagnosis.edits import EditKind, edited
 from contoursolve.diagnosis.examine import Answer, Policy, problems
-from contoursolve.diagnosis.explain import SAID_AGAIN, SINGULAR, facts_at, spans_of
+from contoursolve.diagnosis.explain import (
+    SAID_AGAIN,
+    SINGULAR,
+    absent_advice,
+    context_of,
+    explain_missing,
+    facts_at,
+    spans_of,
+)
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.wording import SHOWN, count, join, length_text, place_text
@@ -56,6 +64,7 @@ def diagnose(
         # What is unknown to this contour may be known to that one.
         first = "; ".join(map(str, repairs.repairs[0].edits))
         findings = [replace(each, help=first) if each.about is ReadIssue.UNKNOWN_ADDRESS else each for each in findings]
+    findings = _with_able(findings, answer, dialect, repairs)
     # The rules of a control whose words are facts of all kinds are meant as they are.
     main = _main(findings, is_extended=profile.is_extended and not answer.claim.form.is_general)
     if main is not None:
@@ -63,6 +72,30 @@ def diagnose(
         for number in (main, *_both(findings)):
             findings[number] = replace(findings[number], fixes=fixes)
     return replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis)
+
+
+def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Dialect, repairs: Repairs) -> list[Diagnostic]:
+    """The findings; those that ask for words without the ones that no repair adds, where some add any and all have been
+    tried."""
+    claim = answer.claim
+    added = {
+        (edit.address, edit.line) for repair in repairs.repairs for edit in repair.edits if edit.kind is EditKind.ADD
+    }
+    if not (added and repairs.is_complete) or claim.form.is_general:
+        return findings
+    places = ((name, address, claim.blocks[index].line) for name, (address, index) in claim.vocabulary.items())
+    unable = {name for name, address, line in places if (address, line) not in added}
+    context, rules = context_of(claim, dialect.rules), {rule.code: rule for rule in dialect.rules}
+    found = []
+    for finding in findings:
+        if finding.about is ReadIssue.UNDERDETERMINED:
+            verdict = analyse(assemble(answer.profile))
+            message = explain_missing(context, answer.profile, verdict, claim, unable).message
+            found.append(replace(finding, message=message))
+        else:
+            advice = absent_advice(context, rules.get(finding.code), unable)
+            found.append(replace(finding, help=advice) if advice else finding)
+    return found
 
 
 def _both(findings: list[Diagnostic]) -> list[int]:

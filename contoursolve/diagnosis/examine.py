@@ -365,7 +365,7 @@ def _examine_geometry(
     is said of the rest.
     """
     is_refused = bool(notebook.statuses & {Status.REJECTED, Status.NO_SOLUTION})
-    structure = list(_examine_system(context, claim, profile))
+    structure = list(_examine_system(context, claim, profile, is_brief=depth is Depth.TRIAL))
     against: list[Diagnostic] = []
     if structure and profile.start.is_known and not (is_refused and profile.is_extended):
         from contoursolve.solving.ambiguity import said_twice  # noqa: PLC0415 - few blocks lack something
@@ -463,12 +463,14 @@ def _has_choice(profile: Profile) -> bool:
 _ABOUT_WORDS = (*SAID_AGAIN, RefusalKind.RADIUS_DIFFERENCE, RefusalKind.LINES_PARALLEL)
 
 
-def _examine_system(context: Context, claim: ParsedContour, profile: Profile) -> Iterator[tuple[Status, Diagnostic]]:
+def _examine_system(
+    context: Context, claim: ParsedContour, profile: Profile, *, is_brief: bool
+) -> Iterator[tuple[Status, Diagnostic]]:
     """Why the facts alone, whatever their values, make no single contour."""
     system = assemble(profile)
     verdict = analyse(system)
     if not verdict.is_determined:
-        yield Status.UNDERDETERMINED, explain_missing(context, profile, verdict, claim)
+        yield Status.UNDERDETERMINED, explain_missing(context, profile, verdict, claim, is_brief=is_brief)
     by_name: dict[str, list[str]] = {}
     for corner in profile.figure.corners:
         # A size that stays in force has no word in the contour.

@@ -135,7 +135,10 @@ def _one(claim: ParsedContour, profile: Profile, name: str) -> list[Array]:
         return [grid[[place], numpy.newaxis] for place in _apart(len(grid), count)]
     places = numpy.flatnonzero(passed)
     parts = numpy.split(places, numpy.flatnonzero(numpy.diff(places) > 1) + 1) if places.size else []
-    return [grid[part, numpy.newaxis] for part in sorted(parts, key=len, reverse=True)]
+    runs = [grid[part, numpy.newaxis] for part in sorted(parts, key=len, reverse=True)]
+    # The middle of a stretch may be the one number that a rule refuses, such as 0 between either sign.
+    halves = [part for run in runs for part in numpy.array_split(run, 2) if part.size]
+    return [*runs[: MOST_PROPOSED - 2], *halves[:2], *runs[MOST_PROPOSED - 2 :]]
 
 
 def _closer(claim: ParsedContour, profile: Profile, name: str, grid: Array) -> Array:

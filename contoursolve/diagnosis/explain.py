@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
@@ -14,6 +14,7 @@ from msgspec.structs import replace
 
 from contoursolve.analysis import Determinacy
 from contoursolve.diagnosis.wording import (
+    NUMBERS,
     angle_text,
     by_line,
     either,
@@ -159,6 +160,16 @@ def report(
     )
 
 
+def absent_advice(context: Context, rule: Rule | None, unable: Collection[str]) -> str:
+    """The help of a rule that asks for words, without those that help nothing; empty where it asks for none, or where
+    none of its own words helps."""
+    if rule is None or "{absent:" not in rule.help:
+        return ""
+    without = dict.fromkeys(unable, "") | {name: word.text for name, word in context.words.items()}
+    advice = rule.help.format_map({"absent": Absent(without)})
+    return "" if advice.startswith("add ;") else advice
+
+
 def spans_of(findings: Iterable[Diagnostic], about: Enum | None = None) -> set[Span]:
     """The places that findings are about, or those about one event."""
     chosen = (each for each in findings if about is None or each.about is about)
@@ -236,8 +247,17 @@ def _compared(values: Mapping[str, float], allowed: float, unit: Length) -> str:
     return f"{given}, {angle_text(gap)} ({length_text(off, unit)}) away"
 
 
-def explain_missing(context: Context, profile: Profile, verdict: Determinacy, claim: ParsedContour) -> Diagnostic:
-    """Unknowns that no word determines, and the words that speak about them."""
+def explain_missing(
+    context: Context,
+    profile: Profile,
+    verdict: Determinacy,
+    claim: ParsedContour,
+    unable: Collection[str] = (),
+    *,
+    is_brief: bool = False,
+) -> Diagnostic:
+    """Unknowns that no word determines, and the words that do, without those that are known to help nothing (`unable`);
+    a brief one does not name them."""
     free = set(verdict.free)
     stated = {fact.given for fact in profile.facts}
     able = [
@@ -248,9 +268,10 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
     # Of a corner whose size is not determined, nothing is.
     corners = tuple(f"{corner.name}." for corner in profile.figure.corners if f"{corner.name}.radius" in free)
     shown = [name for name in verdict.free if not name.startswith(corners) or name.endswith(".radius")]
-    absent = dict.fromkeys(claim.vocabulary[name] for name in able if name in claim.vocabulary)
+    usual = claim.form.usual if claim.form.is_general else able
+    absent = [name for name in dict.fromkeys(usual) if name in able and name in claim.vocabulary]
     open_count = len(assemble(profile).unknowns) - verdict.rank
-    ways = [_adding(list(absent), open_count, claim)] if absent else []
+    ways = [] if is_brief else list(_adding(absent, claim, profile, unable))
     if profile.is_extended:
         open_sizes = [
             question.word.text
@@ -263,8 +284,8 @@ def explain_missing(context: Context, profile: Profile, verdict: Determinacy, cl
         told, first = _open_elements(free, open_count, profile)
         blocks = zip(claim.blocks, claim.makes, strict=True)
         context = replace(context, place=next((block.span for block, names in blocks if first in names), context.place))
-        usual = [claim.vocabulary[name] for name in claim.form.usual if name in able and name in claim.vocabulary]
-        ways = [_adding_by_line(usual[:_MOST_NAMED], open_count, claim)] if usual else []
+        usual_words = [claim.vocabulary[name] for name in absent[:_MOST_NAMED]]
+        ways = [_adding_by_line(usual_words, open_count, claim)] if usual_words else []
     completions = "; or ".join(ways) or f"state a fact about {'them' if told.endswith('are still open') else 'it'}"
     return report(context, ReadIssue.UNDERDETERMINED, Basis.SYMBOLIC, [], open=told, completions=completions)
 
@@ -281,7 +302,7 @@ def _open_elements(free: set[str], number: int, profile: Profile) -> tuple[str, 
         for each in profile.figure.path
         if things & {each.name, each.head, *((each.center, each.radius) if isinstance(each, Arc) else ())}
     ]
-    missing = f"{_NUMBERS.get(number, number)} word{' is' if number == 1 else 's are'} missing"
+    missing = f"{NUMBERS.get(number, number)} word{' is' if number == 1 else 's are'} missing"
     return f"{missing}, so {join(open_)} {'is' if len(open_) == 1 else 'are'} open", next(iter(open_), "")
 
 
@@ -291,21 +312,28 @@ def _adding_by_line(words: Sequence[tuple[str, int]], number: int, claim: Parsed
     for address, index in words:
         lines.setdefault(claim.blocks[index].line, []).append(address)
     told = [f"{either(own)} in program line {line}" for line, own in lines.items()]
-    amount = "" if number == 1 else f"{_NUMBERS.get(number, number)} of "
+    amount = "" if number == 1 else f"{NUMBERS.get(number, number)} of "
     return f"add {amount}{', or '.join(told) if number == 1 else ', '.join(told)}"
 
 
-_NUMBERS = {1: "one", 2: "two", 3: "three"}
+def _adding(names: Sequence[str], claim: ParsedContour, profile: Profile, unable: Collection[str]) -> Iterator[str]:
+    """To add the words that complete a contour: with their lines where it has several."""
+    from contoursolve.diagnosis.lacking import lack_of, lack_text, still_able  # noqa: PLC0415 - few blocks lack words
 
+    if claim.form.is_general:
+        return
+    lack = lack_of(claim, profile, names)
+    lack = (still_able(lack, unable) or lack) if lack else None
+    if lack is None:
+        return
+    lines = {name: claim.blocks[claim.vocabulary[name][1]].line for kind in lack.kinds for name in kind}
+    is_one = len({*lines.values()}) == 1
 
-def _adding(absent: Sequence[tuple[str, int]], number: int, claim: ParsedContour) -> str:
-    """To add so many of these words, each an address and its block: with the line where there are several."""
-    lines = {index: claim.blocks[index].line for _, index in absent}
-    where = f" in program line {lines[absent[0][1]]}" if len(claim.blocks) > 1 and len(lines) == 1 else ""
-    words = [address if len(lines) == 1 else f"{address} in program line {lines[index]}" for address, index in absent]
-    if number >= len(words) or number not in _NUMBERS:
-        return f"add {join(words)}{where}"
-    return f"add {_NUMBERS[number]} of {', '.join(words)}{where}"
+    def text(name: str) -> str:
+        return claim.vocabulary[name][0] + ("" if is_one else f" in program line {lines[name]}")
+
+    where = f" in program line {next(iter(lines.values()))}" if len(claim.blocks) > 1 and is_one else ""
+    yield lack_text(lack, text) + where
 
 
 _IN_DEGREES = {RefusalKind.LINE_REVERSED}
@@ -349,7 +377,7 @@ def explain_result(
         is_turned = bool(words) and (words[0].address == FACT or values["off_by_mm"] <= AGREEMENT)
         is_angle = is_word and givens[0].unit is Unit.DEGREE and is_turned
         turned = abs(values["expected"] - values["actual"]) if is_angle and "expected" in values else None
-        fields["off"] = _off(event, turned, context.unit, profile)
+        fields["off"] = _off(event, turned, context.unit, profile, is_diameter=is_word and givens[0].is_diameter)
     if is_word and "expected" in values:
         fields["meant"] = statement_text(givens[0], values["expected"], profile)
     fields |= _counted(event)
@@ -378,12 +406,13 @@ def explain_result(
     return replace(finding, notes=finding.notes + notes)
 
 
-def _off(event: Refusal | Note, turned: float | None, unit: Length, profile: Profile) -> str:
-    """By how much something is off: by an angle (`turned`, degrees) where a fact is about directions."""
+def _off(event: Refusal | Note, turned: float | None, unit: Length, profile: Profile, *, is_diameter: bool) -> str:
+    """By how much something is off: by an angle (`turned`, degrees) where a fact is about directions; as a diameter
+    where its word is one."""
     off = event.values["off_by_mm"]
     if any(isinstance(fact, ParallelLines) and event.subject in (fact.given, fact.part_of) for fact in profile.facts):
         turned = degrees(asin(min(1.0, off)))
-    return length_text(off, unit) if turned is None else angle_text(turned)
+    return length_text(off * (1 + is_diameter), unit) if turned is None else angle_text(turned)
 
 
 def _counted(event: Refusal | Note) -> dict[str, str]:

@@ -72,7 +72,8 @@ def conflict_reasons(
         row = affine.facts.index(single)
         axis = next(axis for axis in (FIRST, SECOND) if scalar(point, axis) in single.reads())
         own = -float(affine.constants[row]) / float(affine.matrix[row, affine.unknowns.index(scalar(point, axis))])
-        apart = f"{length_text(circuit.off[circuit.facts.index(single)], profile.unit)} apart"
+        shown = circuit.off[circuit.facts.index(single)] * (2 if profile.plane.diameters[axis] else 1)
+        apart = f"{length_text(shown, profile.unit)} apart"
         ending = apart if is_apart else "the same place"
         verb = "put" if len(others) > 1 else "puts"
         words = join([word.text for word in profile.words_of(others)])

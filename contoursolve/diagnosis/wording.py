@@ -150,6 +150,10 @@ def place_text(profile: Profile, scalars: dict[str, float]) -> str:
     return " ".join(texts)
 
 
+NUMBERS = {1: "one", 2: "two", 3: "three", 4: "four"}
+"""As a sentence has them; larger ones are written in digits."""
+
+
 def join(texts: Sequence[str]) -> str:
     """Texts as a list in a sentence: `A, B and C`."""
     return " and ".join(filter(None, (", ".join(texts[:-1]), *texts[-1:])))

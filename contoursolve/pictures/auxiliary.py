@@ -198,11 +198,11 @@ def _faults(subject: Subject) -> Iterator[Part]:
 
 
 def _gap(
-    subject: Subject, one: Point, other: Point, role: Role = Role.CONFLICTING, told: str = "off"
+    subject: Subject, one: Point, other: Point, role: Role = Role.CONFLICTING, told: str = "off", times: int = 1
 ) -> Iterator[Aligned]:
-    """How far apart two places are, if they are not one."""
+    """How far apart two places are, if they are not one; twice as far (`times`) along an axis of diameters."""
     if distance(one, other) > SAME:
-        yield Aligned(one, other, f"{number(distance(one, other), subject.profile.unit)} {told}", role)
+        yield Aligned(one, other, f"{number(times * distance(one, other), subject.profile.unit)} {told}", role)
 
 
 def _endless(on: Point, way: Point, role: Role = Role.CONFLICTING) -> Thin:
@@ -239,7 +239,7 @@ def _both_places(subject: Subject, fact: Fact, role: Role) -> Iterator[Part]:
             return
         there = with_coordinate(at, fact.axis, float(given.value) + origin[fact.axis])
         yield _endless(there, ALONG_AXIS[1 - fact.axis], role)
-        yield from _gap(subject, there, at, role)
+        yield from _gap(subject, there, at, role, times=1 + given.is_diameter)
         if distance(there, at) > SAME:
             yield Mark(there, MarkKind.OTHER, role=role)
 

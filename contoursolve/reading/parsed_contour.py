@@ -175,12 +175,13 @@ def read(claim: ParsedContour, ignored: frozenset[str]) -> Profile:
 def stating(claim: ParsedContour, names: Iterable[str]) -> ParsedContour:
     """A contour that states more; with what values does not matter."""
     units = {name: claim.lexicon.addresses[claim.vocabulary[name][0]].unit for name in names}
-    more = {name: Given(name, _ANY, unit, None) for name, unit in units.items()}
+    values = (_ANY + 7 * number for number in range(len(units)))
+    more = {name: Given(name, value, unit, None) for (name, unit), value in zip(units.items(), values, strict=True)}
     return replace_fields(claim, givens={**claim.givens, **more})
 
 
 _ANY = Decimal(1)
-"""The value of a word of which only matters that it is there."""
+"""The value of a word of which only matters that it is there; those of others differ."""
 
 
 def unused_words(claim: ParsedContour, profile: Profile) -> list[Word]:

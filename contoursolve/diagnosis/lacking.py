@@ -1,0 +1,101 @@
+"""Which words complete a contour, as its equations tell at the values that it has: how many, and which say the same."""
+
+from collections.abc import Callable, Collection, Sequence
+from itertools import combinations
+
+import numpy
+from msgspec import Struct
+
+from contoursolve.analysis.determinacy import survey
+from contoursolve.diagnosis.wording import NUMBERS, either, join
+from contoursolve.geometry import Fact, Profile, assemble
+from contoursolve.reading import ParsedContour, read, stating
+from contoursolve.solving.affine import affine_facts
+from contoursolve.tolerance import LENGTH
+
+MOST_WORDS = 10
+"""Words among which those that complete a contour are looked for by all their sets."""
+
+
+class Lack(Struct, frozen=True):
+    """The words that a contour lacks: so many (`number`), of several `kinds`.
+
+    The words of one kind say the same, beside what is stated. Any so many kinds are enough but those that contain one
+    of `tied`, which are numbers of kinds: beside the others, one of them adds nothing.
+    """
+
+    number: int
+    kinds: tuple[tuple[str, ...], ...]
+    tied: tuple[tuple[int, ...], ...] = ()
+
+
+def lack_of(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> Lack | None:
+    """What a contour lacks, of some names that it does not state; None where these help nothing."""
+    able, rank = list(names), _rank_with(claim, profile, names)
+    least = rank(())
+    able = [name for name in able if rank((name,)) > least]
+    if not able or len(able) > MOST_WORDS:
+        return Lack(1, tuple((name,) for name in able)) if able else None
+    number = rank(able) - least
+    kinds: list[list[str]] = []
+    for name in able:
+        kind = next((each for each in kinds if rank((each[0], name)) == least + 1), None)
+        if kind is None:
+            kinds.append([name])
+        else:
+            kind.append(name)
+    tied: list[tuple[int, ...]] = []
+    for size in range(2, number + 1):
+        for chosen in combinations(range(len(kinds)), size):
+            is_new = not any({*other} <= {*chosen} for other in tied)
+            if is_new and rank([kinds[each][0] for each in chosen]) < least + size:
+                tied.append(chosen)
+    return Lack(number, tuple(map(tuple, kinds)), tuple(tied))
+
+
+def _rank_with(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> Callable[[Collection[str]], int]:
+    """How much a contour determines with some of these words besides its own: for lines between points at the values
+    that it has, else at most values."""
+    own = frozenset(fact.given for fact in profile.ignored)
+    whole = read(stating(claim, names), own)
+    affine = affine_facts(whole, whole.facts)
+    stated = {*profile.facts}
+
+    def rank(added: Collection[str]) -> int:
+        def is_kept(fact: Fact) -> bool:
+            return fact in stated or fact.given in added
+
+        if affine is not None:
+            rows = affine.matrix[[is_kept(fact) for fact in affine.facts]]
+            return int(numpy.linalg.matrix_rank(rows, tol=LENGTH)) if rows.size else 0
+        system = assemble(whole)
+        return survey(system.keep(tuple(fact for fact in system.facts if is_kept(fact)))).rank
+
+    return rank
+
+
+def lack_text(lack: Lack, text: Callable[[str], str]) -> str:
+    """To add what is lacking, each word as `text` has it: `add K`, `add two of A, I or K, X or U`."""
+    kinds = [[text(name) for name in kind] for kind in lack.kinds]
+    if lack.number == len(kinds) == 1 and len(kinds[0]) > 1:
+        return f"add one of {', '.join(kinds[0])}"
+    if lack.number >= len(kinds):
+        return f"add {_and([either(kind) for kind in kinds])}"
+    told = f"add {NUMBERS.get(lack.number, lack.number)} of {', '.join(either(kind) for kind in kinds)}"
+    apart = [f"not {join([either(kinds[each]) for each in chosen])} together" for chosen in lack.tied]
+    return "; ".join([told, *apart])
+
+
+def _and(texts: Sequence[str]) -> str:
+    """A list of which each item may be a list itself: `A and B`, `I or K, and X or U`."""
+    return ", and ".join(texts) if any(" or " in each for each in texts) else join(texts)
+
+
+def still_able(lack: Lack, unable: Collection[str]) -> Lack | None:
+    """What is lacking without words that help nothing after all; None if so little is left that it tells nothing."""
+    kept = [tuple(name for name in kind if name not in unable) for kind in lack.kinds]
+    places = [place for place, kind in enumerate(kept) if kind]
+    if len(places) < lack.number:
+        return None
+    tied = (tuple(map(places.index, chosen)) for chosen in lack.tied if {*chosen} <= {*places})
+    return Lack(lack.number, tuple(kept[place] for place in places), tuple(tied))
