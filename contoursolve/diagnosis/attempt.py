@@ -93,11 +93,13 @@ class Repair(Struct, frozen=True):
 class Repairs(Struct, frozen=True):
     """Repairs, best first: fewest edits, smallest change of the contour.
 
-    `is_complete` tells that all smallest sets of words to drop and add, up to `MOST_EDITS`, were tried.
+    `is_complete` tells that all smallest sets of words to drop and add, up to `MOST_EDITS`, were tried, `has_tried_all`
+    that so was all that was thought of.
     """
 
     repairs: tuple[Repair, ...]
     is_complete: bool
+    has_tried_all: bool = False
 
 
 class Trial(Struct, frozen=True):
@@ -445,7 +447,7 @@ def choose_repairs(
     found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
     is_complete = len(tried) + spent <= most and considered <= MOST_CONSIDERED
     found = [trial.with_ends(each) if each.example else each for each in found]
-    return Repairs(tuple(_large_last(found, trial.contour)), is_complete=is_complete)
+    return Repairs(tuple(_large_last(found, trial.contour)), is_complete, has_tried_all=is_complete)
 
 
 def _order(repair: Repair) -> tuple[object, ...]:

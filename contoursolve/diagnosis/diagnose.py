@@ -76,12 +76,12 @@ def diagnose(
 
 def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Dialect, repairs: Repairs) -> list[Diagnostic]:
     """The findings; those that ask for words without the ones that no repair adds, where some add any and all have been
-    tried."""
-    claim = answer.claim
-    added = {
-        (edit.address, edit.line) for repair in repairs.repairs for edit in repair.edits if edit.kind is EditKind.ADD
-    }
-    if not (added and repairs.is_complete) or claim.form.is_general:
+    tried. What is added in place of other words counts only where nothing is added alone."""
+    claim, edits = answer.claim, [repair.edits for repair in repairs.repairs]
+    alone = [each for each in edits if all(edit.kind is EditKind.ADD for edit in each)]
+    adding = (edit for each in alone or edits for edit in each if edit.kind is EditKind.ADD and edit.address != "G")
+    added = {(edit.address, edit.line) for edit in adding}
+    if not (added and repairs.has_tried_all) or claim.form.is_general:
         return findings
     places = ((name, address, claim.blocks[index].line) for name, (address, index) in claim.vocabulary.items())
     unable = {name for name, address, line in places if (address, line) not in added}
@@ -93,7 +93,7 @@ def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Dialect, rep
             message = explain_missing(context, answer.profile, verdict, claim, unable).message
             found.append(replace(finding, message=message))
         else:
-            advice = absent_advice(context, rules.get(finding.code), unable)
+            advice = absent_advice(rules.get(finding.code), {address for address, _ in added})
             found.append(replace(finding, help=advice) if advice else finding)
     return found
 

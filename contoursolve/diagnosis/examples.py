@@ -20,6 +20,9 @@ MOST_PROPOSED = 8
 FEW_PROPOSED = 4
 """Numbers that are proposed where none has room around it."""
 
+MOST_VARIED = 400
+"""Combinations among which the proposed ones are chosen."""
+
 MOST_PLACES = 4
 """Places about which words may agree that are looked at closely."""
 
@@ -171,7 +174,20 @@ def _several(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> It
         steps = rows[:, lengths] - [_start_of(profile, names[place]) for place in lengths]
         unusual = ((abs(steps) * REACH / reach - 0.5) ** 2).sum(axis=1)
         places = numpy.flatnonzero(passed)
-        yield from (rows[[place]] for place in places[numpy.argsort(unusual[places], kind="stable")][:MOST_PROPOSED])
+        ordered = rows[places[numpy.argsort(unusual[places], kind="stable")]]
+        yield from (row[numpy.newaxis] for row in _varied(ordered[:MOST_VARIED]))
+
+
+def _varied(rows: Array) -> list[Array]:
+    """The first few rows, those first that share no number with another one: where one number leaves a line no
+    length, others do not."""
+    found: list[Array] = []
+    for row in rows:
+        if len(found) == MOST_PROPOSED:
+            return found
+        if not any((row == other).any() for other in found):
+            found.append(row)
+    return found + [row for row in rows[:MOST_PROPOSED] if not any((row == each).all() for each in found)]
 
 
 def _apart(count: int, few: int) -> list[int]:

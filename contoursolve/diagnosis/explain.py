@@ -90,6 +90,15 @@ class Absent(Struct, frozen=True):
         return " or ".join(" or ".join(slot) for slot in slots if not set(slot) & self.by_name.keys())
 
 
+class Able(Struct, frozen=True):
+    """As `Absent`, the names of a list that are among some."""
+
+    names: frozenset[str]
+
+    def __format__(self, spec: str) -> str:
+        return " or ".join(name for slot in spec.split() for name in slot.split("|") if name in self.names)
+
+
 class Context(Struct, frozen=True):
     """What a message may mention: the stated words by name, the unit to show lengths in."""
 
@@ -160,13 +169,12 @@ def report(
     )
 
 
-def absent_advice(context: Context, rule: Rule | None, unable: Collection[str]) -> str:
-    """The help of a rule that asks for words, without those that help nothing; empty where it asks for none, or where
+def absent_advice(rule: Rule | None, able: Collection[str]) -> str:
+    """The help of a rule that asks for words, of which these are known to help; empty where it asks for none, or where
     none of its own words helps."""
     if rule is None or "{absent:" not in rule.help:
         return ""
-    without = dict.fromkeys(unable, "") | {name: word.text for name, word in context.words.items()}
-    advice = rule.help.format_map({"absent": Absent(without)})
+    advice = rule.help.format_map({"absent": Able(frozenset(able))})
     return "" if advice.startswith("add ;") else advice
 
 

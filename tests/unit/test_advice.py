@@ -1,0 +1,83 @@
+"""What a finding asks to add, to delete or to write helps: its words, its fixes and the equations agree."""
+
+import re
+
+import pytest
+
+from contoursolve import Diagnostic, check, solve
+
+START = "X40. Z0."
+
+
+def findings(block: str, **options: str) -> dict[str, Diagnostic]:
+    return {each.code: each for each in check(block, control="yasnac-lx3", start=START, **options)}
+
+
+def asked(finding: Diagnostic) -> str:
+    """What is to be added, as a finding that lacks words says it."""
+    return (finding.message + "; " + finding.help).partition("add ")[2].partition(";")[0]
+
+
+@pytest.mark.parametrize(
+    ("block", "code", "words"),
+    [
+        # With I0 any A leaves line 1 no length; K places V1 on it.
+        ("G111 X100. I0 B120.", "g111-line-1", "K"),
+        ("G111 X100. I0 B120.", "words-missing", "one of K, Z, W"),
+        # At 90 deg K says what A says.
+        ("G111 A90.", "g111-line-1", "I"),
+        ("G111 A90.", "words-missing", "three of I, X or U, Z or W, B"),
+        ("G111 A180.", "words-missing", "three of K, X or U, Z or W, B"),
+        # I and K say the same beside A, and so do X and U.
+        ("G111 A170. B120. C2.", "words-missing", "two of I or K, X or U, Z or W"),
+        ("G111 A170. B120. C2.", "g111-line-1", "I or K"),
+        ("G111 A170. B120. C2.", "g111-line-2", "X or U or Z or W"),
+        ("G111 I10. B120.", "words-missing", "two of K or A, X or U, Z or W"),
+        ("G111 I10. K-20. B120.", "words-missing", "one of X, U, Z, W"),
+        ("G111 C2.", "words-missing", "four of I, K, A, X or U, Z or W, B"),
+    ],
+)
+def test_only_words_that_help_are_asked_for(block, code, words):
+    assert asked(findings(block)[code]) == words
+
+
+@pytest.mark.parametrize(
+    ("block", "word"), [("G111 X100. I0 B120.", "K"), ("G111 U60. I0 B120.", "K"), ("G111 A180. B120. X100.", "K")]
+)
+def test_a_word_that_may_have_either_sign_is_offered(block, word):
+    (fix,) = (
+        each for each in next(iter(findings(block).values())).fixes if each.description.startswith(f"add {word}?")
+    )
+    (answer,) = solve(fix.example, control="yasnac-lx3", start=START).answers
+    assert answer.contour is not None
+    assert not answer.diagnostics
+
+
+@pytest.mark.parametrize("block", ["G111 X100. I0 B120.", "G111 A90.", "G111 A170. B120. C2.", "G111 X100. U50."])
+def test_every_word_that_is_asked_for_is_in_a_fix(block):
+    found = findings(block).values()
+    offered = {word for each in found for fix in each.fixes for word in re.findall(r"add ([A-Z]+)\?", fix.description)}
+    named = {word for each in found for word in re.findall(r"\b[A-Z]\b", asked(each))}
+    assert named
+    assert named <= offered
+
+
+def test_not_all_of_words_that_say_the_same_are_asked_for_together():
+    missing = findings("G111 X100. U50.")["words-missing"]
+    assert missing.message.endswith("add three of I, K, A, Z or W, B; not I, K and A together")
+
+
+@pytest.mark.parametrize(
+    ("block", "units", "told"),
+    [
+        ("G111 A170. K-20. X100. U50.", "mm", "by 10.000 mm: it states 50.000 mm, X100. gives 60.000 mm"),
+        ("G111 A170. K-.8 X4. U1.5", "inch", "by 0.9252 in: it states 1.5000 in, X4. gives 2.4252 in"),
+        ("G111 A170. K-20. Z-50. W-40.", "mm", "by 10.000 mm: it states -40.000 mm, Z-50. gives -50.000 mm"),
+    ],
+)
+def test_differences_are_shown_as_words_are_written(block, units, told):
+    start = START if units == "mm" else "X1.5748 Z0."
+    result = check(block, control="yasnac-lx3", start=start, units=units)
+    finding = next(each for each in result if each.code == "words-conflict")
+    assert finding.message.partition(" ")[2].partition(" ")[2].partition(" ")[2].endswith(told)
+    assert any(note.endswith(f"{told.split(' ')[1]} {told.split(' ')[2].rstrip(':')} apart") for note in finding.notes)
