@@ -44,7 +44,9 @@ from contoursolve.families import (
     write_parquet,
 )
 from contoursolve.gcode.files import CannotWriteError, check_target, open_whole, write_whole
+from contoursolve.output.families import rest_lines
 from contoursolve.output.plain_text import columns
+from contoursolve.output.resting import resting_data
 from contoursolve.pictures import Theme, draw_sweep
 from contoursolve.pictures.sweeps import sweep_title
 from contoursolve.solving.row_outcome import REASONS, Code
@@ -255,9 +257,11 @@ def sweep_(
         leave_threads(STOPPED)
         context.exit(STOPPED)
     if format_ == "json":
-        print_json(_summary_data(tally.counts, failures))
+        told = {"remark": ready.remark or None, **resting_data(ready.resting)}
+        print_json({**_summary_data(tally.counts, failures), **told})
     else:
-        say("\n".join(_summary(tally.counts, failures)))
+        notes = filter(None, (ready.remark, *rest_lines(ready)))
+        say("\n".join([*_summary(tally.counts, failures), *notes]))
     for path in filter(None, (target, picture)):
         say(f"{path} written", err=True)
 

@@ -40,7 +40,7 @@ from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.geometry import Length, Plane, Profile, Question, Side, Start, System, assemble
-from contoursolve.reading import AT_ITS_LIMIT, Assumption, ParsedContour, ReadIssue, read, unused_words
+from contoursolve.reading import AT_ITS_LIMIT, Assumption, ParsedContour, ReadIssue, Resting, read, unused_words
 from contoursolve.reading.rules import Offence, Rule, check
 from contoursolve.solving import (
     Note,
@@ -137,6 +137,11 @@ class Answer(Shown, Struct, frozen=True):
     def assumptions(self) -> tuple[Assumption, ...]:
         """What the contour rests on, of all that the control is taken to accept."""
         return self.claim.rests_on([AT_ITS_LIMIT] if self._has_bevel_at_its_limit() else [])
+
+    @property
+    def resting(self) -> Resting:
+        """All that the contour rests on beside its words."""
+        return Resting(self.claim.conventions, self.assumptions)
 
     def _has_bevel_at_its_limit(self) -> bool:
         """Whether a 45 degree bevel begins or ends at its virtual intersection, so that it runs along a line."""

@@ -35,7 +35,7 @@ from contoursolve.numeric.charts import Following
 from contoursolve.numeric.columns import Array, difference, directions
 from contoursolve.numeric.formulas import Affine
 from contoursolve.numeric.inputs import COSINE, SINE
-from contoursolve.reading import ParsedContour, ReadIssue
+from contoursolve.reading import ParsedContour, ReadIssue, Resting, all_resting
 from contoursolve.solving import NoteKind, Solution, Status, is_closed, points_with_two_solutions
 from contoursolve.solving.checks import Check, compile_checks
 from contoursolve.solving.compile import Machine, compile_system
@@ -102,6 +102,8 @@ class CaseClass(Struct, frozen=True, eq=False):
     free: Mapping[str, Linear]
     moves: Mapping[int, Linear] = field(default_factory=dict)
     is_closed: bool = True
+    resting: Resting = Resting()
+    """What its contours rest on beside the words."""
 
     @property
     def system(self) -> System:
@@ -308,7 +310,8 @@ def case_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, floa
             raise FamilyError(f"{typed.text} cannot vary: the contour has no value of it")
         number = Decimal(repr(values[word]))
         free |= {given.name: Linear(word, factor_of(answer, typed, given, number)) for given in stated}
-    return CaseClass(profile, status, free, is_closed=status is not None or _open_points(profile) == ())
+    is_closed = status is not None or _open_points(profile) == ()
+    return CaseClass(profile, status, free, is_closed=is_closed, resting=answer.resting)
 
 
 def _open_points(profile: Profile) -> tuple[str, ...] | None:
@@ -335,6 +338,13 @@ def verdict_of(answer: Answer) -> Status | None:
     raise FamilyError(f"{errors[0].message}; leave out what is said twice, or apply no rules")
 
 
+def resting_of(cases: Iterable[CaseClass], template: Template, more: Iterable[Resting] = ()) -> Resting:
+    """What the contours of classes rest on beside their words, those that are not refused."""
+    dialect = template.asked.dialect
+    several = (*more, *(case.resting for case in cases if case.status is None))
+    return all_resting(several, dialect.name if dialect is not None else "")
+
+
 class FreeWords:
     """The free words of one block: what they are written in, the limits of the rules between which their values are
     treated alike, and single solves at any values of them."""
@@ -352,6 +362,7 @@ class FreeWords:
         self.kinds, self.diameters = [kind for kind, _ in stated], [is_diameter for _, is_diameter in stated]
         self.units = ["deg" if kind is Unit.DEGREE else self.answer.unit.value for kind in self.kinds]
         self._answers = {self.values: self.answer}
+        self._cases: list[CaseClass] = []
         self.doubts: list[str] = []
         """What is not proven, and why; empty if everything is."""
 
@@ -371,7 +382,15 @@ class FreeWords:
 
     def case_at(self, *values: float) -> CaseClass:
         """How the words are read at these values."""
-        return case_of(self.template, self.at(values), self.answer_at(*values))
+        case = case_of(self.template, self.at(values), self.answer_at(*values))
+        self._cases.append(case)
+        return case
+
+    @property
+    def resting(self) -> Resting:
+        """What the contours rest on that were looked at."""
+        own = [self.answer.resting] if self.answer.contour is not None else []
+        return resting_of(self._cases, self.template, own)
 
     def limits_within(self, number: int, within: tuple[float, float]) -> tuple[float, float]:
         """The range in which a word is looked at. Raises FamilyError for one that is none."""

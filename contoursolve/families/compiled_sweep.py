@@ -11,6 +11,7 @@ import numpy
 from msgspec import Struct, field
 from numpy.typing import NDArray
 
+from contoursolve.diagnosis.wording import join
 from contoursolve.families.branch_rows import BLOCK, BranchRows
 from contoursolve.families.case_classes import (
     ORIGIN,
@@ -25,17 +26,19 @@ from contoursolve.families.case_classes import (
     fill_row,
     half_circles,
     names_of,
+    resting_of,
     results_of,
     shown_as,
     sides_of_choice,
 )
 from contoursolve.families.export import Measure, measures_of
 from contoursolve.families.free_words import Examples
-from contoursolve.families.spec import Places, Ranges, SweepSpec, Template, stretches
+from contoursolve.families.spec import Places, Ranges, SweepSpec, Template, called, stretches
 from contoursolve.families.traced_reading import place_of_contour, read_alone
 from contoursolve.geometry import System
 from contoursolve.numeric.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
 from contoursolve.numeric.expressions import where
+from contoursolve.reading import Resting
 from contoursolve.solving import RefusalKind
 from contoursolve.solving.checks import NO_PLACE, compile_checks
 from contoursolve.solving.row_outcome import Code, RowOutcome, code_of, reason_of
@@ -75,6 +78,18 @@ class CompiledSweep(Struct, eq=False):
         """Whether one function answers all rows."""
         case = self.cases[0]
         return len(self.cases) == 1 and case.status is None and case.is_closed and not self.by_row
+
+    @property
+    def resting(self) -> Resting:
+        """What its contours rest on beside the words."""
+        return resting_of(self.cases, self.template)
+
+    @property
+    def remark(self) -> str:
+        """That rows are read one by one, and why; empty if they are not."""
+        if not self.by_row:
+            return ""
+        return f"each value of {join([called(word) for word in self.template.words])} decides how its row is read"
 
     def columns(self) -> dict[str, type[numpy.generic]]:
         """The names and types of all results, in order."""

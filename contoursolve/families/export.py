@@ -19,6 +19,7 @@ from contoursolve.families.free_words import kind_of
 from contoursolve.families.spec import FamilyError, Ranges, SweepSpec, Template
 from contoursolve.gcode import Word
 from contoursolve.geometry import Unit
+from contoursolve.reading import Resting
 from contoursolve.solving import Status
 from contoursolve.solving.row_outcome import REASONS, Code
 
@@ -92,6 +93,10 @@ class Family(Shown):
     columns: Mapping[str, NDArray[Any]]
     spec: SweepSpec = field(repr=False)
     """Plain data from which its block can be read again."""
+    resting: Resting = field(default=Resting(), repr=False)
+    """What its contours rest on beside the words."""
+    remark: str = field(default="", repr=False)
+    """That rows are read one by one, and why; empty if they are not."""
 
     @property
     def shape(self) -> tuple[int, ...]:

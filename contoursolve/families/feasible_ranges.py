@@ -16,6 +16,7 @@ from contoursolve.families.free_words import check_block
 from contoursolve.families.range_pieces import Onset, RangePiece, RangeSearch
 from contoursolve.families.spec import BlockOptions, called, errors_of, first_error, spec_of
 from contoursolve.geometry import Line
+from contoursolve.reading import Resting
 from contoursolve.solving import NoteKind, RefusalKind
 from contoursolve.solving.checks import Check
 
@@ -113,6 +114,8 @@ class Feasible(Shown, Struct, frozen=True):
     """Whether the values are diameters."""
     is_open: bool = False
     """Whether it is a variable of which nobody says the value; `stated` says nothing then."""
+    resting: Resting = Resting()
+    """What the contours rest on beside the words."""
 
     @property
     def is_complete(self) -> bool:
@@ -165,7 +168,8 @@ def feasible(
             intervals.append(Interval(_end(search, pieces, first, last, -1), _end(search, pieces, last, first, +1)))
     refusal = "" if is_open else first_error(search.answer)
     about = (search.word, search.unit, search.stated, (low, high))
-    return Feasible(*about, tuple(intervals), tuple(search.doubts), refusal, search.diameters[0], is_open)
+    doubts = tuple(search.doubts)
+    return Feasible(*about, tuple(intervals), doubts, refusal, search.diameters[0], is_open, search.resting)
 
 
 def _end(search: RangeSearch, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:

@@ -43,6 +43,7 @@ from contoursolve.families.targets import (
 from contoursolve.gcode import FACT
 from contoursolve.geometry import FIRST, SECOND, Length, Plane, Unit, assemble
 from contoursolve.numeric.intervals import Intervals
+from contoursolve.reading import Resting
 from contoursolve.solving import Point, Status
 from contoursolve.solving.contour import Contour
 from contoursolve.solving.solution import Certificate
@@ -97,6 +98,8 @@ class Found(Shown, Struct, frozen=True):
     remark: str = ""
     """Why there is no value, where the word does not move the point, with the words that do, or where the block as it
     stands has no contour; else empty."""
+    resting: Resting = Resting()
+    """What the contours rest on beside the words."""
 
     @property
     def is_complete(self) -> bool:
@@ -153,12 +156,13 @@ def find_word(
             hits = target.hits_by_asking(answer, (low, high))
         except NotMovedError as error:
             hits, remark = target.there(), _moved_by(answer, wanted, error)
-        return Found(*about, tuple(hits), tuple(target.doubts), "" if hits else remark)
+        return Found(*about, tuple(hits), tuple(target.doubts), "" if hits else remark, search.resting)
     except NotMovedError as error:
-        return Found(*about, tuple(target.there()), target.all_doubts, _moved_by(answer, wanted, error))
+        moved = _moved_by(answer, wanted, error)
+        return Found(*about, tuple(target.there()), target.all_doubts, moved, search.resting)
     if wanted.is_nearest:
         hits.sort(key=lambda each: each.away)
-    return Found(*about, tuple(hits), target.all_doubts, "" if hits else remark)
+    return Found(*about, tuple(hits), target.all_doubts, "" if hits else remark, search.resting)
 
 
 def _moved_by(answer: Answer, goal: Goal, error: NotMovedError) -> str:

@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnostics.display import Shown
+from contoursolve.families.case_classes import resting_of
 from contoursolve.families.evaluate import Tally, compile_sweep, solve_sweep
 from contoursolve.families.export import Family
 from contoursolve.families.free_words import check_block, kind_of, value_of
@@ -29,6 +30,7 @@ from contoursolve.families.targets import end_name, place_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Length, Plane, Unit
 from contoursolve.numeric.intervals import Array
+from contoursolve.reading import Resting
 from contoursolve.solving import Point
 from contoursolve.solving.row_outcome import Code
 
@@ -92,6 +94,8 @@ class Tolerances(Shown, Struct, frozen=True):
     effects: tuple[Effect, ...]
     spread: tuple[Spread, Spread]
     limits: Limits | None
+    resting: Resting = Resting()
+    """What the contour rests on beside its words."""
 
 
 def tolerances(
@@ -141,7 +145,8 @@ def tolerances(
         limits = _limits(*(found.columns.get(f"{name}.{axis}", none) for axis in axes))
         limits = replace(limits, missing=tuple(_missing(template, found, list(allowed))))
     spread = Spread(sum(parts[0]), hypot(*parts[0])), Spread(sum(parts[1]), hypot(*parts[1]))
-    return Tolerances(point, study.place, answer.plane, answer.unit, tuple(effects), spread, limits)
+    resting = resting_of((), template, [answer.resting])
+    return Tolerances(point, study.place, answer.plane, answer.unit, tuple(effects), spread, limits, resting)
 
 
 def _missing(template: Template, found: Family, words: Sequence[str]) -> Iterator[Missing]:

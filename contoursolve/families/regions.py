@@ -20,6 +20,7 @@ from contoursolve.families.spec import BlockOptions, FamilyError, Ranges, SweepS
 from contoursolve.families.subdivision import bisect
 from contoursolve.geometry import Unit
 from contoursolve.numeric.intervals import Array
+from contoursolve.reading import Resting
 from contoursolve.solving import NoteKind, Point, RefusalKind
 from contoursolve.tolerance import LENGTH
 
@@ -64,6 +65,8 @@ class Region(Shown, Struct, frozen=True):
     """Whether the contour exists anywhere in the box, as far as was looked."""
     spec: SweepSpec
     fixed: Mapping[str, float]
+    resting: Resting = Resting()
+    """What its contours rest on beside the words."""
 
     @property
     def is_complete(self) -> bool:
@@ -170,6 +173,7 @@ class _RegionSearch(FreeWords):
             exists=any(field.is_inside.any() for field in fields.values()),
             spec=spec,
             fixed=fixed,
+            resting=self.resting,
         )
 
     def _merge(self, axis: int) -> None:

@@ -31,8 +31,10 @@ from contoursolve.output.families import (
     range_notes,
     range_table,
     range_title,
+    region_notes,
     region_table,
     region_title,
+    rest_lines,
     spread_lines,
     tolerances_title,
 )
@@ -156,6 +158,7 @@ def _family(family: Family) -> Iterator[h.Node]:
     yield from map(table_of, family_tables(family))
     title = f"{count(len(family.names), 'array')} of shape {' x '.join(map(str, family.shape))}"
     yield h.details[h.summary[title], ", ".join(family.names)]
+    yield from (h.p[short(note)] for note in (*filter(None, [family.remark]), *rest_lines(family)))
 
 
 def _range(found: Feasible) -> Iterator[h.Node]:
@@ -171,6 +174,7 @@ def _region(found: Region) -> Iterator[h.Node]:
     yield h.p[short(region_title(found))]
     if found.boundaries:
         yield table_of(region_table(found))
+    yield from (h.p[short(note)] for note in region_notes(found))
 
 
 def _found(found: Found) -> Iterator[h.Node]:
@@ -179,6 +183,7 @@ def _found(found: Found) -> Iterator[h.Node]:
         yield h.p[short(f"{found.remark}.")]
     if found.hits:
         yield table_of(found_table(found))
+    yield from (h.p[short(note)] for note in rest_lines(found))
 
 
 def _tolerances(found: Tolerances) -> Iterator[h.Node]:

@@ -20,9 +20,9 @@ from contoursolve.diagnostics.finding import Diagnosis, Verdict
 from contoursolve.gcode import FACT
 from contoursolve.geometry import Length, Turn
 from contoursolve.output.plain_text import NAMELESS, Name, Table, columns, printable
+from contoursolve.output.resting import resting_texts
 from contoursolve.output.words import form_text, found_value, meaning_of, stated_words
 from contoursolve.program.pipeline import Result
-from contoursolve.reading import Convention
 from contoursolve.solving.contour import ArcSegment, Contour
 from contoursolve.solving.picks import resolved_later
 
@@ -57,7 +57,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
     if answer.contour:
         path = path_table(answer.contour, answer.unit)
         lines += ["", *columns([("", "", *path.header[2:]), *path.rows], path.left)]
-        lines += [line for text in resting_texts(answer, result.control or "") for line in ("", f"  {text}")]
+        lines += [line for text in resting_texts(answer.resting, result.control or "") for line in ("", f"  {text}")]
         lines += [line for text in _later_texts(answer) for line in ("", f"  {text}")]
     if answer.filled:
         lines += ["", f"  filled in (the contour moves by {small(answer.filled.deviation)}):"]
@@ -68,29 +68,11 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
     return [*lines, ""]
 
 
-def resting_texts(answer: Answer, control: str) -> Iterator[str]:
-    """What the manual does not say and a contour rests on, each in a line; what the control is taken to accept, in one
-    line, if there is anything."""
-    yield from (_convention_text(each, control) for each in answer.claim.conventions)
-    by_grade: dict[str, list[str]] = {}
-    for each in answer.assumptions:
-        by_grade.setdefault(each.source.evidence.value, []).append(each.meaning)
-    if by_grade:
-        told = (f"{'; '.join(meanings)} ({grade})" for grade, meanings in by_grade.items())
-        yield f"rests on: {'; '.join(told)}"
-
-
 def _later_texts(answer: Answer) -> Iterator[str]:
     """Which elements of a chain only a later block determines, in one line, if there are any."""
     later = resolved_later(answer.profile) if answer.claim.form.is_general else {}
     if later:
         yield f"known by a later block: {', '.join(f'{name} by {other}' for name, other in later.items())}"
-
-
-def _convention_text(convention: Convention, control: str) -> str:
-    setting = convention.setting
-    name = f"{control}.{setting.name}" if control else setting.name
-    return f"{convention.evidence.value}: {convention.meaning} (--set {name}={convention.value})"
 
 
 def check_table(diagnosis: Diagnosis) -> Table:

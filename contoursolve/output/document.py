@@ -10,6 +10,7 @@ from contoursolve.diagnostics.finding import Diagnosis, Diagnostic
 from contoursolve.diagnostics.json_text import json_text, members, plain
 from contoursolve.diagnostics.source import Span
 from contoursolve.output.listing import Totals, findings_of
+from contoursolve.output.resting import resting_data
 from contoursolve.program.pipeline import Result, Run
 from contoursolve.solving import Point
 from contoursolve.solving.contour import ArcSegment, Contour, Segment
@@ -172,11 +173,7 @@ def _contour(answer: Answer) -> dict[str, Any]:
         "branch": ", ".join(side.value for side in answer.sides.values()) or None,
         "branches": plain(answer.sides),
         "certificate": _certificate(certificate),
-        "conventions": [
-            {"setting": each.setting.name, **members(each, "value meaning evidence")}
-            for each in answer.claim.conventions
-        ],
-        "assumptions": [members(each, "name meaning source") for each in answer.assumptions],
+        **resting_data(answer.resting),
         "facts": [directive.text for directive in answer.claim.directives],
         "asked": [_asked(each, answer) for each in answer.answers],
         "filled": {"blocks": list(answer.filled.blocks), "deviation_mm": _number(answer.filled.deviation)}

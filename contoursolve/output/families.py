@@ -7,9 +7,10 @@ from typing import Any
 from contoursolve.diagnosis.solutions import printed_certificate
 from contoursolve.diagnosis.wording import axis_labels, count, length_in, measured, short_name, written
 from contoursolve.diagnostics.json_text import members
-from contoursolve.families import Effect, End, Feasible, Found, Hit, Reason, Region, Tolerances
+from contoursolve.families import CompiledSweep, Effect, End, Family, Feasible, Found, Hit, Reason, Region, Tolerances
 from contoursolve.geometry import Length
 from contoursolve.output.plain_text import Table
+from contoursolve.output.resting import resting_data, resting_texts
 
 # Ranges of a word --------------------------------------------------------------------------------------------
 
@@ -26,6 +27,12 @@ def range_notes(found: Feasible) -> Iterator[str]:
     yield from (f"not proven: {each}" for each in found.doubts)
     if found.refusal:
         yield f"as it stands, the block has none: {found.refusal}"
+    yield from rest_lines(found)
+
+
+def rest_lines(found: Feasible | Region | Found | Tolerances | CompiledSweep | Family) -> Iterator[str]:
+    """What the contours rest on beside the words."""
+    yield from resting_texts(found.resting, found.resting.control)
 
 
 def range_title(found: Feasible) -> str:
@@ -67,6 +74,7 @@ def range_data(found: Feasible) -> dict[str, Any]:
         "schema": "contoursolve/range/1",
         **members(found, "word unit stated within complete=is_complete doubts"),
         "refusal": found.refusal or None,
+        **resting_data(found.resting),
         "ranges": [{"low": _end_data(each.low), "high": _end_data(each.high)} for each in found.intervals],
     }
 
@@ -87,7 +95,13 @@ def region_lines(found: Region) -> Iterator[str]:
     """The lines that bound the region of two words."""
     yield region_title(found)
     yield from region_table(found).lines(is_headed=False)
-    yield from (f"  not proven: {each}" for each in found.doubts)
+    yield from (f"  {each}" for each in region_notes(found))
+
+
+def region_notes(found: Region) -> Iterator[str]:
+    """What is not proven, and what the contours rest on."""
+    yield from (f"not proven: {each}" for each in found.doubts)
+    yield from rest_lines(found)
 
 
 def region_title(found: Region) -> str:
@@ -124,6 +138,7 @@ def region_data(found: Region) -> dict[str, Any]:
     return {
         "schema": "contoursolve/region/1",
         **members(found, "words units stated within exists complete=is_complete doubts cell"),
+        **resting_data(found.resting),
         "boundaries": [{"reason": _reason_data(each.reason), **members(each, names)} for each in found.boundaries],
     }
 
@@ -140,6 +155,7 @@ def found_lines(found: Found) -> Iterator[str]:
     for place, (value, point, certificate, block, rounding) in enumerate(found_table(found).rows, 1):
         yield f"  {place}. {found.word} {value}: {point}"
         yield from (f"     {line}" for line in (*filter(None, [certificate]), *block.split("\n"), rounding))
+    yield from (f"  {each}" for each in rest_lines(found))
 
 
 def found_title(found: Found) -> str:
@@ -177,6 +193,7 @@ def found_data(found: Found) -> dict[str, Any]:
         "aim": "nearest" if found.goal.is_nearest else "reach",
         **members(found, "complete=is_complete doubts"),
         "remark": found.remark or None,
+        **resting_data(found.resting),
         "values": [_hit_data(hit) for hit in found.hits],
     }
 
@@ -238,6 +255,7 @@ def spread_lines(found: Tolerances) -> Iterator[str]:
             moved = f"moves it by {by}" if by else "leaves no contour"
             linear = f"{length_in(each.by_rounding_linear, unit)} by the derivatives"
             yield f"{each.word} rounded to {written(each.rounded, each.unit)} {moved} ({linear})"
+    yield from rest_lines(found)
 
 
 def _has_tolerances(found: Tolerances) -> bool:
@@ -276,6 +294,7 @@ def tolerances_data(found: Tolerances) -> dict[str, Any]:
         "point": found.point,
         "plane": list(found.plane.axes),
         "at": list(found.place),
+        **resting_data(found.resting),
         "words": [_effect_data(each) for each in found.effects],
         "spread": [None if isnan(each.worst) else members(each, "worst typical") for each in found.spread],
         "limits": {

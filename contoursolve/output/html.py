@@ -16,12 +16,12 @@ from contoursolve.output.contours import (
     count_text,
     given_table,
     path_table,
-    resting_texts,
     small,
     solution_rows,
 )
 from contoursolve.output.findings import Piece, finding_pieces
 from contoursolve.output.plain_text import NAMELESS, Name, Table, printable
+from contoursolve.output.resting import resting_texts
 from contoursolve.pictures import Drawable, Theme, draw
 from contoursolve.pictures.theme import CHAINS, DARK_COLORS, LIGHT_COLORS, Role
 
@@ -158,7 +158,7 @@ def remarks(answer: Answer, control: str) -> Iterator[h.Element]:
         yield h.pre["\n".join(short(text.strip()) for text in answer.filled.blocks)]
     if answer.contour is not None:
         yield h.p[short(f"Certificate: {printed_certificate(answer.certificate)}.")]
-        yield from (h.p[short(text)] for text in resting_texts(answer, control))
+        yield from (h.p[short(text)] for text in resting_texts(answer.resting, control))
 
 
 # Findings ----------------------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ from functools import lru_cache
 from itertools import product
 from typing import Any
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Evidence, Source
@@ -103,6 +104,25 @@ class Assumption:
                 if self.when.holds(own):
                     return True
         return False
+
+
+class Resting(Struct, frozen=True, eq=False):
+    """What contours rest on beside their words: settings with the values that were used, and what the control is taken
+    to accept. `control` is the one whose settings these are, empty where it is told elsewhere."""
+
+    conventions: tuple[Convention, ...] = ()
+    assumptions: tuple[Assumption, ...] = ()
+    control: str = ""
+
+
+def all_resting(several: Iterable[Resting], control: str) -> Resting:
+    """What several contours of a control rest on, each once."""
+    every = tuple(several)
+    return Resting(
+        tuple({(each.setting.name, each.value): each for one in every for each in one.conventions}.values()),
+        tuple(dict.fromkeys(each for one in every for each in one.assumptions)),
+        control,
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,8 +9,9 @@ from examples import few_and_many
 from generate_families import BLOCKS, ROWS, draw
 
 from contoursolve import FamilyError, family, find_word, sensitivity, solve, tolerances
-from contoursolve.families import Code, feasible
+from contoursolve.families import Code, feasible, region
 from contoursolve.families.spec import name_of, spec_of
+from contoursolve.output.families import rest_lines
 
 NEAR = 1e-7  # mm, or of the coordinate
 
@@ -36,7 +37,7 @@ def difference(row, answer):
 
 
 @pytest.mark.parametrize("form", BLOCKS)
-@few_and_many(4, 120)
+@few_and_many(4, 40)
 def test_every_row_is_what_a_single_solve_says(form, count):
     wrong, seen, number = [], Counter(), 0
     while seen["answered"] < count:
@@ -126,3 +127,25 @@ def test_derivatives_by_a_direction_that_is_handed_on_count_all_that_it_turns():
 def test_tolerances_are_told_of_the_end_of_a_chain_and_of_centres(point):
     found = tolerances("FL AN+30 LEN20\nFCT DR- R10 CCA+30\nFLT LEN15", {"R": 0.1}, point=point, **KLARTEXT)
     assert found.spread[0].worst == pytest.approx({"P3": 0.136603, "end": 0.136603, "C2": 0.05}[point], abs=1e-6)
+
+
+def test_what_contours_rest_on_is_told_of_all_of_them():
+    ready = family(HANDED_ON, vary={"2:CCA": [30, 90]}, **KLARTEXT)
+    (answer,) = solve(HANDED_ON, **KLARTEXT).answers
+    assert [each.name for each in ready.resting.assumptions] == [each.name for each in answer.assumptions]
+    assert not ready.remark
+    found = find_word(HANDED_ON, "2:CCA", "end X25", within=(10, 60), **KLARTEXT)
+    assert "CCA counts from +X, counter-clockwise" in next(iter(rest_lines(found)))
+    block, options = "G111 X100. A180. K-30. B120. C5.", {"start": "X40. Z0."}
+    for found in (
+        feasible(block, "C", **options),
+        region(block, ("C", "A"), ((0, 5), (170, 190)), **options),
+        tolerances(block, **options),
+        family(block, vary={"C": [1, 2]}, settings={"yasnac-lx3.bevel": "length"}, **options),
+    ):
+        assert any("--set yasnac-lx3.bevel=" in line for line in rest_lines(found))
+
+
+def test_rows_that_are_read_one_by_one_are_told():
+    found = family(TURNED, vary={"2:Y": [24, 30]}, **SINUMERIK)
+    assert found.remark == "each value of Y of block 2 decides how its row is read"

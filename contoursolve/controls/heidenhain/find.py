@@ -394,7 +394,8 @@ def _sign_of(block: Block, address: str) -> int:
 def _own_words(member: _Member, repeated: list[Word]) -> dict[str, Word]:
     """The words about an element by their names; those that are there twice are added to `repeated`."""
     own: dict[str, Word] = {}
-    for block in dict.fromkeys((member.block, *(corner for _, corner in member.corners))):
+    blocks = (member.block, *(corner for _, corner in member.corners))
+    for block in {each.line: each for each in blocks}.values():
         for word in block.words:
             if word.address in _BESIDE_ANY or word.address not in LEXICON.addresses:
                 continue

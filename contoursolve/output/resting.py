@@ -1,0 +1,35 @@
+"""What contours rest on beside their words, as text and as plain data."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from contoursolve.diagnostics.json_text import members
+from contoursolve.reading import Convention, Resting
+
+
+def resting_texts(resting: Resting, control: str) -> Iterator[str]:
+    """What the manual does not say and a contour rests on, each in a line; what the control is taken to accept, in one
+    line, if there is anything."""
+    yield from (_convention_text(each, control) for each in resting.conventions)
+    by_grade: dict[str, list[str]] = {}
+    for each in resting.assumptions:
+        by_grade.setdefault(each.source.evidence.value, []).append(each.meaning)
+    if by_grade:
+        told = (f"{'; '.join(meanings)} ({grade})" for grade, meanings in by_grade.items())
+        yield f"rests on: {'; '.join(told)}"
+
+
+def _convention_text(convention: Convention, control: str) -> str:
+    setting = convention.setting
+    name = f"{control}.{setting.name}" if control else setting.name
+    return f"{convention.evidence.value}: {convention.meaning} (--set {name}={convention.value})"
+
+
+def resting_data(resting: Resting) -> dict[str, Any]:
+    """The same as members of an object."""
+    return {
+        "conventions": [
+            {"setting": each.setting.name, **members(each, "value meaning evidence")} for each in resting.conventions
+        ],
+        "assumptions": [members(each, "name meaning source") for each in resting.assumptions],
+    }
