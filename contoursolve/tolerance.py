@@ -38,5 +38,9 @@ its own; that of a diameter counts half as a radius (see `solving.compare.allowa
 AGREEMENT = 0.001
 """mm or degrees. Facts of other kinds than words agree within this."""
 
+TRAVEL = 100_000.0
+"""mm. How far from the start point a contour may lie that a control can make: as large as a machine is. A list of
+solutions that is called complete holds all of them so far; a setting of each control."""
+
 LARGEST = 1_000_000.0
 """mm or degrees. The largest value read: one kilometre. Beyond it, doubles no longer hold 1e-9 mm."""

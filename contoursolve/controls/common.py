@@ -463,6 +463,15 @@ SYSTEM_RULES = (
         rejected=(),
     ),
     Rule(
+        code="only-unproven",
+        message="undecided: one contour was found, and that no other one fits the block is not proven",
+        help="{advice}; `contoursolve solve` lists what was found",
+        source=_GEOMETRY,
+        about=RefusalKind.COUNT_OPEN,
+        accepted=(_GOOD,),
+        rejected=(),
+    ),
+    Rule(
         code="no-point",
         message="no {things} fits {words}{together}",
         help="change one of the values; every combination of sides has been tried, so this is proven",

@@ -392,7 +392,7 @@ def explain_result(
     notes: tuple[str, ...] = ()
     if event.kind in SAID_AGAIN:
         fields |= _others(event, profile)
-    if event.kind is RefusalKind.SEARCH_UNFINISHED and alternatives is not None:
+    if event.kind in (RefusalKind.SEARCH_UNFINISHED, RefusalKind.COUNT_OPEN) and alternatives is not None:
         fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle.name]
         notes = tuple(_search_notes(profile, alternatives))
     labels = [f"expected {fields['expected']}"] if "expected" in fields else []
@@ -555,6 +555,7 @@ _ADVICE = {
     "UNDECIDED": "change a value a little: the case is too close to a limit to be decided",
     "TOUCHING": "change a value a little: two places are one, or none, as far as numbers can tell",
     "NO_CLOSED_FORM": "state a simpler fact in place of one of them, such as a coordinate or a direction",
+    "FARTHER": "state one more fact, or a simpler one in place of one of them, such as a coordinate",
     "UNFINISHED": "state a simpler fact in place of one of them, such as a coordinate or a direction",
 }
 

@@ -59,8 +59,11 @@ class BoxGround(Ground):
     def values(self, scalars: Mapping[str, Number], signs: Mapping[str, int], system: System) -> Values:
         return Values({**self.scalars, **scalars}, self.amounts, self.directions, system.headed, signs, BOXES)
 
-    def reach(self, system: System) -> dict[str, tuple[float, float]]:
-        ranges = self.lowest.reach(system), self.highest.reach(system)
+    def nearby(self, system: System) -> float:
+        return max(self.lowest.nearby(system), self.highest.nearby(system))
+
+    def reach(self, system: System, far: float) -> dict[str, tuple[float, float]]:
+        ranges = self.lowest.reach(system, far), self.highest.reach(system, far)
         return {name: (min(r[name][0] for r in ranges), max(r[name][1] for r in ranges)) for name in ranges[0]}
 
     def number(self, name: str, scalars: Mapping[str, Number], signs: Mapping[str, int]) -> Number:
@@ -107,7 +110,7 @@ def _box(case: CaseClass, low: Mapping[str, float], high: Mapping[str, float]) -
         for axis, one, other in starts
         if one is not None and other is not None
     }
-    return BoxGround(scalars, amounts, lowest.angles, directions, lowest, highest, nearest)
+    return BoxGround(scalars, amounts, lowest.angles, lowest.travel, directions, lowest, highest, nearest)
 
 
 class RowBoxes:
@@ -167,7 +170,7 @@ class RowBoxes:
         with ball.precision(ball.WORKING):
             ground = ground_of(self.case.at(values))
             (found,) = enumerate_many([ground], self.system, self.groups, Close.DOUBLE, BOX)
-            return not isinstance(found, Enumeration) or found.is_searched
+            return not isinstance(found, Enumeration) or found.within is not None
 
     def _solve_box(self, rows: Places, low: Mapping[str, float], high: Mapping[str, float], effort: Effort) -> Cell:
         """The cell of all rows whose words lie between two values."""
@@ -176,9 +179,9 @@ class RowBoxes:
             (found,) = enumerate_many([box], self.system, self.groups, Close.REFUSE, effort)
             if not isinstance(found, Enumeration):
                 return Cell(rows)
-            if found.is_searched:
+            if found.within is not None:
                 # The search of a single row reaches so far.
-                reach = box.nearest.reach(self.system)
+                reach = box.nearest.reach(self.system, box.nearest.farthest(self.system))
                 places = [(reach[name], ball.bounds(at)) for each in found.found for name, at in each.scalars.items()]
                 if not all(outer[0] <= inner[0] and inner[1] <= outer[1] for outer, inner in places):
                     return Cell(rows)

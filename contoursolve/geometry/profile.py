@@ -8,7 +8,7 @@ from msgspec import Struct
 
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry.figure import Fact, Figure
-from contoursolve.tolerance import INCREMENT, INCREMENT_ANGLE, INCREMENT_INCH
+from contoursolve.tolerance import INCREMENT, INCREMENT_ANGLE, INCREMENT_INCH, TRAVEL
 
 INCREMENT_OF = "increment:"
 """What the name of a least increment begins with."""
@@ -153,6 +153,8 @@ class Profile(Struct, frozen=True):
     picks: tuple[Pick, ...] = ()
     is_extended: bool = False
     """Whether it states or asks more than its form provides for."""
+    travel: float = TRAVEL
+    """mm. How far from the start point the control can make a contour."""
 
     @property
     def figure(self) -> Figure:

@@ -127,7 +127,13 @@ def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[
             where = "  ".join((*places, *(_asked_text(asked, answer) for asked in each.asked)))
         label = "" if each.contour else "no contour:"
         selects = (", " if answer.claim.form.picking else " ").join(each.selects)
-        row = (each.name or "only solution", label, where, selects, str(each.certificate))
+        row = (
+            each.name or ("only solution" if listing.is_complete else "one solution"),
+            label,
+            where,
+            selects,
+            str(each.certificate),
+        )
         rows.append((each, row))
     return rows
 

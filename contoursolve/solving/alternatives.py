@@ -39,7 +39,7 @@ from contoursolve.numeric.inputs import COSINE, SINE
 from contoursolve.solving.compare import compare_fact
 from contoursolve.solving.compile import compile_path
 from contoursolve.solving.elimination import Obstacle
-from contoursolve.solving.enumerate import Doubt, Enumeration, Found, enumerate_solutions
+from contoursolve.solving.enumerate import Doubt, Found, enumerate_solutions
 from contoursolve.solving.exact_inputs import ground_of
 from contoursolve.solving.krawczyk import Prover, radius_of
 from contoursolve.solving.numbers import corner_of, sizes_of
@@ -82,7 +82,8 @@ class Alternative(Struct, frozen=True):
 class Alternatives(Struct, frozen=True):
     """All solutions of a profile's equations; the list is complete, with proof, if there is no doubt.
 
-    `reach` is how far from the start point solutions were searched for, mm; None where the closed form gives all.
+    `reach` is how far from the start point there is no other one, mm, where they were searched for; None where the
+    closed form gives all.
     """
 
     items: tuple[Alternative, ...]
@@ -113,7 +114,8 @@ class _Question:
         picked = {each.given for each in profile.picks}
         stated = (each for name, each in profile.givens.items() if name not in picked)
         givens = tuple((each.name, each.value, each.unit, each.word is None) for each in stated)
-        self._key = assemble(profile), profile.plane, profile.unit, profile.start, profile.choices, givens
+        which = assemble(profile), profile.plane, profile.unit, profile.start, profile.choices
+        self._key = (*which, profile.travel, givens)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, _Question) and self._key == other._key
@@ -140,7 +142,7 @@ def _find(question: _Question) -> Alternatives:
         doubts = (*doubts, Doubt((), Obstacle.UNDECIDED))
     # What the form chooses by itself is no alternative for a user.
     items = [item for item in items if _agrees(item, [choice for choice in profile.choices if not choice.given])]
-    return Alternatives(tuple(_named(items, profile)), doubts, _reach(profile, system, enumeration))
+    return Alternatives(tuple(_named(items, profile)), doubts, enumeration.within)
 
 
 def choose(alternatives: Alternatives, choices: tuple[Choice, ...]) -> tuple[Alternative, ...]:
@@ -435,13 +437,6 @@ def _place(item: Alternative, same: list[Alternative], profile: Profile) -> str:
     return ""
 
 
-def _reach(profile: Profile, system: System, enumeration: Enumeration) -> float | None:
-    if not enumeration.is_searched:
-        return None
-    ranges = ground_of(profile).reach(system).values()
-    return max(high - low for low, high in ranges) / 2
-
-
 def decide(alternatives: Alternatives, profile: Profile) -> Solution:
     """The contour of a profile, of whose equations these are the solutions.
 
@@ -461,6 +456,11 @@ def decide(alternatives: Alternatives, profile: Profile) -> Solution:
         solution = replace(solution, remarks=(*solution.remarks, *notes))
         if alternatives.is_complete:
             return solution
+        # Two that have become one are one contour, and what a word has chosen from others is the one that is meant.
+        is_open = any(doubt.obstacle is not Obstacle.TOUCHING for doubt in alternatives.doubts)
+        if len(alternatives.paths) == 1 and (is_open or not paths[0].certificate.is_double):
+            kind = RefusalKind.COUNT_OPEN
+            return Solution(kind.status, refusals=(Refusal(kind, "", (), count),), remarks=solution.remarks)
         return replace(solution, remarks=(*solution.remarks, Note(NoteKind.COUNT_OPEN, "", (), count)))
     return _refused(eligible, alternatives)
 
@@ -485,7 +485,8 @@ def _without_selecting(solution: Solution, alternatives: Alternatives) -> Soluti
 def _refused(items: tuple[Alternative, ...], alternatives: Alternatives) -> Solution:
     """Why there is no contour: what speaks against the first of the solutions, or that there is none. Where a search
     was given up, there may be others."""
-    is_open = any(doubt.obstacle is Obstacle.UNFINISHED for doubt in alternatives.doubts)
+    given_up = (Obstacle.UNFINISHED, Obstacle.FARTHER)
+    is_open = any(doubt.obstacle in given_up for doubt in alternatives.doubts)
     if items and not is_open:
         return items[0].solution
     kind = RefusalKind.NO_POINT if alternatives.is_complete else RefusalKind.SEARCH_UNFINISHED

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
+from typing import Any
 
 import numpy
 from msgspec import Struct
@@ -31,8 +32,8 @@ FEW = 32
 DIVISION = 0.487
 """Boxes are divided away from the middle, where drawings like to have their solutions."""
 
-NARROWEST = 2.0**-36
-"""A box this small in every direction, as a share of the whole range, is given up as undecided."""
+NARROWEST = 2.0**-33
+"""A box this small in every direction, as a share of how large and how far away it is, is given up as undecided."""
 
 MARGINS = (2.0**-43, 2.0**-37, 2.0**-31)
 """By how much of its coordinates a box is inflated before it is tested; the larger ones for the smallest boxes, in
@@ -60,15 +61,38 @@ class Conditions(Struct, frozen=True, eq=False):
     arguments: tuple[str, ...]
 
 
+Range = tuple[float, float]
+"""The least and the largest value of an unknown."""
+
+
 class Task(Struct, frozen=True, eq=False):
     """Where solutions of a group are searched for: cases, each with the values of the group's other inputs, the range
-    of each unknown, and how many intervals may be looked at for all of the cases together. With `is_guessing`, points
-    near which there may be solutions are looked for in what remains undecided."""
+    of each unknown, and how many intervals may be looked at for all of the cases together.
+
+    The box of `inner` ranges, if there is one, is left out: it was searched before. `sizes` are an ordinary value of
+    each unknown, and how far others ordinarily are from it: what is farther away is divided by magnitude. With
+    `is_guessing`, points near which there may be solutions are looked for in what remains undecided.
+    """
 
     cases: Sequence[Mapping[str, Number]]
-    reach: Mapping[str, tuple[float, float]]
+    reach: Mapping[str, Range]
+    sizes: Mapping[str, Range]
     budget: int
     is_guessing: bool
+    inner: Mapping[str, Range] | None = None
+
+    def boxes(self, unknowns: Sequence[str]) -> list[list[Range]]:
+        """The boxes that make up what is searched."""
+        whole = [self.reach[name] for name in unknowns]
+        if self.inner is None:
+            return [whole]
+        found, left = list[list[Range]](), list(whole)
+        for number, name in enumerate(unknowns):
+            (low, high), (begin, end) = whole[number], self.inner[name]
+            parts = [part for part in ((low, begin), (end, high)) if part[0] < part[1]]
+            found += [[*left[:number], part, *left[number + 1 :]] for part in parts]
+            left[number] = max(low, begin), min(high, end)
+        return found
 
 
 class Division(Struct, frozen=True):
@@ -89,7 +113,10 @@ def conditions_of(system: System, group: Group) -> Conditions:
     for name in group.unknowns:
         tape.input(name)
     at = lookup(system, tape, {})
-    zeros = [*(fact.equation(at) for fact in group.facts), *consequences(group.facts, basis_of(system), at)]
+    zeros = [
+        *(fact.equation(at) for fact in group.facts),
+        *consequences(group.facts, basis_of(system), system.headed, at),
+    ]
     signs = necessities(system.figure, group.facts, at)
     for number, expression in enumerate((*zeros, *signs)):
         tape.output(str(number), expression)
@@ -115,12 +142,11 @@ def divide(conditions: Conditions, tasks: Sequence[Task]) -> list[tuple[list[Div
     narrowed_at, known = (
         [_by_case(name, cases) for name in names[size:]] for names in (conditions.narrowed_by, conditions.arguments)
     )
-    low, high = (
-        numpy.array([[task.reach[name][end] for name in conditions.unknowns] for task in tasks])[owner]
-        for end in (0, 1)
-    )
-    ranges = high - low
-    pending = [Boxes(low, high, numpy.arange(len(cases)))]
+    sizes = numpy.array([[task.sizes[name] for name in conditions.unknowns] for task in tasks])[owner]
+    parts = [task.boxes(conditions.unknowns) for task in tasks]
+    at_first = [(number, box) for number in range(len(cases)) for box in parts[owner[number]]]
+    bounds = numpy.array([box for _, box in at_first]).reshape(-1, size, 2)
+    pending = [Boxes(bounds[:, :, 0], bounds[:, :, 1], numpy.array([number for number, _ in at_first], numpy.intp))]
     proven, undecided = [pending[0][:0]], [pending[0][:0]]
     looked_at, budgets = numpy.zeros(len(tasks), int), numpy.array([task.budget for task in tasks])
     with numpy.errstate(all="ignore"):
@@ -137,7 +163,7 @@ def divide(conditions: Conditions, tasks: Sequence[Task]) -> list[tuple[list[Div
             found = contract(conditions.equations, boxes, known, MARGINS[0])
             proven.append(found.boxes[found.is_proven])
             boxes, slopes = found.boxes[~found.is_proven], found.slopes[~found.is_proven]
-            is_small = (boxes.high - boxes.low <= NARROWEST * ranges[boxes.case]).all(axis=1)
+            is_small = _is_narrow(boxes, sizes).all(axis=1)
             small, boxes, slopes = boxes[is_small], boxes[~is_small], slopes[~is_small]
             for margin in MARGINS[1:] if len(small) else ():
                 found = contract(conditions.equations, small, known, margin)
@@ -145,13 +171,13 @@ def divide(conditions: Conditions, tasks: Sequence[Task]) -> list[tuple[list[Div
                 small = found.boxes[~found.is_proven]
             undecided.append(small)
             if len(boxes):
-                pending.append(_divided(boxes, slopes, ranges))
+                pending.append(_divided(boxes, slopes, sizes))
         rest, alone = joined(undecided), joined(proven)
         guessed = rest[numpy.array([task.is_guessing for task in tasks])[owner[rest.case]]]
         likely = approach(conditions.equations, guessed[:: max(1, len(guessed) // STARTS)].middle, known, STEPS)
     is_open = numpy.bincount(rest.case, minlength=len(cases)) > 0
-    parts = zip(_by(alone, len(cases)), _by(likely, len(cases)), is_open.tolist(), strict=True)
-    divisions = [Division(own, near.low.tolist(), not is_left) for own, near, is_left in parts]
+    by_case = zip(_by(alone, len(cases)), _by(likely, len(cases)), is_open.tolist(), strict=True)
+    divisions = [Division(own, near.low.tolist(), not is_left) for own, near, is_left in by_case]
     firsts = numpy.searchsorted(owner, numpy.arange(len(tasks) + 1)).tolist()
     return [
         (divisions[first:last], count * size)
@@ -197,26 +223,37 @@ def _narrowed(narrower: Narrower, boxes: Boxes, known: list[Intervals]) -> Boxes
     return boxes
 
 
-def _where(slopes: intervals.Array, widths: intervals.Array, ranges: intervals.Array) -> intervals.Array:
+def _is_narrow(boxes: Boxes, sizes: intervals.Array) -> Any:
+    """In which directions boxes are too small to be divided."""
+    middle, size = sizes[boxes.case, :, 0], sizes[boxes.case, :, 1]
+    far = numpy.maximum(numpy.abs(boxes.low - middle), numpy.abs(boxes.high - middle))
+    return boxes.high - boxes.low <= NARROWEST * numpy.maximum(size, far)
+
+
+def _where(slopes: intervals.Array, boxes: Boxes, sizes: intervals.Array) -> intervals.Array:
     """The unknown to divide of each box: the one whose width moves the equations most, each by its share.
 
     The smear of Kearfott (1987), relative and summed as by Trombettoni, Araya and others (2011), AAAI.
     """
-    smear = numpy.minimum(slopes, 1e100) * widths[:, None, :]
+    smear = numpy.minimum(slopes, 1e100) * (boxes.high - boxes.low)[:, None, :]
     share = smear / numpy.maximum(smear.sum(axis=2, keepdims=True), 1e-300)
-    found: intervals.Array = numpy.where(widths <= NARROWEST * ranges, 0.0, share.sum(axis=1)).argmax(axis=1)
+    found: intervals.Array = numpy.where(_is_narrow(boxes, sizes), 0.0, share.sum(axis=1)).argmax(axis=1)
     return found
 
 
-def _divided(boxes: Boxes, slopes: intervals.Array, ranges: intervals.Array) -> Boxes:
+def _divided(boxes: Boxes, slopes: intervals.Array, sizes: intervals.Array) -> Boxes:
     """Two parts of each box, or more where there are few boxes: a batch of a few takes as long as one of many."""
     parts = boxes
     while True:
-        where = _where(slopes, parts.high - parts.low, ranges[parts.case])
+        where = _where(slopes, parts, sizes)
         every = numpy.arange(len(parts))
         begin, end = parts.low[every, where], parts.high[every, where]
+        # What is far away is divided by its magnitude, what is not in the middle.
+        middle, size = sizes[parts.case, where].T
+        first, last = numpy.arcsinh((begin - middle) / size), numpy.arcsinh((end - middle) / size)
+        at = middle + size * numpy.sinh(first + DIVISION * (last - first))
         low, high = parts.low.copy(), parts.high.copy()
-        low[every, where] = high[every, where] = begin + DIVISION * (end - begin)
+        low[every, where] = high[every, where] = numpy.clip(at, begin, end)
         parts = joined([Boxes(parts.low, high, parts.case), Boxes(low, parts.high, parts.case)])
         if len(parts) >= FEW:
             return parts
@@ -227,15 +264,16 @@ NARROW = 2.0**-60
 """1 (share of the coordinates). A box that is wider is tried to be enclosed otherwise."""
 
 
-def settle(kernel: Kernel, division: Division, inputs: Mapping[str, Number]) -> list[Root]:
-    """All solutions that are proven."""
+def settle(kernel: Kernel, divisions: Sequence[Division], inputs: Mapping[str, Number]) -> list[Root]:
+    """All solutions that are proven, in any part of what was searched."""
     found: list[list[Number]] = []
-    for low, high in zip(division.proven.low.tolist(), division.proven.high.tolist(), strict=True):
-        keep(_pinned(kernel, [ball.between(*ends) for ends in zip(low, high, strict=True)], inputs), found)
-    for point in division.likely:
-        box = search(kernel, point, inputs)
-        if box is not None:
-            keep(box, found)
+    for division in divisions:
+        for low, high in zip(division.proven.low.tolist(), division.proven.high.tolist(), strict=True):
+            keep(_pinned(kernel, [ball.between(*ends) for ends in zip(low, high, strict=True)], inputs), found)
+        for point in division.likely:
+            box = search(kernel, point, inputs)
+            if box is not None:
+                keep(box, found)
     return [Root(dict(enumerate(box))) for box in found]
 
 

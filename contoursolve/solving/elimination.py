@@ -25,6 +25,7 @@ class Obstacle(Enum):
     TOUCHING = "whether it has two solutions or none is too close to decide"
     NO_CLOSED_FORM = "no closed form is known for it"
     UNFINISHED = "the search was given up before all of its range was decided"
+    FARTHER = "the search was given up before all that lies farther away was decided"
 
 
 class ObstacleError(Exception):

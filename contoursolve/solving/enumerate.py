@@ -30,8 +30,8 @@ class Effort(Struct, frozen=True):
     is_guessing: bool = False
 
 
-DRAWING = Effort(200_000, 30_000, is_guessing=True)
-"""For a single drawing; about two seconds."""
+DRAWING = Effort(300_000, 30_000, is_guessing=True)
+"""For a single drawing; about three seconds."""
 
 
 class Found(Struct, frozen=True):
@@ -57,8 +57,9 @@ class Enumeration(Struct, frozen=True):
 
     found: tuple[Found, ...]
     doubts: tuple[Doubt, ...]
-    is_searched: bool = False
-    """Whether some step has no closed form, so that solutions were searched for within reach only."""
+    within: float | None = None
+    """How far from the start point there is no other solution, mm, where some step has no closed form and was searched
+    for; None where all have one."""
     is_lost: bool = False
     """Whether there is none because the search of such a step found none."""
 
@@ -130,8 +131,7 @@ def enumerate_many(
     for number, search in enumerate(searches):
         go_on(number, search.__next__)
     for group in groups:
-        together = [number for number, (where, _) in waiting.items() if where is group]
-        if together:
+        while together := [number for number, (where, _) in waiting.items() if where is group]:
             answers = divide(conditions_of(system, group), [waiting.pop(number)[1] for number in together])
             for number, answer in zip(together, answers, strict=True):
                 go_on(number, partial(searches[number].send, answer))
@@ -164,10 +164,11 @@ class _Search:
         self.ground = ground
         self.close = close
         self.doubts: list[Doubt] = []
-        self.is_searched = self.is_lost = False
+        self.is_lost = False
+        self.within: float | None = None
         self.effort = effort
         self.left = effort.intervals
-        self.reach = ground.reach(system)
+        self.near, self.far = ground.nearby(system), ground.farthest(system)
         self.senses: list[Sense] = [
             (fact, frozenset(system.unknowns_among(fact.sense_reads())))
             for fact in system.facts
@@ -190,7 +191,7 @@ class _Search:
                 self.doubts.append(Doubt(group.unknowns, Obstacle.UNFINISHED))
                 states = states[:MOST_SOLUTIONS]
         states = [self._with_sides(state) for state in states]
-        return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.is_searched, self.is_lost)
+        return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.within, self.is_lost)
 
     def _with_sides(self, state: Found) -> Found:
         """The state with the sides of facts that were not needed: where the fact is nearer to being true."""
@@ -253,17 +254,26 @@ class _Search:
         return roots
 
     def _search(self, group: Group, kernel: Kernel, cases: Sequence[Found]) -> _Steps[list[list[Root]]]:
-        """All solutions of a step without a closed form, for each case; all cases are searched together."""
-        self.is_searched = True
+        """All solutions of a step without a closed form, for each case; all cases are searched together. First what is
+        nearby is searched, and where that could be decided, all that the control can reach."""
         conditions = conditions_of(self.system, group)
         names = {*conditions.narrowed_by, *conditions.arguments} - {*kernel.unknowns}
         inputs = [{name: self.ground.number(name, case.scalars, case.signs) for name in names} for case in cases]
-        budget = max(self.left, self.effort.least)
-        divisions, looked_at = yield group, Task(inputs, self.reach, budget, self.effort.is_guessing)
-        self.left -= looked_at
-        if not all(division.is_complete for division in divisions):
-            self.doubts.append(Doubt(kernel.unknowns, Obstacle.UNFINISHED))
-        found = [settle(kernel, division, at) for division, at in zip(divisions, inputs, strict=True)]
+        searched, inner = list[list[Division]](), None
+        for far in dict.fromkeys((self.near, self.far)):
+            reach, budget = self.ground.reach(self.system, far), max(self.left, self.effort.least)
+            task = Task(inputs, reach, self.ground.sizes(self.system), budget, self.effort.is_guessing, inner)
+            divisions, looked_at = yield group, task
+            self.left -= looked_at
+            searched.append(divisions)
+            if not all(division.is_complete for division in divisions):
+                obstacle = Obstacle.UNFINISHED if inner is None else Obstacle.FARTHER
+                self.doubts.append(Doubt(kernel.unknowns, obstacle))
+                self.within = self.near
+                break
+            inner = reach
+        self.within = min(far, self.within or far)
+        found = [settle(kernel, each, at) for each, at in zip(zip(*searched, strict=True), inputs, strict=True)]
         self.is_lost = not any(found)
         return found
 

@@ -10,7 +10,7 @@ from contoursolve.numeric.inputs import COSINE, SIDE
 from contoursolve.solving.numbers import axes_of
 
 REACH = 4.0
-"""How many times as far as anything that is given a search goes."""
+"""How many times as far as anything that is given a search goes first: there are the solutions that are meant."""
 
 SMALLEST = 1e-4
 """mm. The least radius or length of a line, and distance of the centres of circles that go on smoothly into each other,
@@ -29,25 +29,43 @@ class Ground:
     scalars: Mapping[str, Number]
     amounts: Mapping[str, Number]
     angles: Mapping[str, Given]
+    travel: float
+    """mm. How far from the start point all solutions are searched for."""
 
     def values(self, scalars: Mapping[str, Number], signs: Mapping[str, int], system: System) -> Values:
         """A lookup of exact numbers and balls for the facts of a system."""
         directions = {name: ball.direction(given.value) for name, given in self.angles.items()}
         return Values({**self.scalars, **scalars}, self.amounts, directions, system.headed, signs, BALLS)
 
-    def reach(self, system: System) -> dict[str, tuple[float, float]]:
-        """The range of every unknown in which solutions are searched for where there is no closed form.
-
-        Lengths and coordinates go `REACH` times as far from the start point as anything that is given; radii are at
-        least `SMALLEST`.
-        """
-        starts = [ball.middle(self.scalars.get(scalar(system.figure.start, axis), ball.exact(0.0))) for axis in (0, 1)]
-        absolute = axes_of(system)
+    def nearby(self, system: System) -> float:
+        """How far from the start point solutions are searched for first: `REACH` times as far as anything that is
+        given, mm."""
+        starts, absolute = self._starts(system), axes_of(system)
         sizes = [
             abs(ball.middle(value) - (starts[absolute[name]] if name in absolute else 0.0))
             for name, value in self.amounts.items()
         ]
-        far = REACH * max([1e-3, *sizes])
+        return REACH * max([1e-3, *sizes])
+
+    def farthest(self, system: System) -> float:
+        """How far from the start point all solutions are searched for, mm."""
+        return max(self.travel, self.nearby(system))
+
+    def _starts(self, system: System) -> list[float]:
+        return [ball.middle(self.scalars.get(scalar(system.figure.start, axis), ball.exact(0.0))) for axis in (0, 1)]
+
+    def sizes(self, system: System) -> dict[str, tuple[float, float]]:
+        """An ordinary value of every unknown, and how far others ordinarily are from it."""
+        size = self.nearby(system) / REACH
+        ranges = self.reach(system, size).items()
+        return {
+            name: (0.0, size) if name in system.figure.radii else ((low + high) / 2, (high - low) / 2)
+            for name, (low, high) in ranges
+        }
+
+    def reach(self, system: System, far: float) -> dict[str, tuple[float, float]]:
+        """The range of every unknown so far from the start point, mm; radii are at least `SMALLEST`."""
+        starts = self._starts(system)
         ranges: dict[str, tuple[float, float]] = {}
         for name in system.unknowns:
             part = name.rpartition(".")[2]
@@ -90,4 +108,5 @@ def ground_of(profile: Profile) -> Ground:
         start,
         {name: ball.exact(given.value) for name, given in givens if given.unit is not Unit.DEGREE},
         {name: given for name, given in givens if given.unit is Unit.DEGREE},
+        profile.travel,
     )

@@ -1,6 +1,6 @@
 """What follows from facts taken together: nothing new, but it excludes boxes that no fact excludes alone."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import Any
 
@@ -14,9 +14,11 @@ from contoursolve.geometry import (
     Fact,
     Figure,
     Foot,
+    Heading,
     Line,
     Lookup,
     OnCircle,
+    Spoke,
     Tangent,
     TangentCircles,
     TangentLine,
@@ -24,63 +26,134 @@ from contoursolve.geometry import (
     TurnBetween,
     line_scalars,
 )
-from contoursolve.geometry.system import both, dot, rotate, step
+from contoursolve.geometry.system import both, cross, dot, rotate, step
 from contoursolve.geometry.touching import side_of
 from contoursolve.solving.exact_inputs import SMALLEST
 
 
-def consequences(facts: Sequence[Fact], true: Sequence[Fact], at: Lookup) -> Iterator[Any]:
+class _Known:
+    """What all facts say of points on lines and circles, as far as the unknowns of some facts tell where these are."""
+
+    def __init__(self, facts: Sequence[Fact], true: Sequence[Fact], headed: Mapping[str, tuple[str, str]]) -> None:
+        self.read = {name for fact in facts for name in fact.reads()}
+        self.read.update(*(both(tail) for line, (_, tail) in headed.items() if line_scalars(line)[2] in self.read))
+        self.feet: dict[tuple[str, str], dict[str, None]] = {}
+        """Where a line touches the circle about a centre."""
+        self.on_line: dict[str, dict[str, None]] = {}
+        self.on_circle: dict[str, dict[str, None]] = {}
+        self.radius_of: dict[tuple[str, str], str] = {}
+        for line, (given, tail) in headed.items():
+            rays = (fact for fact in true if isinstance(fact, Heading) and (fact.given, fact.tail) == (given, tail))
+            self.on_line[line] = dict.fromkeys((tail, *(fact.head for fact in rays)))
+        for fact in true:
+            if isinstance(fact, Through):
+                self.on_line.setdefault(fact.line, {})[fact.point] = None
+            elif isinstance(fact, Foot):
+                self.feet.setdefault((fact.line, fact.center), {})[fact.point] = None
+            elif isinstance(fact, OnCircle):
+                self.radius_of[fact.point, fact.center] = fact.radius
+            if isinstance(fact, OnCircle | Spoke):
+                self.on_circle.setdefault(fact.center, {})[fact.point] = None
+        for fact in true:
+            if isinstance(fact, TangentLine):
+                for point in self.touched(fact):
+                    self.on_circle.setdefault(fact.center, {})[point] = None
+
+    def points(self, line: str) -> list[str]:
+        """The points on a line."""
+        return [point for point in self.on_line.get(line, ()) if self.has(point)]
+
+    def touched(self, fact: TangentLine) -> list[str]:
+        """The points in which a line touches a circle."""
+        feet = self.feet.get((fact.line, fact.center), ())
+        return [point for point in feet if point in self.on_line.get(fact.line, ())]
+
+    def has(self, *points: str) -> bool:
+        """Whether both coordinates of each point are among the unknowns."""
+        return all(self.read.issuperset(both(point)) for point in points)
+
+
+def consequences(
+    facts: Sequence[Fact], true: Sequence[Fact], headed: Mapping[str, tuple[str, str]], at: Lookup
+) -> Iterator[Any]:
     """Expressions that are zero wherever the facts hold in their senses, and of which each reads no more than they do.
 
-    `true` are all facts of the system that are to hold, among them those on the circles of these.
+    `true` are all facts of the system that are to hold, among them those on the circles of these; `headed` are its
+    lines of a given direction, as in `System`.
     """
-    circles = [fact for fact in true if isinstance(fact, OnCircle)]
-    radius_of = {(fact.point, fact.center): fact.radius for fact in circles}
-    on_line = {(fact.line, fact.point) for fact in true if isinstance(fact, Through)}
-    feet = [fact for fact in true if isinstance(fact, Foot)]
-    read = {name for fact in facts for name in fact.reads()}
+    known = _Known(facts, true, headed)
     for fact in facts:
-        match fact:
-            case ArcLength(tail=tail, head=head, center=center, radius=radius) if (
-                radius == radius_of.get((tail, center)) == radius_of.get((head, center))
-            ):
-                yield from _arc(fact, at)
-            case TurnBetween(first=first, second=second) if not isinstance(first, Chord):
-                ends = [each for each in (first, second) if isinstance(each, Tangent)]
-                if all(radius_of.get((each.point, each.center)) == each.radius for each in ends):
-                    yield from _turn(fact, at)
-            case Extent(line=line, tail=tail, head=head) if {(line, tail), (line, head)} <= on_line:
-                yield from _span(fact, at)
-            case TangentLine(line=line, center=center):
-                for point in (foot.point for foot in feet if (foot.line, foot.center) == (line, center)):
-                    if (line, point) in on_line and set(both(point)) <= read:
-                        yield from _spoke(fact, point, at)
-            case TangentCircles(first=(one, size), second=(other, other_size)):
-                between = step(at, one, other)
-                reach = at.radius(size) + side_of(fact.side, at) * at.radius(other_size)
-                yield dot(between, between) - reach * reach
-            case Contact(point=point, first=one, second=other):
-                radii = [radius_of.get((point, center), "") for center in (one, other)]
-                if all(radius in read for radius in radii):
-                    yield from _contact(fact, radii, at)
-    yield from _chords([fact for fact in facts if isinstance(fact, OnCircle)], at)
+        yield from _of(fact, known, at)
+    # Of what is large these tell how it runs, which distances from something far away do not.
+    for center, points in known.on_circle.items():
+        for one, other in combinations(points, 2):
+            if known.has(center, one, other):
+                # The centre of a circle lies on the perpendicular bisector of every two of its points.
+                first, second = step(at, center, one), step(at, center, other)
+                yield dot(step(at, one, other), (first[0] + second[0], first[1] + second[1]))
+    for line in known.on_line:
+        for one, other in combinations(known.points(line), 2):
+            if line not in headed and known.read.issuperset(line_scalars(line)[:2]):
+                yield cross(at.bearing(line), step(at, one, other))
+    tangents = [fact for fact in true if isinstance(fact, TangentLine) and known.read.issuperset(fact.reads())]
+    for first_line, second_line in combinations(tangents, 2):
+        if (first_line.center, first_line.radius) == (second_line.center, second_line.radius):
+            yield from _two_tangents(first_line, second_line, known, at)
 
 
-def _chords(ends: Sequence[OnCircle], at: Lookup) -> Iterator[Any]:
-    """The centre of a circle lies on the perpendicular bisector of every two of its points."""
-    for one_end, other_end in combinations(ends, 2):
-        if (one_end.center, one_end.radius) == (other_end.center, other_end.radius):
-            spokes = [step(at, one_end.center, each.point) for each in (one_end, other_end)]
-            chord = step(at, one_end.point, other_end.point)
-            yield dot(chord, (spokes[0][0] + spokes[1][0], spokes[0][1] + spokes[1][1]))
+def _of(fact: Fact, known: _Known, at: Lookup) -> Iterator[Any]:
+    """What follows from one fact, together with the points on its lines and circles."""
+    radius_of = known.radius_of
+    match fact:
+        case ArcLength(tail=tail, head=head, center=center, radius=radius) if (
+            radius == radius_of.get((tail, center)) == radius_of.get((head, center))
+        ):
+            yield from _arc(fact, at)
+        case TurnBetween(first=first, second=second) if not isinstance(first, Chord):
+            ends = [each for each in (first, second) if isinstance(each, Tangent)]
+            if all(radius_of.get((each.point, each.center)) == each.radius for each in ends):
+                yield from _turn(fact, at)
+        case Extent(line=line, tail=tail, head=head) if {tail, head} <= known.on_line.get(line, {}).keys():
+            yield from _span(fact, at)
+        case TangentLine(line=line, center=center):
+            touched = known.touched(fact)
+            for point in known.points(line):
+                if point in touched:
+                    yield from _spoke(fact, point, at)
+                else:
+                    aside = cross(at.bearing(line), step(at, point, center))
+                    yield aside - side_of(fact.side, at) * at.radius(fact.radius)
+        case TangentCircles(first=(one, size), second=(other, other_size)):
+            between = step(at, one, other)
+            reach = at.radius(size) + side_of(fact.side, at) * at.radius(other_size)
+            yield dot(between, between) - reach * reach
+        case Contact(point=point, first=one, second=other):
+            radii = [radius_of.get((point, center), "") for center in (one, other)]
+            if all(radius in known.read for radius in radii):
+                yield from _contact(fact, radii, at)
+
+
+def _two_tangents(first: TangentLine, second: TangentLine, known: _Known, at: Lookup) -> Iterator[Any]:
+    """Along the chord between the points in which a circle touches two lines, whose bisector goes through its centre
+    and where the lines meet."""
+    one, other = at.bearing(first.line), at.bearing(second.line)
+    sides = side_of(first.side, at) * side_of(second.side, at)
+    along = one[FIRST] + sides * other[FIRST], one[SECOND] + sides * other[SECOND]
+    for point in known.points(first.line):
+        if point in known.points(second.line):
+            yield dot(step(at, point, first.center), along)
+    for begin in known.touched(first):
+        for end in known.touched(second):
+            if known.has(begin, end):
+                yield cross(step(at, begin, end), along)
 
 
 def _contact(fact: Contact, radii: Sequence[str], at: Lookup) -> Iterator[Any]:
-    """From one centre through the point to the other: r1 to the point, r1 + side * r2 in all."""
+    """From one centre to the point is r1, from there to the other in the same direction r2, or back."""
     first, second = map(at.radius, radii)
-    part, whole = step(at, fact.first, fact.point), step(at, fact.first, fact.second)
+    part, rest = step(at, fact.first, fact.point), step(at, fact.point, fact.second)
     for axis in (FIRST, SECOND):
-        yield part[axis] * (first + fact.side * second) - whole[axis] * first
+        yield fact.side * second * part[axis] - rest[axis] * first
 
 
 def _arc(fact: ArcLength, at: Lookup) -> Iterator[Any]:

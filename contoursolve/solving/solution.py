@@ -76,7 +76,7 @@ class Status(Enum):
     NO_SOLUTION = "no-solution"
     """Determined, but the geometry does not exist or the control cannot make it: change a value."""
     UNDECIDED = "undecided"
-    """Determined, but no contour was found, and that there is none is not proven: state simpler facts."""
+    """Determined, but that there is no contour, or no other one than was found, is not proven: state simpler facts."""
     SOLVED = "solved"
 
 
@@ -107,6 +107,8 @@ class RefusalKind(Enum):
     ARC_EMPTY = "arc-empty"
     NO_POINT = "no-point"
     SEARCH_UNFINISHED = "search-unfinished"
+    COUNT_OPEN = "only-unproven"
+    """One contour was found, no word has chosen it from others, and that there is no other one is not proven."""
     NOT_VERIFIED = "not-verified"
     OUT_OF_RANGE = "out-of-range"
     """A point lies farther from the start than any word reaches."""
@@ -121,7 +123,7 @@ class RefusalKind(Enum):
         """The status that this refusal gives a contour."""
         if self is RefusalKind.NOT_FIXED:
             return Status.UNDERDETERMINED
-        if self is RefusalKind.SEARCH_UNFINISHED:
+        if self in (RefusalKind.SEARCH_UNFINISHED, RefusalKind.COUNT_OPEN):
             return Status.UNDECIDED
         if self in (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, RefusalKind.RADIUS_DIFFERENCE):
             return Status.CONFLICTING

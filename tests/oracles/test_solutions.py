@@ -445,7 +445,7 @@ def stage_of(sketch: Sketch) -> Stage:
     def inputs(sides: Mapping[str, int]) -> dict[str, Any]:
         return {name: ground.number(name, before, sides) for name in kernel.arguments[len(kernel.unknowns) :]}
 
-    return Stage(kernel, inputs, signs, ground.reach(system), enumeration.found)
+    return Stage(kernel, inputs, signs, ground.reach(system, ground.nearby(system)), enumeration.found)
 
 
 def three_circles() -> Sketch:
