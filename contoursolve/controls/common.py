@@ -12,6 +12,7 @@ from contoursolve.reading import ReadIssue, Setting, WithoutPoint
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import Rule
 from contoursolve.solving import NoteKind, RefusalKind
+from contoursolve.tolerance import LARGEST, TRAVEL
 
 _GOOD = "G00 X40. Z0.\nG111 A180. K-30. B120. X100."
 _START = "G00 X40. Z0.\n"
@@ -91,6 +92,15 @@ def length_setting(name: str, meaning: str, default: str, source: Source, most: 
     """One whose value is a number of mm, up to so many."""
     return Setting(name, meaning, {default: "mm"}, default, source, bounds=(Decimal("0.001"), Decimal(most)))
 
+
+TRAVEL_SETTING = length_setting(
+    "travel",
+    "how far from the start point solutions are searched for that no closed form gives",
+    f"{TRAVEL:.0f}",
+    _own("no machine is larger"),
+    most=int(LARGEST),
+)
+"""One of every control."""
 
 _GRAMMAR = _own("grammar of a word: an address and a number")
 _READING = _own("modal state of a program")

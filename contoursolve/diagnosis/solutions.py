@@ -52,6 +52,14 @@ class Listing(Struct, frozen=True):
     method: str
     doubts: tuple[str, ...]
     chosen_by: str
+    within: float | None = None
+    """How far from the start point these are all, mm, where they were searched for; None where a closed form gives
+    them."""
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether a closed form gives them."""
+        return self.within is None
 
     @property
     def is_single(self) -> bool:
@@ -104,6 +112,7 @@ def list_solutions(answer: Answer) -> Listing | None:
         method=method,
         doubts=tuple(f"{', '.join(doubt.unknowns)}: {doubt.obstacle.value}" for doubt in alternatives.doubts),
         chosen_by=" and ".join(words) if chosen and len(alternatives.items) > 1 else "",
+        within=alternatives.reach,
     )
 
 

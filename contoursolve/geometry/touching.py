@@ -44,11 +44,15 @@ class Spoke(Equation, Struct, frozen=True):
     axis: int
     quarters: int = 0
 
-    def residual(self, at: Lookup) -> Any:
+    def direction(self, at: Lookup) -> tuple[Any, Any]:
+        """From the centre to the point."""
         first, second = at.direction(self.given)
         for _ in range(self.quarters % 4):
             first, second = -second, first
-        part = second if self.axis else first
+        return first, second
+
+    def residual(self, at: Lookup) -> Any:
+        part = self.direction(at)[self.axis]
         off = at.coordinate(self.point, self.axis) - at.coordinate(self.center, self.axis)
         return off - part * at.radius(self.radius)
 

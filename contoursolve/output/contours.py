@@ -95,7 +95,9 @@ def _solution_lines(answer: Answer) -> list[str]:
     if listing is None:
         return []
     if listing.is_single:
-        return ["", f"  certificate: {printed_certificate(answer.certificate)}"] if answer.contour else []
+        searched = [] if listing.is_closed else [f"  {count_text(listing)}"]
+        certificate = [f"  certificate: {printed_certificate(answer.certificate)}"]
+        return ["", *searched, *certificate] if answer.contour else []
     lines = ["", f"  {count_text(listing)}"]
     lines += [f"  not decided: {doubt}" for doubt in listing.doubts]
     rows = [("->" if each.is_chosen else "", *row) for each, row in solution_rows(answer, listing)]
@@ -108,7 +110,8 @@ def _solution_lines(answer: Answer) -> list[str]:
 def count_text(listing: Listing) -> str:
     """How many solutions there are, and whether these are all."""
     number, shown = len(listing.solutions), f"by {listing.method}"
-    known = f"these are all ({shown})" if listing.is_complete else f"there may be more ({shown})"
+    told = "this is the only one" if number == 1 else "these are all"
+    known = f"{told} ({shown})" if listing.is_complete else f"there may be more ({shown})"
     return f"{'' if listing.is_complete else 'at least '}{count(number, 'solution')}; {known}"
 
 

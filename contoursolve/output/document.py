@@ -232,7 +232,7 @@ def _solutions(answer: Answer) -> dict[str, Any]:
     count = {
         "solutions": len(solutions),
         "contours": sum(each.contour is not None for each in listing.solutions),
-        **members(listing, "is_complete method doubts chosen_by"),
+        **members(listing, "is_complete method within_mm=within doubts chosen_by"),
     }
     return {"solutions": solutions, "count": count}
 

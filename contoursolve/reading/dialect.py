@@ -113,6 +113,13 @@ class Dialect:
         reason = "nothing before it gives an absolute position"
         axes = {axis: Position(None, reason) for axis in self.modes.axes}
         state = State(
-            axes, self.motion, self.plane, unit, is_incremental=False, compensation=40, diameter=self.diameter
+            axes,
+            self.motion,
+            self.plane,
+            unit,
+            is_incremental=False,
+            compensation=40,
+            diameter=self.diameter,
+            travel=self.modes.travel,
         )
         return with_diameters(state)

@@ -26,7 +26,7 @@ from contoursolve.gcode import (
 from contoursolve.geometry import Length, Plane, Start
 from contoursolve.reading.contour_form import Convention, Setting
 from contoursolve.reading.lexicon import TURNED, Code, Diameter, Effect, Lexicon
-from contoursolve.tolerance import RADIUS_DIFFERENCE
+from contoursolve.tolerance import RADIUS_DIFFERENCE, TRAVEL
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,6 +123,8 @@ class State(Struct, frozen=True):
     """Which words of X are diameters; None: as the tables of the control say, and no code switches it."""
     memory: Mapping[str, Word] = {}
     """Words that stay in force, by their address."""
+    travel: float = TRAVEL
+    """mm. How far from the start point the control can make a contour."""
 
     def start(self) -> Start:
         """The position in the plane."""
@@ -135,7 +137,15 @@ class State(Struct, frozen=True):
             return self
         axes = {**self.axes, **changes}
         return State(
-            axes, self.motion, self.plane, self.unit, self.is_incremental, self.compensation, self.diameter, self.memory
+            axes,
+            self.motion,
+            self.plane,
+            self.unit,
+            self.is_incremental,
+            self.compensation,
+            self.diameter,
+            self.memory,
+            self.travel,
         )
 
     def counts_diameters(self) -> bool:
@@ -220,6 +230,11 @@ class Modes:
     def radius_difference(self) -> float:
         """How much the radii at two points of an arc may differ, mm: a setting where a machine parameter tells."""
         return float(self.settings.get("radius-difference", RADIUS_DIFFERENCE))
+
+    @property
+    def travel(self) -> float:
+        """How far from the start point the control can make a contour, mm: a setting."""
+        return float(self.settings.get("travel", TRAVEL))
 
 
 COMMENTED = "comment"

@@ -169,6 +169,7 @@ def read(claim: ParsedContour, ignored: frozenset[str]) -> Profile:
         questions=tuple(_questions(claim, asked, layout)),
         picks=claim.picks,
         is_extended=bool(asked or claim.directives or claim.form.is_general),
+        travel=claim.before.travel,
     )
 
 

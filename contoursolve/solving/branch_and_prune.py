@@ -39,8 +39,9 @@ MARGINS = (2.0**-43, 2.0**-37, 2.0**-31)
 """By how much of its coordinates a box is inflated before it is tested; the larger ones for the smallest boxes, in
 which rounding hides the solution."""
 
-STARTS, STEPS = 2000, 25
-"""How many of the boxes that remain undecided Newton's method starts from, and how many steps it takes."""
+STARTS, STEPS, TRIED = 2000, 25, 64
+"""How many of the boxes that remain undecided Newton's method starts from, how many steps it takes, and how many of the
+places to which it leads are tried to be proven to hold a solution."""
 
 PASSES, WORTHWHILE = 3, 0.8
 """How often boxes are narrowed by each equation before they are by all, and the share of an unknown's range that must
@@ -270,7 +271,7 @@ def settle(kernel: Kernel, divisions: Sequence[Division], inputs: Mapping[str, N
     for division in divisions:
         for low, high in zip(division.proven.low.tolist(), division.proven.high.tolist(), strict=True):
             keep(_pinned(kernel, [ball.between(*ends) for ends in zip(low, high, strict=True)], inputs), found)
-        for point in division.likely:
+        for point in division.likely[:TRIED]:
             box = search(kernel, point, inputs)
             if box is not None:
                 keep(box, found)

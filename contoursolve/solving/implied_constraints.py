@@ -10,6 +10,7 @@ from contoursolve.geometry import (
     ArcLength,
     Chord,
     Contact,
+    Distance,
     Extent,
     Fact,
     Figure,
@@ -54,6 +55,7 @@ class _Known:
                 self.radius_of[fact.point, fact.center] = fact.radius
             if isinstance(fact, OnCircle | Spoke):
                 self.on_circle.setdefault(fact.center, {})[fact.point] = None
+        self.ways = {(fact.tail, fact.head) for fact in true if isinstance(fact, Distance)}
         for fact in true:
             if isinstance(fact, TangentLine):
                 for point in self.touched(fact):
@@ -84,21 +86,37 @@ def consequences(
     known = _Known(facts, true, headed)
     for fact in facts:
         yield from _of(fact, known, at)
-    # Of what is large these tell how it runs, which distances from something far away do not.
-    for center, points in known.on_circle.items():
-        for one, other in combinations(points, 2):
-            if known.has(center, one, other):
-                # The centre of a circle lies on the perpendicular bisector of every two of its points.
-                first, second = step(at, center, one), step(at, center, other)
-                yield dot(step(at, one, other), (first[0] + second[0], first[1] + second[1]))
+    yield from _on_circles(true, known, at)
     for line in known.on_line:
         for one, other in combinations(known.points(line), 2):
             if line not in headed and known.read.issuperset(line_scalars(line)[:2]):
                 yield cross(at.bearing(line), step(at, one, other))
     tangents = [fact for fact in true if isinstance(fact, TangentLine) and known.read.issuperset(fact.reads())]
-    for first_line, second_line in combinations(tangents, 2):
-        if (first_line.center, first_line.radius) == (second_line.center, second_line.radius):
-            yield from _two_tangents(first_line, second_line, known, at)
+    for first, second in combinations(tangents, 2):
+        if (first.center, first.radius) == (second.center, second.radius):
+            yield from _two_tangents(first, second, known, at)
+
+
+def _on_circles(true: Sequence[Fact], known: _Known, at: Lookup) -> Iterator[Any]:
+    """What every two points of a circle tell: of a large one how their chord runs, and of one far away how long it is,
+    which the distances from its centre do not."""
+    for center, points in known.on_circle.items():
+        for one, other in combinations(points, 2):
+            if known.has(center, one, other):
+                # The centre lies on the perpendicular bisector.
+                first, second = step(at, center, one), step(at, center, other)
+                yield dot(step(at, one, other), (first[0] + second[0], first[1] + second[1]))
+    for (first_fact, one), (second_fact, other) in combinations(_directions(true, known), 2):
+        is_chord = first_fact.center == second_fact.center and one != other and known.has(one, other)
+        if is_chord and first_fact.radius == second_fact.radius in known.read:
+            # A chord is the difference of two radii, and square to the sum of their directions. It is read the way
+            # round in which its length is stated, so that both narrow the same difference.
+            ways = {one: _direction(first_fact, at), other: _direction(second_fact, at)}
+            tail, head = (other, one) if (other, one) in known.ways else (one, other)
+            chord, radius = step(at, tail, head), at.radius(first_fact.radius)
+            yield dot(chord, (ways[one][0] + ways[other][0], ways[one][1] + ways[other][1]))
+            for axis in (FIRST, SECOND):
+                yield chord[axis] - radius * (ways[head][axis] - ways[tail][axis])
 
 
 def _of(fact: Fact, known: _Known, at: Lookup) -> Iterator[Any]:
@@ -134,18 +152,31 @@ def _of(fact: Fact, known: _Known, at: Lookup) -> Iterator[Any]:
 
 
 def _two_tangents(first: TangentLine, second: TangentLine, known: _Known, at: Lookup) -> Iterator[Any]:
-    """Along the chord between the points in which a circle touches two lines, whose bisector goes through its centre
-    and where the lines meet."""
+    """The centre of a circle that touches two lines lies on the bisector where these meet."""
     one, other = at.bearing(first.line), at.bearing(second.line)
     sides = side_of(first.side, at) * side_of(second.side, at)
     along = one[FIRST] + sides * other[FIRST], one[SECOND] + sides * other[SECOND]
     for point in known.points(first.line):
         if point in known.points(second.line):
             yield dot(step(at, point, first.center), along)
-    for begin in known.touched(first):
-        for end in known.touched(second):
-            if known.has(begin, end):
-                yield cross(step(at, begin, end), along)
+
+
+def _directions(true: Sequence[Fact], known: _Known) -> Iterator[tuple[TangentLine | Spoke, str]]:
+    """The points on circles that lie in a direction from the centre which a fact tells, each with that fact."""
+    for fact in true:
+        if isinstance(fact, Spoke) and fact.axis == FIRST:
+            yield fact, fact.point
+        elif isinstance(fact, TangentLine) and known.read.issuperset(fact.reads()):
+            yield from ((fact, point) for point in known.touched(fact))
+
+
+def _direction(fact: TangentLine | Spoke, at: Lookup) -> tuple[Any, Any]:
+    """The direction from the centre of a circle to a point on it."""
+    if isinstance(fact, Spoke):
+        return fact.direction(at)
+    cosine, sine = at.bearing(fact.line)
+    side = side_of(fact.side, at)
+    return side * sine, -side * cosine
 
 
 def _contact(fact: Contact, radii: Sequence[str], at: Lookup) -> Iterator[Any]:

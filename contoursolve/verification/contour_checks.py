@@ -146,6 +146,9 @@ def _check_status(case: Case, claimed: ClaimedContour, solutions: Sequence[Candi
         is_right = claimed.status in LOOSE
         ledger.require("the words leave points free at their values", (), is_right, f"it is {claimed.status}")
         status, why = None, "the words leave points free at their values, and there may be other solutions"
+    is_open = claimed.count is not None and not claimed.count.is_complete
+    if claimed.status == "undecided" and status in ("solved", "overdetermined") and is_open:
+        status, why = None, "a search found one contour, which is no proof that there is no other"
     if status is None:
         ledger.omit("the status", why)
     else:
@@ -211,6 +214,10 @@ def _check_list(
             ledger.require(f"all {name} are listed", (), said == has, remark)
         is_told = count.is_complete != bool(count.doubts)
         ledger.require("the list is complete unless there is a doubt", (), is_told, "it is both")
+        if count.within_mm is not None and count.is_complete:
+            is_all, remark = count.within_mm >= case.profile.travel, f"within {count.within_mm:g} mm of the start point"
+            remark = f"it holds all {remark}, and the control's travel is {case.profile.travel:g} mm"
+            ledger.require("a list that is complete holds all in the control's travel", (), is_all, remark)
         words = [word.text for word in case.claim.words.values()]
         parts = count.chosen_by.split(" and ") if count.chosen_by else []
         is_known = all(part in words for part in parts)

@@ -133,6 +133,7 @@ class ClaimedCount(msgspec.Struct, frozen=True):
     is_complete: bool
     doubts: tuple[str, ...]
     chosen_by: str
+    within_mm: Number | None = None
 
 
 class ClaimedFilled(msgspec.Struct, frozen=True):

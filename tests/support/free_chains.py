@@ -43,6 +43,8 @@ class FreeChain:
     drawn: tuple[Drawn, ...]
     text: str
     data: tuple[tuple[Datum, float], ...]
+    angles: tuple[bool, ...]
+    """Which of the data are angles, in degrees."""
 
 
 def draw(start: Point, direction: float, steps: list[Step]) -> list[Drawn]:
@@ -124,7 +126,9 @@ def random_chain(random: Random, least: int = 3, most: int = 15) -> FreeChain:
         kept = _enough(drawn, [datum for _, _, datum in data])
         if kept:
             chosen = [data[index] for index in kept]
-            return FreeChain(tuple(drawn), _program(drawn, chosen), tuple((each, each(drawn)) for _, _, each in chosen))
+            measured = tuple((each, each(drawn)) for _, _, each in chosen)
+            angles = tuple(text.startswith(("AN", "CCA")) for _, text, _ in chosen)
+            return FreeChain(tuple(drawn), _program(drawn, chosen), measured, angles)
 
 
 def _enough(drawn: list[Drawn], data: Sequence[Datum]) -> list[int]:

@@ -33,6 +33,7 @@ WITHOUT_REJECTED_EXAMPLE = {
     "start-diameter": "the start point is stated apart from the program; test_siemens.py has it",
     "start-units": "the start point is stated apart from the program; test_command_line.py has it",
     "word-unused": "where the rules are enforced, one of them names the word; test_lathe.py switches them off",
+    "only-unproven": "the same; test_completeness.py gives a search up",
     "search-unfinished": "the same; test_solutions.py has sketches whose search does not end",
 }
 

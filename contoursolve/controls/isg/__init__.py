@@ -6,6 +6,7 @@ Its words, language and rules come in; a control goes out. Begin with `language`
 import re
 
 from contoursolve.controls.chain import ChainFinder, forms_of
+from contoursolve.controls.common import TRAVEL_SETTING
 from contoursolve.controls.isg.language import LANGUAGE, SETTINGS
 from contoursolve.controls.isg.lexicon import CHAMFER, MODES, ROUNDING, SYNTAX
 from contoursolve.controls.isg.rules import RULES
@@ -38,7 +39,7 @@ ISG = Dialect(
     find=ChainFinder(LANGUAGE),
     signs=_signs,
     contours="lines with #ANG, corners with #RND, #CHR or #CHF, and G301 or G302",
-    settings=SETTINGS,
+    settings=(*SETTINGS, TRAVEL_SETTING),
     motion=1,
     diameter=Diameter.OFF,
 )
