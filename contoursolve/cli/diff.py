@@ -100,7 +100,7 @@ def diff(
         program = read_program(path)
         before = sides[0][1] if sides else None
         is_kept = control is not None and before is not None and _reads_what_shows_others(before, program)
-        dialect = _dialect_of(program, own or (before if is_kept else None), before, assignments)
+        dialect = _dialect_of(program, own or (before if is_kept else None), before, assignments, folders)
         asked = request_for(
             program.name, dialect, units=unit, rules=rules, variables=variables, folders=folders, strict=True
         )
@@ -133,14 +133,18 @@ def _reads_what_shows_others(control: Dialect, program: Program) -> bool:
 
 
 def _dialect_of(
-    program: Program, control: str | Dialect | None, otherwise: Dialect | None, assignments: Sequence[str]
+    program: Program,
+    control: str | Dialect | None,
+    otherwise: Dialect | None,
+    assignments: Sequence[str],
+    folders: Sequence[str],
 ) -> Dialect:
     """The control of a program: the one that is named, or that it shows, or another."""
     with naming(program.name, "--control or --new-control"):
         settings = settings_of(program, assignments)
         name = control or settings.get(CONTROL)
         named = {**DIALECTS, **PLAIN}[name] if isinstance(name, str) else name
-        shown = None if named else choose_alike(None, program, request_for(program.name), settings)
+        shown = None if named else choose_alike(None, program, request_for(program.name, folders=folders), settings)
         dialect = named or shown or otherwise
         if dialect is not None:
             return shown or configure(dialect, settings)

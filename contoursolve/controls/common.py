@@ -334,6 +334,16 @@ READING_RULES = (
         rejected=(),
     ),
     Rule(
+        code="subprogram-solved",
+        message="{contours} of {file}, which is called here, {are} solved",
+        help="expand --inline writes the blocks of both files as one program",
+        source=_READING,
+        about=ReadIssue.SUBPROGRAM_SOLVED,
+        severity=Severity.INFO,
+        accepted=(_GOOD,),
+        rejected=(),
+    ),
+    Rule(
         code="not-followed",
         message="{reason}",
         help="contours behind this block are examined from an unknown point",
@@ -402,6 +412,16 @@ READING_RULES = (
         severity=Severity.INFO,
         accepted=(_GOOD,),
         rejected=("G00 X40. Z2.\nG01 Z0. F0.2\nX60. ,C2.\nZ-20.\nX70.",),
+    ),
+    Rule(
+        code="control-called",
+        message="the program shows no control, but what it calls does: {sign} is for {control}",
+        help="name your control by --control or in contoursolve.toml, if it is another one",
+        source=_READING,
+        about=ReadIssue.CONTROL_CALLED,
+        severity=Severity.INFO,
+        accepted=(_GOOD,),
+        rejected=(),
     ),
     Rule(
         code="machine-taken",

@@ -34,7 +34,7 @@ def effect_of(fix: Fix, finding: Diagnostic) -> str:
     return APPLICABILITY[fix.applicability]
 
 
-_CONCLUDED = (ReadIssue.CONTROL_ALIKE, ReadIssue.MACHINE_TAKEN)
+_CONCLUDED = (ReadIssue.CONTROL_ALIKE, ReadIssue.CONTROL_CALLED, ReadIssue.MACHINE_TAKEN)
 
 Piece = tuple[str, str]
 """A text and its role: error, warning, info, frame, bold, place (line and column of the program), or none."""

@@ -15,7 +15,7 @@ from contoursolve.diagnostics.finding import Diagnostic, Fix, Severity
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.findings import EXPLAINING, Style, finding_lines
 from contoursolve.output.plain_text import columns, printable
-from contoursolve.program.pipeline import Result, Run
+from contoursolve.program.pipeline import ELSEWHERE, Result, Run
 from contoursolve.program.recognise import what_shows
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import NoteKind, Status
@@ -205,7 +205,8 @@ def closing_lines(result: Result, tally: "Totals | None" = None) -> Iterator[str
     if result.control is not None:
         own = DIALECTS.get(result.control)
         sign = what_shows(result.program.blocks, own) if own else ""
-        yield f"control: {own.title if own else result.control}" + f" ({f'from {sign}' if sign else 'as asked for'})"
+        whence = f"from {sign}" if sign else "as told above" if result.is_concluded else "as asked for"
+        yield f"control: {own.title if own else result.control} ({whence})"
     yield (tally or _tally(result, is_explained=True)).line(1)
 
 
@@ -227,6 +228,9 @@ class Totals(Struct, frozen=True):
     waiting: Counter[Status] = field(default_factory=Counter)
     """Contours that are not checked, because nobody knows where they begin."""
 
+    elsewhere: Counter[str] = field(default_factory=Counter)
+    """Findings about contours of other files, which programs call."""
+
     def count(self, item: Answer | Diagnostic, *, is_explained: bool = True) -> None:
         """Count a contour with its findings, or a finding."""
         if isinstance(item, Answer):
@@ -238,6 +242,7 @@ class Totals(Struct, frozen=True):
                 continue
             if each.about is not ReadIssue.CONTOUR_WAITS:
                 self.severities[each.severity] += 1
+            self.elsewhere[each.code] += each.about in ELSEWHERE
             if each.about in _UNEXAMINED and each.is_error:
                 self.unexamined[each.code] += 1
 
@@ -247,6 +252,7 @@ class Totals(Struct, frozen=True):
         self.severities.update(other.severities)
         self.unexamined.update(other.unexamined)
         self.waiting.update(other.waiting)
+        self.elsewhere.update(other.elsewhere)
 
     @property
     def has_something(self) -> bool:
@@ -262,7 +268,8 @@ class Totals(Struct, frozen=True):
         several = f"{count(programs, 'program')}, " if programs > 1 else ""
         told = f"{found or 'no problems'}{waiting}"
         if not total:
-            return f"{several}no contour examined; {told}"
+            own = " of its own" if self.elsewhere.total() else ""
+            return f"{several}no contour{own} examined; {told}"
         if len(+self.statuses) > 1:
             return f"{several}{count(total, 'contour')}: {statuses}; {told}"
         return f"{several}{count(total, 'contour')} {statuses.partition(' ')[2]}, {told}"

@@ -16,6 +16,7 @@ from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_f
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
 from contoursolve.postprocess.numbering import numbers_of
 from contoursolve.postprocess.post_processors import Numbering
+from contoursolve.program.called_files import blocks_of_called_files
 from contoursolve.program.lines import Lines
 from contoursolve.program.pipeline import Examiner
 from contoursolve.program.project import check_settings, configure
@@ -82,7 +83,8 @@ def rewrite(
     named, dialect = named_control(control, settings), None
     with suppress(SeveralControlsError):
         dialect = named or _recognise(recogniser, _blocks(tape, unread))
-    if dialect is None and (recogniser.signs or recogniser.may_turn):
+    shows = recogniser.signs or recogniser.may_turn
+    if dialect is None and (shows or blocks_of_called_files(tape.lines(), asked.around)):
         dialect = choose_alike(None, parse(tape.read(), tape.name), asked, settings)
     summary = Summary()
     body.write(tape.mark)

@@ -12,7 +12,7 @@ from contoursolve.diagnostics.finding import Basis, Diagnostic, Fix, Label, Seve
 from contoursolve.diagnostics.source import Span
 from contoursolve.execution.machine import Machine, machine_of
 from contoursolve.execution.subprograms import Surroundings
-from contoursolve.gcode import Block, Program, Substitution
+from contoursolve.gcode import Block, Caller, Program, Substitution
 from contoursolve.program.profiles import CycleProfile, profiles_of, turns_back
 from contoursolve.program.solve_queue import Step
 from contoursolve.reading import ReadIssue, State
@@ -40,10 +40,11 @@ def in_text_order(
     told: Sequence[Diagnostic],
     profiles: list[CycleProfile],
     state: State,
+    called: list[Answer],
 ) -> Iterator[Step]:
     """The steps of a program as it runs, each contour once, in the order in which the program is written. What is
     wrong in lines that the program passes over, stops nothing. `told` are findings about the whole text; the profiles
-    of cycles are added to `profiles`; it begins in a state."""
+    of cycles are added to `profiles`, contours of other files to `called`; it begins in a state."""
     ran: dict[int, list[Step]] = {}
     before: dict[int, State] = {}
     findings, here = list(told), _Substituted()
@@ -56,11 +57,13 @@ def in_text_order(
         here |= _substituted(step.blocks)
         findings += (_as_typed(each, blocks, here) for each in step.findings)
         if step.answer is not None and step.blocks[0].file:
+            called.append(step.answer)
             findings += _of_other_file(step.answer, step.blocks[0], rules)
         elif step.answer is not None:
             ran.setdefault(step.blocks[0].line, []).append(replace(step, answer=_typed(step.answer, blocks, here)))
         for block in step.blocks if not step.blocks or not step.blocks[0].file else ():
             before.setdefault(block.line, step.before)
+    findings += _solved_elsewhere(called, rules)
     if not ran:
         # No contour minds where it is not followed.
         findings = [each for each in findings if each.about is not ReadIssue.NOT_FOLLOWED]
@@ -179,6 +182,22 @@ def _of_other_file(answer: Answer, block: Block, rules: tuple[Rule, ...]) -> Ite
         if each.is_error:
             row = context.row(ReadIssue.SUBPROGRAM_REFUSED)
             yield report(context, row, Basis.RULE, [], file=block.file, line=each.span.line, finding=each.message)
+
+
+def _solved_elsewhere(called: Sequence[Answer], rules: tuple[Rule, ...]) -> Iterator[Diagnostic]:
+    """The contours of other files that are solved, told at the block that calls them."""
+    solved: dict[tuple[Caller, str], dict[tuple[int, ...], Answer]] = {}
+    for answer in called:
+        block = answer.claim.blocks[0]
+        if not any(each.is_error for each in answer.diagnostics):
+            solved.setdefault((block.callers[0], block.file), {})[answer.lines] = answer
+    for (caller, file), answers in solved.items():
+        unit = next(iter(answers.values())).unit
+        context = Context(rules, unit, place=Span(caller.line, 1, len(caller.text) + 1))
+        lines = join([str(each[0]) for each in answers])
+        contours = f"the contours in lines {lines}" if len(answers) > 1 else f"the contour in line {lines}"
+        row, are = context.row(ReadIssue.SUBPROGRAM_SOLVED), "are" if len(answers) > 1 else "is"
+        yield report(context, row, Basis.RULE, [], file=file, contours=contours, are=are)
 
 
 # What was typed in the place of numbers --------------------------------------------------------------------------

@@ -88,6 +88,8 @@ class Result(Shown, Struct, frozen=True):
     """The profiles of cycles."""
     around: Surroundings = ALONE
     """The values of variables, and where subprograms are."""
+    is_concluded: bool = False
+    """Whether a finding says from what its control is concluded."""
 
     @property
     def has_errors(self) -> bool:
@@ -159,7 +161,19 @@ class Run:
             program = spelled(program, dialect.modes.syntax)
         program, facts = attach(program, asked)
         control, settings = (dialect.name, dialect.modes.settings) if dialect else (None, {})
-        self.frame = Result(program, control, (), (), start, facts, settings, asked.policy, around=asked.around)
+        is_concluded = dialect is not None and any(each.about in _OF_CONTROL for each in dialect.taken)
+        self.frame = Result(
+            program,
+            control,
+            (),
+            (),
+            start,
+            facts,
+            settings,
+            asked.policy,
+            around=asked.around,
+            is_concluded=is_concluded,
+        )
         self._asked = asked
         self._examiner = Examiner(asked, together, goes_on=asked.depth is Depth.FULL)
         self._machine = machine_for(program, dialect, asked.around) if dialect is not None else None
@@ -173,13 +187,18 @@ class Run:
         if own is not None:
             yield from examiner.conclusions(program.blocks)
         for step in self._steps():
-            is_told = is_told or any(each.is_error for each in step.findings)
+            is_told = is_told or any(each.is_error or each.about in ELSEWHERE for each in step.findings)
             yield from step.findings
             if isinstance(step.answer, Answer):
                 is_told = True
                 yield from (step.answer, *step.others)
         if not is_told:
             yield examiner.nothing_to_solve(program.blocks)
+
+    @property
+    def called(self) -> Sequence[Answer]:
+        """The contours of other files that are called, when all is examined."""
+        return self._examiner.called
 
     def _steps(self) -> Iterator[Step]:
         blocks = self.frame.program.blocks
@@ -223,6 +242,12 @@ def walk(
         return examiner.steps_as_run(cast("Sequence[Block]", blocks), machine)
     return examiner.steps(blocks)
 
+
+_OF_CONTROL = (ReadIssue.CONTROL_ALIKE, ReadIssue.CONTROL_CALLED)
+"""Findings that say from what a control is concluded."""
+
+ELSEWHERE = (ReadIssue.SUBPROGRAM_SOLVED, ReadIssue.SUBPROGRAM_REFUSED)
+"""Findings about contours of other files."""
 
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
 """Faults that are only worth a warning in a block that is not a contour."""
@@ -287,6 +312,8 @@ class Examiner:
         """Whether X of a start point that is stated apart counted diameters, where codes switch that."""
         self.profiles: list[CycleProfile] = []
         """The profiles of cycles that ran, known at the end."""
+        self.called: list[Answer] = []
+        """The contours of other files, known at the end."""
         self.kept = Kept()
         self.faulty: Counter[tuple[str, int]] | None = None
         """Of a program that runs: how often the contour at a line of a file was wrong. In a loop, each pass may be."""
@@ -323,7 +350,9 @@ class Examiner:
         steps = self.steps(machine.run())
         outside = told if self.outside.is_strict else []
         first = cast("Dialect", self.dialect).initial_state(self.asked.unit)
-        yield from in_text_order(blocks, steps, machine.passed_over, self.rules, outside, self.profiles, first)
+        yield from in_text_order(
+            blocks, steps, machine.passed_over, self.rules, outside, self.profiles, first, self.called
+        )
 
     def steps_alone(self, machine: Machine, told: Callable[[ProgramEvent], None]) -> Iterator[Step]:
         """The same as one program without calls; `told` is called where it is not known what runs."""

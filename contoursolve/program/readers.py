@@ -11,7 +11,8 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Answer, Depth
 from contoursolve.diagnosis.wording import coordinates, either, join
 from contoursolve.gcode import Block, Program
-from contoursolve.program.pipeline import run
+from contoursolve.program.called_files import blocks_of_called_files
+from contoursolve.program.pipeline import Run
 from contoursolve.program.project import configure, stated_settings
 from contoursolve.program.recognise import (
     CORNERS_WITHOUT_COMMA,
@@ -19,6 +20,7 @@ from contoursolve.program.recognise import (
     UnknownControlError,
     choose,
     turned_with_corners,
+    what_shows,
 )
 from contoursolve.program.request import Request
 from contoursolve.reading import ReadIssue
@@ -29,7 +31,8 @@ from contoursolve.tolerance import ERROR_BOUND_WARNING
 class _Outcome(Struct, frozen=True):
     """What a control makes of one contour: its lines, its status, the points of its path, and what a reader is told."""
 
-    lines: tuple[int, ...]
+    lines: tuple[int | str, ...]
+    """Behind the name of the file, if that is not the program's."""
     status: str
     path: tuple[float, ...]
     told: str
@@ -61,15 +64,16 @@ def choose_alike(
 
     Raises UnknownControlError, which tells what they read differently, and SettingError.
     """
-    several: SeveralControlsError | None = None
-    try:
-        found = choose(control, program, settings, recognise_by)
-    except SeveralControlsError as error:
-        names, several = error.choices, error
-    else:
-        names = turned_with_corners(program.blocks) if found is None else ()
-        if not names:
-            return found
+    found, names, several = _choose(control, program, settings, recognise_by)
+    if found is None and (called := blocks_of_called_files((block.text for block in program.blocks), asked.around)):
+        everything = replace_fields(program, blocks=(*program.blocks, *called))
+        found, names, several = _choose(control, everything, settings, recognise_by)
+        sign = what_shows(called, found) if found is not None and not what_shows(program.blocks, found) else ""
+        if found is not None and sign:
+            told = Taken(ReadIssue.CONTROL_CALLED, {"control": found.name, "sign": sign})
+            found = replace(found, taken=(*found.taken, told))
+    if found is not None or not names:
+        return found
     own = stated_settings(block.text for block in program.blocks) | dict(settings or {})
     readings = {name: _read(program, configure(DIALECTS[name], own), asked) for name in names}
     readers = [*readings] if several else _taking_corners(readings)
@@ -88,23 +92,40 @@ def choose_alike(
     return replace(own_dialect, taken=(*own_dialect.taken, alike))
 
 
+def _choose(
+    control: str | Dialect | None,
+    program: Program,
+    settings: Mapping[str, str] | None,
+    recognise_by: Callable[[Iterable[Block]], Dialect | None] | None,
+) -> tuple[Dialect | None, tuple[str, ...], SeveralControlsError | None]:
+    """The control as `choose` finds it; or else the names of those that may read a program alike, and what it shows of
+    several."""
+    try:
+        found = choose(control, program, settings, recognise_by)
+    except SeveralControlsError as error:
+        return None, error.choices, error
+    return found, turned_with_corners(program.blocks) if found is None else (), None
+
+
 def _read(program: Program, dialect: Dialect, asked: Request) -> _Reading:
     """What a control makes of a program."""
-    found = run(program, replace_fields(asked.of(dialect), depth=Depth.VERDICT)).answers
+    running = Run(program, replace_fields(asked.of(dialect), depth=Depth.VERDICT))
+    found = (*running.collect().answers, *running.called)
     words = (word for answer in found for word in answer.claim.words.values())
     corners = ((word.span.line, word.span.column) for word in words if word.address in CORNERS_WITHOUT_COMMA)
     return _Reading(tuple(map(_outcome, found)), frozenset(corners))
 
 
 def _outcome(answer: Answer) -> _Outcome:
-    contour = answer.contour
+    contour, file = answer.contour, answer.claim.blocks[0].file
+    lines: tuple[int | str, ...] = (file, *answer.lines) if file else answer.lines
     if contour is None:
         told = next((each.message for each in answer.diagnostics if each.is_error), answer.status.value)
-        return _Outcome(answer.lines, answer.status.value, (), told)
+        return _Outcome(lines, answer.status.value, (), told)
     places = [at for each in contour.elements for at in (each.start, each.end, getattr(each, "center", each.end))]
     told = f"ends at {coordinates(contour.end, answer.plane, answer.unit)}"
     path = tuple(value for place in (*places, contour.end) for value in place)
-    return _Outcome(answer.lines, answer.status.value, path, told)
+    return _Outcome(lines, answer.status.value, path, told)
 
 
 def _taking_corners(readings: Mapping[str, _Reading]) -> list[str]:
@@ -127,8 +148,10 @@ def _differences(contour: Mapping[str, _Outcome | None], several: UnknownControl
         if own is None:
             groups.append((each, own := []))
         own.append(name)
-    lines = min(each.lines for each in contour.values() if each is not None)
+    first = min((each.lines for each in contour.values() if each is not None), key=str)
+    file, lines = (f" of {first[0]}", first[1:]) if isinstance(first[0], str) else ("", first)
     where = f"program line {lines[0]}" if len(lines) == 1 else f"program lines {lines[0]} to {lines[-1]}"
+    where += file
     shown = "does not show its control" if several is None else f"fits {either([*contour])}"
     told = "; ".join(f"{join(names)}: {'no contour there' if each is None else each.told}" for each, names in groups)
     return f"the program {shown}, and {where} would not be the same ({told})"

@@ -9,7 +9,9 @@ from contoursolve.controls import DIALECTS
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 
 WITHOUT_REJECTED_EXAMPLE = {
-    "subprogram-refused": "it is about another file; test_calls.py writes one",
+    "subprogram-refused": "it is about another file; test_subprograms.py writes one",
+    "subprogram-solved": "it is about another file; test_subprograms.py writes one",
+    "control-called": "it is about another file; test_subprograms.py writes one",
     "not-verified": "an answer that fails its own equations is an error of contoursolve; no block is known to cause it",
     "heidenhain-first-taken": "a setting asks for it; test_free_contours.py sets it",
     "fanuc-angle-redundant": "a setting forbids it; test_fanuc.py sets it",

@@ -383,3 +383,47 @@ def test_words_behind_then_run_if_the_condition_holds(value, start):
     inline = expand(text, control="haas-lathe", inline=True, keep_going=True)
     assert ("G01 X50. F.2" in inline.text.split("\n")) is (start == 25)
     assert ("THEN" in inline.text) is (start is None)
+
+
+CALLING = {
+    "M98": ("G21 G99\nG00 X60. Z2.\nM98 P8001\nM30", {"O8001.nc": "O8001\nG01 X30. F0.2\nZ-10. ,R{}\nX40.\nM99"}),
+    "G65 through another": (
+        "G21 G90\nG00 X0. Y0.\nG65 P1 A10.\nM30",
+        {"O0001.nc": "O1\nM98 P2\nM99", "O0002.nc": "O2\nG17 G01 X#1 ,R{} F100\nY10.\nM99"},
+    ),
+    "G111": ("G00 X40. Z0.\nM98 P5\nM30", {"O0005.nc": "O5\nG111 X100. A180. K-30. B120. P{}\nM99"}),
+    "L10": ("G17 G90 G0 X0 Y0\nL10\nM30", {"L10.SPF": "G1 X10 RND={} F100\nY10\nM17"}),
+    "POCKET": ("G17 G90 G0 X0 Y0\nPOCKET\nM30", {"POCKET.SPF": "G1 X10 RND={} F100\nY10\nRET"}),
+    "CYCLE95": (
+        'G18 G90 DIAMON G0 X60 Z2\nCYCLE95("CONTOUR",2,0,0,0,0.3,0.2,0.1,9,0,0,0.5)\nM30',
+        {"CONTOUR.SPF": "G1 X20 Z0 F.2\nZ-10 RND={}\nX40\nM17"},
+    ),
+    "CALL PGM": ("L X+0 Y+0 R0 F100\nCALL PGM SUB.H\nM30", {"SUB.H": "FL X+10 AN+0\nRND R{}\nFL AN+90 Y+10"}),
+    "LL": ("%MAIN\nG17 G90 G0 X0 Y0\nLL SUB\nM30", {"SUB.nc": "%L SUB\nG1 X10 #RND={} F100\nY10\nM29"}),
+}
+
+
+@pytest.mark.parametrize("call", CALLING)
+@pytest.mark.parametrize("is_right", [True, False])
+def test_the_control_is_told_from_what_is_called_and_contours_there_are_found(call, is_right, tmp_path):
+    text, files = CALLING[call]
+    main_program = tmp_path / ("main.h" if call == "CALL PGM" else "main.nc")
+    main_program.write_text(text)
+    for name, sub in files.items():
+        (tmp_path / name).write_text(sub.format("2." if is_right else "200."))
+    done = CliRunner().invoke(main, ["check", str(main_program)])
+    told = "is solved" if is_right else "corner 1 does not fit"
+    assert (done.exit_code, told in done.output) == (0 if is_right else 1, True), done.output
+    assert "no contour of its own examined" in done.output
+    if call != "CYCLE95":
+        inline = CliRunner().invoke(main, ["expand", "--inline", str(main_program)])
+        assert inline.exit_code == (0 if is_right else 1), inline.output
+
+
+def test_comments_and_files_that_call_each_other_end(tmp_path):
+    (tmp_path / "main.nc").write_text("(FLANGE)\nG00 X60. Z2.\nM98 P1\nM30")
+    (tmp_path / "O0001.nc").write_text("O1\nM98 P2\nM99")
+    (tmp_path / "O0002.nc").write_text("O2\nM98 P1\nM99")
+    (tmp_path / "FLANGE.txt").write_text("FL X+10 AN+0")
+    done = CliRunner().invoke(main, ["check", str(tmp_path / "main.nc")])
+    assert (done.exit_code, "nothing to solve" in done.output) == (0, True), done.output
