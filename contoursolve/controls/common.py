@@ -295,6 +295,15 @@ READING_RULES = (
         rejected=(_START + "G28 U0 W0\nG111 A180. K-30. B120. X100.", "G111 A180. K-30. B120. X100."),
     ),
     Rule(
+        code="mode-unknown",
+        message="{what} is not known here: {reason}",
+        help="say it in this block, or behind the place where the ways meet",
+        source=_READING,
+        about=ReadIssue.MODE_UNKNOWN,
+        accepted=(_GOOD,),
+        rejected=(_START + "IF[#1 EQ 1]GOTO5\nG20\nN5 " + _GOOD.rpartition("\n")[2],),
+    ),
+    Rule(
         code="start-assumed",
         message="checked from {place}, where the best fix of program line {line} ends",
         help="mend program line {line} first",

@@ -27,6 +27,7 @@ from contoursolve.diagnosis.explain import (
     spans_of,
 )
 from contoursolve.diagnosis.spelling import (
+    explain_modes,
     explain_skippable,
     explain_spelling,
     explain_start,
@@ -203,6 +204,8 @@ def examine(
         context, claim, read(claim, frozenset(offence.ignored for offence in ignoring)), next_place, notebook
     )
     is_readable = is_readable and is_stated
+    for finding in explain_modes(context, claim):
+        notebook.add(finding, Status.UNDERDETERMINED)
     if not profile.start.is_known:
         notebook.add(explain_start(context, claim), Status.UNDERDETERMINED)
     unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))

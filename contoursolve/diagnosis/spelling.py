@@ -1,5 +1,6 @@
 """Findings about characters, words and positions, before the equations are looked at."""
 
+import re
 from bisect import bisect_right
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
@@ -264,6 +265,12 @@ def respelled(word: Word, allowed: Collection[str]) -> str:
     return "" if other not in allowed else text.replace(",", "", 1).strip() if has_comma else f",{text}"
 
 
+def explain_modes(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
+    """What is not known to be in force where a contour is read."""
+    for what, why in claim.open_modes():
+        yield report(context, ReadIssue.MODE_UNKNOWN, Basis.RULE, [], what=what, reason=why)
+
+
 def explain_start(context: Context, claim: ParsedContour) -> Diagnostic:
     """Which axes of the start point are unknown, and which line made them so."""
     unknown = [axis for axis in claim.before.plane.axes if claim.before.axes[axis].value is None]
@@ -285,7 +292,7 @@ def explain_start(context: Context, claim: ParsedContour) -> Diagnostic:
 
 def _on_line(place: Position) -> str:
     """Where a position was lost, unless the reason says so."""
-    if place.span is None or f"line {place.span.line}," in place.reason:
+    if place.span is None or re.search(rf"\bline {place.span.line}\b", place.reason):
         return ""
     return f" (program line {place.span.line})" if place.span.line else " (--start)"
 

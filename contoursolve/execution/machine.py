@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 
 from msgspec import Struct, field
 from msgspec.structs import replace
@@ -68,22 +69,44 @@ def machine_of(
 
 
 class _Loop(Struct):
-    """A loop that is open: its lines, and the last value and the step of what it counts."""
+    """A loop that is open: its lines, the last value and the step of what it counts, why nobody knows how often it
+    runs, if that is so, and which pass this is."""
 
     lines: Part
     last: float | None = None
     step: float = 1.0
-    is_certain: bool = True
+    reason: str = ""
+    passes: int = 1
 
 
 class _Branch(Struct):
-    """An If that is open: its lines, and whether one of its parts has run; where that is not known, why, and the values
-    before it."""
+    """An If that is open: its lines, whether one of its parts has run, and whether nobody knows which."""
 
     lines: Part
     has_run: bool
-    reason: str = ""
-    before: Mapping[str, Known] = {}
+    is_undecided: bool = False
+
+
+class _Head(Struct):
+    """A line to which a jump or a loop may come back: under which mark and with which values it was reached, how often
+    it was run again, and the last line to which a way has left since."""
+
+    mark: int
+    values: Mapping[str, Known]
+    own: Mapping[str, Known] | None
+    passes: int = 0
+    farthest: float = -1
+
+
+class _Taken(Struct, frozen=True):
+    """A jump of which nobody knows whether it is taken, on the way on which it is."""
+
+    target: int
+    reason: str
+
+
+Place = tuple[tuple[float, float], ...]
+"""How far a way has come through a program: of two ways, the one that has come less far has to run first."""
 
 
 class _Frame(Struct):
@@ -103,12 +126,55 @@ class _Frame(Struct):
     branches: list[_Branch] = field(default_factory=list)
     here: int = 0
     """The index of the line that runs."""
-    rest: list[MacroStatement] = field(default_factory=list)
+    rest: list[MacroStatement | _Taken] = field(default_factory=list)
     """What that line says besides, and has not been carried out: it waits for what it calls."""
+    heads: dict[int, _Head] = field(default_factory=dict)
+    is_again: bool = False
+    """Whether its next line runs again, nobody knows how often."""
 
     def go_to(self, index: int) -> None:
         """Go on at a line: what the line that runs still says is left out."""
         self.at, self.rest = index, []
+
+    def copy(self) -> "_Frame":
+        """Another one that runs on by itself."""
+        return replace(
+            self,
+            own=None if self.own is None else dict(self.own),
+            loops=[replace(each) for each in self.loops],
+            branches=[replace(each) for each in self.branches],
+            rest=[*self.rest],
+            heads={at: replace(each) for at, each in self.heads.items()},
+        )
+
+    @property
+    def place(self) -> Place:
+        """How far it has come; what is left of a line comes before the next one."""
+        loops = ((each.lines.first, each.passes) for each in self.loops if each.lines.has(self.at))
+        has_run = not self.branches or self.branches[-1].has_run
+        return ((-self.left, self.first), *loops, (self.at - 0.5 * bool(self.rest), has_run))
+
+
+class _Way(Struct):
+    """A way through the program that waits: what runs there, the values of variables, under which marks it is kept what
+    is known, and what decides between it and others."""
+
+    frames: list[_Frame]
+    values: dict[str, Known]
+    marks: tuple[int, ...]
+    reason: str
+
+
+_BEHIND = ((float("inf"), 0.0),)
+"""Behind all that a call runs."""
+
+MOST_PASSES = 3
+"""How often it is run again what runs nobody knows how often, until nothing new follows."""
+
+
+def _place(frames: Iterable[_Frame]) -> Place:
+    """How far a way has come."""
+    return tuple(each for frame in frames for each in frame.place) + _BEHIND
 
 
 class _RefusedError(Exception):
@@ -127,13 +193,16 @@ class Machine:
         self._frames: list[_Frame] = []
         self._visited: set[int] = set()
         self._steps = 0
-        self._joins: dict[tuple[str, int], tuple[str, int]] = {}
-        """By file and index of a line that may be jumped to: why that is not known, and how much was assigned then."""
-        self._went_back: set[tuple[str, int]] = set()
+        self._waiting: dict[Place, _Way] = {}
+        """The ways that wait."""
+        self._kept_ways, self._decided = 0, ""
+        """How many ways have been kept, and what decided last between the one that runs and others."""
+        self._named: set[tuple[str, int]] = set()
+        """By file and index: lines to which jumps lead that stay as they are written."""
         self._passed: set[int] = set()
         """What was known at each jump back."""
-        self._last: tuple[_Frame | None, int] = (None, 0)
-        """What ran the last block, and its line."""
+        self._last: tuple[Source, int, tuple[Caller, ...]] | None = None
+        """What ran the last block: contours do not go on beyond a call."""
         self._untaken: dict[int, tuple[int, dict[str, Known]]] = {}
         """By the index of a line of the main file to which a decision did not lead: the mark and the values there."""
         self._marks, self._here, self._is_marking = 0, 0, False
@@ -243,8 +312,9 @@ class Machine:
         if head < min(self.main.sections.values(), default=0) and last + 1 not in self._called():
             # What stands before the name of a program belongs to it.
             last = self.main.section_end(last + 1)
-        self._frames = [_Frame(self.main, index, index, last)]
-        while self._frames:
+        self._frames, self._waiting, self._last = [_Frame(self.main, index, index, last)], {}, None
+        while self._frames or self._waiting:
+            yield from self._meet()
             frame = self._frames[-1]
             is_known = not (self._is_reached or frame.callers) and frame.at in self._visited
             if not frame.rest and (frame.at > frame.last or is_known):
@@ -286,14 +356,16 @@ class Machine:
     def _begin_line(self, frame: _Frame) -> Iterator[Block | ProgramEvent]:
         """Run the words of the next line of a frame; what it says besides waits in `rest`."""
         index = frame.here = frame.at
-        yield from self._join(frame, index)
+        if index in frame.source.heads and not frame.is_again:
+            yield self._begin_head(frame, index)
+        frame.is_again = False
         is_new = frame.source is self.main and index not in self._visited
         if frame.source is self.main:
             if self._is_passing_over and is_new:
                 self.passed_over.add(frame.source.blocks[index].line)
             self._visited.add(index)
         block, code = frame.source.blocks[index], frame.source.code(index)
-        frame.at += 1
+        self.variables.line, frame.at = self._line(frame, index), index + 1
         if self.language.declares and self._has_strange_words(block, code):
             code = replace(code, rest=block.text, statements=())
         code, moving = self._assign_first(block, code)
@@ -301,7 +373,7 @@ class Machine:
         if when is not None:
             yield from self._run_words_if(when, frame, code, is_new=is_new)
             return
-        frame.rest, told = _ends_last(moving), _in_doubt(block, moving)
+        frame.rest, told = [*_ends_last(moving)], _in_doubt(block, moving)
         if told and self._is_alone:
             yield block
             frame.rest = [each for each in frame.rest if isinstance(each, ProgramEnd | Return)]
@@ -320,11 +392,9 @@ class Machine:
             yield block
             yield ProgramEvent(EventKind.LOST, line, truth.reason)
         elif isinstance(truth, Unknown):
-            frame.rest = [when]
-            yield ProgramEvent(EventKind.ENTER, line)
+            yield self._part(frame, truth.reason, lambda other: other.rest.clear())
+            frame.rest = [*when.then]
             yield from self._run_words(frame, block, code)
-            yield ProgramEvent(EventKind.LEAVE, line)
-            yield ProgramEvent(EventKind.LOST, line, truth.reason)
         elif truth or (index in self._untaken and not self._is_reached):
             frame.rest = [when] if truth else []
             yield from self._run_words(frame, block, code)
@@ -348,9 +418,10 @@ class Machine:
             code = replace(code, rest=_without_return(code.rest, block))
         ran = self._block(frame, block, code)
         if not self._is_passed_over(frame, code, ran):
-            if self._last[0] is not frame or block.line <= self._last[1]:
+            here = frame.source, frame.first, frame.callers
+            if self._last is not None and self._last != here:
                 yield ProgramEvent(EventKind.BARRIER, block.line)
-            self._last = (frame, block.line)
+            self._last = here
             yield replace(ran, mark=self._here) if self._is_marking else ran
             self._go_on()
 
@@ -369,7 +440,8 @@ class Machine:
             return True
         is_bare = all(word.address == "N" for word in ran.words) and ran.macro is None
         if self._is_alone and is_bare and (code.statements or code.labels):
-            return not ran.syntax.comment.search(ran.text)
+            is_named = (frame.source.name, frame.here) in self._named
+            return not is_named and not ran.syntax.comment.search(ran.text)
         return bool(code.statements) and not code.rest.strip()
 
     def _unclear(self, frame: _Frame, index: int, reason: str) -> Iterator[Block | ProgramEvent]:
@@ -417,17 +489,117 @@ class Machine:
         begin = address.start() if address is not None else word.begin
         return text[:begin] + " " * (0 if self._is_alone else word.end - begin) + text[word.end :]
 
-    def _join(self, frame: _Frame, index: int) -> Iterator[ProgramEvent]:
-        """What is not known on a line because it may have been jumped to."""
-        joined = self._joins.pop((frame.source.name, index), None)
-        if joined is not None:
-            reason, count = joined
-            self.variables.lose(self.variables.assigned[count:], reason)
-            yield ProgramEvent(EventKind.LOST, frame.source.blocks[index].line, reason)
+    def _stay(self, frame: _Frame, index: int) -> Iterator[Block]:
+        """Without calls, a line that does what is not known stays as it is written."""
+        if self._is_alone:
+            yield self._as_written(frame, index)
+
+    # Ways: where nobody knows what is decided, both run, and only what they agree on is known where they meet
+
+    def _part(self, frame: _Frame, reason: str, change: Callable[[_Frame], object]) -> ProgramEvent:
+        """Keep another way, which goes on where a change of what runs now puts it."""
+        frames = [*(each.copy() for each in self._frames[:-1]), frame.copy()]
+        change(frames[-1])
+        place = frames[-1].rest[0].target if frames[-1].rest and isinstance(frames[-1].rest[0], _Taken) else None
+        _leave_to(frame, frames[-1].at if place is None else place)
+        self._kept_ways += 1
+        line = self._line(frame, frame.here)
+        told = self._decided = f"program line {line} decides: {reason}"
+        self._wait(_Way(frames, dict(self.variables.values), (self._kept_ways,), told))
+        return ProgramEvent(EventKind.PART, line, told, self._kept_ways)
+
+    def _wait(self, way: _Way) -> None:
+        """Let a way wait until those that have come less far are there as well."""
+        place = _place(way.frames)
+        other = self._waiting.get(place)
+        self._waiting[place] = way if other is None else self._join(other, way)
+
+    def _join(self, one: _Way, other: _Way) -> _Way:
+        """Two ways that have come to the same place: what they know in common."""
+        why = one.reason or other.reason
+        for ours, theirs in zip(one.frames, other.frames, strict=True):
+            if ours.own is not None and theirs.own is not None:
+                ours.own = self.variables.join(ours.own, theirs.own, why)
+            if len(theirs.branches) < len(ours.branches):
+                ours.branches = theirs.branches
+            for at, head in ours.heads.items():
+                head.farthest = max(head.farthest, theirs.heads[at].farthest if at in theirs.heads else -1)
+        values = self.variables.join(one.values, other.values, why)
+        return _Way(one.frames, values, (*one.marks, *other.marks), why)
+
+    def _meet(self) -> Iterator[ProgramEvent]:
+        """Go on with the way that has come least far, together with all others that are there."""
+        if not self._waiting or (self._frames and _place(self._frames) < min(self._waiting)):
+            return
+        if self._frames:
+            self._kept_ways += 1
+            yield ProgramEvent(EventKind.PAUSE, self._next_line(), mark=self._kept_ways)
+            self._wait(_Way(self._frames, self.variables.values, (self._kept_ways,), self._decided))
+        way = self._waiting.pop(min(self._waiting))
+        self._frames, self.variables.values, self._decided = way.frames, way.values, way.reason
+        self._go_on()
+        yield ProgramEvent(EventKind.MEET, self._next_line(), way.reason, ways=way.marks)
+
+    def _next_line(self) -> int:
+        """The line of the main file at which the next line runs."""
+        frame = self._frames[-1]
+        return self._line(frame, min(frame.at, frame.last))
+
+    def _begin_head(self, frame: _Frame, index: int) -> ProgramEvent:
+        """Keep what is known on a line to which a jump or a loop may come back."""
+        self._kept_ways += 1
+        frame.heads[index] = _Head(self._kept_ways, dict(self.variables.values), frame.own and dict(frame.own))
+        return ProgramEvent(EventKind.HEAD, self._line(frame, index), mark=self._kept_ways)
+
+    def _run_again(self, frame: _Frame, first: int, reason: str) -> Iterator[Block | ProgramEvent]:
+        """Go back to a line, nobody knows how often, until nothing new follows; then go on behind the one that runs."""
+        line, head = self._line(frame, frame.here), frame.heads.get(first)
+        told = f"program line {line} decides: {reason}"
+        if head is None:
+            # A computed jump, or one into a loop.
+            self.variables.lose(self._assigned_in(frame, first, frame.here), reason)
+            yield ProgramEvent(EventKind.LOST, line, reason)
+            return
+        values = self.variables.join(head.values, self.variables.values, told)
+        own = None if frame.own is None else self.variables.join(head.own or {}, frame.own, told)
+        is_last = self._is_alone or head.passes >= MOST_PASSES
+        yield ProgramEvent(EventKind.AGAIN, line, told, head.mark, is_last=is_last)
+        if is_last:
+            changed = [name for name, value in {**values, **(own or {})}.items() if isinstance(value, Unknown)]
+            self.variables.lose([*changed, *self._assigned_in(frame, first, frame.here)], reason)
+            return
+        self.variables.values, frame.own = values, own
+        head.values, head.own, head.passes = dict(values), own and dict(own), head.passes + 1
+        frame.go_to(first)
+        frame.is_again = True
+
+    def _do_taken(self, frame: _Frame, index: int, taken: _Taken) -> Iterator[Block | ProgramEvent]:
+        """Jump on the way on which that is decided."""
+        if taken.target > index:
+            yield from self._land(frame, index, taken.target)
+            return
+        yield from self._run_again(frame, taken.target, taken.reason)
+        if frame.is_again:
+            yield from self._land(frame, index, taken.target)
+
+    def _is_endless(self, frame: _Frame, index: int, first: int, *, is_always: bool) -> bool:
+        """Whether nothing ends what goes back to a line but ways out of it, of which nobody knows whether they are
+        taken. Refuses what nothing ends at all."""
+        head = frame.heads.get(first)
+        is_left = head is not None and head.farthest > index and bool(self._waiting)
+        if not is_left:
+            self._check_repetition(frame, index, first)
+        return is_left and (is_always or self._repeats(frame, index, first))
+
+    def _run_endless(self, frame: _Frame, first: int) -> Iterator[Block | ProgramEvent]:
+        """Run what only such ways end once more, until nothing new follows."""
+        yield from self._run_again(frame, first, "how often it runs is not known")
+        if not frame.is_again:
+            self._frames = []
 
     # Statements that move nothing
 
-    def _do(self, frame: _Frame, index: int, statement: MacroStatement) -> Iterator[Block | ProgramEvent]:
+    def _do(self, frame: _Frame, index: int, statement: MacroStatement | _Taken) -> Iterator[Block | ProgramEvent]:
         """Carry out a statement of a line."""
         yield from _DO[type(statement)](self, frame, index, statement)
 
@@ -450,14 +622,19 @@ class Machine:
             if told:
                 yield ProgramEvent(EventKind.STOPPED, self._line(frame, index), told)
             return
-        for statement in when.then:
-            if isinstance(truth, Unknown) and isinstance(statement, Assign | Forget):
-                name = self.variables.name(statement.variable)
-                self.variables.set(name, truth) if isinstance(name, str) else self.variables.lose_all(truth.reason)
-            elif isinstance(statement, Jump):
-                yield from self._jump(frame, index, replace(statement, condition=when.condition))
-            elif isinstance(truth, Unknown):
-                yield from self._unclear(frame, index, truth.reason)
+        jumps = [each for each in when.then if isinstance(each, Jump)]
+        if isinstance(truth, Unknown) and len(jumps) < len(when.then):
+            yield from self._stay(frame, index)
+            if self._is_alone and any(isinstance(each, Call) for each in when.then):
+                yield ProgramEvent(EventKind.LOST, self._line(frame, index), truth.reason)
+                return
+            if any(isinstance(each, Return | ProgramEnd) for each in when.then):
+                _leave_to(frame, float("inf"))
+            then = _ends_last(when.then)
+            yield self._part(frame, truth.reason, lambda other: other.rest.__setitem__(slice(0, 0), then))
+            return
+        for jump in jumps:
+            yield from self._jump(frame, index, replace(jump, condition=when.condition))
 
     def _line(self, frame: _Frame, index: int) -> int:
         """The line of the main file at which something on a line happens."""
@@ -471,26 +648,25 @@ class Machine:
                 self._keep(frame, target)
             return
         if isinstance(truth, Unknown):
-            if target is None:
-                return
-            if target > index:
-                why = f"line {self._line(frame, index)} may have jumped here: {truth.reason}"
-                self._joins.setdefault((frame.source.name, target), (why, len(self.variables.assigned)))
-                if self._is_alone:
-                    yield self._as_written(frame, index)
-                return
-            self.variables.lose(self._assigned_in(frame, target, index), truth.reason)
-            yield from self._unclear(frame, index, truth.reason)
-            key = (frame.source.name, index)
-            if key in self._went_back:
-                return
-            self._went_back.add(key)
+            if target is not None:
+                self._named.add((frame.source.name, target))
+                yield from self._stay(frame, index)
+                taken = _Taken(target, truth.reason)
+                yield self._part(frame, truth.reason, lambda other: other.rest.__setitem__(slice(None), [taken]))
+            return
         if target is None:
             where = self.variables.resolve(jump.target)
             told = f"{where}, which is not there" if isinstance(where, str) else f"an unknown block: {where.reason}"
             raise _RefusedError(f"line {self._line(frame, index)} jumps to {told}")
+        if self._waiting and self._is_alone:
+            self._named.add((frame.source.name, target))
+            yield from self._stay(frame, index)
         if target <= index:
-            self._check_repetition(frame, index, target)
+            if self._is_endless(frame, index, target, is_always=jump.condition is None):
+                yield from self._run_endless(frame, target)
+                if frame.is_again:
+                    yield from self._land(frame, index, target)
+                return
         elif jump.condition is not None:
             self._keep(frame, index + 1)
         yield from self._land(frame, index, target)
@@ -508,7 +684,7 @@ class Machine:
         nesting, open_loops = frame.source.nesting, [each.lines for each in frame.loops]
         loops = {each for each in nesting.loops.values() if each.has(target)}.difference(open_loops)
         branches = {each for each in nesting.branches.values() if each.has(target)}
-        frame.loops += (_Loop(each, is_certain=False) for each in sorted(loops))
+        frame.loops += (_Loop(each, reason="how often the loop runs is not known") for each in sorted(loops))
         frame.branches += (
             _Branch(each, has_run=True) for each in sorted(branches.difference(each.lines for each in frame.branches))
         )
@@ -519,12 +695,17 @@ class Machine:
 
     def _check_repetition(self, frame: _Frame, index: int, target: int) -> None:
         """Refuse to go back to a line where everything was the same before: that would go on for ever."""
+        if self._repeats(frame, index, target):
+            raise _RefusedError(f"line {self._line(frame, index)} runs for ever: nothing changes from pass to pass")
+
+    def _repeats(self, frame: _Frame, index: int, target: int) -> bool:
+        """Whether everything was the same before where a line leads back."""
         calls = tuple((each.source.name, each.at, each.left) for each in self._frames)
         # Values have no order; what they were is all that matters.
         now = hash((frame.source.name, index, target, calls, frozenset(self.variables.values.items())))
-        if now in self._passed:
-            raise _RefusedError(f"line {self._line(frame, index)} runs for ever: nothing changes from pass to pass")
+        known = now in self._passed
         self._passed.add(now)
+        return known
 
     def _target(self, frame: _Frame, index: int, jump: Jump) -> int | None:
         last = frame.last if frame.call is None or frame.call.kind is not CallKind.PROFILE else len(frame.source) - 1
@@ -559,10 +740,9 @@ class Machine:
     def _begin_branch(self, frame: _Frame, index: int, branch: If | ElseIf) -> Iterator[Block | ProgramEvent]:
         truth, lines = self.variables.truth(branch.condition), self._branch_lines(frame, index)
         if isinstance(truth, Unknown):
-            frame.branches.append(_Branch(lines, True, truth.reason, dict(self.variables.values)))
-            if self._is_alone:
-                yield self._as_written(frame, index)
-            yield ProgramEvent(EventKind.ENTER, self._line(frame, index))
+            yield from self._stay(frame, index)
+            yield self._part(frame, truth.reason, partial(_begin_part, first=index, lines=lines))
+            frame.branches.append(_Branch(lines, has_run=True, is_undecided=True))
             return
         frame.branches.append(_Branch(lines, truth))
         if truth:
@@ -596,12 +776,9 @@ class Machine:
 
     def _next_branch(self, frame: _Frame, index: int, part: ElseIf | Else) -> Iterator[Block | ProgramEvent]:
         branch = self._open_branch(frame, index)
-        if branch is not None and branch.reason:
-            # Nobody knows which part runs: this one begins where the first one did.
-            self.variables.values = dict(branch.before)
-            yield ProgramEvent(EventKind.LEAVE, self._line(frame, index))
-            yield ProgramEvent(EventKind.ENTER, self._line(frame, index))
-        elif branch is None or branch.has_run:
+        if branch is not None and branch.is_undecided:
+            yield from self._stay(frame, index)
+        if branch is None or branch.has_run:
             self._branch_lines(frame, index)
             frame.go_to(frame.source.nesting.next_parts[index])
         elif isinstance(part, ElseIf):
@@ -615,11 +792,8 @@ class Machine:
         if branch is None:
             return
         frame.branches.pop()
-        if branch.reason:
-            # Whatever one of its parts may have set.
-            self.variables.lose(self._assigned_in(frame, branch.lines.first, index), branch.reason)
-            yield ProgramEvent(EventKind.LEAVE, self._line(frame, index))
-            yield from self._unclear(frame, index, branch.reason)
+        if branch.is_undecided:
+            yield from self._stay(frame, index)
 
     # Loops
 
@@ -632,31 +806,35 @@ class Machine:
             yield from self._count(frame, loop, lines, known)
             return
         truth = self.variables.truth(loop.condition) if loop.condition is not None else True
-        if truth is False:
+        if isinstance(truth, Unknown):
+            yield from self._run_unknown_loop(frame, lines, truth.reason)
+        elif truth is False:
             self._leave_loop(frame, lines)
         elif known is None:
             frame.loops.append(_Loop(lines))
-            if isinstance(truth, Unknown):
-                yield from self._enter_unknown_loop(frame, lines, truth)
 
-    def _enter_unknown_loop(self, frame: _Frame, lines: Part, why: Unknown) -> Iterator[Block | ProgramEvent]:
-        """Run a loop once of which nobody knows how often it runs."""
-        frame.loops[-1].is_certain = False
-        self.variables.lose(self._assigned_in(frame, lines.first, lines.last), why.reason)
-        yield from self._unclear(frame, lines.first, why.reason)
+    def _run_unknown_loop(self, frame: _Frame, lines: Part, reason: str) -> Iterator[Block | ProgramEvent]:
+        """Run a loop once more, of which nobody knows whether it does."""
+        if self._is_alone:
+            yield from self._unclear(frame, lines.first, reason)
+        _leave_loop(frame, lines)
+        yield self._part(frame, reason, lambda other: other.go_to(lines.last + 1))
+        frame.loops.append(_Loop(lines, reason=reason))
 
     def _count(self, frame: _Frame, loop: For, lines: Part, known: _Loop | None) -> Iterator[Block | ProgramEvent]:
         name = self.variables.name(loop.variable)
         first, last, step = (self.variables.value(each) for each in (loop.first, loop.last, loop.step))
+        if known is not None and known.reason:
+            yield from self._run_unknown_loop(frame, lines, known.reason)
+            return
         if known is None:
-            frame.loops.append(_Loop(lines))
             if not (isinstance(name, str) and isinstance(first, float) and isinstance(last, float)):
                 why = next(each for each in (name, first, last) if not isinstance(each, float) and each is not None)
                 told = why if isinstance(why, Unknown) else Unknown(f"{why} counts what is not known")
-                yield from self._enter_unknown_loop(frame, lines, told)
+                self.variables.set(name, told) if isinstance(name, str) else self.variables.lose_all(told.reason)
+                yield from self._run_unknown_loop(frame, lines, told.reason)
                 return
-            frame.loops[-1].last = last
-            frame.loops[-1].step = step if isinstance(step, float) else 1.0
+            frame.loops.append(_Loop(lines, last, step if isinstance(step, float) else 1.0))
             self.variables.set(name, first)
         current = self.variables.value(loop.variable)
         state = frame.loops[-1]
@@ -666,7 +844,7 @@ class Machine:
 
     def _leave_loop(self, frame: _Frame, lines: Part) -> None:
         """Go on behind a loop."""
-        frame.loops = [each for each in frame.loops if each.lines != lines]
+        _leave_loop(frame, lines)
         frame.go_to(lines.last + 1)
 
     def _end_loop(self, frame: _Frame, index: int, end: EndLoop) -> Iterator[Block | ProgramEvent]:
@@ -676,11 +854,14 @@ class Machine:
         # Loops that begin in it have been left.
         frame.loops = frame.loops[: frame.loops.index(loop) + 1]
         until = self.variables.truth(end.until) if end.until is not None else False
-        if not loop.is_certain or isinstance(until, Unknown):
-            reason = until.reason if isinstance(until, Unknown) else "how often the loop runs is not known"
-            self.variables.lose(self._assigned_in(frame, loop.lines.first, index), reason)
-            frame.loops.remove(loop)
-            yield from self._unclear(frame, index, reason)
+        if loop.reason or isinstance(until, Unknown):
+            reason = until.reason if isinstance(until, Unknown) else loop.reason
+            yield from self._stay(frame, index)
+            if isinstance(until, Unknown):
+                yield self._part(frame, reason, lambda other: _leave_loop(other, loop.lines))
+            yield from self._run_again(frame, loop.lines.first, reason)
+            if not frame.is_again:
+                frame.loops.remove(loop)
         elif until:
             frame.loops.remove(loop)
         else:
@@ -690,7 +871,11 @@ class Machine:
                 value, name = self.variables.value(counting.variable), self.variables.name(counting.variable)
                 if isinstance(value, float) and isinstance(name, str):
                     self.variables.set(name, value + loop.step)
-            self._check_repetition(frame, index, first)
+            is_always = end.until is None and not _ends_by_itself(frame.source.code(first))
+            if self._is_endless(frame, index, first, is_always=is_always):
+                yield from self._run_endless(frame, first)
+                return
+            loop.passes += 1
             frame.go_to(first)
 
     # Calls
@@ -791,9 +976,9 @@ class Machine:
 
     def _leave(self, frame: _Frame) -> Iterator[ProgramEvent]:
         """The end of what a frame runs: it runs again, or what called it goes on."""
-        frame.left -= 1
+        frame.left, self._last = frame.left - 1, None
         if frame.left > 0:
-            frame.at, frame.loops, frame.branches = frame.first, [], []
+            frame.at, frame.loops, frame.branches, frame.heads = frame.first, [], [], {}
             return
         self._frames.pop()
         self._go_on()
@@ -801,10 +986,37 @@ class Machine:
             yield ProgramEvent(EventKind.LEAVE, frame.callers[-1].line, frame.call.cycle)
 
 
-_DO: Mapping[type[MacroStatement], Callable[..., Iterator[Block | ProgramEvent]]] = {
+def _begin_part(frame: _Frame, *, first: int, lines: Part) -> None:
+    """Let a frame go on at the next part of a branch: behind ELSE, at ELSEIF or at the end."""
+    part = frame.source.nesting.next_parts[first]
+    said = frame.source.code(part).statements
+    has_run = not any(isinstance(each, ElseIf) for each in said)
+    frame.go_to(part + any(isinstance(each, Else) for each in said))
+    frame.branches.append(_Branch(lines, has_run, is_undecided=True))
+
+
+def _leave_loop(frame: _Frame, lines: Part) -> None:
+    frame.loops = [each for each in frame.loops if each.lines != lines]
+
+
+def _leave_to(frame: _Frame, place: float) -> None:
+    """A way leaves for a line."""
+    for head in frame.heads.values():
+        head.farthest = max(head.farthest, place)
+
+
+def _ends_by_itself(code: CodeLine) -> bool:
+    """Whether a loop that begins on a line has a condition, or counts."""
+    return any(
+        isinstance(each, For) or (isinstance(each, Loop) and each.condition is not None) for each in code.statements
+    )
+
+
+_DO: Mapping[type[MacroStatement | _Taken], Callable[..., Iterator[Block | ProgramEvent]]] = {
     Assign: Machine._do_assign,
     Forget: Machine._do_assign,
     When: Machine._do_when,
+    _Taken: Machine._do_taken,
     Jump: Machine._jump,
     Call: Machine._call,
     Return: Machine._return,

@@ -12,16 +12,20 @@ from contoursolve.execution.language import (
     Call,
     CallKind,
     CodeLine,
+    Constant,
     Else,
     ElseIf,
     EndIf,
     EndLoop,
     For,
     If,
+    Jump,
+    JumpWay,
     Loop,
     MacroLanguage,
     Term,
     Unknown,
+    When,
 )
 from contoursolve.gcode import Block, Program, UnreadableProgramError, parse, read_bytes
 from contoursolve.gcode.contents import decode
@@ -138,6 +142,23 @@ class Source:
             for each in code.statements:
                 if isinstance(each, Call) and isinstance(each.target, str) and each.target.upper() != name:
                     yield each.target.upper()
+
+    @cached_property
+    def heads(self) -> frozenset[int]:
+        """The indices of the lines that may run again: those of loops, and those to which jumps lead back."""
+        found = {first for first, _ in self.nesting.loops}
+        for index in range(len(self)):
+            for jump in self._jumps(index):
+                target = f"{jump.target.value:.0f}" if isinstance(jump.target, Constant) else jump.target
+                if jump.way is not JumpWay.FORWARD and isinstance(target, str):
+                    places = self.label(target.upper(), range(index, -1, -1)), self.number(target, 0, index)
+                    found.update(each for each in places if each is not None)
+        return frozenset(found)
+
+    def _jumps(self, index: int) -> Iterator[Jump]:
+        for each in self.code(index).statements:
+            within = each.then if isinstance(each, When) else (each,)
+            yield from (one for one in within if isinstance(one, Jump))
 
     def section_end(self, first: int) -> int:
         """The index of the last line of the program to which a line belongs."""

@@ -33,6 +33,10 @@ class Variables:
         self.given, self.values = dict(given), dict[str, Known](given)
         self.assigned: list[str] = []
         """What was set, in order."""
+        self.line = 0
+        """The line that runs."""
+        self._lines: dict[tuple[str, Known], int] = {}
+        """On which line a variable got a value last."""
         self._language, self._own = language, own
 
     def value(self, term: Term) -> Known:
@@ -77,8 +81,28 @@ class Variables:
             return
         target = own if own is not None and _is_local(name) else self.values
         target[name] = value
+        self._lines[name, value] = self.line
         if len(self.assigned) < MOST_LOGGED:
             self.assigned.append(name)
+
+    def join(self, one: Mapping[str, Known], other: Mapping[str, Known], reason: str) -> dict[str, Known]:
+        """What is known of variables where two ways meet, on which they hold this and that; `reason` says what decides
+        between them."""
+        both = dict.fromkeys([*one, *other])
+        return {name: self._join(name, one.get(name), other.get(name), reason) for name in both}
+
+    def _join(self, name: str, one: Known | None, other: Known | None, reason: str) -> Known:
+        if one is not None and (one == other or isinstance(one, Unknown)):
+            return one
+        if isinstance(other, Unknown):
+            return other
+        held = [each for each in (one, other) if each is not None]
+        told = [f"{_shown(each)}{self._set_on(name, each)}" for each in held]
+        return Unknown(f"{name} is {' or '.join([*told, *['not set'] * (2 - len(held))])}; {reason}")
+
+    def _set_on(self, name: str, value: Known) -> str:
+        line = self._lines.get((name, value), 0)
+        return f" (program line {line})" if line else ""
 
     def lose(self, names: Iterable[str], reason: str) -> None:
         """Forget what some variables hold."""
@@ -107,6 +131,10 @@ class Variables:
             # The call does not give it.
             return VACANT
         return self._language.value_of(name, self.values)
+
+
+def _shown(value: Known) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def _is_local(name: str) -> bool:

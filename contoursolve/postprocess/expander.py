@@ -115,7 +115,7 @@ class Expander:
                 continue
             differs = len({path_of(each) for each in (step.answer, *step.others)}) > 1
             several = "it is not the same every time that it runs; --inline writes each time out" if differs else ""
-            reason = self._obstacle(step.answer) or several or self._relying(step.answer, rest, coming)
+            reason = self._obstacle(step.answer) or step.shares or several or self._relying(step.answer, rest, coming)
             if reason:
                 yield from self._leave(step, step.answer, reason)
             else:
@@ -302,19 +302,21 @@ class Expander:
     def _replace(self, step: Step, answer: Answer) -> Iterator[str]:
         claim, state = answer.claim, step.before
         elements = answer.contour.elements if answer.contour else ()
-        parts = {each.block.line: each for each in blocks_of(claim, state, self.modes)}
+        parts = deque(blocks_of(claim, state, self.modes))
         axes = answer.plane.axes
         here = self._place(answer)
         had_ended = self.motion is not None
         motion = self.motion if had_ended else state.motion
-        translated = self._translate(answer, list(parts.values()), here)
+        translated = self._translate(answer, parts, here)
         ended = self._ended(claim, state)
         for block in step.blocks:
-            aside = self._aside(parts.get(block.line), claim, state)
-            if aside is not None:
-                yield from self._keep(block, aside)
+            # A line may run several times.
+            found = parts.popleft() if parts and parts[0].block.line == block.line else None
+            aside = self._aside(found, claim, state)
+            if aside is not None or found is None:
+                yield from self._keep(block, aside or state)
                 continue
-            part = parts[block.line]
+            part = found
             state = part.state
             form = self._format(state if answer.plane is state.plane else replace(state, plane=answer.plane))
             moves: list[Move] = []

@@ -107,7 +107,7 @@ class Batch(Struct):
 
     def _key(self, claim: ParsedContour) -> Hashable:
         """What contours of one kind have in common; None where more than the words and their values counts."""
-        if claim.unknown or claim.repeated or not self._is_plain(claim):
+        if claim.unknown or claim.repeated or claim.doubts or not self._is_plain(claim):
             return None
         before, after = claim.before, claim.after
         for axis in before.plane.axes:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator, Sequence, Set
+from itertools import pairwise
 
 from msgspec.structs import replace
 
@@ -72,22 +73,65 @@ def in_text_order(
     by_line: dict[int, list[Diagnostic]] = {}
     for finding in {_key(each): each for each in findings}.values():
         by_line.setdefault(finding.span.line, []).append(finding)
-    index = 0
+    index, shared = 0, _shared(in_cycle, passed_over)
     while index < len(blocks):
-        line, count, answers = blocks[index].line, 1, tuple[Answer, ...]()
+        line, count, answers, shares = blocks[index].line, 1, tuple[Answer, ...](), ""
         if line in ran:
-            count = ran[line][0].blocks[-1].line - line + 1
+            count = max(each.line for step in ran[line] for each in step.blocks) - line + 1
             # Between blocks of a contour stand others, where a jump leads from one to another.
-            inside = [_once(ran[at], blocks, rules) for at in range(line, line + count) if at in ran]
+            within = [at for at in range(line, line + count) if at in ran]
+            inside = [_once([_kept_right(each, shared) for each in ran[at]], blocks, rules) for at in within]
             answers = tuple(each for once in inside for each in once)
+            shares = next((why for each in answers if (why := _why_shared(each.lines, shared))), "")
         own = tuple(blocks[index : index + count])
         own_findings = tuple(each for block in own for each in by_line.pop(block.line, ()))
         state = before.get(line, state)
-        yield Step(own, state, next(iter(answers), None), own_findings, others=answers[1:])
+        yield Step(own, state, next(iter(answers), None), own_findings, others=answers[1:], shares=shares)
         index += count
     rest = tuple(each for found in by_line.values() for each in found)
     if rest:
         yield Step((), state, findings=rest)
+
+
+def _shared(steps: Iterable[Step], passed_over: Set[int]) -> set[int]:
+    """The lines of contours that run outside of their contour as well: on another way, or in another pass."""
+    runs: dict[int, set[int]] = {}
+    for step in steps:
+        own = step.blocks if step.answer is None else step.answer.claim.blocks
+        if not own or own[0].file or own[0].line in passed_over:
+            continue
+        for block in own:
+            if block.words:
+                runs.setdefault(block.line, set()).add(own[0].line if step.answer is not None else 0)
+    return {line for line, several in runs.items() if len(several) > 1}
+
+
+def _why_shared(lines: Sequence[int], shared: Set[int]) -> str:
+    """Why the blocks of a contour cannot be written anew, by their lines."""
+    if any(line <= before for before, line in pairwise(lines)):
+        return "it goes on from one pass of a loop to the next, so that its blocks run several times"
+    there = [str(line) for line in lines if line in shared]
+    what = f"program line{'s' * (len(there) > 1)} {join(there)}"
+    return (
+        f"{what} {'are' if len(there) > 1 else 'is'} cut in another way where the program comes there otherwise"
+        * bool(there)
+    )
+
+
+def _kept_right(step: Step, shared: Set[int]) -> Step:
+    """A step without the fixes of its contour that change what runs outside of it, too."""
+    answer = step.answer
+    if answer is None or not _why_shared(answer.lines, shared):
+        return step
+    texts = {block.line: block.text for block in answer.claim.blocks}
+    is_once = len(texts) == len(answer.lines)
+
+    def is_right(fix: Fix) -> bool:
+        new = fix.by_line(answer.lines)
+        return is_once and all(new.get(line) == texts[line] for line in shared & texts.keys())
+
+    told = (replace(each, fixes=tuple(filter(is_right, each.fixes))) for each in answer.diagnostics)
+    return replace(step, answer=replace(answer, diagnostics=tuple(told)))
 
 
 def _as_warning(step: Step, passed_over: Set[int]) -> Step:

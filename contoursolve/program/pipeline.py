@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from functools import partial
-from itertools import islice
+from itertools import chain, islice
 from typing import TYPE_CHECKING, Any, cast
 
 from msgspec import Struct, field
@@ -63,8 +63,9 @@ from contoursolve.reading import (
     next_place,
 )
 from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import Kept, behind_event, contours_of, reach_of, state_facts
+from contoursolve.reading.follow import contours_of, reach_of, state_facts
 from contoursolve.reading.lexicon import TURNED
+from contoursolve.reading.ways import Ways
 
 if TYPE_CHECKING:
     from contoursolve.statements import Statement
@@ -249,6 +250,9 @@ _OF_CONTROL = (ReadIssue.CONTROL_ALIKE, ReadIssue.CONTROL_CALLED)
 ELSEWHERE = (ReadIssue.SUBPROGRAM_SOLVED, ReadIssue.SUBPROGRAM_REFUSED)
 """Findings about contours of other files."""
 
+_OPENING = (EventKind.LOST, EventKind.STOPPED, EventKind.PART)
+"""Events behind which it is not known what runs, or where the tool is."""
+
 _FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
 """Faults that are only worth a warning in a block that is not a contour."""
 
@@ -314,7 +318,6 @@ class Examiner:
         """The profiles of cycles that ran, known at the end."""
         self.called: list[Answer] = []
         """The contours of other files, known at the end."""
-        self.kept = Kept()
         self.faulty: Counter[tuple[str, int]] | None = None
         """Of a program that runs: how often the contour at a line of a file was wrong. In a loop, each pass may be."""
         self.queue = Queue(self.dialect or DIALECTS["yasnac-lx3"], together, self._examine, goes_on=goes_on)
@@ -347,7 +350,7 @@ class Examiner:
         self.marks.is_done, self.faulty = True, Counter()
         marks = Marks(self.marks.context)
         told = [*(finding for block in blocks for finding in marks.look(block)), *marks.finish()]
-        steps = self.steps(machine.run())
+        steps = self._told(self._run(machine.run()))
         outside = told if self.outside.is_strict else []
         first = cast("Dialect", self.dialect).initial_state(self.asked.unit)
         yield from in_text_order(
@@ -361,10 +364,11 @@ class Examiner:
         def watched() -> Iterator[Line]:
             for each in machine.run_alone():
                 if isinstance(each, ProgramEvent):
-                    is_open = each.kind in (EventKind.LOST, EventKind.STOPPED)
-                    is_open = is_open or (each.kind is EventKind.ENTER and not each.reason)
-                    if is_open or (each.kind is EventKind.BARRIER and each.reason):
+                    if each.kind in _OPENING or (each.kind is EventKind.BARRIER and each.reason):
                         told(each)
+                    if each.kind is EventKind.HEAD:
+                        # What is written out runs once.
+                        continue
                 yield each
 
         yield from self.steps(watched())
@@ -390,14 +394,54 @@ class Examiner:
         """What is known before a program, behind the block that states its start point apart."""
         return self.checkpoint(self._begin(cast("Dialect", self.dialect)))
 
-    def _happen(self, dialect: Dialect, event: ProgramEvent, state: State) -> State:
-        """The state behind a event of the program."""
+    def _run(self, lines: Iterable[Block | ProgramEvent]) -> list[Step | Pending]:
+        """Every block and every contour of a program that runs, on each of its ways."""
+        dialect, found = cast("Dialect", self.dialect), list[Step | Pending]()
+        ways, heads = self._ways(dialect), dict[int, int]()
+
+        def read(
+            held: Sequence[Block], index: int, state: State, is_open: bool
+        ) -> tuple[int, Callable[[], State]] | None:
+            view = View(held, index)
+            if view[0].mark:
+                ways.marked[view[0].mark] = state
+            contour, after = self._find(view, state)
+            if is_open and view.reach > len(held) - index:
+                return None
+            taken, leave = self._take(view, contour, after, state)
+            found.append(taken)
+            return after, leave
+
+        blocks = list[Block]()
+        for line in chain(lines, (None,)):
+            if isinstance(line, Block):
+                blocks.append(line)
+                continue
+            ways.read_on(blocks, read, is_open=line is not None and line.kind.is_open)
+            blocks = []
+            if line is None:
+                break
+            if line.kind is EventKind.LEAVE:
+                # Where the profile of a cycle ended.
+                found += (Step((), way.state, findings=self._findings()) for way in ways.now)
+            if line.kind is EventKind.HEAD:
+                heads[line.mark] = len(found)
+            if self._happen(line, ways):
+                del found[heads[line.mark] :]
+        found += self._end(dialect.initial_state(self.asked.unit))
+        return found
+
+    def _ways(self, dialect: Dialect) -> Ways:
+        return Ways(partial(self._begin, dialect), dialect.modes)
+
+    def _happen(self, event: ProgramEvent, ways: Ways) -> bool:
+        """Take in an event of the program; whether all that was found since a head is found anew."""
         self.previous = None
         if event.kind is EventKind.STOPPED:
             context = Context(self.rules, self.asked.unit, place=Span(event.line, 1, 2))
             row = context.row(ReadIssue.NOT_FOLLOWED)
             self.diagnostics.append(report(context, row, Basis.RULE, [], reason=event.reason))
-        return behind_event(state, event, self.kept, partial(self._begin, dialect), dialect.modes)
+        return ways.happen(event)
 
     def _begin(self, dialect: Dialect) -> State:
         """The modal state before a program, behind the block that states its start point apart."""
@@ -438,7 +482,8 @@ class Examiner:
             yield self._look_at_all(cast("Sequence[Block]", blocks))
             return
         dialect = self.dialect
-        state = self._begin(dialect)
+        ways = self._ways(dialect)
+        state = ways.now[0].state
         is_whole, index, size = isinstance(blocks, Sequence), 0, _FIRST
         held: list[Line] = list(blocks) if is_whole else []
         rest = iter(() if is_whole else blocks)
@@ -455,10 +500,12 @@ class Examiner:
                 if line.kind is EventKind.LEAVE:
                     # Where the profile of a cycle ended.
                     yield Step((), state, findings=self._findings())
-                state, index = self._happen(dialect, line, state), index + 1
+                ways.now = [replace(each, state=state) for each in ways.now]
+                self._happen(line, ways)
+                state, index = ways.now[0].state if ways.now else state, index + 1
                 continue
             if isinstance(line, Block) and line.mark:
-                self.kept.marked[line.mark] = state
+                ways.marked[line.mark] = state
             if isinstance(line, Passage):
                 passed = pass_plainly(held, index, moves=is_plain(state), joins=dialect.has_runs)
                 if passed:

@@ -35,6 +35,8 @@ class Step(Struct, frozen=True):
     """In place of blocks: what nobody needed to read into words."""
     others: tuple[Answer, ...] = ()
     """The answers to the contour where other calls lead to other ones."""
+    shares: str = ""
+    """Why its blocks cannot be written anew, if some of them run outside of this contour, or several times in it."""
 
 
 class Together(Protocol):

@@ -5,8 +5,6 @@ from collections.abc import Callable, Iterator, Sequence
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnostics.source import Span
-from contoursolve.execution.events import EventKind, ProgramEvent
 from contoursolve.gcode import Block, Directive, Program, Word
 from contoursolve.reading.lexicon import Effect
 from contoursolve.reading.modal_state import Modes, State, advance, apply_modes, codes_of
@@ -26,20 +24,15 @@ def contours_of(
     state: State,
     start: Program | None = None,
     end_of: Callable[[ParsedContour], End] = lambda _: None,
-    left: list[State] | None = None,
-    marked: dict[int, State] | None = None,
 ) -> Iterator[tuple[ParsedContour, int]]:
     """Every contour of a program, with the index of the block behind it; the next one begins where `end_of` says.
 
-    `start` are blocks that state the start point apart from the program. The state behind the last block is added to
-    `left`, the states before marked blocks to `marked`.
+    `start` are blocks that state the start point apart from the program.
     """
     for block in start.blocks if start else ():
         state = advance(state, block, modes)
     index = 0
     while index < len(blocks):
-        if marked is not None and blocks[index].mark:
-            marked[blocks[index].mark] = state
         found = find(blocks, index, state, modes)
         if found is not None and found.form.is_contour:
             index += reach_of(found, blocks, index)
@@ -48,49 +41,21 @@ def contours_of(
         else:
             state = advance(state, blocks[index], modes)
             index += 1
-    if left is not None:
-        left.append(state)
-
-
-class Kept(Struct):
-    """The states of a program that runs which are needed again: those to which it comes back, and by their marks those
-    before blocks (see `Block`)."""
-
-    entered: list[State] = []
-    marked: dict[int, State] = {}
-
-
-def behind_event(state: State, event: ProgramEvent, kept: Kept, fresh: Callable[[], State], modes: Modes) -> State:
-    """The state behind an event of a program that runs; `fresh` gives the one in which nothing has run."""
-    match event.kind:
-        case EventKind.FRESH if event.mark in kept.marked:
-            kept.entered.clear()
-            return kept.marked[event.mark]
-        case EventKind.FRESH:
-            kept.entered.clear()
-            state = fresh()
-            told = f"{event.reason}; say with --start where the tool is when it begins"
-            unknown = tuple(axis for axis, at in state.axes.items() if at.value is None)
-            return state.lose(unknown, told, Span(event.line, 1, 2))
-        case EventKind.ENTER:
-            kept.entered.append(state)
-        case EventKind.LEAVE:
-            return kept.entered.pop() if kept.entered else state
-        case EventKind.LOST | EventKind.STOPPED:
-            return state.lose(modes.axes, event.reason, Span(event.line, 1, 2))
-        case _:
-            pass
-    return state
 
 
 def reach_of(contour: ParsedContour, blocks: Sequence[Block], index: int = 0) -> int:
     """The number of blocks from an index on up to the last one of a contour that begins there."""
-    last = contour.blocks[-1].line
-    count = last - blocks[index].line + 1
-    if blocks[index + count - 1 : index + count] and blocks[index + count - 1].line == last:
+    first, *_, last = (each.line for each in (contour.blocks[0], *contour.blocks))
+    count = last - first + 1
+    if count > 0 and blocks[index + count - 1 : index + count] and blocks[index + count - 1].line == last:
         return count
-    # Jumps have left lines out.
-    return next(count for count in range(1, count + 1) if blocks[index + count - 1].line == last)
+    # Jumps have left lines out, or lines run again.
+    place = index - 1
+    for own in contour.blocks:
+        place += 1
+        while blocks[place].line != own.line:
+            place += 1
+    return place - index + 1
 
 
 def state_facts(program: Program, contour: Sequence[Block], facts: Sequence[Directive]) -> Program:

@@ -92,6 +92,11 @@ class Address:
         """Whether it states an increment where increments are in force, or where they are not."""
         return self.is_increment or (is_incremental and not self.is_absolute)
 
+    @property
+    def follows_increments(self) -> bool:
+        """Whether increments that are in force make it one."""
+        return not self.is_increment and not self.is_absolute
+
 
 TURNED = "X"
 """The axis that may count diameters."""

@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
+from enum import Enum
 from functools import partial
 
 from msgspec import Struct
@@ -109,6 +110,31 @@ _DEEPEST = 50
 """Positions that each follow from the one before, of which none is looked at."""
 
 
+class Mode(Enum):
+    """What a G code puts in force, in words."""
+
+    MOTION = "the motion in force"
+    MOVE = "whether a motion is in force"
+    PLANE = "the plane"
+    UNIT = "the unit"
+    INCREMENTS = "whether increments are in force"
+    COMPENSATION = "the compensation"
+    DIAMETER = "whether X is a diameter"
+
+
+_SETS: Mapping[Effect, tuple[Mode, ...]] = {
+    Effect.MOTION: (Mode.MOTION, Mode.MOVE),
+    Effect.CYCLE: (Mode.MOTION, Mode.MOVE),
+    Effect.CANCEL: (Mode.MOTION, Mode.MOVE),
+    Effect.PLANE: (Mode.PLANE,),
+    Effect.UNITS: (Mode.UNIT,),
+    Effect.ABSOLUTE: (Mode.INCREMENTS,),
+    Effect.INCREMENTAL: (Mode.INCREMENTS,),
+    Effect.COMPENSATION: (Mode.COMPENSATION,),
+}
+"""What is known behind a G code."""
+
+
 class State(Struct, frozen=True):
     """What is in force before a block."""
 
@@ -125,6 +151,9 @@ class State(Struct, frozen=True):
     """Words that stay in force, by their address."""
     travel: float = TRAVEL
     """mm. How far from the start point the control can make a contour."""
+    doubts: Mapping["Mode | str", str] = {}
+    """What else is not known to be in force, as ways that meet do not agree on it, and why: modes, and by their address
+    words that stay in force."""
 
     def start(self) -> Start:
         """The position in the plane."""
@@ -146,7 +175,22 @@ class State(Struct, frozen=True):
             self.diameter,
             self.memory,
             self.travel,
+            self.doubts,
         )
+
+    def settle(self, *modes: "Mode | str") -> "State":
+        """The state in which some modes are known, whatever they were."""
+        if self.doubts.keys().isdisjoint(modes):
+            return self
+        return replace(self, doubts={each: why for each, why in self.doubts.items() if each not in modes})
+
+    def remember(self, memory: Mapping[str, Word]) -> "State":
+        """The state with other words that stay in force."""
+        if memory is self.memory:
+            return self
+        names = {**self.memory, **memory} if self.doubts else ()
+        changed = [name for name in names if memory.get(name) is not self.memory.get(name)]
+        return replace(self, memory=memory).settle(*changed)
 
     def counts_diameters(self) -> bool:
         """Whether a plain word of X is a diameter, where codes switch that."""
@@ -253,9 +297,8 @@ def codes_of(block: Block, modes: Modes) -> list[Code | Word]:
 
 def apply_modes(state: State, block: Block, modes: Modes) -> State:
     """The state with the block's G codes in force, before its motion."""
-    for code in codes_of(block, modes):
-        if isinstance(code, Word):
-            continue
+    codes = [code for code in codes_of(block, modes) if isinstance(code, Code)]
+    for code in codes:
         match code.effect:
             case Effect.MOTION | Effect.CYCLE:
                 state = state if state.motion == code.number else replace(state, motion=code.number)
@@ -275,10 +318,11 @@ def apply_modes(state: State, block: Block, modes: Modes) -> State:
             case _:
                 pass
         if code.diameter is not None:
-            state = replace(state, diameter=code.diameter)
+            state = replace(state, diameter=code.diameter).settle(Mode.DIAMETER)
+    if state.doubts:
+        state = state.settle(*(mode for code in codes for mode in _SETS.get(code.effect, ())))
     if modes.remember is not None:
-        memory = modes.remember(state.memory, block)
-        state = state if memory is state.memory else replace(state, memory=memory)
+        state = state.remember(modes.remember(state.memory, block))
     return with_diameters(state)
 
 
@@ -303,7 +347,7 @@ def advance(state: State, block: Block, modes: Modes) -> State:
 def _follow_codes(state: State, block: Block, modes: Modes) -> State:
     """The state after a block that is programmed in G codes."""
     if COMMENTED in state.memory and modes.remember is not None:
-        return replace(state, memory=modes.remember(state.memory, block))
+        return state.remember(modes.remember(state.memory, block))
     if block.macro is Macro.FLOW:
         return state.lose(modes.axes, "a macro statement may jump", block.span)
     state = apply_modes(state, block, modes)
@@ -339,8 +383,29 @@ def positions(state: State, words: list[Word], modes: Modes, is_skippable: bool)
         axis = _axis(word, modes)
         is_step = modes.lexicon.addresses[word.address].is_step(is_incremental=state.is_incremental)
         twice = Position(None, f"{axis} is given twice", word.span) if axis in moved else None
-        moved[axis] = twice or _led(word, state.axes[axis] if is_step else None, state, modes, is_skippable)
+        moved[axis] = (
+            twice
+            or _doubted(word, state, modes)
+            or _led(word, state.axes[axis] if is_step else None, state, modes, is_skippable)
+        )
     return moved
+
+
+def _doubted(word: Word, state: State, modes: Modes) -> Position | None:
+    """The unknown place to which an axis word leads where it is not known how it is read."""
+    if not state.doubts:
+        return None
+    row = modes.lexicon.addresses[word.address]
+    is_turned = row.axis == TURNED
+    minds = {
+        Mode.UNIT: True,
+        Mode.MOVE: True,
+        Mode.INCREMENTS: row.follows_increments,
+        Mode.DIAMETER: is_turned,
+        Mode.PLANE: is_turned and state.diameter is Diameter.BY_PLANE,
+    }
+    mode = next((mode for mode, is_minded in minds.items() if is_minded and mode in state.doubts), None)
+    return None if mode is None else Position(None, f"{mode.value} is not known: {state.doubts[mode]}", word.span)
 
 
 def _led(word: Word, before: Position | None, state: State, modes: Modes, is_skippable: bool) -> Position:
@@ -428,7 +493,7 @@ def plain_lines(axes: Iterable[str]) -> re.Pattern[str]:
 
 def is_plain(state: State) -> bool:
     """Whether plain lines are lines to their coordinates in this state."""
-    return state.motion in (0, 1) and not state.is_incremental and not state.memory
+    return state.motion in (0, 1) and not (state.is_incremental or state.memory or state.doubts)
 
 
 def words_of(line: str) -> str:

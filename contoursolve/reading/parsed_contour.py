@@ -13,8 +13,8 @@ from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, Directive, Word
 from contoursolve.geometry import Choice, Fact, Given, Layout, Line, Pick, Plane, Profile, Question, Radius, Side
 from contoursolve.reading.contour_form import Assumption, ContourForm, Convention, lay_out
-from contoursolve.reading.lexicon import Lexicon
-from contoursolve.reading.modal_state import Modes, Position, State, apply_modes, axis_words, positions
+from contoursolve.reading.lexicon import TURNED, Lexicon
+from contoursolve.reading.modal_state import Mode, Modes, Position, State, apply_modes, axis_words, positions
 
 
 class ReadIssue(Enum):
@@ -33,6 +33,7 @@ class ReadIssue(Enum):
     CODE_MISTYPED = "code-mistyped"
     VALUE_TOO_LARGE = "value-too-large"
     POSITION_UNKNOWN = "position-unknown"
+    MODE_UNKNOWN = "mode-unknown"
     START_ASSUMED = "start-assumed"
     CONTOUR_WAITS = "contour-waits"
     CALLS_DIFFER = "calls-differ"
@@ -119,6 +120,8 @@ class ParsedContour:
     block."""
     lasting: frozenset[str] = frozenset()
     """Names of words that stay in force behind their block, whether they state anything in it or not."""
+    doubts: Mapping[Mode | str, str] = field(default_factory=dict)
+    """What is not known to be in force in some of its blocks, and why (see `State`)."""
 
     def beside_plane(self, block: Block) -> list[Word]:
         """The words of one of its blocks that move an axis outside the plane."""
@@ -129,6 +132,21 @@ class ParsedContour:
     def left(self) -> State:
         """The modes that it leaves."""
         return self.after if self.selected in (None, self.after.plane) else replace(self.after, plane=self.selected)
+
+    def open_modes(self) -> Iterator[tuple[str, str]]:
+        """What is not known to be in force although it matters, in words, and why."""
+        rows = (self.lexicon.addresses.get(word.address) for word in self.words.values())
+        minds = {
+            Mode.MOVE: False,
+            Mode.COMPENSATION: False,
+            Mode.INCREMENTS: any(row.follows_increments for row in rows if row and row.axis),
+            Mode.DIAMETER: TURNED in self.after.plane.axes,
+        }
+        for mode, why in self.doubts.items():
+            if isinstance(mode, str):
+                yield f"whether {mode} is in force", why
+            elif minds.get(mode, True):
+                yield mode.value, why
 
     @property
     def directives(self) -> tuple[Directive, ...]:

@@ -2,22 +2,23 @@
 every contour that either of them has; after each, the claimed end is the position."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import groupby
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
-from contoursolve.execution.events import ProgramEvent
+from contoursolve.execution.events import EventKind, ProgramEvent
 from contoursolve.execution.machine import machine_of
 from contoursolve.execution.subprograms import ALONE, Surroundings, surroundings_of
 from contoursolve.gcode import Block, Directive, Program
 from contoursolve.geometry import Length
-from contoursolve.reading import Modes, ParsedContour, State, advance, next_place
+from contoursolve.reading import Modes, ParsedContour, State, advance, leave, next_place
 from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import Kept, behind_event, contours_of, state_facts
+from contoursolve.reading.follow import reach_of, state_facts
+from contoursolve.reading.ways import Ahead, Ways
 from contoursolve.verification.contour_checks import check_contour
 from contoursolve.verification.decode import (
     FARTHEST,
@@ -168,34 +169,61 @@ def follow(
     `start` are blocks that state the start point apart from the program. Facts that only the result states are taken
     as stated in the last block of their contour.
     """
-    blocks, start_error = _with_claimed_facts(program.blocks, claims), 0.0
+    blocks = _with_claimed_facts(program.blocks, claims)
     apart = sum(each.span.line < 0 for block in program.blocks for each in block.directives)
 
-    modes, visits, reached = dialect.modes, dict[int, list[Found]](), set[int]()
-    matching = _Matching(claims)
     first = dialect.initial_state(unit)
     for block in start.blocks if start else ():
-        first = advance(first, block, modes)
-    state, kept = first, Kept()
-    for run in _runs(replace(program, blocks=blocks), modes, around):
-        if isinstance(run, ProgramEvent):
-            state = behind_event(state, run, kept, lambda: first, modes)
-            continue
-        left = list[State]()
-        for found, behind in contours_of(run, dialect.find, modes, state, None, matching.end_of, left, kept.marked):
-            claimed, block = matching.claimed(found), found.blocks[0]
-            is_reached = all(each.is_reached for each in block.callers)
-            if not block.file and (is_reached or block.line not in reached):
-                here = Found(found, claimed, start_error, dialect, next_place(run[behind:], found, modes), rules, apart)
-                visits.setdefault(block.line, []).append(here)
-            start_error = PRINTED if claimed and claimed.end is not None else start_error
-        reached |= {each.line for each in run if not each.file and all(one.is_reached for one in each.callers)}
-        state = left[0]
+        first = advance(first, block, dialect.modes)
+    walk, heads = _Walk(dialect, rules, _Matching(claims), apart), dict[int, int]()
+    ways = Ways(lambda: first, dialect.modes)
+    for run, event in _runs(replace(program, blocks=blocks), dialect.modes, around):
+        ways.read_on(run, partial(walk.read, ways.marked), is_open=event is not None and event.kind.is_open)
+        walk.reached |= {each.line for each in run if not each.file and all(one.is_reached for one in each.callers)}
+        if event is not None and event.kind is EventKind.HEAD:
+            heads[event.mark] = len(walk.found)
+        if event is not None and ways.happen(event):
+            del walk.found[heads[event.mark] :]
+    visits = dict[int, list[Found]]()
+    for each in walk.found:
+        visits.setdefault(each.claim.blocks[0].line, []).append(each)
     for line, several in visits.items():
         if line not in claims:
             yield several[0]
         for claimed in claims.get(line, ()):
             yield replace(_best(several, claimed), claimed=claimed)
+
+
+class _Walk:
+    """The contours of a program that are found on its ways."""
+
+    def __init__(self, dialect: Dialect, rules: str, matching: "_Matching", apart: int) -> None:
+        self._dialect, self._rules, self._matching, self._apart = dialect, rules, matching, apart
+        self._start_error = 0.0
+        self.found: list[Found] = []
+        self.reached: set[int] = set()
+        """The lines that the main program reaches."""
+
+    def read(
+        self, marked: dict[int, State], held: Sequence[Block], index: int, state: State, is_open: bool
+    ) -> tuple[int, Callable[[], State]] | None:
+        """What begins at a block, as `Ways` asks for it."""
+        ahead, block, modes = Ahead(held), held[index], self._dialect.modes
+        if block.mark:
+            marked[block.mark] = state
+        found = self._dialect.find(ahead, index, state, modes)
+        if is_open and ahead.is_passed:
+            return None
+        if found is None or not found.form.is_contour:
+            return 1, lambda: advance(state, block, modes)
+        behind, claimed = index + reach_of(found, held, index), self._matching.claimed(found)
+        if not block.file and (all(each.is_reached for each in block.callers) or block.line not in self.reached):
+            following = next_place(held[behind:], found, modes)
+            here = Found(found, claimed, self._start_error, self._dialect, following, self._rules, self._apart)
+            self.found.append(here)
+        self._start_error = PRINTED if claimed and claimed.end is not None else self._start_error
+        end = self._matching.end_of(found)
+        return behind - index, lambda: leave(found, end, modes, "the contour before has no path")
 
 
 def _best(several: Sequence[Found], claimed: ClaimedContour) -> Found:
@@ -243,16 +271,18 @@ def _distance(claimed: ClaimedContour, claim: ParsedContour) -> float:
     return sum(abs(a - b) if a is not None and b is not None else FARTHEST * (a is not b) for a, b in pairs)
 
 
-def _runs(program: Program, modes: Modes, around: Surroundings) -> Iterator[Sequence[Block] | ProgramEvent]:
-    """The blocks of a program between its events."""
-    machine = machine_of(program, modes.language, modes.syntax, around)
-    if machine is None:
-        yield program.blocks
-        return
-    for _, several in groupby(machine.run(), lambda each: isinstance(each, ProgramEvent)):
-        own = list(several)
-        yield from (each for each in own if isinstance(each, ProgramEvent))
-        yield [each for each in own if isinstance(each, Block)]
+def _runs(
+    program: Program, modes: Modes, around: Surroundings
+) -> Iterator[tuple[Sequence[Block], ProgramEvent | None]]:
+    """The blocks of a program between its events, each time with the event behind them."""
+    machine, run = machine_of(program, modes.language, modes.syntax, around), list[Block]()
+    for each in machine.run() if machine is not None else program.blocks:
+        if isinstance(each, Block):
+            run.append(each)
+        else:
+            yield run, each
+            run = []
+    yield run, None
 
 
 def with_facts(

@@ -96,7 +96,7 @@ LATHE = {
     "a variable increment": (f"{HERE}\nG01 U#5", 0, None, 2),
     "IF that would stop at a block that is not there": (f"{HERE}\nIF [#1 EQ 0] GOTO 100", 0, 20, None),
     "GOTO": (f"{HERE}\nGOTO 100", None, None, 2),
-    "WHILE": (f"{HERE}\nWHILE [#1 LT 5] DO1\n#1 = #1 + 1\nEND1", None, None, 4),
+    "WHILE": (f"{HERE}\nWHILE [#1 LT 5] DO1\n#1 = #1 + 1\nEND1", 0, 20, None),
     "an unknown G code": (f"{HERE}\nG189 X10.", None, None, 2),
     "an unknown G code without axes": (f"{HERE}\nG189", None, None, 2),
     "G91, which a lathe does not have": (f"{HERE}\nG91 Z-5.", None, None, 2),

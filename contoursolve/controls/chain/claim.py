@@ -118,6 +118,7 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         makes=_makes(form, members) if len(blocks) > len(members) else (),
         kept=kept,
         lasting=frozenset(name for name in known if name.partition(":")[2] in language.modal_corner),
+        doubts={mode: why for member in members for mode, why in member.here.doubts.items()},
     )
 
 

@@ -265,8 +265,11 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
     members, numbers, labels = chain.members, _numbers(chain), _labels(chain)
     bends = any(member.function in TANGENT[2:] for member in members)
     tangents = dict(senses(chain.blocks, before, modes)) if bends else {}
+    place = -1
     for member in members:
-        member.sense = tangents.get(member.block.line, 0)
+        # A line may run several times.
+        place = next(at for at in range(place + 1, len(chain.blocks)) if chain.blocks[at].line == member.block.line)
+        member.sense = tangents.get(place, 0)
     opening = next((n for n, each in enumerate(members, 1) if _sign_of(each.block, "CLSD") > 0), 0)
     is_closed = any(_sign_of(each.block, "CLSD") < 0 for each in members)
     elements: list[Element] = []

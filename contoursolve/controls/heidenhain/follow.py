@@ -154,10 +154,10 @@ def _statement(state: State, block: Block, modes: Modes) -> State:
 
 
 def senses(blocks: Sequence[Block], state: State, modes: Modes) -> Iterator[tuple[int, int]]:
-    """The lines of conventional arcs that begin in the direction of the block before them, and so have no DR: of those
-    whose ends and begin are known, each with 1 (counter-clockwise) or -1."""
+    """The indices of conventional arcs that begin in the direction of the block before them, and so have no DR: of
+    those whose ends and begin are known, each with 1 (counter-clockwise) or -1."""
     direction: complex | None = None
-    for block in blocks:
+    for index, block in enumerate(blocks):
         function, before = function_of(block), state
         state = follow(state, block, modes)
         start, end = _place(before), _place(state)
@@ -174,7 +174,7 @@ def senses(blocks: Sequence[Block], state: State, modes: Modes) -> Iterator[tupl
             chord = (end - start) / abs(end - start)
             turned = direction and chord / direction
             if turned:
-                yield block.line, 1 if turned.imag > 0 else -1
+                yield index, 1 if turned.imag > 0 else -1
             direction = direction * turned**2 if direction and turned else None
         else:
             direction = _behind_arc(block, before, start, end)

@@ -17,6 +17,7 @@ from contoursolve.controls.yasnac_lx3.lexicon import (
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import CornerShape, Given
 from contoursolve.reading import Code, ContourForm, Effect, Modes, ParsedContour, State, apply_modes, codes_of
+from contoursolve.reading.modal_state import Mode
 
 OTHER_G = "other G"
 """States that the block has a G code that uses the axis words itself."""
@@ -42,6 +43,7 @@ def after_cornering(block: Block, state: State, modes: Modes) -> State:
     after, motion = apply_modes(state, block, modes), state.motion
     if not modes.has(MOTION_AFTER, UNCHANGED):
         motion = 1
+        after = after.settle(Mode.MOTION, Mode.MOVE)
     return after if after.motion == motion else replace(after, motion=motion)
 
 
@@ -59,7 +61,8 @@ def claim_of(
 
     `refused` are addresses that a rule refuses; `supplied` are givens that the control derives from the words.
     """
-    codes = (code for code in codes_of(block, modes) if isinstance(code, Code))
+    codes = [code for code in codes_of(block, modes) if isinstance(code, Code)]
+    is_own = any(code.number == own for code in codes)
     others = [code.number for code in codes if code.number != own and code.effect in AXIS_EFFECTS]
     words: dict[str, Word] = {}
     repeated: list[Word] = []
@@ -100,6 +103,8 @@ def claim_of(
         vocabulary=_vocabulary(form),
         unknown=tuple(unknown),
         repeated=tuple(repeated),
+        # Multiple cornering, and a motion that the block states itself, take no part in the one in force.
+        doubts=(after.settle(Mode.MOTION, Mode.MOVE) if is_own else after).doubts,
         conventions=() if stated.keys().isdisjoint(_bevels(form)) else (modes.convention(BEVEL),),
     )
 

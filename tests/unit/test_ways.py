@@ -1,0 +1,262 @@
+"""Where it is not known which way a program takes: both are followed, and where they meet only what both agree on is
+known; a corner finds its neighbour on each of them."""
+
+import pytest
+from click.testing import CliRunner
+
+from contoursolve import OpenProgram, expand, solve
+from contoursolve.cli import main
+from contoursolve.output.document import to_json
+from contoursolve.solving import Status
+
+SIEMENS, LATHE, MILL = "siemens-840d", "fanuc-lathe", "fanuc-mill"
+J1 = """G00 X60. Z2.
+IF[#5042 GT 5.]GOTO20
+G01 X40. Z0 F0.2
+GOTO30
+N20 G01 X38. Z0 F0.2
+N30 Z-20. ,R2.
+X60.
+M30"""
+J3 = """G18 DIAMON G90
+G0 X60 Z2
+IF $AA_IM[X]>5
+ G1 X40 Z0 F0.2
+ELSE
+ G1 X38 Z0 F0.2
+ENDIF
+Z-20 RND=2
+X60
+M30"""
+CASE = """G18 DIAMON G90
+G0 X60 Z2
+CASE $AA_IM[X] OF 1 GOTOF ONE 2 GOTOF TWO DEFAULT GOTOF THREE
+ONE: G1 X40 Z0 F0.2
+GOTOF ON
+TWO: G1 X38 Z0 F0.2
+GOTOF ON
+THREE: G1 X38 Z0 F0.2
+ON: Z-20 RND=2
+X60
+M30"""
+ISG = """G17 G90 G0 X60 Y2
+$IF V.A.X > 5
+G1 X40 Y0
+$ELSEIF V.A.X > 3
+G1 X38 Y0
+$ELSE
+G1 X40 Y0
+$ENDIF
+Y-20 #RND=2
+X60
+M30"""
+KLARTEXT = """BEGIN PGM A MM
+L X+60 Y+2 R0 F100
+FN 18: SYSREAD Q1 = ID20 NR3
+FN 11: IF +Q1 GT +5 GOTO LBL 20
+L X+40 Y+0
+FN 9: IF +0 EQU +0 GOTO LBL 30
+LBL 20
+L X+38 Y+0
+LBL 30
+FL X+70 AN+20
+END PGM A MM"""
+G111 = (
+    "G00 X60. Z2.\nIF[#5042 GT 5.]GOTO20\nG00 X40. Z0.\nGOTO30\nN20 G00 X38. Z0.\nN30 G111 X100. A180. K-30. B120.\nM30"
+)
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "first", "second"),
+    [
+        (LATHE, J1, 3, 5),
+        ("haas-lathe", J1, 3, 5),
+        (SIEMENS, J3, 4, 6),
+        ("siemens-808d", CASE, 4, 8),
+        ("isg", ISG, 3, 5),
+        ("heidenhain", KLARTEXT, 5, 8),
+        ("yasnac-lx3", G111, 3, 5),
+    ],
+)
+def test_where_ways_meet_only_what_they_agree_on_is_known(control, text, first, second, tmp_path):
+    result = solve(text, control=control)
+    (answer,) = result.answers
+    (finding,) = answer.diagnostics
+    assert (finding.code, finding.addresses) == ("position-unknown", ("X",))
+    assert f"(program line {first})" in finding.message
+    assert f"(program line {second})" in finding.message
+    assert "decides" in finding.message
+    left = expand(text, control=control, keep_going=True).text.split("\n")
+    assert [line for line in left if "NOT EXPANDED" not in line] == text.split("\n")
+    # What both set alike is known.
+    alike = text.replace("X38", "X40").replace("X+38", "X+40")
+    assert [each.status for each in solve(alike, control=control).answers] == [Status.SOLVED]
+    assert expand(alike, control=control).summary.replaced == 1
+    opened = OpenProgram(text, control=control)
+    opened.check()
+    assert opened.diagnostics == result.diagnostics
+    file, claimed = tmp_path / "program.nc", tmp_path / "claimed.json"
+    for each in (text, alike):
+        file.write_text(each, encoding="utf-8")
+        claimed.write_text(to_json(solve(each, control=control)), encoding="utf-8")
+        done = CliRunner().invoke(main, ["verify", str(file), str(claimed), "--control", control])
+        # Of free contours without a path, verify checks nothing.
+        assert done.exit_code in (0, 2 if control == "heidenhain" else 0), done.output
+    path = tmp_path / "wrong.json"
+    path.write_text(claimed.read_text("utf-8"), encoding="utf-8")
+    file.write_text(text, encoding="utf-8")
+    assert CliRunner().invoke(main, ["verify", str(file), str(path), "--control", control]).exit_code == 1
+
+
+MODES = {
+    "motion": (
+        LATHE,
+        "G01",
+        "G00",
+        "the motion in force is not known here: G00 (program line 1) or G01 (program line 3)",
+    ),
+    "unit": (LATHE, "G20", "G21", "the unit is not known here: mm or inch (program line 3)"),
+    "increments": (MILL, "G91", "G90", "whether increments are in force is not known here: coordinates or increments"),
+    "plane": (MILL, "G19", "G17", "the plane is not known here: G17 or G19 (program line 3)"),
+    "diameters": (SIEMENS, "DIAMON", "DIAMOF", "whether X is a diameter is not known here: no code or DIAMON"),
+    "corners": (SIEMENS, "RNDM=1", "RNDM=0", "whether RNDM is in force is not known here: no RNDM or RNDM=1"),
+}
+
+
+@pytest.mark.parametrize("name", MODES)
+def test_a_mode_on_which_ways_do_not_agree_is_not_known(name):
+    control, code, other, told = MODES[name]
+    jump, label, plane = (
+        ("IF R99==1 GOTOF L5", "L5:", "G18 G90") if control == SIEMENS else ("IF[#599 EQ 1]GOTO5", "N5", "")
+    )
+    corner, first = (" RND=1", "Z") if control == SIEMENS else (" ,R1.", "Z" if control == LATHE else "Y")
+    own = "" if name == "motion" else "G01 "
+    lines = f"{plane} G00 X40. {first}0.\n{jump}\n{code}\n{label}\n{{}}{own}{first}-20.{corner}\nX60.\nM30"
+    (answer, *_) = solve(lines.format(""), control=control).answers
+    assert any(told in each.message for each in answer.diagnostics), [each.message for each in answer.diagnostics]
+    assert answer.contour is None
+    # Said again, it is known.
+    known = solve(lines.format(f"{'G01' if name == 'motion' else other}\n"), control=control)
+    assert {each.status for each in known.answers} <= {Status.SOLVED}
+    assert not any(each.is_error for each in known.diagnostics)
+
+
+def test_a_variable_on_which_ways_do_not_agree_names_both_lines():
+    text = "#1=3.\nIF[#599 EQ 1]GOTO5\n#1=5.\nN5 G00 X40. Z0.\nG01 Z-20. ,R#1\nX60."
+    messages = str(solve(text, control=LATHE).diagnostics)
+    assert "#1 is 3 (program line 1) or 5 (program line 3); program line 2 decides" in messages
+    assert [each.status for each in solve(text.replace("5.\n", "3.\n"), control=LATHE).answers] == [Status.SOLVED]
+    then = "G00 X40. Z0.\nIF[#599 EQ 1]THEN #1=5.\nG01 Z-20. ,R#1\nX60."
+    assert "#1 is 5 (program line 2) or not set; program line 2 decides" in str(solve(then, control=LATHE).diagnostics)
+
+
+LOOPS = {
+    "jump back": (LATHE, "N5 G01 Z-20. ,R1.\nX50.\n{}IF[#599 EQ 1]GOTO5"),
+    "WHILE": (LATHE, "WHILE[#599 EQ 1]DO1\nG01 Z-20. ,R1.\nX50.\n{}END1"),
+    "a way out of an endless loop": (LATHE, "N5 IF[#599 EQ 1]GOTO9\nG01 Z-20. ,R1.\nX50.\n{}GOTO5\nN9 G00 X100."),
+    "REPEAT": (SIEMENS, "REPEAT\nG01 Z-20. RND=1\nX50.\n{}UNTIL R99==1"),
+    "LOOP": (SIEMENS, "LOOP\nG01 Z-20. RND=1\nX50.\n{}IF R99==1 GOTOF OUT\nENDLOOP\nOUT: G0 X100."),
+    "FOR": (SIEMENS, "FOR R1=1 TO R99\nG01 Z-20. RND=1\nX50.\n{}ENDFOR"),
+    "GOTOB": (SIEMENS, "BACK: G01 Z-20. RND=1\nX50.\n{}IF R99==1 GOTOB BACK"),
+}
+
+
+@pytest.mark.parametrize("name", LOOPS)
+def test_the_head_of_a_loop_is_reached_from_above_and_from_its_end(name):
+    control, text = LOOPS[name]
+    head = "G18 G90 DIAMON\n" if control == SIEMENS else ""
+    whole = f"{head}G00 X40. Z2.\n{text}\nG00 X100.\nM30"
+    (answer,) = solve(whole.format(""), control=control).answers
+    (finding,) = answer.diagnostics
+    assert finding.addresses == ("Z", "X")
+    assert finding.message.count("(program line ") == 4
+    (answer,) = solve(whole.format("G00 X40. Z2.\n"), control=control).answers
+    assert answer.status is Status.SOLVED
+
+
+B10 = """PROC REC(INT K)
+G18 G90 DIAMON
+G0 X60 Z2
+G1 X40 F0.2
+IF K>0
+  Z-20 RND=2
+ELSE
+  Z-25 RND=3
+ENDIF
+X52
+Z-40
+M17"""
+
+
+def ends(answer):
+    return [tuple(round(at, 3) for at in each.end) for each in answer.contour.elements]
+
+
+def test_a_corner_finds_its_neighbour_behind_the_end_of_a_branch():
+    result = solve(B10, control=SIEMENS)
+    assert [each.lines for each in result.answers] == [(6, 10), (8, 10)]
+    assert [ends(each) for each in result.answers] == [
+        [(-18.0, 20.0), (-20.0, 22.0), (-20.0, 26.0)],
+        [(-22.0, 20.0), (-25.0, 23.0), (-25.0, 26.0)],
+    ]
+    assert not result.diagnostics
+    left = expand(B10, control=SIEMENS, keep_going=True)
+    assert left.summary.replaced == 0
+    assert ";NOT EXPANDED: program line 10 is cut in another way" in left.text
+
+
+def test_a_corner_finds_its_neighbour_behind_a_jump_and_keeps_it():
+    text = "G00 X50. Z2.\nIF[#3 EQ #0]GOTO 5\nG01 Z-10. ,R1.\nN5 X60.\nM30"
+    result = solve(text, control=LATHE)
+    assert ends(result.answers[0]) == [(-9.0, 25.0), (-10.0, 26.0), (-10.0, 30.0)]
+    before = "G00 X50. Z2.\nG01 Z-10. ,R1.\nIF[#3 EQ 1]GOTO 5\nX60.\nGOTO6\nN5 X70.\nN6 G00 X100.\nM30"
+    found = solve(before, control=LATHE)
+    assert [each.lines for each in found.answers] == [(2, 4), (2, 6)]
+    assert not any(each.is_error for each in found.diagnostics)
+    assert expand(before, control=LATHE, keep_going=True).summary.replaced == 0
+    large = solve(text.replace(",R1.", ",R9."), control=LATHE)
+    assert not any("N5" not in fix.replacement for each in large.diagnostics for fix in each.fixes)
+
+
+S1 = """DEF INT NN
+G18 G90 DIAMOF
+G0 X30 Z2
+G1 X20 F0.2
+FOR NN=0 TO 2
+ X=20 Z=-5-8*NN RND=0.6
+ X=17 Z=-7-8*NN RND=0.4
+ X=17 Z=-9-8*NN RND=0.4
+ X=20 Z=-11-8*NN RND=0.6
+ENDFOR
+X=20 Z=-40
+X30
+M30"""
+
+
+def test_a_corner_finds_its_neighbour_in_the_next_pass_of_a_loop():
+    result = solve(S1, control=SIEMENS)
+    (answer,) = result.answers
+    assert not result.diagnostics
+    assert len(answer.contour.elements) == 25
+    flat = [
+        line.format(*(each - 8 * n for each in (-5, -7, -9, -11)))
+        for n in range(3)
+        for line in ("X20 Z{0} RND=0.6\nX17 Z{1} RND=0.4\nX17 Z{2} RND=0.4\nX20 Z{3} RND=0.6",)
+    ]
+    text = "\n".join(["G18 G90 DIAMOF\nG0 X30 Z2\nG1 X20 F0.2", *flat, "X20 Z-40\nX30\nM30"])
+    assert ends(answer) == ends(solve(text, control=SIEMENS).answers[0])
+    assert "its blocks run several times" in expand(S1, control=SIEMENS, keep_going=True).text
+    inline, plain = (expand(each, control=SIEMENS, inline=True, comments=False).text for each in (S1, text))
+    assert inline.replace(" G", "G").split("\n")[3:] == plain.split("\n")[3:]
+    fanuc = "#1=0\nG00 X40. Z0.\nWHILE[#1 LT 3]DO1\nG01 X[50.+#1*10.] ,R1.\nZ-[10.+#1*10.] ,R1.\n#1=#1+1\nEND1\nX90."
+    (answer,) = solve(fanuc, control=LATHE).answers
+    assert (answer.status, answer.lines) == (Status.SOLVED, (4, 5, 4, 5, 4, 5, 8))
+
+
+def test_a_way_that_leaves_a_subprogram_meets_the_other_behind_the_call():
+    text = "G00 X40. Z0.\nM98 P1\n{}G01 Z-20. ,R1.\nX60.\nM30\nO1\nIF[#599 EQ 1]GOTO9\nG00 X50.\nN9 M99"
+    (finding,) = solve(text.format(""), control=LATHE).diagnostics
+    assert "X40. (program line 1) or X50. (program line 8)" in finding.message
+    assert solve(text.format("G00 X40.\n"), control=LATHE).answers[0].status is Status.SOLVED
+    early = "G00 X40. Z0.\nIF[#599 EQ 1]GOTO99\nG00 X50.\nGOTO8\nN99 M30\nN8 G01 Z-20. ,R1.\nX60.\nM30"
+    assert ends(solve(early, control=LATHE).answers[0])[0] == (-19.0, 25.0)
