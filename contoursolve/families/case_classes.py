@@ -246,16 +246,19 @@ class CaseClass(Struct, frozen=True, eq=False):
         return {name: given.value for name, given in self.profile.givens.items() if name not in self.free}
 
 
-def case_of(template: Template, values: Mapping[str, float], answer: Answer | None = None) -> CaseClass:
+def case_of(
+    template: Template, values: Mapping[str, float], answer: Answer | None = None, *, is_sampled: bool = False
+) -> CaseClass:
     """The class of the row with these values; `answer` is its single solve. Raises FamilyError where a word cannot
-    vary, and where only each row itself tells how it is read."""
+    vary, and where only each row itself tells how it is read: `is_sampled` tells that others were read, too, as far as
+    their values follow the words."""
     answer = answer or template.solve(values)
     status = verdict_of(answer)
     if status is not None:
         # What is refused may not even state the value.
         return CaseClass(answer.profile, status, {})
     reading = trace_reading(template, values, answer)
-    if reading.is_by_row:
+    if reading.is_by_row and not (is_sampled and reading.is_followed):
         names = join([called(name) for name in template.words])
         raise NotClosedError(f"each value of {names} decides how the block is read; {INSTEAD}")
     following = {word for each in (*reading.givens.values(), *reading.start.values()) for word in each.factors}
@@ -363,6 +366,8 @@ class FreeWords:
         self.units = ["deg" if kind is Unit.DEGREE else self.answer.unit.value for kind in self.kinds]
         self._answers = {self.values: self.answer}
         self._cases: list[CaseClass] = []
+        self.is_sampled = False
+        """Whether it was looked at many values how the block is read, which each decides."""
         self.doubts: list[str] = []
         """What is not proven, and why; empty if everything is."""
 
@@ -382,7 +387,7 @@ class FreeWords:
 
     def case_at(self, *values: float) -> CaseClass:
         """How the words are read at these values."""
-        case = case_of(self.template, self.at(values), self.answer_at(*values))
+        case = case_of(self.template, self.at(values), self.answer_at(*values), is_sampled=self.is_sampled)
         self._cases.append(case)
         return case
 

@@ -175,12 +175,14 @@ def limits_beside(rules: Sequence[Rule], claim: ParsedContour, word: Word) -> It
 
 class Example(Struct, frozen=True):
     """A row of a class that the rules or the reading may tell apart: its key, its values, and how many rows are in the
-    class. With `is_by_row`, every row of this key is read by itself, and those that are read alike are a class."""
+    class. With `is_by_row`, every row of this key is read by itself, and those that are read alike are a class.
+    `others` are the values of another row of the key, the last one."""
 
     key: int
     values: tuple[float, ...]
     count: int
     is_by_row: bool = False
+    others: tuple[float, ...] = ()
 
 
 class Examples(Struct, frozen=True):
@@ -216,8 +218,13 @@ def examples_of(template: Template, ranges: Ranges) -> Examples:
         if more == limits:
             break
         limits = more
-    rows = [row for row in found.rows if not known[row.values].is_by_row]
-    rest = {row.key: row for row in found.rows if known[row.values].is_by_row}
+    rest = {
+        row.key: row
+        for row in found.rows
+        if known[row.values].is_by_row
+        or not known[row.values].holds(template, dict(zip(names, row.others, strict=True)))
+    }
+    rows = [row for row in found.rows if row.key not in rest]
     rows += _kinds_of(template, ranges, found, rest) if rest else ()
     return replace(found, rows=tuple(sorted(rows, key=lambda row: row.key)))
 
@@ -258,12 +265,17 @@ def _examples_between(limits: tuple[WordLimits, ...], ranges: Ranges) -> Example
     numbers = [each.intervals(values) for each, values in zip(limits, words, strict=True)]
     columns = [_key_of(numbers, limits)] if ranges.is_paired else numbers
     unique = [numpy.unique(each, return_index=True, return_counts=True) for each in columns]
+    lasts = [each.size - 1 - numpy.unique(each[::-1], return_index=True)[1] for each in columns]
     rows: list[Example] = []
-    for choice in product(*(zip(*(each.tolist() for each in found), strict=True) for found in unique)):
-        own, firsts, counts = zip(*choice, strict=True)
-        places = firsts * len(words) if ranges.is_paired else firsts
+    parts = [(*each, last) for each, last in zip(unique, lasts, strict=True)]
+    for choice in product(*(zip(*(each.tolist() for each in found), strict=True) for found in parts)):
+        own, firsts, counts, ends = zip(*choice, strict=True)
         key = own[0] if ranges.is_paired else int(_key_of(own, limits))
-        rows.append(Example(key, tuple(float(each[at]) for each, at in zip(words, places, strict=True)), prod(counts)))
+        values, others = (
+            tuple(float(each[at]) for each, at in zip(words, places * repeats, strict=True))
+            for places, repeats in ((firsts, len(words) // len(firsts)), (ends, len(words) // len(ends)))
+        )
+        rows.append(Example(key, values, prod(counts), others=others))
     return Examples(limits, tuple(rows))
 
 

@@ -2,7 +2,7 @@
 values at which one part ends.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import groupby, pairwise
 from math import copysign, inf, isfinite, sqrt
 
@@ -16,6 +16,7 @@ from contoursolve.families.branches import Branch, branches_of
 from contoursolve.families.case_classes import INSTEAD, CaseClass, FreeWords
 from contoursolve.families.spec import FamilyError, NotClosedError, Template
 from contoursolve.families.subdivision import FEW, SAMPLES, STRETCHES, STRETCHES_FIRST, section, subdivide
+from contoursolve.families.traced_reading import Alike, place_of_contour, read_alone, trace_reading
 from contoursolve.geometry import Unit
 from contoursolve.numeric.intervals import Array, Intervals
 from contoursolve.solving.checks import Check
@@ -44,6 +45,9 @@ DEPTH = 1
 
 WIDE = 2_000.0
 """A range wider than this is divided by decades about zero."""
+
+READ = 64
+"""Values that are read by themselves between two limits, where each value decides how the block is read."""
 
 TRIED = 0.382
 """Share of a piece at which a single solve must agree with the solutions in closed form."""
@@ -183,6 +187,19 @@ def _passing(lines: Sequence[Sequence[Stretch]]) -> list[_Passing]:
     return found
 
 
+def _changes(kind: Callable[[float], Alike], low: float, high: float) -> Iterator[float]:
+    """Where the kind of a value changes between two others, each to the last digit of a double."""
+    own, last, begin = kind(low), kind(high), low
+    for _ in range(READ):
+        if own == last:
+            return
+        inside, outside = begin, high
+        while inside < (half := (inside + outside) / 2) < outside:
+            inside, outside = (half, outside) if kind(half) == own else (inside, half)
+        begin, own = outside, kind(outside)
+        yield begin
+
+
 class RangeSearch(FreeWords):
     """One word of one block."""
 
@@ -212,7 +229,8 @@ class RangeSearch(FreeWords):
 
     def pieces(self, low: float, high: float) -> list[RangePiece]:
         """The range in order: stretches, with the value between two of them wherever it may differ from both."""
-        (marks,) = self.marks([(low, high)])
+        (limits,) = self.marks([(low, high)])
+        marks = [low, *(mark for a, b in pairwise(limits) for mark in (*self._turns(a, b), b))]
         cases = [self.case_at(self.stated if a < self.stated < b else (a + b) / 2) for a, b in pairwise(marks)]
         found = [self._value(low)]
         begin = low
@@ -222,6 +240,34 @@ class RangeSearch(FreeWords):
             found += [*self._stretches(case, begin, mark), self._value(mark)]
             begin = mark
         return list(self._closed(found))
+
+    def _turns(self, low: float, high: float) -> list[float]:
+        """The values between two limits at which the block begins to be read in another way, where each value decides
+        how; found between values that are read by themselves."""
+        middle = self.at([(low + high) / 2])
+        reading = trace_reading(self.template, middle, self.answer_at(*middle.values()))
+        if not reading.is_by_row:
+            return []
+        like = place_of_contour(self.template, middle)
+
+        def kind(value: float) -> Alike:
+            return read_alone(self.template, self.at([value]), like).kind
+
+        found = list[float]()
+        places = numpy.linspace(low, high, READ + 2)[1:-1].tolist()
+        for each in (change for ends in pairwise(places) for change in _changes(kind, *ends)):
+            if found and each - found[-1] <= LEAST_GAP:
+                found[-1] = (found[-1] + each) / 2
+            else:
+                found.append(each)
+        for begin, end in pairwise([low, *found, high]):
+            ends = [self.at([begin + share * (end - begin)]) for share in (0.25, 0.5, 0.75)]
+            own_reading = trace_reading(self.template, ends[1], self.answer_at(*ends[1].values()))
+            if not all(own_reading.holds(self.template, each) for each in ends):
+                return []
+        self.is_sampled = True
+        self.doubt(low, high, f"each value decides how the block is read, and it was read at {READ} of them")
+        return found
 
     def _value(self, value: float) -> RangePiece:
         return RangePiece(value, value, self.is_solved(value), None)
@@ -255,6 +301,9 @@ class RangeSearch(FreeWords):
                 own = list(group)
                 branch = branches[0] if is_passed else None
                 piece = RangePiece(own[0].low, own[-1].high, branch is not None, case, branch)
+                at = piece.low + TRIED * (piece.high - piece.low)
+                if self.is_sampled and self.is_solved(at) is not piece.is_solved:
+                    raise NotClosedError(f"at {self.word} {value_text(at, self.unit)} the closed form fails; {INSTEAD}")
                 yield from self._parted(piece, holes)
             return
         for piece in self._together(case, branches, lines):

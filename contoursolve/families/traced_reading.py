@@ -178,13 +178,32 @@ class Reading(Struct, frozen=True, eq=False):
     start: Mapping[int, Affine]
     borders: tuple[Affine, ...]
     is_calculated: bool
+    claim: ParsedContour | None = None
+    """The contour as it was read, of numbers that remember their words."""
 
     @property
     def is_by_row(self) -> bool:
         """Whether only the row itself tells how it is read: what decides is calculated, or several words together do,
         or a value follows several of them."""
-        values = (*self.borders, *self.givens.values(), *self.start.values())
-        return self.is_calculated or any(len(each.factors) > 1 for each in values)
+        return self.is_calculated or not self.is_followed or any(len(each.factors) > 1 for each in self.borders)
+
+    @property
+    def is_followed(self) -> bool:
+        """Whether each value follows one word at most."""
+        return all(len(each.factors) == 1 for each in (*self.givens.values(), *self.start.values()))
+
+    def holds(self, template: Template, values: Mapping[str, float]) -> bool:
+        """Whether the row of other values, read by itself, states what follows from this one: what a number forgets,
+        such as a text that is read again, does not stay hidden."""
+        there = read_row(template, values, self.claim) if self.claim is not None else None
+        if self.claim is None or there is None:
+            return False
+        numbers, others = _numbers_of(self.claim), _numbers_of(there)
+        return (
+            _alike(self.claim) == _alike(there)
+            and numbers.keys() == others.keys()
+            and all(abs(_at(each, values) - others[name]) <= _SAME for name, each in numbers.items())
+        )
 
 
 def trace_reading(template: Template, values: Mapping[str, float], answer: Answer) -> Reading:
@@ -197,7 +216,7 @@ def trace_reading(template: Template, values: Mapping[str, float], answer: Answe
     givens = {name: each.value.follows for name, each in claim.givens.items() if isinstance(each.value, Traced)}
     begins = enumerate(claim.before.start().values)
     start = {axis: value.follows for axis, value in begins if isinstance(value, Traced)}
-    return Reading(givens, start, tuple(notes.borders.values()), notes.is_calculated)
+    return Reading(givens, start, tuple(notes.borders.values()), notes.is_calculated, claim)
 
 
 def _is_read_so(claim: ParsedContour, answer: Answer) -> bool:
@@ -293,10 +312,32 @@ def read_alone(template: Template, values: Mapping[str, float], like: ParsedCont
     claim = read_row(template, values, like) if like is not None else None
     if claim is None:
         claim = template.solve(values).claim
+    return RowReading(
+        _alike(claim), {**values, **{OWN + name: float(each) for name, each in _numbers_of(claim).items()}}
+    )
+
+
+def _alike(claim: ParsedContour) -> Alike:
+    """What a contour has that is no number."""
     profile = read(claim, frozenset())
-    starts = profile.start.values
-    found = {OWN + name: float(given.value) for name, given in claim.givens.items()}
-    found |= {f"{OWN}start {axis}": float(value) for axis, value in enumerate(starts) if value is not None}
-    known = tuple(value is not None for value in starts)
-    kind = (profile.layout, profile.plane, profile.choices, profile.picks, claim.circumstances, known)
-    return RowReading(kind, {**values, **found})
+    known = tuple(value is not None for value in profile.start.values)
+    return profile.layout, profile.plane, profile.choices, profile.picks, claim.circumstances, known
+
+
+def _numbers_of(claim: ParsedContour) -> dict[str, Decimal]:
+    """All that a contour states in numbers, by name: the coordinates of its start point as `start 0` and `start 1`."""
+    starts = enumerate(claim.before.start().values)
+    found = {f"start {axis}": value for axis, value in starts if value is not None}
+    return found | {name: given.value for name, given in claim.givens.items()}
+
+
+def _at(value: Decimal, values: Mapping[str, float]) -> Decimal:
+    """What a number is in the row of these values."""
+    if not isinstance(value, Traced):
+        return value
+    parts = (factor * Decimal(repr(values[name])) for name, factor in value.follows.factors.items())
+    return value.follows.constant + sum(parts, Decimal(0))
+
+
+_SAME = Decimal("1e-9")
+"""mm or degrees. By how much the rounding of decimals may part two numbers."""

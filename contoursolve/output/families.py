@@ -8,6 +8,7 @@ from contoursolve.diagnosis.solutions import printed_certificate
 from contoursolve.diagnosis.wording import axis_labels, count, length_in, measured, short_name, written
 from contoursolve.diagnostics.json_text import members
 from contoursolve.families import CompiledSweep, Effect, End, Family, Feasible, Found, Hit, Reason, Region, Tolerances
+from contoursolve.families.range_pieces import LEAST_GAP
 from contoursolve.geometry import Length
 from contoursolve.output.plain_text import Table
 from contoursolve.output.resting import resting_data, resting_texts
@@ -54,8 +55,10 @@ def range_table(found: Feasible) -> Table:
     """Two rows for each range: its number, which end, the value, and what ends it there."""
     rows = []
     for place, each in enumerate(found.intervals, 1):
-        rows.append((f"{place}.", "from", *_end_cells(each.low, found.unit, -1)))
-        rows.append(("", "to", *_end_cells(each.high, found.unit, 1)))
+        # Rounded inwards, the ends of what is narrower than the digits shown would change places.
+        way = int(each.high.value - each.low.value > LEAST_GAP)
+        rows.append((f"{place}.", "from", *_end_cells(each.low, found.unit, -way)))
+        rows.append(("", "to", *_end_cells(each.high, found.unit, way)))
     return Table("Where the contour exists", ("range", "end", "value", "what ends it"), rows, left=(0, 1, 3))
 
 

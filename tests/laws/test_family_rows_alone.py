@@ -106,9 +106,28 @@ def test_a_centre_and_the_end_of_a_chain_are_points_that_a_word_brings_somewhere
     assert hit.point[0] == pytest.approx(40)
 
 
-def test_where_only_a_row_tells_which_way_an_arc_turns_no_range_is_told():
-    with pytest.raises(FamilyError, match=r"each value of Y of block 2 decides how the block is read; solve it value"):
-        feasible(TURNED, "2:Y", within=(20, 40), **SINUMERIK)
+BENT = "G17 G90 G1 X10 Y0\nCT X20 Y5"
+
+
+def test_a_range_goes_on_where_an_arc_turns_over():
+    found = feasible(BENT, "2:Y", within=(-20, 20), **SINUMERIK)
+    assert not found.is_complete
+    # Between the arcs of both senses, of less than 1,000 m, it is a line.
+    for value in (-20, -0.01, 0, 0.01, 20):
+        assert value in found
+    assert 5e-5 not in found
+    assert 5e-5 not in feasible(BENT, "2:Y", within=(5e-6, 20), **SINUMERIK)
+
+
+@pytest.mark.parametrize(("goal", "value"), [("C Y20", 20 - 300**0.5), ("C Y-20", 300**0.5 - 20)])
+def test_a_value_is_found_on_either_side_of_where_an_arc_turns_over(goal, value):
+    (hit,) = find_word(BENT, "2:Y", goal, within=(-9, 9), **SINUMERIK).hits
+    assert hit.value == pytest.approx(value)
+
+
+def test_two_words_that_each_decide_have_no_region():
+    with pytest.raises(FamilyError, match=r"each value of X of block 1 and Y of block 2 decides how the block is read"):
+        region(BENT, ("1:X", "2:Y"), ((5, 15), (-5, 5)), **SINUMERIK)
 
 
 def test_derivatives_by_a_direction_that_is_handed_on_count_all_that_it_turns():
