@@ -7,6 +7,7 @@ from typing import Any
 
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.diagnostics.source import OWN, Evidence, Source
+from contoursolve.execution.machine import MOST_BLOCKS, Limit
 from contoursolve.gcode import FaultKind
 from contoursolve.reading import ReadIssue, Setting, WithoutPoint
 from contoursolve.reading.dialect import Dialect
@@ -100,7 +101,17 @@ TRAVEL_SETTING = length_setting(
     _own("no machine is larger"),
     most=int(LARGEST),
 )
-"""One of every control."""
+BLOCKS_SETTING = Setting(
+    Limit().setting,
+    "how many blocks may run again, or in another file, before a program is said to go on for ever",
+    {f"{MOST_BLOCKS}": "blocks"},
+    f"{MOST_BLOCKS}",
+    _own("programs are shorter, and one that never ends is told at once"),
+    bounds=(Decimal(1), Decimal(100_000_000)),
+    unit="blocks",
+)
+SETTINGS_OF_ALL = (TRAVEL_SETTING, BLOCKS_SETTING)
+"""Those of every control."""
 
 _GRAMMAR = _own("grammar of a word: an address and a number")
 _READING = _own("modal state of a program")

@@ -42,8 +42,16 @@ from contoursolve.execution.subprograms import Library, Part, Source, Surroundin
 from contoursolve.execution.variables import Variables
 from contoursolve.gcode import Block, Caller, Program, Substitution, Syntax, parse_block, split_lines
 
-MOST_STEPS = 100_000
+MOST_BLOCKS = 5_000
 """Blocks that run again, or in another file, after which a program is not followed any further."""
+
+
+class Limit(Struct, frozen=True):
+    """How many blocks may run again, or in another file, and the name of the setting that says so."""
+
+    blocks: int = MOST_BLOCKS
+    setting: str = "most-blocks"
+
 
 DEEPEST = 50
 """Calls in one another; controls admit ten at most."""
@@ -59,13 +67,17 @@ def needs_running(lines: Iterable[str], language: MacroLanguage | None) -> bool:
 
 
 def machine_of(
-    program: Program, language: MacroLanguage | None, syntax: Syntax, around: Surroundings
+    program: Program,
+    language: MacroLanguage | None,
+    syntax: Syntax,
+    around: Surroundings,
+    limit: Limit | None = None,
 ) -> "Machine | None":
     """What runs a program; None for one that neither calls, jumps nor computes."""
     lines = split_lines(program.text) or [block.text for block in program.blocks]
     if language is None or not needs_running(lines, language):
         return None
-    return Machine(program, language, Library(language, syntax, around.folders), around.values)
+    return Machine(program, language, Library(language, syntax, around.folders), around.values, limit)
 
 
 class _Loop(Struct):
@@ -109,6 +121,9 @@ Place = tuple[tuple[float, float], ...]
 """How far a way has come through a program: of two ways, the one that has come less far has to run first."""
 
 
+_Begun = tuple[str, int, int, frozenset[tuple[str, Known]]]
+
+
 class _Frame(Struct):
     """A program, a subprogram or a section that runs: the indices of its next, first and last line."""
 
@@ -122,6 +137,8 @@ class _Frame(Struct):
     """How often it runs, this time included."""
     own: dict[str, Known] | None = None
     """Its local variables, if it has some of its own."""
+    begun: _Begun | None = None
+    """The lines that a call runs, and what all variables held then."""
     loops: list[_Loop] = field(default_factory=list)
     branches: list[_Branch] = field(default_factory=list)
     here: int = 0
@@ -185,14 +202,19 @@ class Machine:
     """One run of a program. `given` are values of variables that are stated apart from it."""
 
     def __init__(
-        self, program: Program, language: MacroLanguage, library: Library, given: Mapping[str, float] | None = None
+        self,
+        program: Program,
+        language: MacroLanguage,
+        library: Library,
+        given: Mapping[str, float] | None = None,
+        limit: Limit | None = None,
     ) -> None:
         self.language, self.library = language, library
         self.main = Source(program, language, is_other=False)
         self.variables = Variables(language, given or {}, self._own)
         self._frames: list[_Frame] = []
         self._visited: set[int] = set()
-        self._steps = 0
+        self._steps, self._limit = 0, limit or Limit()
         self._waiting: dict[Place, _Way] = {}
         """The ways that wait."""
         self._kept_ways, self._decided = 0, ""
@@ -235,7 +257,7 @@ class Machine:
         self._is_reached = False
         for index in range(len(self.main)):
             if index not in self._visited and self._says_something(index):
-                if self._steps >= MOST_STEPS:
+                if self._steps >= self._limit.blocks:
                     yield from self._unfollowed(index)
                     return
                 yield self._run_what_is_left(index)
@@ -320,8 +342,9 @@ class Machine:
             if not frame.rest and (frame.at > frame.last or is_known):
                 yield from self._leave(frame)
                 continue
-            if self._steps >= MOST_STEPS:
-                told = f"the program runs more than {MOST_STEPS:,} blocks; it is not followed any further"
+            if self._steps >= self._limit.blocks:
+                most = f"more than {self._limit.blocks:,} blocks run again"
+                told = f"{most}: the program may never end; --set {self._limit.setting}=NUMBER follows more of them"
                 yield ProgramEvent(EventKind.STOPPED, frame.source.blocks[frame.at].line, told)
                 return
             # A long program is no endless one.
@@ -702,10 +725,14 @@ class Machine:
         """Whether everything was the same before where a line leads back."""
         calls = tuple((each.source.name, each.at, each.left) for each in self._frames)
         # Values have no order; what they were is all that matters.
-        now = hash((frame.source.name, index, target, calls, frozenset(self.variables.values.items())))
+        now = hash((frame.source.name, index, target, calls, self._values()))
         known = now in self._passed
         self._passed.add(now)
         return known
+
+    def _values(self) -> frozenset[tuple[str, Known]]:
+        """What all variables hold."""
+        return frozenset(self.variables.all().items())
 
     def _target(self, frame: _Frame, index: int, jump: Jump) -> int | None:
         last = frame.last if frame.call is None or frame.call.kind is not CallKind.PROFILE else len(frame.source) - 1
@@ -890,10 +917,7 @@ class Machine:
             return
         source, first, last = found
         if last < first:
-            begins, ends = (source.blocks[each].line for each in (first, last))
-            runs = f"repeats from line {begins} up to itself" if last == index - 1 else f"runs from line {begins}"
-            behind = "that line stands behind it" if last == index - 1 else f"its last line, {ends}, stands before that"
-            raise _RefusedError(f"{text} {runs}, but {behind}")
+            raise _RefusedError(f"{text} {_backwards(source, first, last, index)}")
         if len(self._frames) >= DEEPEST:
             yield from self._unwind(source, first)
             raise _RefusedError(f"line {line} calls itself again and again: {DEEPEST} calls in one another")
@@ -915,12 +939,21 @@ class Machine:
                 yield ProgramEvent(EventKind.BARRIER, line, told)
             return
         own = self._arguments(call, source, first)
+        begun = self._begun(line, source, first, last, own)
         caller = Caller(line, text, call.cycle, self._is_reached)
         if call.kind is CallKind.PROFILE:
             yield ProgramEvent(EventKind.ENTER, line, call.cycle)
             if is_behind:
                 frame.at = last + 1
-        self._frames.append(_Frame(source, first, first, last, call, (*frame.callers, caller), times, own))
+        self._frames.append(_Frame(source, first, first, last, call, (*frame.callers, caller), times, own, begun))
+
+    def _begun(self, line: int, source: Source, first: int, last: int, own: Mapping[str, Known] | None) -> _Begun:
+        """What a call runs, and with which values. Refuses to run what runs already with the same ones: it would call
+        itself for ever."""
+        begun = source.name, first, last, frozenset({**self.variables.values, **(own or {})}.items())
+        if any(each.begun == begun for each in self._frames):
+            raise _RefusedError(f"line {line} calls itself again and again: nothing changes from call to call")
+        return begun
 
     def _as_written(self, frame: _Frame, index: int) -> Block:
         """A line that stays as it is written; of one whose words have run, its statements."""
@@ -1052,6 +1085,14 @@ _DOES: Mapping[type[MacroStatement], str] = {
 def _ends_last(statements: Sequence[MacroStatement]) -> list[MacroStatement]:
     """The statements of a line, in whatever order they stand: what ends a program comes last."""
     return sorted(statements, key=lambda each: (isinstance(each, ProgramEnd | Return), isinstance(each, Return)))
+
+
+def _backwards(source: Source, first: int, last: int, index: int) -> str:
+    """That a call on a line names lines of which the last one stands before the first one."""
+    begins, ends = (source.blocks[each].line for each in (first, last))
+    if last == index - 1:
+        return f"repeats from line {begins} up to itself, but that line stands behind it"
+    return f"runs from line {begins}, but its last line, {ends}, stands before that"
 
 
 _ADDRESS = re.compile(r",?[A-Z][ \t]*\Z", re.IGNORECASE)

@@ -11,7 +11,7 @@ from contoursolve.diagnosis.explain import Context, context_of, report
 from contoursolve.diagnosis.wording import join, measured
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Fix, Label, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.execution.machine import Machine, machine_of
+from contoursolve.execution.machine import Limit, Machine, machine_of
 from contoursolve.execution.subprograms import Surroundings
 from contoursolve.gcode import Block, Caller, Program, Substitution
 from contoursolve.program.profiles import CycleProfile, profiles_of, turns_back
@@ -30,7 +30,8 @@ _ALIKE = 6
 
 def machine_for(program: Program, dialect: Dialect, around: Surroundings) -> Machine | None:
     """What runs a program; None for one that neither calls, jumps nor computes."""
-    return machine_of(program, dialect.modes.language, dialect.modes.syntax, around)
+    limit = Limit(dialect.modes.most_blocks, f"{dialect.name}.{Limit().setting}")
+    return machine_of(program, dialect.modes.language, dialect.modes.syntax, around, limit)
 
 
 def in_text_order(

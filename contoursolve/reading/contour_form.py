@@ -32,7 +32,8 @@ class Setting:
     """One convention: what it decides, its values with what each means, the one in force unless told otherwise,
     and why.
 
-    The value of one with `bounds` is a number between them, both in mm, and its values are the default one alone.
+    The value of one with `bounds` is a number between them, both in `unit`, and its values are the default one alone; a
+    number of blocks is a whole one.
     """
 
     name: str
@@ -43,20 +44,28 @@ class Setting:
     bounds: tuple[Decimal, Decimal] | None = None
     changes: Mapping[str, Callable[[Any], Any]] = field(default_factory=dict)
     """Where a value is about more than its contours: from the control to the control with it, by the value."""
+    unit: str = "mm"
+    """Of a number: `mm` or `blocks`."""
 
     def choices(self, value: str) -> str:
         """What it can be, if it cannot have this value; else empty."""
         if self.bounds is None:
             return "" if value in self.values else f"values are: {', '.join(self.values)}"
         least, most = self.bounds
-        is_number = _NUMBER.fullmatch(value) is not None
-        return "" if is_number and least <= Decimal(value) <= most else f"it is a number from {least} to {most} mm"
+        pattern = _NUMBER if self.unit == "mm" else _WHOLE
+        is_number = pattern.fullmatch(value) is not None
+        return (
+            ""
+            if is_number and least <= Decimal(value) <= most
+            else f"it is a number from {least} to {most} {self.unit}"
+        )
 
     def meaning_of(self, value: str) -> str:
         """What a value means."""
-        return self.values[value] if self.bounds is None else f"{self.meaning}: {value} mm"
+        return self.values[value] if self.bounds is None else f"{self.meaning}: {value} {self.unit}"
 
 
+_WHOLE = re.compile(r"\d{1,9}", re.ASCII)
 _NUMBER = re.compile(r"\d{1,9}(\.\d{0,9})?|\.\d{1,9}", re.ASCII)
 
 

@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnostics.source import Span
 from contoursolve.execution.language import MacroLanguage
+from contoursolve.execution.machine import MOST_BLOCKS, Limit
 from contoursolve.gcode import (
     ISO,
     Block,
@@ -279,6 +280,11 @@ class Modes:
     def travel(self) -> float:
         """How far from the start point the control can make a contour, mm: a setting."""
         return float(self.settings.get("travel", TRAVEL))
+
+    @property
+    def most_blocks(self) -> int:
+        """How many blocks may run again before a program is said to go on for ever: a setting."""
+        return int(self.settings.get(Limit().setting, MOST_BLOCKS))
 
 
 COMMENTED = "comment"

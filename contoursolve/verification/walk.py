@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
 from contoursolve.execution.events import EventKind, ProgramEvent
-from contoursolve.execution.machine import machine_of
+from contoursolve.execution.machine import Limit, machine_of
 from contoursolve.execution.subprograms import ALONE, Surroundings, surroundings_of
 from contoursolve.gcode import Block, Directive, Program
 from contoursolve.geometry import Length
@@ -275,7 +275,8 @@ def _runs(
     program: Program, modes: Modes, around: Surroundings
 ) -> Iterator[tuple[Sequence[Block], ProgramEvent | None]]:
     """The blocks of a program between its events, each time with the event behind them."""
-    machine, run = machine_of(program, modes.language, modes.syntax, around), list[Block]()
+    limit, run = Limit(modes.most_blocks), list[Block]()
+    machine = machine_of(program, modes.language, modes.syntax, around, limit)
     for each in machine.run() if machine is not None else program.blocks:
         if isinstance(each, Block):
             run.append(each)

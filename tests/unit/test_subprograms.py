@@ -7,10 +7,12 @@ from click.testing import CliRunner
 from examples_fanuc import FL_G5, FM_G1, FM_G3
 from examples_heidenhain import PROGRAMS
 
-from contoursolve import Status, expand, solve, solve_file
+from contoursolve import Status, expand, parse, solve, solve_file
 from contoursolve.cli import main
 from contoursolve.controls import DIALECTS
+from contoursolve.execution.subprograms import Surroundings
 from contoursolve.output.document import to_json
+from contoursolve.program.calls import machine_for
 from contoursolve.verification import Document, Verdict, verify
 
 LATHE, MILL = "fanuc-lathe", "fanuc-mill"
@@ -115,7 +117,10 @@ def test_what_nothing_calls_begins_where_start_says(tmp_path):
     ("text", "told"),
     [
         (f"G00 X40. Z0.\nM98 P1\nM30\nO1\n{TAPER}\nM98 P1\nM99", "calls itself again and again"),
-        (f"G00 X40. Z0.\n{TAPER}\n#1=0\nWHILE [#1 GE 0] DO1\n#1=#1+1.\nEND1\nM30", "more than 100,000 blocks"),
+        (
+            f"G00 X40. Z0.\n{TAPER}\n#1=0\nWHILE [#1 GE 0] DO1\n#1=#1+1.\nEND1\nM30",
+            "more than 5,000 blocks run again: the program may never end; --set fanuc-lathe.most-blocks=",
+        ),
         (f"G00 X40. Z#5041\n{TAPER}", "#5041"),
         (
             f"G00 X40. Z0.\nIF [#900 EQ 1] GOTO 5\nG00 X45.\nN5 {TAPER}",
@@ -220,7 +225,7 @@ def test_what_is_wrong_in_a_part_that_does_not_run_stops_nothing():
 def test_what_calls_itself_twice_is_not_run_at_every_depth():
     text = f"G00 X40. Z0.\nM98 P1\n{TAPER}\nM30\nO1\n{TAPER}\nM98 P1\nG01 Z-80. ,R#1\nX70.\nM98 P1\nM99"
     result = solve(text, control=LATHE)
-    assert not any("100,000" in each.message for each in result.diagnostics)
+    assert not any("5,000" in each.message for each in result.diagnostics)
     assert result.answers[0].lines == (3,)
 
 
@@ -430,3 +435,52 @@ def test_comments_and_files_that_call_each_other_end(tmp_path):
     (tmp_path / "FLANGE.txt").write_text("FL X+10 AN+0")
     done = CliRunner().invoke(main, ["check", str(tmp_path / "main.nc")])
     assert (done.exit_code, "nothing to solve" in done.output) == (0, True), done.output
+
+
+ENDLESS = "G17 G21 G90 G0 X0. Y0.\n#1=1\nWHILE[#1 GT 0]DO1\n#1=#1+1\nG01 X10. ,R1. F100\nY10.\nX0\nY0\nEND1"
+
+
+def ran(text: str, control: str, **settings: str) -> tuple[int, list[str]]:
+    """How many blocks run, and what is told of following them."""
+    dialect = DIALECTS[control].configure({name.replace("_", "-"): value for name, value in settings.items()})
+    machine = machine_for(parse(text), dialect, Surroundings())
+    several = [*machine.run()]
+    return sum(hasattr(each, "words") for each in several), [each.reason for each in several if hasattr(each, "kind")]
+
+
+def test_a_loop_that_may_never_end_is_followed_as_far_as_a_setting_says():
+    for blocks in (5_000, 1_000):
+        count, told = ran(ENDLESS, MILL, **({} if blocks == 5_000 else {"most_blocks": str(blocks)}))
+        assert blocks / 2 < count < blocks + 20
+        assert any(f"more than {blocks:,} blocks run again" in each for each in told)
+    passes = "#1=0\nWHILE[#1 LT 3000]DO1\n#1=#1+1.\nEND1\nG0 X0. Y0.\nG1 X20. ,R1. F1.\nY20."
+    short, long = (solve(passes, control=MILL, settings=each) for each in ({}, {f"{MILL}.most-blocks": "20000"}))
+    assert [each.code for each in short.diagnostics if each.code == "not-followed"]
+    assert [each.status for each in long.answers] == [Status.SOLVED]
+    assert not long.diagnostics
+
+
+@pytest.mark.parametrize(
+    ("control", "text"),
+    [
+        (MILL, "O9001\n#3000=1 M98 P9001 L2"),
+        (MILL, "O1\nM98 P2\nM30\nO2\nG0 X1.\nM98 P3 L9\nM99\nO3\nM98 P2 L9\nM99"),
+        (MILL, "O1\nG65 P2 A1.\nM30\nO2\nG0 X#1\nG65 P2 A1. L9\nM99"),
+        ("siemens-840d", "%_N_A_MPF\nL1\nM30\n%_N_L1_SPF\nG0 X1\nL1 P99\nM17"),
+        ("heidenhain", "CALL LBL 1\nM30\nLBL 1\nL X+1 F100\nCALL LBL 1\nCALL LBL 1\nLBL 0"),
+        (MILL, "#1=1\nN1 G0 X1.\nGOTO 1"),
+        ("siemens-840d", "R1=1\nLOOP\nG0 X1\nENDLOOP"),
+    ],
+)
+def test_what_provably_never_ends_is_told_after_a_few_blocks(control, text):
+    count, told = ran(text, control)
+    assert count < 100
+    assert any("nothing changes from" in each for each in told)
+
+
+def test_a_loop_that_counts_in_a_local_variable_ends():
+    loop = "#2=0\nWHILE[#2 LT #1]DO1\n#2=#2+1.\nG1 X[#2*10.] ,R1. F1.\nY[#2*10.]\nEND1"
+    text = f"G0 X0. Y0.\nG65 P9 A3.\nM30\nO9\n{loop}\nM99"
+    result = solve(text, control=MILL)
+    assert len(result.answers) == 3
+    assert not result.diagnostics

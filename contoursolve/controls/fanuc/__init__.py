@@ -6,7 +6,7 @@ Their words, languages and rules come in; four controls go out. Begin with `lang
 from functools import partial
 
 from contoursolve.controls.chain import ChainFinder, Language, forms_of
-from contoursolve.controls.common import COMMON_RULES, TRAVEL_SETTING
+from contoursolve.controls.common import COMMON_RULES, SETTINGS_OF_ALL
 from contoursolve.controls.fanuc.language import (
     FANUC_LATHE_LANGUAGE,
     FANUC_MILL_LANGUAGE,
@@ -57,7 +57,7 @@ def _control(
         find=ChainFinder(language),
         signs=partial(_signs, frozenset(each for each in modes.lexicon.addresses if each.startswith(","))),
         contours=contours,
-        settings=(*settings, TRAVEL_SETTING),
+        settings=(*settings, *SETTINGS_OF_ALL),
     )
 
 

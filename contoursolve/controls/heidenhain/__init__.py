@@ -3,7 +3,7 @@
 Its words, elements and rules come in; a control goes out. Begin with `elements`.
 """
 
-from contoursolve.controls.common import TRAVEL_SETTING
+from contoursolve.controls.common import SETTINGS_OF_ALL
 from contoursolve.controls.heidenhain.find import find
 from contoursolve.controls.heidenhain.follow import follow
 from contoursolve.controls.heidenhain.lexicon import CODES, LEXICON, SETTINGS, SYNTAX, shown_by
@@ -24,6 +24,6 @@ HEIDENHAIN = Dialect(
     find=find,
     signs=shown_by,
     contours="free contours with FL, FLT, FC and FCT; moves with RND, CHF or CT",
-    settings=(*SETTINGS, TRAVEL_SETTING),
+    settings=(*SETTINGS, *SETTINGS_OF_ALL),
     writing=WRITING,
 )

@@ -6,7 +6,7 @@ Its words, language and rules come in; a control goes out. Begin with `language`
 import re
 
 from contoursolve.controls.chain import ChainFinder, forms_of
-from contoursolve.controls.common import TRAVEL_SETTING
+from contoursolve.controls.common import SETTINGS_OF_ALL
 from contoursolve.controls.isg.language import LANGUAGE, SETTINGS
 from contoursolve.controls.isg.lexicon import CHAMFER, MODES, ROUNDING, SYNTAX
 from contoursolve.controls.isg.rules import RULES
@@ -39,7 +39,7 @@ ISG = Dialect(
     find=ChainFinder(LANGUAGE),
     signs=_signs,
     contours="lines with #ANG, corners with #RND, #CHR or #CHF, and G301 or G302",
-    settings=(*SETTINGS, TRAVEL_SETTING),
+    settings=(*SETTINGS, *SETTINGS_OF_ALL),
     motion=1,
     diameter=Diameter.OFF,
 )

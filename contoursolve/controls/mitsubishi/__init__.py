@@ -4,7 +4,7 @@ Its words, language and rules come in; a control goes out. Begin with `language`
 """
 
 from contoursolve.controls.chain import ChainFinder, forms_of
-from contoursolve.controls.common import TRAVEL_SETTING
+from contoursolve.controls.common import SETTINGS_OF_ALL
 from contoursolve.controls.mitsubishi.language import LANGUAGE, SETTINGS
 from contoursolve.controls.mitsubishi.lexicon import MODES
 from contoursolve.controls.mitsubishi.rules import RULES
@@ -33,5 +33,5 @@ MITSUBISHI = Dialect(
     signs=_signs,
     rare=frozenset({",A"}),
     contours="lines with A or ,A, arcs without an end, H0 and H1 beside an arc, and ,C or ,R",
-    settings=(*SETTINGS, TRAVEL_SETTING),
+    settings=(*SETTINGS, *SETTINGS_OF_ALL),
 )

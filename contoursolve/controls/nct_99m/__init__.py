@@ -1,7 +1,7 @@
 """The NCT 99M and 2000M milling controls, from chapter 16 of their Programmer's Manual."""
 
 from contoursolve.controls.chain import ChainFinder, forms_of
-from contoursolve.controls.common import COMMON_RULES, TRAVEL_SETTING
+from contoursolve.controls.common import COMMON_RULES, SETTINGS_OF_ALL
 from contoursolve.controls.nct_99m.language import LANGUAGE, SETTINGS
 from contoursolve.controls.nct_99m.lexicon import CODES, MODES, XY, YZ, ZX
 from contoursolve.controls.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES
@@ -47,5 +47,5 @@ NCT_99M = Dialect(
     find=ChainFinder(LANGUAGE),
     signs=_signs,
     contours="blocks with ,A ,C or ,R, arcs with R, and blocks over-defined by ,A or by end, centre and R",
-    settings=(*SETTINGS, TRAVEL_SETTING),
+    settings=(*SETTINGS, *SETTINGS_OF_ALL),
 )

@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 
 from contoursolve.controls.chain import ChainFinder, forms_of
-from contoursolve.controls.common import TRAVEL_SETTING
+from contoursolve.controls.common import SETTINGS_OF_ALL
 from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.language import LANGUAGE, SETTINGS
 from contoursolve.controls.siemens.lexicon import BOOK, MODES, SYNTAX
@@ -50,7 +50,7 @@ SIEMENS_840D = Dialect(
     find=ChainFinder(LANGUAGE),
     signs=_signs,
     contours="lines with ANG=, corners with RND=, CHR= or CHF=, and CT",
-    settings=(*SETTINGS, _too_big("error"), TRAVEL_SETTING),
+    settings=(*SETTINGS, _too_big("error"), *SETTINGS_OF_ALL),
     motion=1,
     diameter=Diameter.BY_PLANE,
 )
@@ -61,7 +61,7 @@ SIEMENS_808D = replace(
     # A lexicon of its own tells for which control words were read.
     modes=replace(MODES, lexicon=replace(MODES.lexicon)),
     rules=RULES_REDUCING,
-    settings=(*SETTINGS, _too_big("reduce"), TRAVEL_SETTING),
+    settings=(*SETTINGS, _too_big("reduce"), *SETTINGS_OF_ALL),
     # Nothing in a program tells it from its larger sibling.
     rare=LANGUAGE.own,
 )

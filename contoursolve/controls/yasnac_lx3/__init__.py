@@ -1,6 +1,6 @@
 """The YASNAC LX3 lathe control, from section 2.8.30 and pages 31-32 of its Instruction Manual."""
 
-from contoursolve.controls.common import COMMON_RULES, TRAVEL_SETTING
+from contoursolve.controls.common import COMMON_RULES, SETTINGS_OF_ALL
 from contoursolve.controls.plain import LATHE
 from contoursolve.controls.yasnac_lx3.arc import ARC_FORMS, ARC_RULES
 from contoursolve.controls.yasnac_lx3.find import find, follow
@@ -36,7 +36,7 @@ YASNAC_LX3 = Dialect(
     find=find,
     signs=_signs,
     contours="G111, G112, G11, G12, and G01 with I or K",
-    settings=(BEVEL, MOTION_AFTER, TRAVEL_SETTING),
+    settings=(BEVEL, MOTION_AFTER, *SETTINGS_OF_ALL),
     has_runs=False,
     follow=follow,
 )
