@@ -16,6 +16,7 @@ from contoursolve.controls.chain.language import (
     CORNER_TWICE,
     FEED,
     FOLLOWED,
+    IN_ZX,
     LAST,
     LEAVES,
     LINE_LINE,
@@ -24,6 +25,7 @@ from contoursolve.controls.chain.language import (
     ON_PARALLEL_AXES,
     ONE_CENTER,
     ONLY,
+    OPEN_ARC_END,
     ORDINARY,
     OTHER_DIAMETER,
     OTHER_PLANE,
@@ -33,6 +35,7 @@ from contoursolve.controls.chain.language import (
     SMOOTH,
     TURN,
     WAY,
+    WITHOUT_POINT,
     Element,
     Joining,
     Language,
@@ -57,6 +60,7 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
     vocabulary: dict[str, tuple[str, int]] = {}
     circumstances: set[str] = set()
     blocks: list[Block] = []
+    resting: list[set[str]] = []
     for index, member in enumerate(members):
         called = _calls(language, member)
         prefix = f"{index + 1}:"
@@ -97,6 +101,7 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
             *(name for name, (setting, value) in language.where_set.items() if modes.has(setting, value)),
         }
         circumstances |= {prefix + name for name in holds}
+        resting.append({*own, *own_givens, *holds, *_read_by(member, modes)})
     known = {name: word for name, word in words.items() if word.address in modes.lexicon.addresses}
     return ParsedContour(
         form=form,
@@ -114,12 +119,37 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         selectors=tuple(_selectors(language, elements, names, known, modes)),
         is_end_absolute=elements[-1].is_over and language.joining is not Joining.PAIRED,
         selected=language.planes.get(members[-1].here.plane.code),
-        conventions=tuple(language.conventions(form, circumstances, modes)),
+        conventions=tuple(
+            {
+                each.setting.name: each
+                for each in (
+                    *language.conventions(form, circumstances, modes),
+                    *(modes.convention(row.setting) for row in language.resting if row.is_told(resting, modes)),
+                )
+            }.values()
+        ),
         makes=_makes(form, members) if len(blocks) > len(members) else (),
         kept=kept,
         lasting=frozenset(name for name in known if name.partition(":")[2] in language.modal_corner),
         doubts={mode: why for member in members for mode, why in member.here.doubts.items()},
     )
+
+
+def _read_by(member: Member, modes: Modes) -> Iterator[str]:
+    """The addresses of a block, and what else a setting may decide about it."""
+    here, element = member.here, member.element
+    yield from (word.address for word in member.block.words)
+    rows = modes.lexicon.addresses
+    read = (word for word in member.block.words if word.address in rows and rows[word.address].unit in _MEASURED)
+    if any(word.number and "." not in word.text for word in read):
+        yield WITHOUT_POINT
+    if element.turn is not None and element.is_followed:
+        yield OPEN_ARC_END
+    if {*here.plane.axes} == {"X", "Z"}:
+        yield IN_ZX
+
+
+_MEASURED = (Unit.MM, Unit.DEGREE)
 
 
 def _makes(form: ContourForm, members: Sequence[Member]) -> tuple[tuple[str, ...], ...]:

@@ -9,6 +9,7 @@ from msgspec import Struct
 from contoursolve.gcode import Block
 from contoursolve.geometry import CornerShape, Heading, Plane, Side, Turn
 from contoursolve.reading import Assumption, ContourForm, Convention, Lexicon, Modes, Sample, Setting, State
+from contoursolve.reading.rules import Condition
 
 LINE, ARC = "line", "arc"
 OVER_LINE, OVER_CIRCLE = "over-defined line", "over-defined circle"
@@ -130,6 +131,32 @@ class Member(Struct, frozen=True):
 _CENTERS = ("I", "J", "K")
 
 
+class Resting(Struct, frozen=True):
+    """A setting on which the reading of a contour rests where a condition holds for one of its blocks: for what that
+    states, its addresses, and what else holds of it.
+
+    Of one that is only told where it was set, the default one has a finding of its own, or goes without saying.
+    """
+
+    setting: Setting
+    when: Condition
+    is_told_where_set: bool = False
+
+    def is_told(self, blocks: Iterable[Collection[str]], modes: Modes) -> bool:
+        """Whether it is told of a contour of blocks of which this holds."""
+        if self.is_told_where_set and modes.has(self.setting, self.setting.default):
+            return False
+        return any(self.when.holds(dict.fromkeys(block)) for block in blocks)
+
+
+WITHOUT_POINT = "@without-point"
+"""It has a number without a decimal point, which is not 0."""
+OPEN_ARC_END = "@open-arc"
+"""An arc that ends where it meets the next block."""
+IN_ZX = "@in-zx"
+"""In the plane of Z and X."""
+
+
 class Joining(Enum):
     """What makes two blocks meet in a computed intersection."""
 
@@ -211,6 +238,8 @@ class Language:
     """What holds of every block where a setting has a value."""
     conventions: Callable[[ContourForm, Collection[str], Modes], Iterable[Convention]] = _no_conventions
     """(form, circumstances, modes) to the settings on which the reading rests."""
+    resting: tuple[Resting, ...] = ()
+    """Further ones, with what must be there."""
     picks: str = ""
     """The address that chooses an intersection by its value in either of two blocks: 0 or 1, the shorter or the longer
     line."""

@@ -6,7 +6,7 @@ from decimal import Decimal
 from math import radians, sin
 
 from contoursolve.controls.chain import A_LINE, AN_ARC, CLOSING_LINE, OPEN_LINE, Joining, Language, Member, reading
-from contoursolve.controls.chain.language import sense_conventions
+from contoursolve.controls.chain.language import BESIDE_ARC, FOLLOWED, WITHOUT_POINT, Resting, sense_conventions
 from contoursolve.controls.common import angle_sense_setting, arc_chamfer_setting, number_setting, setting
 from contoursolve.controls.fanuc.lexicon import (
     CORNERS,
@@ -21,6 +21,7 @@ from contoursolve.controls.plain import LATHE
 from contoursolve.diagnostics.source import Book
 from contoursolve.geometry import CornerShape
 from contoursolve.reading import Modes, Sample, Setting, State
+from contoursolve.reading.rules import all_of, some
 
 GUARD = Decimal(1)
 """Degrees: the angles within which a control computes no vertex and makes no corner."""
@@ -109,18 +110,25 @@ ANGLE = setting(
 )
 ARC_CHAMFER = arc_chamfer_setting(",C", CORNERS.assumed("not described"))
 SENSE = angle_sense_setting(DRAWING.assumed("not described"))
+LATHE_NUMBER, MILL_NUMBER, HAAS_NUMBER = _number(DRAWING), _number(CORNERS), _number(HAAS)
+LATHE_GUARD, MILL_GUARD, HAAS_GUARD = _guard(DRAWING), _guard(CORNERS), _guard(HAAS)
 LATHE_SETTINGS = (
-    *(_number(DRAWING), SENSE, _guard(DRAWING), _guard_corner(DRAWING)),
+    *(LATHE_NUMBER, SENSE, LATHE_GUARD, _guard_corner(DRAWING)),
     *(REDUNDANT_ANGLE, LATHE_CORNER_WORDS, ANGLE),
 )
-MILL_SETTINGS = (_number(CORNERS), _guard(CORNERS), _guard_corner(CORNERS), MILL_CORNER_WORDS, ARC_CHAMFER)
-HAAS_LATHE_SETTINGS = (
-    _number(HAAS),
-    angle_sense_setting(HAAS.assumed("not described")),
-    _guard(HAAS),
-    _guard_corner(HAAS),
-)
-HAAS_MILL_SETTINGS = (_number(HAAS), _guard(HAAS), _guard_corner(HAAS), ARCS)
+MILL_SETTINGS = (MILL_NUMBER, MILL_GUARD, _guard_corner(CORNERS), MILL_CORNER_WORDS, ARC_CHAMFER)
+HAAS_LATHE_SETTINGS = (HAAS_NUMBER, angle_sense_setting(HAAS.assumed("not described")), HAAS_GUARD, _guard_corner(HAAS))
+HAAS_MILL_SETTINGS = (HAAS_NUMBER, HAAS_GUARD, _guard_corner(HAAS), ARCS)
+
+_CORNERED = some(",C", ",R", "corner-first", "corner-second", "corner-R", "corner-C")
+
+
+def _resting(number: Setting, guard: Setting, *more: Resting) -> tuple[Resting, ...]:
+    return (
+        Resting(number, some(WITHOUT_POINT)),
+        Resting(guard, _CORNERED | some(",A", "A"), is_told_where_set=True),
+        *more,
+    )
 
 
 def _guarded(modes: Modes) -> bool:
@@ -182,6 +190,14 @@ FANUC_LATHE_LANGUAGE = Language(
     refuses=_refuses,
     signed={"I": _SETBACK, "K": _SETBACK, "R": _FILLET},
     passes=frozenset({4}),
+    resting=_resting(
+        LATHE_NUMBER,
+        LATHE_GUARD,
+        Resting(ANGLE, some(",A")),
+        Resting(LATHE_CORNER_WORDS, some("corner-first", "corner-second", "corner-R")),
+        Resting(LATHE_CORNER_WORDS, _CORNERED | some(",A"), is_told_where_set=True),
+        Resting(REDUNDANT_ANGLE, all_of(("first", "first-step"), ("second", "second-step"), ",A") & ~some(FOLLOWED)),
+    ),
 )
 FANUC_MILL_LANGUAGE = Language(
     lexicon=MILL_WORDS,
@@ -198,6 +214,12 @@ FANUC_MILL_LANGUAGE = Language(
     refuses=_refuses,
     signed={"I": _SETBACK, "J": _SETBACK, "K": _SETBACK},
     passes=frozenset({4}),
+    resting=_resting(
+        MILL_NUMBER,
+        MILL_GUARD,
+        Resting(MILL_CORNER_WORDS, some("corner-first", "corner-second", "corner-C")),
+        Resting(ARC_CHAMFER, some(",C") & some(BESIDE_ARC)),
+    ),
 )
 
 HAAS_LATHE_LANGUAGE = replace_fields(
@@ -209,7 +231,12 @@ HAAS_LATHE_LANGUAGE = replace_fields(
         (A_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} A150.",)),
         (A_LINE, A_LINE): Sample(_ON_LATHE, ("G01 {X30.} {Z-20.} {A165.96} {,C2.} ,R3.", "{X50.} {Z-21.} {A95.7}")),
     },
+    resting=_resting(HAAS_NUMBER, HAAS_GUARD),
 )
 HAAS_MILL_LANGUAGE = replace_fields(
-    FANUC_MILL_LANGUAGE, lexicon=HAAS_MILL_WORDS, where_set={STRAIGHT_ONLY: (ARCS, "off")}, signed={}
+    FANUC_MILL_LANGUAGE,
+    lexicon=HAAS_MILL_WORDS,
+    where_set={STRAIGHT_ONLY: (ARCS, "off")},
+    signed={},
+    resting=_resting(HAAS_NUMBER, HAAS_GUARD, Resting(ARCS, _CORNERED & some(BESIDE_ARC), is_told_where_set=True)),
 )

@@ -4,12 +4,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace as replace_fields
 
 from contoursolve.controls.chain import A_LINE, AN_ARC, CLOSING_LINE, OPEN_LINE, Joining, Language, Member, reading
-from contoursolve.controls.chain.language import sense_conventions
+from contoursolve.controls.chain.language import Resting, sense_conventions
 from contoursolve.controls.common import angle_sense_setting, first_motion_setting, length_setting, setting
 from contoursolve.controls.isg.lexicon import BOOK, CHAMFER, MODES, ROUNDING
 from contoursolve.controls.plain import PLANES
 from contoursolve.geometry import CornerShape
 from contoursolve.reading import Modes, Sample, State
+from contoursolve.reading.rules import some
 
 NO_SIZE = "@no-size"
 """A corner block without a size, before any."""
@@ -67,6 +68,10 @@ LANGUAGE = Language(
     },
     circumstances=_circumstances,
     conventions=lambda form, _, modes: sense_conventions(PAIR_SENSE, form, modes),
+    resting=(
+        Resting(MACHINE, some("X", "Y", "Z"), is_told_where_set=True),
+        Resting(MODAL, some("#ANG"), is_told_where_set=True),
+    ),
     sense=PAIR_SENSE,
     is_ray_alone=True,
 )

@@ -8,14 +8,19 @@ from msgspec.structs import replace
 from contoursolve.controls.chain import A_LINE, CLOSING_LINE, OPEN_LINE, Joining, Language, Member, reading
 from contoursolve.controls.chain.language import (
     ARC,
+    BESIDE_ARC,
     CIRCLE_CIRCLE,
     CIRCLE_LINE,
     CLOSING_ARC,
+    IN_ZX,
     LINE_CIRCLE,
     LINE_LINE,
     ONE_CENTER,
     OPEN_ARC,
+    OPEN_ARC_END,
     OVER_CIRCLE,
+    WITHOUT_POINT,
+    Resting,
 )
 from contoursolve.controls.common import arc_chamfer_setting, length_setting, number_setting, setting
 from contoursolve.controls.mitsubishi.lexicon import BOOK, MODES, TURNED_PLANES, turned
@@ -97,6 +102,21 @@ SETTINGS = (
 )  # fmt: skip
 
 
+_CENTER = some("center-first", "center-second", "center-at-first", "center-at-second")
+_RESTING = (
+    Resting(_NUMBER, some(WITHOUT_POINT)),
+    Resting(_DIAMETER, some(IN_ZX)),
+    Resting(_DIAMETER, some("X"), is_told_where_set=True),
+    Resting(_ANGLE_WORD, some("A") & ~some(",A")),
+    Resting(_FULL_CIRCLE, some(OPEN_ARC_END) & _CENTER & ~some("H")),
+    Resting(_FIRST_CENTER, some(OPEN_ARC_END) & some("center-first", "center-second")),
+    Resting(_CORNER, some(",C", ",R") & some(BESIDE_ARC)),
+    Resting(_ARC_CHAMFER, some(",C") & some(BESIDE_ARC)),
+    Resting(_GUARD, some("A", ",A"), is_told_where_set=True),
+)
+"""The angle is called A, whichever word states it."""
+
+
 def _circumstances(member: Member, _: Sequence[State], _modes: Modes) -> Iterator[str]:
     pick = member.block.find("H")
     holds = {
@@ -167,6 +187,7 @@ LANGUAGE = Language(
         UNGUARDED: (_GUARD, "0"),
     },
     conventions=_conventions,
+    resting=_RESTING,
     contact=lambda modes: float(modes.convention(CONTACT).value),
     sense=_SENSE,
 )

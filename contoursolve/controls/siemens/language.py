@@ -4,13 +4,14 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace as replace_fields
 
 from contoursolve.controls.chain import A_LINE, AN_ARC, CLOSING_LINE, OPEN_LINE, Joining, Language, Member, reading
-from contoursolve.controls.chain.language import sense_conventions
+from contoursolve.controls.chain.language import BESIDE_ARC, FOLLOWED, Resting, sense_conventions
 from contoursolve.controls.common import angle_sense_setting, arc_chamfer_setting, first_motion_setting, setting
 from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.lexicon import BOOK, MODES, TANGENT_ARC
 from contoursolve.geometry import CornerShape
 from contoursolve.reading import ContourForm, Convention, Diameter, Modes, Sample, State
 from contoursolve.reading.dialect import Dialect
+from contoursolve.reading.rules import all_of, some
 
 STRICT_ANGLE, NO_STEPS, ALONG_ARC = "@strict-angle", "@no-steps", "@along-arc"
 
@@ -82,6 +83,16 @@ def _circumstances(member: Member, _: Sequence[State], _modes: Modes) -> Iterato
         yield "@by-plane"
 
 
+_RESTING = (
+    Resting(MACHINE, some("X"), is_told_where_set=True),
+    Resting(DIAMETER, some("X"), is_told_where_set=True),
+    Resting(REDUNDANT, all_of(("first", "first-step"), ("second", "second-step"), "ANG") & ~some(FOLLOWED)),
+    Resting(ARC_CHAMFER, some("CHR") & some(BESIDE_ARC)),
+    Resting(ANGLE_NAME, some("ANG"), is_told_where_set=True),
+    Resting(CHAMFER_NAME, some("CHR"), is_told_where_set=True),
+)
+
+
 def _conventions(form: ContourForm, circumstances: Collection[str], modes: Modes) -> Iterator[Convention]:
     """What X is, where only the plane tells; and whether a line may run against its angle, if that was set."""
     if any(name.endswith("@by-plane") for name in circumstances):
@@ -124,5 +135,6 @@ LANGUAGE = Language(
         ALONG_ARC: (ARC_CHAMFER, "arc_length"),
     },
     conventions=_conventions,
+    resting=_RESTING,
     sense=SENSE,
 )
