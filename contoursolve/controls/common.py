@@ -686,7 +686,7 @@ SYSTEM_RULES = (
     ),
     Rule(
         code="axis-crossed",
-        message="{subject} crosses the spindle axis: the contour begins at {start} and reaches {place}",
+        message="{subject} crosses the spindle axis: it goes from {start} to {place}",
         help="look for a lost sign or a wrong angle; nothing to do if the tool is meant to pass the centre",
         source=_GEOMETRY,
         about=ReadIssue.AXIS_CROSSED,

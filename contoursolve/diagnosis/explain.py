@@ -582,10 +582,13 @@ def explain_path(context: Context, profile: Profile, solution: Solution, contour
     crossing = contour.crossing
     if crossing is not None:
         (radius,) = (at for at, is_diameter in zip(crossing.at, contour.plane.diameters, strict=True) if is_diameter)
-        start, place = (place_text(profile, scalars_of({"": at})) for at in (contour.start, crossing.at))
+        start, place = (place_text(profile, scalars_of({"": at})) for at in (crossing.element.start, crossing.at))
         values, subject = {"limit": 0.0, "actual": radius, "off_by_mm": abs(radius)}, crossing.element.name
-        about = ReadIssue.AXIS_CROSSED
-        yield report(context, about, Basis.NUMERICAL, [], values, subject=subject, start=start, place=place)
+        about, names = ReadIssue.AXIS_CROSSED, [each.name for each in profile.figure.path]
+        own = context
+        if subject in names and len(names) == len(profile.blocks):
+            own = replace(context, place=profile.blocks[names.index(subject)].span)
+        yield report(own, about, Basis.NUMERICAL, [], values, subject=subject, start=start, place=place)
     told = {remark.subject for remark in solution.remarks if remark.kind is NoteKind.WORDS_AGREE}
     for name, _ in against_angles(profile, contour):
         if name not in told:

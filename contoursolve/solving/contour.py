@@ -58,7 +58,7 @@ Segment = LineSegment | ArcSegment
 
 
 class Crossing(NamedTuple):
-    """An element that lies on the other side of the spindle axis than the path begins, and its farthest place there."""
+    """The first element that goes across the spindle axis from where the path begins, and its farthest place there."""
 
     element: Segment
     at: Point
@@ -108,8 +108,8 @@ class Contour(Shown):
 
     @property
     def crossing(self) -> Crossing | None:
-        """Where the path lies farthest across the spindle axis from where it begins, by more than the least increment;
-        None where it does not, or the machine is no lathe. A path may begin on either side."""
+        """Where the path goes across the spindle axis, by more than the least increment; None where it does not, or the
+        machine is no lathe. A path may begin on either side."""
         axis = next((number for number, is_diameter in enumerate(self.plane.diameters) if is_diameter), None)
         if axis is None:
             return None
@@ -120,6 +120,8 @@ class Contour(Shown):
                     side = side or at[axis]
                     if at[axis] * side < 0 and (across is None or abs(at[axis]) > abs(across.at[axis])):
                         across = Crossing(element, at)
+            if across is not None:
+                break
         return across
 
 

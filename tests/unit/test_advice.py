@@ -81,3 +81,25 @@ def test_differences_are_shown_as_words_are_written(block, units, told):
     finding = next(each for each in result if each.code == "words-conflict")
     assert finding.message.partition(" ")[2].partition(" ")[2].partition(" ")[2].endswith(told)
     assert any(note.endswith(f"{told.split(' ')[1]} {told.split(' ')[2].rstrip(':')} apart") for note in finding.notes)
+
+
+@pytest.mark.parametrize(
+    ("lines", "told"),
+    [
+        (
+            ["G00 X-1.6 Z0.", "G01 X18. ,C1. F0.2", "Z-30. ,R3.", "X36."],
+            (2, "line 1", "X-1.600 mm to Z0.000 mm X16.000 mm"),
+        ),
+        (["G00 X36. Z-30.", "G01 Z0. ,R3.", "X-1.6 ,R.5", "Z5."], (3, "line 2", "X30.000 mm to Z0.000 mm X-0.600 mm")),
+        (
+            ["G00 X-40. Z0.", "G01 Z-10. ,R2.", "X-20. ,C1.", "Z-20. ,R1.", "X30."],
+            (5, "line 4", "X-18.000 mm to Z-20.000 mm X30.000 mm"),
+        ),
+    ],
+)
+def test_a_path_across_the_spindle_axis_names_the_line_that_crosses_it(lines, told):
+    line, element, places = told
+    (finding,) = (each for each in check("\n".join(lines), control="fanuc-lathe") if each.code == "axis-crossed")
+    assert finding.span.line == line
+    assert finding.message.startswith(f"{element} crosses the spindle axis")
+    assert finding.message.endswith(places)

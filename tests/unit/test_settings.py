@@ -150,3 +150,56 @@ def test_the_catalogue_lists_every_setting_with_its_values() -> None:
         for setting in dialect.settings:
             assert setting.default in setting.values
             assert all(f"--set {dialect.name}.{setting.name}={value}" in printed for value in setting.values)
+
+
+ZX, XY = "G18 G90 G00 X0 Z0\n", "G17 G90 G00 X0 Y0\n"
+
+
+@pytest.mark.parametrize(
+    ("control", "program", "settings", "named"),
+    [
+        ("mitsubishi", ZX + "G01 X40. ,A30.", {}, {"diameter=off"}),
+        ("mitsubishi", ZX + "G01 X40. ,A30.", {"diameter": "on"}, {"diameter=on"}),
+        ("mitsubishi", XY + "G01 X40. ,A30.", {}, set()),
+        ("mitsubishi", XY + "G01 X40. A30.", {}, {"angle-word=A"}),
+        ("mitsubishi", XY + "G01 X40 ,A30.", {"number": "increment"}, {"number=increment"}),
+        (
+            "mitsubishi",
+            XY + "G03 I30. J0\nG01 X20. Y-60. ,A-90.",
+            {},
+            {"first-centre=start", "arc-without-end=contact"},
+        ),
+        (
+            "mitsubishi",
+            XY + "G01 X40. ,C6.\nG02 X60. Y20. I20. J0",
+            {},
+            {"corner=II", "chamfer-on-arc=chord"},
+        ),
+        ("fanuc-lathe", "G00 X20. Z0.\nG01 Z-20. ,R5.\nX40.", {}, set()),
+        ("fanuc-lathe", "G00 X20. Z0.\nG01 Z-20000 ,R5.\nX40.", {}, {"number=increment"}),
+        ("fanuc-lathe", "G00 X20. Z0.\nG01 X60. ,A120.", {}, {"angle=normal"}),
+        (
+            "fanuc-lathe",
+            "G00 X20. Z0.\nG01 X60. Z-11.547 ,A120. ,R1.\nZ-30.",
+            {},
+            {"angle=normal", "redundant-angle=check"},
+        ),
+        ("fanuc-lathe", "G00 X20. Z0.\nG01 Z-20. I5.\nX40.", {}, {"corner-words=comma"}),
+        ("fanuc-mill", XY + "G01 X30. J5.\nY40.", {}, {"corner-words=comma"}),
+        ("fanuc-mill", XY + "G01 X40. ,C6.\nG02 X60. Y20. I20. J0", {}, {"chamfer-on-arc=chord"}),
+        ("haas-mill", XY + "G01 X30. ,C10000\nX40. Y40.", {}, {"number=increment"}),
+        ("haas-mill", XY + "G01 X40. ,C6.\nG02 X60. Y20. I20. J0", {"arcs": "on"}, {"arcs=on"}),
+        ("siemens-840d", ZX + "G1 X40 ANG=30", {}, {"diam=plane"}),
+        ("siemens-840d", XY + "G1 X40 ANG=30", {"diam": "DIAMON"}, {"diam=DIAMON"}),
+        ("siemens-840d", XY + "G1 X40 CHR=6\nG2 X60 Y20 I20 J0", {}, {"chamfer-on-arc=chord"}),
+        ("isg", XY + "G1 X40 #ANG=30", {"machine": "lathe"}, {"machine=lathe"}),
+    ],
+)
+def test_an_answer_names_the_settings_on_which_it_rests(control, program, settings, named):
+    result = contoursolve.solve(
+        program, control=control, settings={f"{control}.{name}": value for name, value in settings.items()}
+    )
+    (answer,) = result.answers
+    assert {f"{each.setting.name}={each.value}" for each in answer.claim.conventions} == named
+    shown = str(result)
+    assert all(f"(--set {control}.{each})" in shown for each in named)
