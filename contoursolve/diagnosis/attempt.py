@@ -94,12 +94,14 @@ class Repairs(Struct, frozen=True):
     """Repairs, best first: fewest edits, smallest change of the contour.
 
     `is_complete` tells that all smallest sets of words to drop and add, up to `MOST_EDITS`, were tried, `has_tried_all`
-    that so was all that was thought of.
+    that so was all that was thought of;
+    `tried` are the words that were tried to be added, by address and line.
     """
 
     repairs: tuple[Repair, ...]
     is_complete: bool
     has_tried_all: bool = False
+    tried: frozenset[tuple[str, int]] = frozenset()
 
 
 class Trial(Struct, frozen=True):
@@ -447,7 +449,9 @@ def choose_repairs(
     found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
     is_complete = len(tried) + spent <= most and considered <= MOST_CONSIDERED
     found = [trial.with_ends(each) if each.example else each for each in found]
-    return Repairs(tuple(_large_last(found, trial.contour)), is_complete, has_tried_all=is_complete)
+    added = frozenset((edit.address, edit.line) for edits in tried for edit in edits if edit.kind is EditKind.ADD)
+    ordered = tuple(_large_last(found, trial.contour))
+    return Repairs(ordered, is_complete, has_tried_all=is_complete, tried=added)
 
 
 def _order(repair: Repair) -> tuple[object, ...]:

@@ -84,7 +84,7 @@ def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Dialect, rep
     if not (added and repairs.has_tried_all) or claim.form.is_general:
         return findings
     places = ((name, address, claim.blocks[index].line) for name, (address, index) in claim.vocabulary.items())
-    unable = {name for name, address, line in places if (address, line) not in added}
+    unable = {name for name, address, line in places if (address, line) in repairs.tried - added}
     context, rules = context_of(claim, dialect.rules), {rule.code: rule for rule in dialect.rules}
     found = []
     for finding in findings:

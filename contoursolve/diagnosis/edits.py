@@ -159,7 +159,7 @@ class Edit:
     @property
     def is_placeholder(self) -> bool:
         """Whether it adds a word whose number is still to be chosen."""
-        return self.kind is EditKind.ADD and self.text.endswith(PLACEHOLDER)
+        return self.kind is EditKind.ADD and self.text.rstrip(")").endswith(PLACEHOLDER)
 
 
 def drop(word: Word) -> Edit:

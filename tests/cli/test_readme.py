@@ -73,6 +73,39 @@ def test_a_command_prints_what_the_page_shows(tmp_path, monkeypatch, page, comma
 
 
 def test_every_picture_is_drawn_by_a_command_but_the_one_that_shows_measurements() -> None:
+    shown = {Path(link).name for text in PAGES.values() for link in links(text) if link.endswith(".svg")}
+    drawn = {each.values[1].split()[-1] for each in SHOWN if each.values[1].endswith(".svg")}
+    assert shown - drawn == {"family_growth.svg"}
+
+
+@pytest.mark.parametrize("page", CODE)
+def test_the_code_of_the_page_runs(page) -> None:
+    for code in re.findall(r"```python\n(.*?)```", PAGES[page], re.DOTALL):
+        exec(compile(code, page, "exec"), {})
+
+
+# --- the README -----------------------------------------------------------------------------------------
+
+
+def test_the_readme_is_short() -> None:
+    assert len(PAGES[README].split()) <= MOST_WORDS
+
+
+def test_the_line_for_windows_does_what_the_other_one_does() -> None:
+    (elsewhere,) = re.findall(r"^<!-- main-job -->\n```sh\n(.*)\n```$", PAGES[README], re.MULTILINE)
+    (windows,) = re.findall(r"^```powershell\n(.*)\n```$", PAGES[README], re.MULTILINE)
+    meant = elsewhere.replace("python3", "py").replace(".venv/bin/", ".venv/Scripts/").replace("/", "\\")
+    assert windows == meant.replace(" && ", "; ")  # PowerShell 5.1 does not know &&
+
+
+def test_the_readme_has_every_command_in_its_table() -> None:
+    named = re.findall(r"^\| `contoursolve (\w+)", PAGES[README], re.MULTILINE)
+    assert sorted(named) == sorted(main.list_commands(Context(main)))
+
+
+def test_the_table_of_settings_has_every_setting_of_every_control() -> None:
+    _, _, own = PAGES["docs/machinists.md"].partition("\n## Settings of your control\n")
+    rows = re.findall(r"^\| `(\S+)` \| ([^|]*) \| ([^|]*) \|$", own.partition("\n## ")[0], re.MULTILINE)
     shown = {
         (name, control): re.findall(r"`(\S+?)`", values)
         for name, own, values in rows

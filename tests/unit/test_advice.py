@@ -103,3 +103,9 @@ def test_a_path_across_the_spindle_axis_names_the_line_that_crosses_it(lines, to
     assert finding.span.line == line
     assert finding.message.startswith(f"{element} crosses the spindle axis")
     assert finding.message.endswith(places)
+
+
+def test_an_increment_in_brackets_is_offered_too():
+    (finding, *_) = check("G17 G90 G0 X10 Y0\nG1 ANG=30\nM30", control="siemens-840d")
+    fixes = {each.description: each.example for each in finding.fixes}
+    assert fixes["add X=IC(?) (such as X=IC(10))"] == "G1 ANG=30 X=IC(10)"

@@ -370,7 +370,7 @@ def test_a_line_against_its_angle_is_told_and_a_ray_is_refused(text, is_haas):
     assert refused.answers[0].contour is None
     assert [each.code for each in errors(refused)] == ["line-reversed"]
     conventions = [each for answer in refused.answers for each in answer.claim.conventions]
-    assert [(each.setting.name, each.value) for each in conventions] == [("angle-sense", "ray")]
+    assert ("angle-sense", "ray") in [(each.setting.name, each.value) for each in conventions]
 
 
 def test_an_angle_beside_both_coordinates_is_checked_or_refused():
