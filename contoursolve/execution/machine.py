@@ -38,7 +38,7 @@ from contoursolve.execution.language import (
     When,
     WordFormula,
 )
-from contoursolve.execution.subprograms import Library, Part, Source, Surroundings
+from contoursolve.execution.subprograms import Absent, Library, Part, Source, Surroundings
 from contoursolve.execution.variables import Variables
 from contoursolve.gcode import Block, Caller, Program, Substitution, Syntax, parse_block, split_lines
 
@@ -624,7 +624,28 @@ class Machine:
 
     def _do(self, frame: _Frame, index: int, statement: MacroStatement | _Taken) -> Iterator[Block | ProgramEvent]:
         """Carry out a statement of a line."""
+        if isinstance(statement, Jump | Call):
+            for told in self._named_twice(frame, index, statement):
+                yield ProgramEvent(EventKind.STOPPED, self._line(frame, index), told)
         yield from _DO[type(statement)](self, frame, index, statement)
+
+    def _named_twice(self, frame: _Frame, index: int, statement: Jump | Call) -> Iterator[str]:
+        """What to say of block numbers that a line jumps to or names, and that stand twice in its program."""
+        if isinstance(statement, Jump):
+            is_off = statement.condition is not None and self.variables.truth(statement.condition) is False
+            names = [] if is_off else [statement.target]
+        else:
+            is_number = statement.kind is CallKind.LINES or statement.cycle.startswith("G")
+            is_number = is_number or not self.language.jumps_to_numbers
+            names = [each for each in (statement.target, statement.last) if each is not None] if is_number else []
+        for each in names:
+            name = self.variables.resolve(each)
+            lines = frame.source.lines_named(name, index, self.language) if isinstance(name, str) else []
+            if len(lines) > 1:
+                places = " and ".join(str(frame.source.blocks[at].line) for at in lines[:2])
+                line = frame.source.blocks[index].line
+                what = "block" if self.language.jumps_to_numbers else "label"
+                yield f"line {line} names {what} {name}, which stands twice, in lines {places}: give each its own number"
 
     def _do_assign(self, _frame: _Frame, _index: int, statement: Assign | Forget) -> Iterator[Block | ProgramEvent]:
         self.variables.assign(statement)
@@ -736,7 +757,7 @@ class Machine:
 
     def _target(self, frame: _Frame, index: int, jump: Jump) -> int | None:
         last = frame.last if frame.call is None or frame.call.kind is not CallKind.PROFILE else len(frame.source) - 1
-        forward, backward = range(index + 1, last + 1), range(index, -1, -1)
+        forward, backward = range(index + 1, last + 1), range(index, frame.source.section_of(index).start - 1, -1)
         ways = {
             JumpWay.ANYWHERE: (forward, backward),
             JumpWay.FORWARD: (forward,),
@@ -746,7 +767,7 @@ class Machine:
         if isinstance(value, Unknown):
             return None
         if value.isdigit() and self.language.jumps_to_numbers:
-            return _first(frame.source.number(value, *ends) for ends in ((index + 1, last), (0, index)))
+            return _first(frame.source.number(value, *ends) for ends in ((index + 1, last), (backward.stop + 1, index)))
         return frame.source.label(value.upper(), *ways)
 
     def _assigned_in(self, frame: _Frame, first: int, last: int) -> Iterator[str]:
@@ -912,8 +933,7 @@ class Machine:
         text = frame.source.blocks[index].text.strip()
         found = self.library.find_called(call, frame.source, index, self.main, self.variables.resolve)
         if isinstance(found, Unknown):
-            self.variables.lose_all(found.reason)
-            yield from self._unclear(frame, index, found.reason)
+            yield from self._cannot_call(frame, index, found)
             return
         source, first, last = found
         if last < first:
@@ -946,6 +966,14 @@ class Machine:
             if is_behind:
                 frame.at = last + 1
         self._frames.append(_Frame(source, first, first, last, call, (*frame.callers, caller), times, own, begun))
+
+    def _cannot_call(self, frame: _Frame, index: int, why: Unknown) -> Iterator[Block | ProgramEvent]:
+        """A call of what is not found. That a file is not there is told where a contour depends on it, and that the
+        program names what it has not in any case."""
+        self.variables.lose_all(why.reason)
+        if isinstance(why, Absent):
+            raise _RefusedError(why.reason)
+        yield from self._unclear(frame, index, why.reason)
 
     def _begun(self, line: int, source: Source, first: int, last: int, own: Mapping[str, Known] | None) -> _Begun:
         """What a call runs, and with which values. Refuses to run what runs already with the same ones: it would call

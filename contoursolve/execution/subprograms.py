@@ -55,6 +55,10 @@ def surroundings_of(
     return Surroundings(known, (*own, *map(Path, folders)))
 
 
+class Absent(Unknown, frozen=True):
+    """What is named stands nowhere in the program itself."""
+
+
 class Part(Struct, frozen=True, order=True):
     """The lines of a loop or of a branch: the indices of its first and its last one."""
 
@@ -165,6 +169,23 @@ class Source:
         later = (index for index in self.sections.values() if index > first)
         return min(later, default=len(self)) - 1
 
+    def section_of(self, index: int) -> range:
+        """The lines of the program to which a line belongs."""
+        first = max((each for each in self.sections.values() if each <= index), default=0)
+        return range(first, self.section_end(index) + 1)
+
+    def lines_named(self, name: str, index: int, language: MacroLanguage) -> list[int]:
+        """The indices of the lines by that name, in the program to which a line belongs: by their block number, or
+        where those are not jumped to, by their label."""
+        numbers, labels = self._places
+        digits = name[1:] if name[:1] == "N" else name
+        if language.jumps_to_numbers:
+            found = numbers.get(digits.lstrip("0") or "0", ()) if digits.isdigit() else ()
+        else:
+            found = labels.get(name.upper(), ())
+        own = self.section_of(index)
+        return [each for each in found if each in own]
+
     @cached_property
     def nesting(self) -> Nesting:
         """Its loops and branches."""
@@ -230,11 +251,12 @@ class Library:
             if isinstance(each, Unknown):
                 return Unknown(f"what {text} calls is not known: {each.reason}")
         if call.kind is CallKind.LINES or (call.kind is CallKind.PROFILE and call.cycle.startswith("G")):
-            begin = source.number(str(first), 0, len(source) - 1)
-            end = source.number(str(last), begin or 0, len(source) - 1) if last is not None else len(source) - 1
+            own = source.section_of(index)
+            begin = source.number(str(first), own.start, own.stop - 1)
+            end = source.number(str(last), begin or own.start, own.stop - 1) if last is not None else own.stop - 1
             if begin is None or end is None:
                 missing = first if begin is None else last
-                return Unknown(f"{text} names block {missing}, which is not there")
+                return Absent(f"{text} names block {missing}, which is not there")
             return source, begin, end
         if call.kind is CallKind.PROGRAM:
             return self._find_program(str(first), source, main, text)
@@ -246,7 +268,7 @@ class Library:
         if last is not None:
             end = source.label(str(last), everywhere)
         if begin is None or end is None:
-            return Unknown(f"{text} names {first if begin is None else last}, which is not there")
+            return Absent(f"{text} names {first if begin is None else last}, which is not there")
         return source, begin, end
 
     def _find_program(self, name: str, source: Source, main: Source, text: str) -> tuple[Source, int, int] | Unknown:

@@ -484,3 +484,36 @@ def test_a_loop_that_counts_in_a_local_variable_ends():
     result = solve(text, control=MILL)
     assert len(result.answers) == 3
     assert not result.diagnostics
+
+
+TURNED = "O1\nG00 X60. Z2.\nG71 P10 Q{} U.5 W.1\nN10 G00 X20.\nG01 Z-20. ,R3. F.1\nN60 X40.\n{}M30"
+MILLED = "O1\nG17 G90 G0 X0. Y0.\n{}\nN10 G1 X10. ,R1. F1.\n{} Y10.\nM30"
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "told"),
+    [
+        (LATHE, TURNED.format(58, ""), "G71 P10 Q58 U.5 W.1 names block 58, which is not there"),
+        (LATHE, TURNED.format(60, "N60 X42.\n"), "line 3 names block 60, which stands twice, in lines 6 and 7"),
+        (MILL, MILLED.format("GOTO 10", "N10"), "line 3 names block 10, which stands twice, in lines 4 and 5"),
+        ("haas-mill", MILLED.format("M97 P10\nM30", "N10"), "line 3 names block 10, which stands twice"),
+        ("haas-mill", MILLED.format("M97 P12", "N11"), "M97 P12 names block 12, which is not there"),
+        (
+            "siemens-840d",
+            "G17 G90 G0 X0 Y0\nGOTOF N10\nN10 G1 X10 RND=1\nN10 Y10",
+            "line 2 names block N10, which stands twice, in lines 3 and 4",
+        ),
+        (
+            "heidenhain",
+            "CALL LBL 1\nM30\nLBL 1\nL X+0 Y+0 F100\nFL X+10 AN+0\nLBL 0\nLBL 1\nLBL 0",
+            "line 1 names label 1, which stands twice, in lines 3 and 7",
+        ),
+        # Nothing jumps there; or the number stands in another program.
+        (MILL, MILLED.format("G0 Z1.", "N10"), ""),
+        (MILL, MILLED.format("GOTO 10", "N11") + "\nO2\nN10 G0 Z1.\nM99", ""),
+        (LATHE, "O1\nN10 G00 X60.\nM30\n" + TURNED.format(60, "").replace("O1", "O2"), ""),
+    ],
+)
+def test_a_block_that_is_named_and_stands_nowhere_or_twice_is_told(control, text, told):
+    found = [each.message for each in solve(text, control=control).diagnostics if each.code == "not-followed"]
+    assert [each.startswith(told) for each in found] == [True] * bool(told)
