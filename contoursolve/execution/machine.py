@@ -645,7 +645,8 @@ class Machine:
                 places = " and ".join(str(frame.source.blocks[at].line) for at in lines[:2])
                 line = frame.source.blocks[index].line
                 what = "block" if self.language.jumps_to_numbers else "label"
-                yield f"line {line} names {what} {name}, which stands twice, in lines {places}: give each its own number"
+                told = f"which stands twice, in lines {places}: give each its own number"
+                yield f"line {line} names {what} {name}, {told}"
 
     def _do_assign(self, _frame: _Frame, _index: int, statement: Assign | Forget) -> Iterator[Block | ProgramEvent]:
         self.variables.assign(statement)
