@@ -32,13 +32,16 @@ class EventKind(Enum):
     """It does, from what is known here and was known where it was kept; where nothing new follows from that, what
     follows has run. The last time, the way goes on instead: if anything new followed, nothing is known any more."""
 
+    BEYOND = "beyond"
+    """What follows has run: it only shows what the last blocks before it are."""
+
     @property
     def is_open(self) -> bool:
         """Whether a contour may go on beyond it."""
         return self in _OPEN
 
 
-_OPEN = frozenset({EventKind.PART, EventKind.PAUSE, EventKind.MEET, EventKind.HEAD, EventKind.AGAIN})
+_OPEN = frozenset({EventKind.PART, EventKind.PAUSE, EventKind.MEET, EventKind.HEAD, EventKind.AGAIN, EventKind.BEYOND})
 
 
 class ProgramEvent(Struct, frozen=True):

@@ -185,6 +185,9 @@ class _Way(Struct):
 _BEHIND = ((float("inf"), 0.0),)
 """Behind all that a call runs."""
 
+MOST_BEYOND = 200
+"""Blocks that are looked at to see how a contour ends in lines that have run."""
+
 MOST_PASSES = 3
 """How often it is run again what runs nobody knows how often, until nothing new follows."""
 
@@ -223,7 +226,7 @@ class Machine:
         """By file and index: lines to which jumps lead that stay as they are written."""
         self._passed: set[int] = set()
         """What was known at each jump back."""
-        self._last: tuple[Source, int, tuple[Caller, ...]] | None = None
+        self._last: object = None
         """What ran the last block: contours do not go on beyond a call."""
         self._untaken: dict[int, tuple[int, dict[str, Known]]] = {}
         """By the index of a line of the main file to which a decision did not lead: the mark and the values there."""
@@ -339,6 +342,9 @@ class Machine:
             yield from self._meet()
             frame = self._frames[-1]
             is_known = not (self._is_reached or frame.callers) and frame.at in self._visited
+            if is_known and not (frame.rest or self._waiting or self._is_alone) and frame.at <= frame.last:
+                yield from self._look_beyond(frame)
+                return
             if not frame.rest and (frame.at > frame.last or is_known):
                 yield from self._leave(frame)
                 continue
@@ -360,6 +366,29 @@ class Machine:
                 if self._is_alone:
                     yield self._as_written(frame, frame.here)
                 yield ProgramEvent(EventKind.STOPPED, self._line(frame, frame.here), str(error))
+
+    def _look_beyond(self, frame: _Frame) -> Iterator[Block | ProgramEvent]:
+        """What runs behind lines that have not run, although it has: a contour may go on there."""
+        count, assigned = 0, len(self.variables.assigned)
+        yield ProgramEvent(EventKind.BEYOND, frame.source.blocks[frame.at].line)
+        while self._frames == [frame] and frame.at <= frame.last and count < MOST_BEYOND:
+            try:
+                ran = [*self._step(frame)]
+            except _RefusedError:
+                break
+            for each in ran:
+                if isinstance(each, ProgramEvent) and each.kind is not EventKind.HEAD:
+                    count = MOST_BEYOND
+                elif isinstance(each, Block) and count < MOST_BEYOND:
+                    yield each
+                    count += 1
+        self._frames, self._waiting = [], {}
+        del self.variables.assigned[assigned:]
+
+    def _runs_in(self) -> object:
+        """What runs: repeated lines belong to what repeats them."""
+        frame = next(each for each in reversed(self._frames) if not _is_loop(each.call))
+        return frame.source, frame.first, frame.callers
 
     def _says_something(self, index: int) -> bool:
         """Whether a line of the main file has more than its number, comments and blanks."""
@@ -441,7 +470,7 @@ class Machine:
             code = replace(code, rest=_without_return(code.rest, block))
         ran = self._block(frame, block, code)
         if not self._is_passed_over(frame, code, ran):
-            here = frame.source, frame.first, frame.callers
+            here = self._runs_in()
             if self._last is not None and self._last != here:
                 yield ProgramEvent(EventKind.BARRIER, block.line)
             self._last = here
@@ -1038,7 +1067,8 @@ class Machine:
 
     def _leave(self, frame: _Frame) -> Iterator[ProgramEvent]:
         """The end of what a frame runs: it runs again, or what called it goes on."""
-        frame.left, self._last = frame.left - 1, None
+        frame.left -= 1
+        self._last = self._last if _is_loop(frame.call) else frame
         if frame.left > 0:
             frame.at, frame.loops, frame.branches, frame.heads = frame.first, [], [], {}
             return
@@ -1046,6 +1076,13 @@ class Machine:
         self._go_on()
         if frame.call is not None and frame.call.kind is CallKind.PROFILE:
             yield ProgramEvent(EventKind.LEAVE, frame.callers[-1].line, frame.call.cycle)
+
+
+def _is_loop(call: Call | None) -> bool:
+    """Whether a call repeats lines of what calls: `CALL LBL 1 REP 2`, `REPEAT A B P2`."""
+    return call is not None and (
+        call.kind is CallKind.SECTION or (call.kind is CallKind.LABEL and call.last is not None)
+    )
 
 
 def _begin_part(frame: _Frame, *, first: int, lines: Part) -> None:

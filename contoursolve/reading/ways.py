@@ -71,8 +71,8 @@ class Ways:
         self.marked: dict[int, State] = {}
         """The states before blocks, by their marks."""
         self._kept: dict[int, list[Way]] = {}
-        self._reason = ""
-        """What decides between those that met last."""
+        self._reason, self._is_beyond = "", False
+        """What decides between those that met last, and whether what follows has been read."""
         self._heads: dict[int, tuple[list[Way], bool]] = {}
         """Where something may run again: on which ways that was reached, and whether others have come into it."""
 
@@ -81,7 +81,7 @@ class Ways:
         meet. `is_open` tells whether a contour may go on behind them."""
         moving = [_Moving(way, [*way.unread, *blocks] if way.unread else blocks) for way in self.now]
         stopped = list[Way]()
-        while moving:
+        while moving and not (self._is_beyond and min(each.place for each in moving) >= 0):
             place = min(each.place for each in moving)
             here = [each for each in moving if each.place == place]
             if place >= 0 and len(here) > 1:
@@ -96,11 +96,11 @@ class Ways:
                 continue
             one.index += found[0]
             one.way = _behind(one.way, found[1](), one.blocks[one.index - 1].line)
-        self.now = _meet_all(stopped, self._reason, self.modes)
+        self.now = [] if self._is_beyond else _meet_all(stopped, self._reason, self.modes)
 
     def happen(self, event: ProgramEvent) -> bool:
         """Take in what happens between two blocks; whether all that was found since its head is found anew."""
-        span = Span(event.line, 1, 2)
+        span, self._is_beyond = Span(event.line, 1, 2), event.kind is EventKind.BEYOND
         match event.kind:
             case EventKind.FRESH:
                 self.now = [Way(self._fresh(event))]

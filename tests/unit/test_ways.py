@@ -260,3 +260,19 @@ def test_a_way_that_leaves_a_subprogram_meets_the_other_behind_the_call():
     assert solve(text.format("G00 X40.\n"), control=LATHE).answers[0].status is Status.SOLVED
     early = "G00 X40. Z0.\nIF[#599 EQ 1]GOTO99\nG00 X50.\nGOTO8\nN99 M30\nN8 G01 Z-20. ,R1.\nX60.\nM30"
     assert ends(solve(early, control=LATHE).answers[0])[0] == (-19.0, 25.0)
+
+
+def test_a_corner_in_lines_that_do_not_run_finds_its_neighbour_in_those_that_do():
+    for value in (0, 1):
+        result = solve(B10, control=SIEMENS, variables={"K": value})
+        assert [each.lines for each in result.answers] == [(6, 10), (8, 10)]
+        assert not result.diagnostics
+    text = "#3=1\nG00 X50. Z2.\nIF[#3 EQ 1]GOTO 5\nG01 Z-10. ,R1.\nN5 G01 X60. Z-12.\nM30"
+    assert [each.status for each in solve(text, control=LATHE).answers] == [Status.SOLVED]
+
+
+@pytest.mark.parametrize("repeat", ["REPEAT AA P=2", "REPEAT AA BB P=2"])
+def test_a_corner_finds_its_neighbour_in_lines_that_are_repeated(repeat):
+    text = f"G17 G90 G0 X0 Y0\nG1 F200\nAA:\nG1 X=IC(10) RND=1\nY=IC(10) RND=1\nBB:\n{repeat}\nX=IC(10)\nM30"
+    (answer,) = solve(text, control=SIEMENS).answers
+    assert (answer.status, len(answer.contour.elements)) == (Status.SOLVED, 13)
