@@ -28,7 +28,7 @@ from contoursolve.families.spec import (
     errors_of,
     read_limits,
 )
-from contoursolve.families.traced_reading import OWN, Alike, Reading, trace_reading
+from contoursolve.families.traced_reading import OWN, Alike, Reading, placed_of, trace_reading
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import FIRST, SECOND, CornerShape, Profile, Question, Start, System, Unit, assemble, scalar
 from contoursolve.numeric.charts import Following
@@ -203,10 +203,13 @@ class CaseClass(Struct, frozen=True, eq=False):
     def solve(self, values: Mapping[str, float]) -> Solution:
         """A single solve of one row, as `examine` does it, without a proof."""
         from contoursolve.solving.ambiguity import settle  # noqa: PLC0415 - few rows touch
+        from contoursolve.solving.free_cuts import place_cuts  # noqa: PLC0415 - nor are cut
 
         profile = self.at(values)
         if not self.is_closed:
-            return settle(profile).solution
+            settlement = settle(profile)
+            placed, cuts = place_cuts(profile, settlement.loose) if settlement.loose else (profile, ())
+            return settle(placed).solution if cuts else settlement.solution
         solution = solve(profile, is_proven=False)
         touches = any(remark.kind is NoteKind.TOUCHES for remark in solution.remarks)
         if not touches or count_choices(profile) > MOST_CHOICES:
@@ -231,7 +234,7 @@ class CaseClass(Struct, frozen=True, eq=False):
         starts = zip(self.profile.start.values, other.profile.start.values, strict=True)
         return (
             self._drawing == other._drawing
-            and self.profile.choices == other.profile.choices
+            and (self.profile.choices, self.profile.picks) == (other.profile.choices, other.profile.picks)
             and (self.free, self.moves, self._stays) == (other.free, other.moves, other._stays)
             and all(axis in self.moves or one == two for axis, (one, two) in enumerate(starts))
         )
@@ -298,7 +301,8 @@ def case_alone(template: Template, values: Mapping[str, float]) -> CaseClass:
         return case
     begins = enumerate(answer.start.values)
     moves = {axis: Linear(f"{OWN}start {axis}", Decimal(1)) for axis, value in begins if value is not None}
-    free = {name: Linear(OWN + name, Decimal(1)) for name in answer.claim.givens}
+    stated = (*answer.claim.givens, *placed_of(answer))
+    free = {name: Linear(OWN + name, Decimal(1)) for name in stated}
     return replace(case, free={**case.free, **free}, moves=moves)
 
 
@@ -329,6 +333,8 @@ def verdict_of(answer: Answer) -> Status | None:
     """The status that all rows of the class have, if the equations are not solved."""
     errors = errors_of(answer)
     is_refused = any(each.basis is Basis.RULE for each in errors)
+    # A rule by which a word is ignored tells in numbers what the others make of it.
+    is_refused = is_refused or (bool(answer.profile.ignored) and answer.status is Status.REJECTED)
     system = assemble(answer.profile)
     is_loose = not analyse(system).is_determined
     is_structural = is_loose or any(

@@ -312,7 +312,9 @@ def check_block(template: Template, values: Mapping[str, float] | None = None) -
                 left, chosen = found, tried
             if not left:
                 return
-    raise RefusedError(template.examined())
+    result = template.examined()
+    # With the values that it has as it stands, it may not be refused.
+    raise RefusedError(result if errors_of(result) else template.filled(chosen).examined())
 
 
 def _refusals(answer: Answer) -> Refusals:

@@ -13,13 +13,16 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
+from contoursolve.analysis import analyse
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.families.spec import Template, is_same
 from contoursolve.gcode import FACT, Block, Word
+from contoursolve.geometry import assemble
 from contoursolve.numeric.formulas import Affine
 from contoursolve.program.pipeline import attach
 from contoursolve.reading import ParsedContour, advance, read
 from contoursolve.reading.dialect import Dialect
+from contoursolve.solving.free_cuts import joints_among
 
 
 class Notes:
@@ -211,7 +214,7 @@ def trace_reading(template: Template, values: Mapping[str, float], answer: Answe
     beside the words are not among what it follows."""
     notes = Notes()
     claim = read_row(template, values, answer.claim, notes)
-    if claim is None or not _is_read_so(claim, answer):
+    if claim is None or not _is_read_so(claim, answer) or _may_have_cuts(answer.claim):
         return Reading({}, {}, (), is_calculated=True)
     givens = {name: each.value.follows for name, each in claim.givens.items() if isinstance(each.value, Traced)}
     begins = enumerate(claim.before.start().values)
@@ -303,18 +306,35 @@ def place_of_contour(template: Template, values: Mapping[str, float]) -> ParsedC
     the program. Raises FamilyError as `Template.solve`."""
     answer = template.solve(values)
     claim = read_row(template, values, answer.claim)
-    return answer.claim if claim is not None and _is_read_so(claim, answer) else None
+    is_so = claim is not None and _is_read_so(claim, answer) and not _may_have_cuts(answer.claim)
+    return answer.claim if is_so else None
+
+
+def _may_have_cuts(claim: ParsedContour) -> bool:
+    """Whether the values of a chain tell if something of it is open, or only cuts a straight line in two."""
+    profile = read(claim, frozenset())
+    return claim.form.is_general and bool(joints_among(profile.figure, analyse(assemble(profile)).free))
 
 
 def read_alone(template: Template, values: Mapping[str, float], like: ParsedContour | None) -> RowReading:
     """How the row of these values is read, by itself: at the place of a contour, or else with all of the program.
     Raises FamilyError as `Template.solve`."""
     claim = read_row(template, values, like) if like is not None else None
+    kind, numbers = tuple[object, ...](), dict[str, Decimal]()
     if claim is None:
-        claim = template.solve(values).claim
-    return RowReading(
-        _alike(claim), {**values, **{OWN + name: float(each) for name, each in _numbers_of(claim).items()}}
-    )
+        answer = template.solve(values)
+        claim, kind = answer.claim, (assemble(answer.profile).key, answer.status)
+        # What the solver puts in its place is stated by no word.
+        numbers = {name: answer.profile.givens[name].value for name in placed_of(answer)}
+    numbers |= _numbers_of(claim)
+    own = {OWN + name: float(each) for name, each in numbers.items()}
+    return RowReading((*_alike(claim), *kind), {**values, **own})
+
+
+def placed_of(answer: Answer) -> list[str]:
+    """The values of a contour that neither words nor facts state, by name."""
+    profile = answer.profile
+    return [name for name, given in profile.givens.items() if given.word is None and name not in answer.claim.givens]
 
 
 def _alike(claim: ParsedContour) -> Alike:

@@ -13,6 +13,7 @@ from contoursolve.geometry import (
     FIRST,
     SECOND,
     Coordinate,
+    Figure,
     Given,
     Layout,
     Line,
@@ -41,13 +42,7 @@ def place_cuts(profile: Profile, open_: Sequence[str]) -> tuple[Profile, tuple[s
 
     A cut is free if it may be put in several places between its neighbours, and no other point moves.
     """
-    figure, loose = profile.figure, {name.rpartition(".")[0] for name in open_}
-    sharp = {corner.at for corner in figure.corners}
-    joints = [
-        first.head
-        for first, second in pairwise(figure.path)
-        if isinstance(first, Line) and isinstance(second, Line) and first.head in loose - sharp
-    ]
+    joints, loose = joints_among(profile.figure, open_), {name.rpartition(".")[0] for name in open_}
     if not joints or not profile.start.is_known:
         return profile, ()
     known = _known(profile, joints, loose)
@@ -67,6 +62,16 @@ def place_cuts(profile: Profile, open_: Sequence[str]) -> tuple[Profile, tuple[s
         if not _is_path(placed, places, known):
             return profile, ()
     return placed, tuple(joints)
+
+
+def joints_among(figure: Figure, open_: Sequence[str]) -> list[str]:
+    """The points between two lines, without a corner, of which unknowns are open; each may be a cut, by its values."""
+    loose, sharp = {name.rpartition(".")[0] for name in open_}, {corner.at for corner in figure.corners}
+    return [
+        first.head
+        for first, second in pairwise(figure.path)
+        if isinstance(first, Line) and isinstance(second, Line) and first.head in loose - sharp
+    ]
 
 
 def _known(profile: Profile, joints: Sequence[str], loose: set[str]) -> Mapping[str, Point]:

@@ -106,6 +106,32 @@ def test_a_centre_and_the_end_of_a_chain_are_points_that_a_word_brings_somewhere
     assert hit.point[0] == pytest.approx(40)
 
 
+CUT = "FL X+0 Y+20\nFL Y+20\nFL X+50 Y+20"
+
+
+@pytest.mark.parametrize(
+    ("block", "word", "values", "options"),
+    [
+        # What only cuts a line in two is free; beside the line it is open.
+        (CUT, "3:Y", [20, 17.8, 20], KLARTEXT),
+        (CUT, "3:Y", [17.8, 20], KLARTEXT),
+        ("FL LEN40 P1X+30 P1Y+10\nFSELECT 3\nFL X+80 Y+20", "FSELECT", [2.729, -3, 3, 1], KLARTEXT),
+        ("G1 X40 Y20 #ANG=30", "#ANG", [30, 26.565, 31], {"control": "isg", "start": "X0 Y0"}),
+        (
+            "G17 G90 G42 G0 X14 Y-73\nG2 X-64 Y-190 I0 J-84\nG3 Q-77 R9.9 I25.5 J-81 X23.8 Y-71",
+            "2:J",
+            [-84, 0, 0.001],
+            {"control": "nct-99m"},
+        ),
+    ],
+)
+def test_rows_of_several_kinds_are_what_a_single_solve_says(block, word, values, options):
+    found = family(block, vary={word: values}, **options)
+    for row, value in enumerate(values):
+        answer = alone(block, {word: value}, **options)
+        assert not difference({name: found[name][row] for name in found.columns}, answer)
+
+
 BENT = "G17 G90 G1 X10 Y0\nCT X20 Y5"
 
 
