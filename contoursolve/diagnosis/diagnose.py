@@ -5,8 +5,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from msgspec.structs import replace
 
 from contoursolve.analysis import analyse, decompose, spare_of
-from contoursolve.diagnosis.attempt import Repair, Repairs
-from contoursolve.diagnosis.edits import EditKind, edited
+from contoursolve.diagnosis.attempt import Repairs
+from contoursolve.diagnosis.edits import EditKind
 from contoursolve.diagnosis.examine import Answer, Policy, problems
 from contoursolve.diagnosis.explain import (
     SAID_AGAIN,
@@ -17,10 +17,11 @@ from contoursolve.diagnosis.explain import (
     facts_at,
     spans_of,
 )
+from contoursolve.diagnosis.fix_text import fixes_of
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
-from contoursolve.diagnosis.wording import SHOWN, count, join, length_text, place_text
-from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Fix, Label, Layer, Severity, Tie, Verdict
+from contoursolve.diagnosis.wording import SHOWN, count, length_text
+from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Label, Layer, Severity, Tie, Verdict
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, Block, FaultKind, Word
 from contoursolve.geometry import OnCircle, Profile, System, Unit, assemble
@@ -68,7 +69,7 @@ def diagnose(
     # The rules of a control whose words are facts of all kinds are meant as they are.
     main = _main(findings, is_extended=profile.is_extended and not answer.claim.form.is_general)
     if main is not None:
-        fixes = tuple(_fix(answer, repair) for repair in repairs.repairs)
+        fixes = fixes_of(answer, repairs.repairs)
         for number in (main, *_both(findings)):
             findings[number] = replace(findings[number], fixes=fixes)
     return replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis)
@@ -122,8 +123,8 @@ def mend_points(answer: Answer, dialect: Dialect) -> Answer:
     findings = []
     for finding in answer.diagnostics:
         spans = spans_of([finding], ReadIssue.POINT_MISSING)
-        own = (repair for repair in repairs if any(edit.span in spans for edit in repair.edits))
-        findings.append(replace(finding, fixes=tuple(_fix(answer, repair) for repair in own)))
+        own = [repair for repair in repairs if any(edit.span in spans for edit in repair.edits)]
+        findings.append(replace(finding, fixes=fixes_of(answer, own)))
     return replace(answer, diagnostics=tuple(findings))
 
 
@@ -256,32 +257,6 @@ def _points_lost(profile: Profile, affine: AffineFacts) -> set[str]:
 
 _ABOUT_TIES = (ReadIssue.WORD_IGNORED, RefusalKind.WORDS_DISAGREE, NoteKind.WORDS_AGREE, *SINGULAR)
 _ABOUT_FREEDOM = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
-
-
-def _fix(answer: Answer, repair: Repair) -> Fix:
-    """A repair in words, with the place where the contour then ends or turns."""
-    edits = zip(repair.edits, repair.slips, strict=True)
-    blocks = answer.claim.blocks
-    told = (edit.among(blocks) + (f" ({slip.sentence})" if slip and slip.sentence else "") for edit, slip in edits)
-    description = "; ".join(told)
-    numbers = [each.text for each, edit in zip(repair.example, repair.edits, strict=False) if each != edit]
-    if numbers:
-        description += f" (such as {' '.join(numbers)}{''.join(f', {each}' for each in repair.ends)})"
-    if repair.contour:
-        profile, contour = answer.profile, repair.contour
-        name, at = "the contour ends", contour.end
-        point = next(iter(profile.intersections), "")
-        # The changed blocks may be of another form.
-        if answer.contour is None and len(answer.lines) > 1 and point in contour.points:
-            name, at = f"{point} is", contour.points[point]
-        place = place_text(profile, scalars_of({"": at}))
-        description += f" -> {name} at {place}"
-        description += "".join(f", {drawback}" for drawback in repair.drawbacks)
-    dropped = [edit.old for edit in repair.edits if edit.kind is EditKind.DROP and edit.errand]
-    is_beside = len(dropped) == len(repair.edits)
-    effect = f"drops {join(dropped)}" if is_beside else ""
-    example = edited(blocks, repair.example) if numbers else ""
-    return Fix(description, repair.replacement, repair.applicability, effect, example)
 
 
 def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:

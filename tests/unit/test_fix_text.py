@@ -1,0 +1,64 @@
+"""Several fixes of one finding: what is shown behind the arrow tells their contours apart."""
+
+import re
+
+import pytest
+from examples import some_of
+
+from contoursolve import Diagnostic, check, solve
+from contoursolve.controls import DIALECTS
+
+REJECTED = [
+    (name, text)
+    for name, dialect in DIALECTS.items()
+    for rule in dialect.rules
+    for text in dict.fromkeys(rule.rejected)
+]
+
+
+def paths(text: str, control: str) -> list[tuple[float, ...]]:
+    """The coordinates of all contours of a program, as far as a listing shows them."""
+    answers = solve(text, control=control, depth="path").answers
+    elements = (each for answer in answers if answer.contour for each in answer.contour.elements)
+    return [tuple(round(value, 3) for value in (*each.start, *each.end)) for each in elements]
+
+
+def outcomes(finding: Diagnostic) -> list[tuple[str, str]]:
+    """What is behind the arrow of each fix, and the blocks that it writes."""
+    shown = (each.description.partition(" -> ") for each in finding.fixes)
+    return [(end, fix.replacement) for (_, arrow, end), fix in zip(shown, finding.fixes, strict=True) if arrow]
+
+
+@some_of(("name", "text"), REJECTED, one_in=3)
+def test_fixes_that_make_different_contours_do_not_look_alike(name, text):
+    for finding in check(text, control=name):
+        told = outcomes(finding)
+        for place, (end, block) in enumerate(told):
+            for other_end, other in told[:place]:
+                if end == other_end and len(block.split("\n")) == len(other.split("\n")) == 1:
+                    before = text.split("\n")[: finding.span.line - 1]
+                    made = [paths("\n".join([*before, each]), name) for each in (block, other)]
+                    assert made[0] == made[1], (text, finding.message, end)
+
+
+@pytest.mark.parametrize(
+    ("block", "ends"),
+    [
+        ("G111 X100. A180. K-30. B120. C5. P5.", ["corner 1 with radius 5.000 mm", "corner 1 7.071 mm long"]),
+        ("G111 X100. A180. K-30. B120. P60. Q5.", ["corner 1 with radius 51.961 mm", "without corner 1"]),
+        (
+            "G111 X100. A180. K-30. B120. D5. Q5.",
+            ["corner 1 7.071 mm long", "corner 1 with radius 5.000 mm", "without corner 1"],
+        ),
+    ],
+)
+def test_what_differs_is_shown(block, ends):
+    finding = next(each for each in check(block, control="yasnac-lx3", start="X40. Z0.") if each.fixes)
+    shown = [end for end, _ in outcomes(finding)]
+    assert [end for end in ends if not any(each.endswith(end) for each in shown)] == []
+    assert len(shown) == len({*shown})
+
+
+def test_fixes_that_make_one_contour_show_one_place():
+    finding = check("G111 X100. A180. K-30. B120. U60.", control="yasnac-lx3", start="X40. Z0.")[0]
+    assert len({re.sub(r".*-> ", "", each.description) for each in finding.fixes}) == 1
