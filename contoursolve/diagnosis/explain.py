@@ -310,6 +310,8 @@ def _open_elements(free: set[str], number: int, profile: Profile) -> tuple[str, 
         for each in profile.figure.path
         if things & {each.name, each.head, *((each.center, each.radius) if isinstance(each, Arc) else ())}
     ]
+    # Of what is beside the path, such as a pole, the elements do not tell.
+    open_ = open_ or sorted(things)
     missing = f"{NUMBERS.get(number, number)} word{' is' if number == 1 else 's are'} missing"
     return f"{missing}, so {join(open_)} {'is' if len(open_) == 1 else 'are'} open", next(iter(open_), "")
 

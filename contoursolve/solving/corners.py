@@ -1,7 +1,9 @@
 """Fillets and chamfers at a virtual intersection, in closed form, with the residuals of their definitions.
 
 The elements before and after are edges: each leaves the intersection along a line or along a circle. What is
-sought on a circle follows from one quadratic equation whose root is the one that grows from 0 with the size.
+sought on a circle follows from one quadratic equation whose root is the one that grows from 0 with the size. Where
+the size is nearly the radius, small differences are taken first: rounding then moves a fillet, but makes none that
+touches nothing.
 """
 
 from typing import Any
@@ -118,28 +120,34 @@ def _fillet(before: Edge, after: Edge, size: Any, side: Any) -> tuple[Pair, Pair
 
 def _beside_line_and_circle(line: Edge, arc: Edge, size: Any, side: Any) -> Pair:
     """`size` to the side of the line, and of the circle: |spoke + side size n + x u| = R - turn side size."""
-    spoke = _spoke(arc)
+    aside = _times(side * size, line.left)
+    spoke = _plus(_spoke(arc), aside)
     half = _dot(spoke, line.direction)
-    constant = 2 * side * size * (_dot(spoke, line.left) + arc.turn * arc.radius)
-    x = _small_root(half, constant)
-    return _plus(_times(side * size, line.left), _times(x, line.direction))
+    x = sign(half) * _cathetus(_reach(arc, size, side), _cross(line.direction, spoke)) - half
+    return _plus(aside, _times(x, line.direction))
 
 
 def _beside_circles(before: Edge, after: Edge, size: Any, side: Any) -> Pair:
     """`size` to the side of both circles; the difference of the two equations is a line across the centres."""
     first, second = _spoke(before), _spoke(after)
     between = _minus(first, second)
-    along = unit(between)
+    along, distance = unit(between), _norm(between)
     across = -along[1], along[0]
-    shift = side * size * (after.turn * after.radius - before.turn * before.radius) / _norm(between)
-    half = _dot(first, across)
-    constant = shift * (shift + 2 * _dot(first, along)) - size * size + 2 * before.turn * side * size * before.radius
-    return _plus(_times(shift, along), _times(_small_root(half, constant), across))
+    reaches = [_reach(edge, size, side) for edge in (before, after)]
+    shift = ((reaches[0] - reaches[1]) * (reaches[0] + reaches[1]) / distance + distance) / 2
+    height = sign(_dot(first, across)) * _cathetus(reaches[0], shift)
+    return _minus(_plus(_times(shift, along), _times(height, across)), first)
 
 
-def _small_root(half: Any, constant: Any) -> Any:
-    """The root of x**2 + 2 half x + constant that is 0 with the constant, without cancellation."""
-    return -constant / (half + sign(half) * sqrt(half * half - constant))
+def _reach(arc: Edge, size: Any, side: Any) -> Any:
+    """How far the centre of a fillet is from that of a circle; negative where the fillet is the larger one, around
+    it."""
+    return arc.radius - arc.turn * side * size
+
+
+def _cathetus(hypotenuse: Any, other: Any) -> Any:
+    """The side of a right triangle, without cancellation where the other two are nearly the same."""
+    return sqrt((hypotenuse - other) * (hypotenuse + other))
 
 
 def _contact(edge: Edge, center: Pair, size: Any, side: Any) -> Pair:
@@ -147,7 +155,9 @@ def _contact(edge: Edge, center: Pair, size: Any, side: Any) -> Pair:
     if edge.spoke is None:
         return _times(_dot(center, edge.direction), edge.direction)
     from_center = _plus(edge.spoke, center)
-    return _minus(_times(edge.radius / (edge.radius - edge.turn * side * size), from_center), edge.spoke)
+    # On the circle itself, however near both centres are.
+    share = sign(_reach(edge, size, side)) * edge.radius / _norm(from_center)
+    return _minus(_times(share, from_center), edge.spoke)
 
 
 def _chamfer_45(before: Edge, after: Edge, extent: Pair, turn: Any) -> tuple[Pair, Pair]:

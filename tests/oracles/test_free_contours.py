@@ -151,6 +151,9 @@ def test_settings_tell_what_numbers_choose_and_what_comes_without_them():
         (["FL PDX+20 PDY+5 X+3 Y+4"], "402-0008"),
         (["FL AN+30 D5 LEN10"], "402-0008"),
         (["FL X+5 Y+0", "FPOL X+3", "FL PR+5 PA+20"], "402-0008"),
+        (["FPOL X+5", "FL PR+5 PA+20"], "402-0008"),
+        (["FPOL Y+5", "M8", "FL X+5 Y+20", "FL X+30 Y+3"], "402-0008"),
+        (["FPOL X+5", "L X+5 Y+20", "FL X+30 Y+3"], "402-0008"),
         (["FL AN+60", "L X+50 Y+0"], "402-0009"),
     ],
 )

@@ -158,3 +158,75 @@ def test_a_row_of_a_family_is_the_contour_of_its_blocks():
             _, corner, _ = alone.contour.elements
             at = tuple(found[f"corner 1.center.{axis}"][row] for axis in "XY")
             assert at == pytest.approx(corner.center, abs=1e-9)
+
+
+# Roundings that nearly touch ------------------------------------------------------------------------------------
+
+
+def beside(at, way, radius, sense, swept):
+    """The centre of an arc that passes a point in a direction, and where it is after turning by so much."""
+    center = (at[0] - sense * radius * sin(way), at[1] + sense * radius * cos(way))
+    spoke = complex(at[0] - center[0], at[1] - center[1]) * complex(cos(sense * swept), sin(sense * swept))
+    return center, (center[0] + spoke.real, center[1] + spoke.imag)
+
+
+def nearly_tangent(rng):
+    """A rounding of nearly the radius of an arc beside it, or where the direction hardly changes or nearly reverses."""
+    way, size, at = rng.uniform(0, 2 * pi), 10 ** rng.uniform(-1, 2), (rng.uniform(-99, 99), rng.uniform(-99, 99))
+    turn = rng.choice([1, -1]) * rng.choice([10 ** rng.uniform(-5, 0.3), pi - 10 ** rng.uniform(-4, 0)])
+    forms = rng.choice(["LA", "AL", "AA"])
+
+    def place(point):
+        return f"X{point[0]:+.9f} Y{point[1]:+.9f}"
+
+    def element(form, way, *, is_first):
+        """The far end of an element and its blocks, without that end."""
+        if form == "L":
+            away = -200 if is_first else 200
+            return (at[0] + away * cos(way), at[1] + away * sin(way)), [], "L", ""
+        near = size * (1 + rng.choice([1, -1]) * 10 ** rng.uniform(-6, 0))
+        sense, swept = rng.choice([1, -1]), rng.uniform(0.3, 2.5) * (-1 if is_first else 1)
+        center, far = beside(at, way, rng.choice([near, 10 ** rng.uniform(0, 3)]), sense, swept)
+        return far, [f"CC {place(center)}"], "C", f" DR{'+' if sense > 0 else '-'}"
+
+    start, centers, name, sense = element(forms[0], way, is_first=True)
+    end, others, following, other = element(forms[1], way + turn, is_first=False)
+    blocks = [*centers, f"{name} {place(at)}{sense}", f"RND R{size:.3f}", *others, f"{following} {place(end)}{other}"]
+    return klartext(*blocks, before=f"L {place(start)}")
+
+
+def off_edge(center, segment):
+    """How far a point is from the line or circle of an element, mm."""
+    if isinstance(segment, ArcSegment):
+        return abs(hypot(center[0] - segment.center[0], center[1] - segment.center[1]) - segment.radius)
+    (x, y), (a, b) = segment.start, segment.end
+    return abs((a - x) * (center[1] - y) - (b - y) * (center[0] - x)) / hypot(a - x, b - y)
+
+
+CLOSE = """0 BEGIN PGM A MM
+1 L X38.425 Y33.485
+2 L X51.129 Y57.578
+3 RND R19.27
+4 CC X33.757248 Y65.938874
+5 C X14.758345 Y62.664175 DR+
+6 END PGM A MM
+"""
+
+
+@some_of("text", [CLOSE, *(nearly_tangent(Random(seed)) for seed in range(400))], one_in=3)
+def test_a_rounding_that_nearly_touches_is_solved_or_does_not_fit(text):
+    result = contoursolve.solve(text)
+    assert "not-verified" not in [each.code for each in result.diagnostics]
+    contour = result.answers[0].contour
+    if text == CLOSE:
+        # The ends of its arc are not equally far from the centre.
+        assert contour is not None
+    elif contour is not None and len(contour.elements) == 3:
+        before, rounding, after = contour.elements
+        for each in (before, after):
+            # A line that is cut short tells its direction to few digits.
+            length = (
+                1 if isinstance(each, ArcSegment) else hypot(each.end[0] - each.start[0], each.end[1] - each.start[1])
+            )
+            off = off_edge(rounding.center, each) - rounding.radius
+            assert abs(off) <= 1e-8 / min(1, length)

@@ -104,6 +104,9 @@ def test_the_program_of_the_lathe_tells_its_control_and_that_of_the_mill_asks():
         (LATHE, "G00 X50. Z0\nG02 X60. Z-5. R5. ,R1.\nG01 Z-25.", "fanuc-arc", "052"),
         (LATHE, "G00 X50. Z0\nG01 Z-20. ,R20.1\nX100.", "fanuc-corner-too-large", "055"),
         (LATHE, "G00 X50. Z0\nG01 Z-20.\n,R2.\nX100.", "fanuc-corner-alone", "055"),
+        (LATHE, "G00 X20. Z0.\nG32 Z-25. F1. ,R2.\nG01 X40.", "fanuc-thread", "050"),
+        (LATHE, "G00 X20. Z0.\nG32 Z-25. F1.\nX22. ,R2.", "fanuc-thread", "050"),
+        (MILL, "G17 G90 G00 X0 Y0\nG33 X50. F1. ,C5.\nG01 Y20.", "fanuc-thread", "050"),
         (LATHE, "G00 X50. Z0\nG01 Z-20. ,R5. ,C5.\nX100.", "fanuc-two-corners", "053"),
         (LATHE, "G00 X50. Z0\nG42 G01 Z-20. ,R5.\nX100.", "fanuc-corner-compensation", "039"),
         (LATHE, "G00 X50. Z0\nG01 Z-20. ,R-5.\nX100.", "fanuc-corner-negative", None),
@@ -832,3 +835,9 @@ def test_many_contours_of_a_program_come_out_as_each_alone(settings, count):
         (alone,) = solve(text, control=LATHE, settings=named).answers
         assert (answer.status, elements(answer)) == (alone.status, elements(alone)), text
         assert [each.code for each in answer.diagnostics] == [each.code for each in alone.diagnostics], text
+
+
+def test_a_corner_in_a_thread_behind_a_contour_is_told():
+    result = solve("G00 X20. Z0.\nG01 X22. ,A150.\nG32 Z-25. F1. ,R2.\nM30", control=LATHE)
+    assert [each.alarm.number[:3] for each in errors(result)] == ["050"]
+    assert [each.status.value for each in result.answers] == ["solved", "rejected"]

@@ -251,6 +251,10 @@ class ChainFinder:
         if block.macro or any(isinstance(code, Word) or code.effect in _OWN_USE for code in codes):
             return False
         here = apply_modes(state, block, modes)
+        if here.motion in self.language.threads:
+            # Other threads are no part of a contour; what would make these one is refused.
+            words = {*self.language.angles, *self._cornered}
+            return any(word.startswith(",") for word in self._stated(block, here) & words)
         return here.motion in (0, *self._cutting) and self._moves(block, here)
 
     def _moves(self, block: Block, here: State) -> bool:

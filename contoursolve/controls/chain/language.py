@@ -40,6 +40,8 @@ CORNER_ALONE = "@corner-alone"
 """A block of its own that makes a corner, behind no move."""
 BESIDE_ARC = "@beside-arc"
 """Its element or the next one is an arc."""
+THREAD = "@thread"
+"""It cuts a thread."""
 ORDINARY = "@ordinary"
 """The control calculates nothing for it."""
 
@@ -258,6 +260,8 @@ class Language:
     """Sine of the change of direction up to which the control makes no corner."""
     refuses: Callable[[Modes], bool] = _never
     """Whether it refuses such a corner; else it leaves it out."""
+    threads: frozenset[int] = frozenset()
+    """The motions of threads, in which the control computes no angle and no corner, and says so."""
     passes: frozenset[int] = frozenset()
     """G codes of blocks that may stand between two blocks of a contour."""
     between: int = 0

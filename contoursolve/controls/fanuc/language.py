@@ -189,6 +189,7 @@ FANUC_LATHE_LANGUAGE = Language(
     guard=_guard_sine,
     refuses=_refuses,
     signed={"I": _SETBACK, "K": _SETBACK, "R": _FILLET},
+    threads=frozenset({32, 34}),
     passes=frozenset({4}),
     resting=_resting(
         LATHE_NUMBER,
@@ -213,6 +214,7 @@ FANUC_MILL_LANGUAGE = Language(
     guard=_guard_sine,
     refuses=_refuses,
     signed={"I": _SETBACK, "J": _SETBACK, "K": _SETBACK},
+    threads=frozenset({33}),
     passes=frozenset({4}),
     resting=_resting(
         MILL_NUMBER,

@@ -16,6 +16,7 @@ from contoursolve.controls.chain.language import (
     RAPID,
     STATED_CENTER,
     STATED_POINT,
+    THREAD,
 )
 from contoursolve.controls.chain.rules import Manual, chain_rules
 from contoursolve.controls.fanuc.language import (
@@ -60,6 +61,8 @@ class _Machine:
     turn: str
     square: str = ""
     """A program with a corner by a word with a sign, if it has one."""
+    thread: int = 32
+    """The code of a thread."""
 
     @property
     def cut(self) -> str:
@@ -78,9 +81,9 @@ class _Machine:
 _TURNING, _MILLING = "G00 X20. Z0.\n", "G17 G90 G00 X0 Y0\n"
 _SQUARE, _MILLED_SQUARE = _TURNING + "G01 Z-20. I5.\nX40.", _MILLING + "G01 X30. J5.\nY40."
 _FANUC_LATHE = _Machine("fanuc", DRAWING, ",A", True, _TURNING, "Z-20.", "X40. Z-30.", _SQUARE)
-_FANUC_MILL = _Machine("fanuc", CORNERS, "", True, _MILLING, "X30.", "X40. Y40.", _MILLED_SQUARE)
+_FANUC_MILL = _Machine("fanuc", CORNERS, "", True, _MILLING, "X30.", "X40. Y40.", _MILLED_SQUARE, 33)
 _HAAS_LATHE = _Machine("haas", HAAS, "A", False, _TURNING, "Z-20.", "X40. Z-30.", _SQUARE)
-_HAAS_MILL = _Machine("haas", HAAS, "", False, _MILLING, "X30.", "X40. Y40.")
+_HAAS_MILL = _Machine("haas", HAAS, "", False, _MILLING, "X30.", "X40. Y40.", thread=33)
 
 _VERTEX = _TURNING + "G01 ,A180. ,R3.\nX60. Z-47. ,A120."
 _ARC_BEHIND = _MILLING + "G01 X40. ,C6.\nG02 X60. Y20. I20. J0"
@@ -109,9 +112,20 @@ def _corner_rules(machine: _Machine) -> tuple[Rule, ...]:
             source=machine.source(_ALARM_LIST),
             alarm=machine.alarm("051 or 052 (no move, or no cutting move, behind a corner)"),
             roles=_ANY,
-            when=some(*_CORNERS) & some(LAST) & ~some(RAPID),
+            when=some(*_CORNERS) & some(LAST) & ~some(RAPID, THREAD),
             accepted=(cut, cut.replace("\n" + machine.turn, "\nG04 P500\n" + machine.turn)),
             rejected=(cut.replace("\n" + machine.turn, "\nM8\n" + machine.turn), cut.replace("5.\n", "5.\nG00 ")),
+        ),
+        Rule(
+            code=f"{machine.prefix}-thread",
+            message="{words}: in a thread the control makes no corner, and no line by its angle",
+            help="write the corner in a block of its own with G01, or delete it",
+            source=machine.source(_ALARM_LIST),
+            alarm=machine.alarm("050 (a corner in a thread block)"),
+            roles=_ANY,
+            when=some(*angle, *_CORNER) & some(THREAD),
+            accepted=(cut,),
+            rejected=(cut.replace("G01", f"G{machine.thread} F1."),),
         ),
         Rule(
             code=f"{machine.prefix}-corner-alone",

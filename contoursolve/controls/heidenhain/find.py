@@ -162,20 +162,20 @@ class _Chain:
     def _take(self, block: Block) -> bool:
         """Whether a block belongs to the chain; then it is taken."""
         function, last = function_of(block), self.members[-1] if self.members else None
-        if last is None:
-            self._add(block, "L" if function in _CORNERS else function)
-            if function in _CORNERS:
-                # The corner of no element: that of a line of no length, which is refused.
-                self.members[0].corners = ((0, block),)
-            return function not in _CORNERS
         if _stands_between(block, function):
-            if function == "FSELECT":
+            if function == "FSELECT" and last is not None:
                 last.picked = block.find("FSELECT")
             elif function == POLE:
                 self.poles[f"pole {len(self.poles) + 1}"] = len(self.blocks), block
             elif function == CENTER:
                 self.state = set_pole(self.state, block, CENTER, self.modes)
             return self._pass(block)
+        if last is None:
+            self._add(block, "L" if function in _CORNERS else function)
+            if function in _CORNERS:
+                # The corner of no element: that of a line of no length, which is refused.
+                self.members[0].corners = ((len(self.blocks) - 1, block),)
+            return function not in _CORNERS
         if function in _CORNERS:
             last.corners = (*last.corners, (len(self.blocks), block))
             return self._pass(block)
@@ -237,6 +237,10 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Par
         # What touches a move from an unknown place cannot be found.
         joins = (*_CORNERS, *TANGENT) if is_known else tuple(_CORNERS)
         is_begun = _is_in_plane(block) and _next_function(blocks, index) in joins
+    elif function == POLE:
+        # A pole is read where it stands; one with a coordinate missing is none for the chain behind it.
+        is_half = (block.find("X") is None) is not (block.find("Y") is None)
+        is_begun = is_half and _next_function(blocks, index) in MOVES
     else:
         is_begun = function in _CORNERS
     if not is_begun:
