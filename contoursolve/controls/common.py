@@ -16,6 +16,7 @@ from contoursolve.solving import NoteKind, RefusalKind
 from contoursolve.tolerance import LARGEST, TRAVEL
 
 _GOOD = "G00 X40. Z0.\nG111 A180. K-30. B120. X100."
+_CUT = "0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL X+0 Y+20\n3 FL Y+20\n4 FL X+50 Y+20\n5 END PGM A MM"
 _START = "G00 X40. Z0.\n"
 _PROFILE = (
     "G00 X140. Z2.\nG71 P10 Q20 U.4 W.1 F.2\nN10 G00 X40.\nG01 Z0.\n"
@@ -492,6 +493,16 @@ SYSTEM_RULES = (
         about=ReadIssue.CORNER_NOWHERE,
         accepted=(_GOOD + " D2.",),
         rejected=(_START + "G111 A180. K-30. X100. Z-47. D2.",),
+    ),
+    Rule(
+        code="cut-free",
+        message="{subject} cuts a straight line in two: the path is the same wherever it lies; it is put in the middle",
+        help="nothing has to be changed; a coordinate or a length would say where it lies",
+        source=_GEOMETRY,
+        about=ReadIssue.CUT_FREE,
+        severity=Severity.INFO,
+        accepted=(_CUT.replace("3 FL", "3 FL X+20"),),
+        rejected=(_CUT,),
     ),
     Rule(
         code="several-contours",

@@ -429,7 +429,7 @@ def _without_cuts(
     for element in profile.figure.path:
         if element.head in cuts:
             place = replace(context, place=lines[element.name].span)
-            notebook.add(explain_result(place, Note(NoteKind.CUT_FREE, element.head), profile))
+            notebook.add(report(place, ReadIssue.CUT_FREE, Basis.NUMERICAL, [], subject=element.head))
     return profile
 
 

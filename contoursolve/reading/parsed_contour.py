@@ -52,6 +52,7 @@ class ReadIssue(Enum):
     CORNER_TWICE = "corner-twice"
     CORNER_NEGATIVE = "corner-negative"
     CORNER_NOWHERE = "corner-nowhere"
+    CUT_FREE = "cut-free"
     FACT_UNREADABLE = "fact-unreadable"
     FACT_IMPOSSIBLE = "fact-impossible"
     FACT_NOWHERE = "fact-nowhere"

@@ -152,8 +152,6 @@ class NoteKind(Enum):
     """Nothing chooses, and a setting takes the first of several contours."""
     WORDS_AGREE = "words-agree"
     """A word that was not needed agrees."""
-    CUT_FREE = "cut-free"
-    """A point only cuts a straight line in two: where it lies changes nothing of the path."""
     RADIUS_DIFFERS = "radius-differs"
     """Two points of a circle differ in radius, by less than the control allows."""
 

@@ -235,7 +235,7 @@ def test_data_that_agree_are_accepted_with_a_note_and_others_are_told_by_how_muc
 )
 def test_a_block_that_only_cuts_a_straight_line_is_told_and_the_path_is_solved(blocks, cuts):
     answer = solved(chain(*blocks))
-    told = [each.message.split()[0] for each in answer.diagnostics if each.code == "heidenhain-cut-free"]
+    told = [each.message.split()[0] for each in answer.diagnostics if each.code == "cut-free"]
     assert told == list(cuts)
     for point, at in cuts.items():
         assert answer.contour.points[point] == pytest.approx(at)

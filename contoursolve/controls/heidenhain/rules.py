@@ -57,7 +57,6 @@ _TANGENT = START + "2 FL X+30 Y+0\n3 FCT DR+ R10 CCA+0\n4 END PGM A MM"
 _ROUND = START + "2 FC DR- R25 CCX+25 CCY+0 X+25 Y+25\n3 FCT DR- CCX+25 CCY+0 X+50 Y+0"
 _TURNING = START + "2 FL AN+0\n3 FCT DR+ R10 CCA+0\n4 FLT X+40 Y+30"
 _NUMBERED = START + "2 FL X+30 Y+0\n3 FL IX+5 IY+20 RX 2\n4 END PGM A MM"
-_STRAIGHT = START + "2 FL X+0 Y+20\n3 FL Y+20\n4 FL X+50 Y+20\n5 END PGM A MM"
 _CORNER = START + "2 L X+40 Y+0\n3 RND R5\n4 L X+40 Y+30\n5 END PGM A MM"
 _BOW = _CORNER.replace("4 L X+40 Y+30", "4 CR X+40 Y+30 R15 DR+")
 _FAR = START + "2 FL X+30 Y+0\n3 FL X+50 Y+10\n4 FL IX+5 IY+20 RX 2\n5 END PGM A MM"
@@ -203,13 +202,6 @@ _OWN = (
         "nothing is wrong: the solution that is taken fits all blocks", BOOK.assumed("how FSELECT counts"),
         (_CHOSEN,), (_CHOSEN.replace("LEN40", "X+30 Y+10").replace("SELECT 1", "SELECT 2"),),
         about=NoteKind.PICK_OPEN, severity=Severity.INFO,
-    ),
-    Rule(
-        "heidenhain-cut-free",
-        "{subject} cuts a straight line in two: wherever it lies, the path is the same; it is put in the middle",
-        "nothing has to be changed; a coordinate or LEN would say where it lies",
-        BOOK.assumed("solutions"), (_STRAIGHT.replace("3 FL", "3 FL X+20"),), (_STRAIGHT,),
-        about=NoteKind.CUT_FREE, severity=Severity.INFO,
     ),
     Rule(
         "heidenhain-first-taken", "{subject} has {limit_count}: the first one is taken, as the setting ambiguous says",
