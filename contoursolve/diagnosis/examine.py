@@ -378,8 +378,8 @@ def _examine_geometry(
     if structure and profile.start.is_known and not (is_refused and profile.is_extended):
         from contoursolve.solving.ambiguity import said_twice  # noqa: PLC0415 - few blocks lack something
 
-        events = said_twice(profile)
-        for event in (each for each in events if not is_refused or each.kind in _ABOUT_WORDS):
+        compared = said_twice(profile)
+        for event in (each for each in compared if not is_refused or each.kind in _ABOUT_WORDS):
             finding = explain_result(context, event, profile)
             against += [finding] if isinstance(event, Refusal) else []
             notebook.add(finding)
