@@ -50,7 +50,7 @@ from contoursolve.program.profiles import CycleProfile
 from contoursolve.program.recognise import begins_for_another, first_signs, what_shows
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Pending, Previous, Queue, Step, Together
-from contoursolve.program.stream import Line, View, each_block, go_on, pass_plainly
+from contoursolve.program.stream import Line, View, each_block, go_on, pass_plainly, says_something
 from contoursolve.program.tape_markers import Marks
 from contoursolve.reading import (
     ParsedContour,
@@ -520,9 +520,11 @@ class Examiner:
                 held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
             found, after = self._find(view, state)
-            if not is_whole and not (view.says_something(after) and view.holds(after + _BEHIND)):
+            # Nothing goes on at a block that says nothing.
+            ends = found is None and not says_something(view[0])
+            if not is_whole and not ends and not (view.says_something(after) and view.holds(after + _BEHIND)):
                 # Whether a contour goes on is known at the next block that says something.
-                more = list(islice(rest, _BATCH))
+                more = list(islice(rest, max(_BATCH, len(held) - index)))
                 held, index, is_whole = [*held[index:], *more], 0, not more
                 continue
             taken, leave = self._take(view, found, after, state)

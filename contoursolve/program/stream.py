@@ -69,7 +69,7 @@ class View(Sequence[Block]):
             if isinstance(each, ProgramEvent):
                 return True
             lines = each.lines if isinstance(each, Passage) else (each,)
-            if any(map(_says_something, lines[max(0, first - number) :])):
+            if any(map(says_something, lines[max(0, first - number) :])):
                 return True
             place, number = place + 1, number + len(lines)
         return False
@@ -122,7 +122,7 @@ def go_on(held: list[Line], index: int, rest: int) -> tuple[list[Line], int]:
     return held, index
 
 
-def _says_something(line: Block | str) -> bool:
+def says_something(line: Block | str) -> bool:
     """Whether a line has more than its number."""
     if isinstance(line, str):
         return bool(words_of(line))

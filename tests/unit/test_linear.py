@@ -1,4 +1,5 @@
-"""Reading and judging a line takes time by its length: eight times as long, and it takes eight times as long, or less.
+"""Reading and judging a line or a program takes time by its length: eight times as long, and it takes eight times as
+long, or less.
 
 What Python does is counted in calls; what a regular expression does within one call shows in processor time alone, of
 which the shortest of several runs counts.
@@ -167,3 +168,35 @@ def test_time_goes_by_the_length_of_a_line_of_any_atoms():
     for _ in range(100):
         head, unit, tail = ("".join(draw.choices(ATOMS, k=draw.choice((0, 1, 1, 2, 3)))) for _ in range(3))
         hold_against_length((head, unit or " ", tail), SHORT, draw.choice(("yasnac-lx3", "nct-99m")))
+
+
+# Programs ------------------------------------------------------------------------------------------------------------
+
+QUIET = {
+    "empty lines": ("fanuc-mill", "\n"),
+    "comments": ("siemens-840d", "; a comment\n"),
+    "numbers alone": ("yasnac-lx3", "N10\n"),
+    "comments of a plain-text control": ("heidenhain", "; a comment\n"),
+}
+"""Lines that say nothing."""
+
+CORNER = {
+    "fanuc-mill": ("G00 X0. Y0.", "G01 X10. F100. ,R1.", "Y10."),
+    "siemens-840d": ("G0 X0 Y0", "G1 X10 F100 RND=1", "Y10"),
+    "yasnac-lx3": ("G00 X40. Z0.", "G111 X100. A180. K-30. B120.", "Z-100."),
+    "heidenhain": ("L X+0 Y+0 FMAX", "FL AN+0 LEN20", "FCT DR+ R10 CCA+30"),
+}
+
+
+@pytest.mark.parametrize(("control", "line"), QUIET.values(), ids=QUIET)
+@pytest.mark.parametrize("place", [0, 1, 2, 3])
+def test_time_goes_by_the_number_of_lines_that_say_nothing(control, line, place):
+    """A program that is read as a stream. It waited for the next line that says something once for each of them."""
+
+    def solve(count: int) -> None:
+        lines = [f"{each}\n" for each in CORNER[control]]
+        expand("".join((*lines[:place], line * count, *lines[place:])), control=control)
+
+    solve(1)
+    few, many = (calls(lambda count=count: solve(count)) for count in (SHORT // 2, TIMES * SHORT // 2))
+    assert many <= 1.2 * TIMES * few
