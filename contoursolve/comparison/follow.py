@@ -18,7 +18,18 @@ from contoursolve.program.calls import machine_for
 from contoursolve.program.pipeline import Examiner, Result
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Step as Passed
-from contoursolve.reading import Code, Effect, Lexicon, State, WithoutPoint, advance, apply_modes, codes_of, leave
+from contoursolve.reading import (
+    Bearing,
+    Code,
+    Effect,
+    Lexicon,
+    State,
+    WithoutPoint,
+    advance,
+    apply_modes,
+    codes_of,
+    leave,
+)
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.follow import ContourBlock, blocks_of
 from contoursolve.reading.modal_dependence import MOTIONS, Reliance, reliance
@@ -221,8 +232,13 @@ class _Follower:
 
     def _is_plain(self, word: Word, more: tuple[str, ...] = ()) -> bool:
         row = self.modes.lexicon.addresses.get(word.address)
-        is_beside = word.address in _BESIDE or word.address in self.modes.beside or word.address in more
+        is_beside = word.address in _BESIDE or self._bears_nothing(word.address) or word.address in more
         return is_beside or bool(row and row.axis)
+
+    def _bears_nothing(self, address: str) -> bool:
+        """Whether a word with several letters changes no path where no contour is."""
+        is_lasting = address in self.modes.lasting
+        return is_lasting or (len(address) > 1 and self.modes.lexicon.bearing(address) is Bearing.NONE)
 
     def _arc(self, block: Block, here: State, turn: Turn) -> Step:
         """An arc by its centre or its radius, or why it is none."""

@@ -6,6 +6,7 @@ from decimal import Decimal
 from enum import Enum
 
 from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.further import letters
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.gcode import Block
 from contoursolve.geometry import Length, Plane, Unit
@@ -55,7 +56,7 @@ def lexicon(
         *(Address(address, "centre of an arc", Unit.MM, source) for address in "IJK"),
         Address("R", "radius; negative for an arc of more than 180 deg", Unit.MM, source),
     ]
-    return Lexicon({row.address: row for row in rows}, numbers)
+    return Lexicon({row.address: row for row in rows}, numbers, letters(source))
 
 
 G20_G21 = {20: Length.INCH, 21: Length.MM}
@@ -76,9 +77,14 @@ def code_rows(
 
 
 def coming_back(code: Code) -> Code:
-    """The row of a code; G70 to G76 of lathes end where the tool was before them."""
+    """The row of a code; G70 to G76 of lathes end where the tool was before them, G53 is about coordinates alone."""
     is_cycle = code.effect is Effect.SINGLE and ("cycle" in code.meaning or "roughing" in code.meaning)
-    return replace(code, comes_back=True) if is_cycle else code
+    needs_axes = code.effect is Effect.SINGLE and code.meaning in _OF_COORDINATES
+    return replace(code, comes_back=is_cycle, needs_axes=needs_axes) if is_cycle or needs_axes else code
+
+
+_OF_COORDINATES = ("machine coordinates", "no offset")
+"""What codes mean that are about the coordinates of their block."""
 
 
 MOTIONS = {0: "positioning", 1: "line", 2: "arc clockwise", 3: "arc counter-clockwise"}

@@ -46,7 +46,10 @@ def diagnose(
     is_readable = not any(block.faults for block in answer.claim.blocks)
     circuits, is_every_tie = affine.circuits() if affine and is_readable else NO_CIRCUITS
     freedoms = affine.freedoms() if affine and is_readable else ()
-    repairs = find_repairs(answer, dialect, tuple(following), previous)
+    # What a contour needs and nobody reads here is no slip.
+    repairs = Repairs((), is_complete=False)
+    if not answer.claim.unread:
+        repairs = find_repairs(answer, dialect, tuple(following), previous)
     # Of facts that are not all about lines between points, findings show ties.
     other_ties = _further_ties if profile.is_extended else _circle_ties
     diagnosis = Diagnosis(
@@ -286,6 +289,7 @@ _GRAMMAR = (
     *FaultKind,
     ReadIssue.REPEATED_ADDRESS,
     ReadIssue.UNKNOWN_ADDRESS,
+    ReadIssue.NOT_READ,
     ReadIssue.VARIABLE,
     ReadIssue.FACT_UNREADABLE,
     ReadIssue.FACT_IMPOSSIBLE,

@@ -9,7 +9,7 @@ from math import copysign
 from contoursolve.diagnosis.edits import AT_MOST, Edit, EditKind, Why, change, drop, mend, write_word
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.explain import spans_of
-from contoursolve.diagnosis.spelling import meant_in, meant_words, respelled, unanswerable
+from contoursolve.diagnosis.spelling import meant_in, meant_words, respelled, unanswerable, with_comma
 from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import FACT, FaultKind, Word, lookalike_at, number_of
@@ -39,10 +39,10 @@ def commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     claim = answer.claim
     blamed = spans_of(each for each in answer.diagnostics if each.is_error)
     meant = meant_words(claim)
-    words = dict.fromkeys(
-        (*(word for word in claim.unknown if not lookalike_at(meant, word.span)), *claim.words.values())
-    )
-    found = [(word, respelled(word, claim.form.allowed)) for word in words if word.span in blamed]
+    unknown = [word for word in claim.unknown if not lookalike_at(meant, word.span)]
+    others = [(word, with_comma(word, claim)) for word in claim.words.values() if word not in unknown]
+    found = [*((word, respelled(word, claim)) for word in unknown), *others]
+    found = [(word, text) for word, text in found if word.span in blamed]
     edits = [change(word, text) for word, text in found if text]
     if edits:
         yield tuple(edits)

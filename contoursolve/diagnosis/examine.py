@@ -212,7 +212,7 @@ def examine(
     notebook.findings += (*explain_skippable(context, claim), *unmarked)
     explained = spans_of(notebook.findings)
     # What rules refuse of a chain is not solved without a word either.
-    is_refused = claim.form.is_general and Status.REJECTED in notebook.statuses
+    is_refused = bool(claim.unread) or (claim.form.is_general and Status.REJECTED in notebook.statuses)
     for word in unused_words(claim, profile) if is_whole and not is_refused else ():
         # Whatever the rules say of it: nothing is dropped without a word.
         if word.span not in explained:

@@ -313,7 +313,8 @@ def _open_elements(free: set[str], number: int, profile: Profile) -> tuple[str, 
     # Of what is beside the path, such as a pole, the elements do not tell.
     open_ = open_ or sorted(things)
     missing = f"{NUMBERS.get(number, number)} word{' is' if number == 1 else 's are'} missing"
-    return f"{missing}, so {join(open_)} {'is' if len(open_) == 1 else 'are'} open", next(iter(open_), "")
+    told = f"{join(open_)} {'is' if len(open_) == 1 else 'are'} open" if open_ else "the contour is open"
+    return f"{missing}, so {told}", next(iter(open_), "")
 
 
 def _adding_by_line(words: Sequence[tuple[str, int]], number: int, claim: ParsedContour) -> str:

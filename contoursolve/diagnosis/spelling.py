@@ -1,14 +1,15 @@
 """Findings about characters, words and positions, before the equations are looked at."""
 
 import re
+import unicodedata
 from bisect import bisect_right
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
-from difflib import get_close_matches
 
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.explain import Context, report, spans_of
+from contoursolve.diagnosis.vocabulary import meant_by, not_read_yet
 from contoursolve.diagnosis.wording import angle_text, join, length_text
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Label, Severity
 from contoursolve.diagnostics.source import Span
@@ -19,11 +20,12 @@ from contoursolve.gcode import (
     Word,
     find_lookalikes,
     lookalike_at,
+    looks_like,
     mended,
     number_of,
     spell,
 )
-from contoursolve.geometry import CornerShape, Given, Length, Unit
+from contoursolve.geometry import Arc, CornerShape, Given, Length, Unit
 from contoursolve.reading import Lexicon, ParsedContour, Position, ReadIssue, State, WithoutPoint
 from contoursolve.tolerance import LARGEST
 
@@ -35,6 +37,7 @@ def explain_spelling(context: Context, claim: ParsedContour) -> Iterator[Diagnos
         yield from explain_faults(context, block)
     yield from explain_words(context, claim.lexicon, claim.repeated, words)
     yield from _explain_unknown(context, claim)
+    yield from (not_read_yet(context, word, is_needed=True) for word in claim.unread)
     yield from _explain_asked(context, claim)
 
 
@@ -109,10 +112,21 @@ def _explain_fault(context: Context, fault: Fault, meant: Lookalike | None) -> D
     shown = Word(fault.text[:1], None, False, fault.text.strip(), fault.span)
     finding = report(context, fault.kind, Basis.RULE, [shown])
     finding = replace(finding, addresses=(fault.address,) if fault.address else ())
+    like = looks_like(fault.text)
+    if like != fault.text:
+        return _explain_character(finding, fault.text, like)
     if meant is None:
         return finding
     advice = f"write {meant.new} for {meant.old} if that is meant; else {finding.help}"
     return replace(finding, message=_ask(meant), help=advice)
+
+
+def _explain_character(finding: Diagnostic, character: str, like: str) -> Diagnostic:
+    """A character that looks like another one."""
+    name = unicodedata.name(character, "null" if character == "\0" else "control character").lower()
+    looks = "a blank" if like == " " else like
+    told = f"the character here is U+{ord(character):04X} ({name}), not {looks}; no control reads it"
+    return replace(finding, message=told, help=f"type {looks} in its place")
 
 
 class Meanings:
@@ -160,7 +174,7 @@ def meant_words(claim: ParsedContour) -> tuple[Lookalike, ...]:
             continue
         meanings, ends = Meanings(block), {each.span.end_column: each for each in block.words}
         meant = [meanings.at(span) for span in (*unread, *(word.span for word in unknown))]
-        behind = [word for word in unknown if word.address.startswith(",") and respelled(word, claim.form.allowed)]
+        behind = [word for word in unknown if word.address[:1] == "," and word.address[1:] in claim.form.allowed]
         meant += [_comma_behind(ends.get(word.span.column), word) for word in behind]
         found |= {each.span: each for each in meant if each}
     return tuple(found[span] for span in sorted(found))
@@ -225,21 +239,32 @@ def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnos
     others = sorted(form.allowed - {"N", "G", *own})
     allowed = " ".join(own) + (f", and besides {' '.join(others)}" if others else "")
     for word in claim.unknown:
-        here = lookalike_at(torn, word.span)
+        here, radius = lookalike_at(torn, word.span), ""
         if any(each.span.line == word.span.line and each is not here for each in torn):
             continue
-        other = respelled(word, form.allowed)
+        other = respelled(word, claim)
         meant = lookalike_at(mendable, word.span)
         other = "" if meant else other
-        sizes = _roundings(claim) if word.address == "R" else []
-        texts = [f"{address}{word.text.strip()[1:].strip()}" for address in sizes]
-        ways = [*texts, *filter(None, [other]), *([f"{meant.new} for {meant.old}"] if meant else [])]
+        sizes = [] if word.address != "R" else [radius] if (radius := _radius(word, claim)) else _roundings(claim)
+        texts = [spell(address, number_of(word.text, word.address)) for address in sizes]
+        ways = [*dict.fromkeys((*texts, *filter(None, [other]))), *([f"{meant.new} for {meant.old}"] if meant else [])]
         do = f"write {' or '.join(ways)}" if ways else "delete it"
         name = form.name if form.name.startswith("G") else form.title
         finding = report(context, ReadIssue.UNKNOWN_ADDRESS, Basis.RULE, [word], form=name, allowed=allowed, advice=do)
         if texts and not meant:
-            finding = replace(finding, message=f"{word.text.strip()}: {name} has no R; roundings are {join(sizes)}")
+            told = f"the radius of an arc is {join(sizes)}" if radius else f"roundings are {join(sizes)}"
+            finding = replace(finding, message=f"{word.text.strip()}: {name} has no R; {told}")
+        if other and len(word.address) > 1:
+            finding = replace(finding, notes=(*finding.notes, f"{other} is probably meant"))
         yield replace(finding, message=_ask(meant)) if meant else finding
+
+
+def _radius(word: Word, claim: ParsedContour) -> str:
+    """The address of an arc's radius, where a word stands in the block of an arc that has one by another name."""
+    line = next((at for at, block in enumerate(claim.blocks) if block.line == word.span.line), 0)
+    is_arc = line < len(claim.form.path) and isinstance(claim.form.path[line], Arc)
+    rows = claim.lexicon.addresses.values()
+    return next((row.address for row in rows if row.meaning.startswith("radius")), "") if is_arc else ""
 
 
 def _roundings(claim: ParsedContour) -> list[str]:
@@ -249,20 +274,21 @@ def _roundings(claim: ParsedContour) -> list[str]:
     return [claim.vocabulary[name][0] for name in names if name in claim.vocabulary]
 
 
-_SHORTEST = 2
-"""Letters of an address by which no other one is meant."""
+def respelled(word: Word, claim: ParsedContour) -> str:
+    """What a word of a contour was most plausibly meant to be by its address; empty if it is like none."""
+    if word.address == "R" and (radius := _radius(word, claim)):
+        return spell(radius, number_of(word.text, word.address))
+    allowed = [each for each in claim.form.allowed if each in claim.lexicon.addresses]
+    return next(iter(meant_by(word, allowed, claim.lexicon)), "")
 
 
-def respelled(word: Word, allowed: Collection[str]) -> str:
-    """The word with the comma that its address lacks, or without the one that it has not, or with the long address that
-    it almost has; empty if there is no such address."""
-    if len(word.address) > _SHORTEST and word.number is not None:
-        near = get_close_matches(word.address, [each for each in allowed if len(each) > _SHORTEST], 1)
-        return spell(near[0], number_of(word.text, word.address)) if near else ""
-    has_comma = word.address.startswith(",")
-    other = word.address[1:] if has_comma else f",{word.address}"
+def with_comma(word: Word, claim: ParsedContour) -> str:
+    """A word with the comma that its address lacks, or without the one that it has not; else empty."""
+    address = word.address[1:] if word.address.startswith(",") else f",{word.address}"
     text = word.text.strip()
-    return "" if other not in allowed else text.replace(",", "", 1).strip() if has_comma else f",{text}"
+    if address not in claim.form.allowed:
+        return ""
+    return text.replace(",", "", 1).strip() if word.address.startswith(",") else f",{text}"
 
 
 def explain_modes(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:

@@ -165,6 +165,26 @@ def _digit_lost(typed: Typed) -> Iterator[str]:
         yield from (typed.with_number(text[:at] + digit + text[at:]) for digit in _NEAR)
 
 
+def _other_address(typed: Typed) -> Iterator[str]:
+    """A word of which the contour has no address, as the one that it was most plausibly meant to be."""
+    claim = typed.claim
+    word = next((each for each in claim.unknown if each.span == typed.word.span), None) if claim else None
+    if claim is not None and word is not None:
+        yield respelled(word, claim)
+
+
+def _other_letter(typed: Typed) -> Iterator[str]:
+    """Such a word of one letter, as one that its block has not yet."""
+    claim = typed.claim
+    if claim is None or len(typed.word.address.lstrip(",#")) > 1:
+        return
+    if any(each.span == typed.word.span for each in claim.unknown):
+        stated = {word.address for block in claim.blocks if block.line == typed.word.span.line for word in block.words}
+        for address in claim.lexicon.addresses:
+            if address in claim.form.allowed and len(address) == len(typed.word.address) and address not in stated:
+                yield spell(address, typed.sign + typed.number)
+
+
 UNREADABLE = Slip("", lambda typed: iter([mended(typed.word.text)]))
 """Letters for digits, commas for points, two points or signs: told by the finding itself."""
 POINT_LOST = Slip("", _point_lost)
@@ -181,6 +201,8 @@ FEW = (
     SIGN_ADDED,
     Slip("the other sign", _sign_of_choice, is_of_digits=False),
     Slip("a lost decimal point", _point_lost_in_few),
+    Slip("a word of another control", _other_address, is_of_digits=False, is_of_numbers=False),
+    Slip("another letter", _other_letter, is_of_digits=False, is_of_numbers=False),
     Slip("a digit typed twice", _typed_twice),
     Slip("two digits swapped", _swapped),
 )
@@ -367,7 +389,7 @@ def explain_commas(
     if not is_line or any(isinstance(code, Word) or code.effect not in _OF_A_LINE for code in codes):
         return
     for word in block.words:
-        text = "" if word.address.startswith(",") else respelled(word, addresses)
+        text = f",{word.text.strip()}" if f",{word.address}" in addresses else ""
         if not text:
             continue
         finding = report(context, ReadIssue.COMMA_MISSING, Basis.RULE, [word], meant=text)
@@ -410,6 +432,8 @@ def explain_letters(
         yield from findings
         return
     fixes = tuple(_tried(dialect, found, edits, replacement))
+    # A letter for a digit is no word.
+    findings = [each for each in findings if each.about not in _OF_WORDS or not lookalike_at(meant, each.span)]
     blamed = [each for each in findings if lookalike_at(meant, each.span)]
     if not blamed:
         words = [Word(each.address, None, False, each.old, each.span) for each in meant]
@@ -417,6 +441,9 @@ def explain_letters(
         yield replace(report(context, ReadIssue.LETTER_FOR_DIGIT, Basis.RULE, words, meant=text), fixes=fixes)
     for each in findings:
         yield replace(each, fixes=fixes) if blamed and each is blamed[0] else each
+
+
+_OF_WORDS = (ReadIssue.WORD_UNKNOWN, ReadIssue.WORD_MISTYPED)
 
 
 def _read(

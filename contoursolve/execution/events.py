@@ -55,3 +55,7 @@ class ProgramEvent(Struct, frozen=True):
     ways: tuple[int, ...] = ()
     """The marks of the ways that meet."""
     is_last: bool = False
+    called: str = ""
+    """The name of what is called and is nowhere to be found."""
+    unread: str = ""
+    """The word of the control that is not read, where that is why."""

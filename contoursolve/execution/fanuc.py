@@ -129,7 +129,7 @@ def _profile(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
 
 
 _TABLE = (
-    Spelling(r"(?=#)", _assign),
+    Spelling(r"(?=#(?!(?-i:[A-Za-z]{2})\w*+[ \t]*+=[ \t]*+[-+.\d]))", _assign),
     Spelling(r"[BD]PRNT[ \t]*+\[.*+", nothing),
     Spelling(r"IF[ \t]*+(?=[\[#])", _if, stays=True),
     Spelling(r"WHILE[ \t]*+(?=[\[#])", _while),
@@ -140,7 +140,11 @@ _TABLE = (
     Spelling(r"GOTO", lambda line, _: [Jump(_block(line))]),
     Spelling(r"M0*+9(?P<kind>8)(?![\d.])", _call),
     Spelling(r"G0*+65(?![\d.])", _macro_call),
-    Spelling(r"G0*+66(?!\d)", lambda *_: [Strange("G66 calls a macro behind each move")], stays=True),
+    Spelling(
+        r"G0*+66(?!\d)",
+        lambda *_: [Strange("contoursolve does not read G66 yet: it calls a macro behind each move")],
+        stays=True,
+    ),
     Spelling(r"M0*+99(?![\d.])", _return, stays=True),
     Spelling(PROGRAM_END, lambda *_: [ProgramEnd()], stays=True),
     Spelling(

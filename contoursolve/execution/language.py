@@ -203,9 +203,11 @@ class When(Struct, frozen=True, tag=True):
 
 
 class Strange(Struct, frozen=True, tag=True):
-    """A statement that cannot be followed, and why; what it may change is not known behind it."""
+    """A statement that cannot be followed, and why; what it may change is not known behind it. `unread` is the word of
+    the control that is not read, where it is one."""
 
     reason: str
+    unread: str = ""
 
 
 MacroStatement = (

@@ -482,7 +482,7 @@ class Machine:
         has a word that is mistyped."""
         variables = [each.variable for each in code.statements if isinstance(each, Assign)]
         names = [each.name for each in variables if isinstance(each, Variable)]
-        is_strange = any(name.isalpha() and name not in self.variables.values for name in names)
+        is_strange = any(_is_word(name) and name not in self.variables.values for name in names)
         rest = parse_block(code.rest, block.line, block.syntax) if is_strange else block
         return is_strange and any(word.address != "N" for word in rest.words)
 
@@ -496,11 +496,13 @@ class Machine:
             return not is_named and not ran.syntax.comment.search(ran.text)
         return bool(code.statements) and not code.rest.strip()
 
-    def _unclear(self, frame: _Frame, index: int, reason: str) -> Iterator[Block | ProgramEvent]:
+    def _unclear(
+        self, frame: _Frame, index: int, reason: str, called: str = "", unread: str = ""
+    ) -> Iterator[Block | ProgramEvent]:
         """A line that does what is not known; without calls, it stays as it is written."""
         if self._is_alone:
             yield self._as_written(frame, index)
-        yield ProgramEvent(EventKind.LOST, self._line(frame, index), reason)
+        yield ProgramEvent(EventKind.LOST, self._line(frame, index), reason, called=called, unread=unread)
 
     def _block(self, frame: _Frame, block: Block, code: CodeLine) -> Block:
         """A block with numbers in the place of variables."""
@@ -687,7 +689,7 @@ class Machine:
 
     def _do_strange(self, frame: _Frame, index: int, statement: Strange) -> Iterator[Block | ProgramEvent]:
         self.variables.lose_all(statement.reason)
-        yield from self._unclear(frame, index, statement.reason)
+        yield from self._unclear(frame, index, statement.reason, unread=statement.unread)
 
     def _do_when(self, frame: _Frame, index: int, when: When) -> Iterator[Block | ProgramEvent]:
         truth = self.variables.truth(when.condition)
@@ -963,7 +965,8 @@ class Machine:
         text = frame.source.blocks[index].text.strip()
         found = self.library.find_called(call, frame.source, index, self.main, self.variables.resolve)
         if isinstance(found, Unknown):
-            yield from self._cannot_call(frame, index, found)
+            is_bare = isinstance(call.target, str) and not call.arguments and not frame.source.name
+            yield from self._cannot_call(frame, index, found, str(call.target) if is_bare else "")
             return
         source, first, last = found
         if last < first:
@@ -997,13 +1000,15 @@ class Machine:
                 frame.at = last + 1
         self._frames.append(_Frame(source, first, first, last, call, (*frame.callers, caller), times, own, begun))
 
-    def _cannot_call(self, frame: _Frame, index: int, why: Unknown) -> Iterator[Block | ProgramEvent]:
-        """A call of what is not found. That a file is not there is told where a contour depends on it, and that the
-        program names what it has not in any case."""
+    def _cannot_call(
+        self, frame: _Frame, index: int, why: Unknown, called: str
+    ) -> Iterator[Block | ProgramEvent]:
+        """A call of what is not found, and its name. That a file is not there is told where a contour depends on it, and
+        that the program names what it has not in any case."""
         self.variables.lose_all(why.reason)
         if isinstance(why, Absent):
             raise _RefusedError(why.reason)
-        yield from self._unclear(frame, index, why.reason)
+        yield from self._unclear(frame, index, why.reason, called)
 
     def _begun(self, line: int, source: Source, first: int, last: int, own: Mapping[str, Known] | None) -> _Begun:
         """What a call runs, and with which values. Refuses to run what runs already with the same ones: it would call
@@ -1168,6 +1173,11 @@ _ADDRESS = re.compile(r",?[A-Z][ \t]*\Z", re.IGNORECASE)
 def _unsigned(term: Term) -> Term:
     """A value without the sign before it."""
     return term.arguments[0] if isinstance(term, Apply) and term.function == "negate" else term
+
+
+def _is_word(name: str) -> bool:
+    """Whether a name may be that of a word with a value: it is none of a machine's variable, nor a parameter."""
+    return name[0].isalpha() and not name[1:].isdigit()
 
 
 def _first(values: Iterable[int | None]) -> int | None:

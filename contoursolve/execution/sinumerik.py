@@ -34,8 +34,6 @@ from contoursolve.execution.notation import SINUMERIK, UnreadableTermError
 from contoursolve.gcode.syntax import IN_BRACKETS, IN_PARENTHESES
 
 _WAYS = {"": JumpWay.ANYWHERE, "C": JumpWay.ANYWHERE, "F": JumpWay.FORWARD, "B": JumpWay.BACKWARD}
-_BY_AXIS = ("POS", "POSA", "FA", "OVRA", "ACC", "SPOS", "SPOSA", "FL")
-"""Words with an axis in brackets."""
 _MOST_ELEMENTS = 200
 """Elements of a field that are set one by one."""
 _LABEL = r"(?:(?!R\d)[A-Z_]\w++|:[ \t]*+\d++)"
@@ -126,8 +124,15 @@ def _call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
     if name in line.names:
         line.take(IN_PARENTHESES)
         return
+    if _MOVES.search(line.text):
+        # A call stands in a block of its own: it is a command that is not known.
+        return
     arguments = tuple(_given(line))
     yield Call(CallKind.PROGRAM, name, count=_count(line), arguments=arguments)
+
+
+_MOVES = re.compile(r"(?<![A-Z_$])[XYZ](?:[ \t]*+=|[ \t]*+[-+.\d])", re.IGNORECASE)
+"""A coordinate in a line."""
 
 
 def _call_by_name(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
@@ -209,8 +214,9 @@ def _initial(line: LineReader, elements: list[str]) -> Iterator[MacroStatement]:
 def _equals(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
     """A word with a value, or a variable that gets one."""
     name = found["name"].upper()
-    is_address = name[1:].isdigit() or len(name) == 1
-    if name.startswith("$") or name in line.names or name in _BY_AXIS or (is_address and name[0] != "R"):
+    is_parameter = name[0] == "R" and (name[1:].isdigit() or (name == "R" and found["index"] is not None))
+    is_address = len(name) == 1 or name[1:].isdigit()
+    if not is_parameter and (name.startswith("$") or name in line.names or is_address):
         line.take(r"(?:AC|IC|DC|ACP|ACN|CAC|CIC|CDC)[ \t]*+\(")
         line.word(is_value=False)
         return
@@ -233,6 +239,7 @@ def _key(word: str) -> str:
     return word + _BEHIND
 
 
+_MODAL_CALL = Strange("contoursolve does not read MCALL yet: it calls a subprogram behind each move", "MCALL")
 _TABLE = (
     Spelling(r"%.*+", nothing),
     Spelling(r"(?P<label>[A-Z_]\w++):(?!=)", _label),
@@ -261,7 +268,7 @@ _TABLE = (
     Spelling(_key("CASE"), _case),
     Spelling(_key(rf"CALL[ \t]++BLOCK[ \t]++(?P<first>{_LABEL})[ \t]++TO[ \t]++(?P<last>{_LABEL})"), _between),
     Spelling(_key("(?:CALL|PCALL|EXTCALL)"), _call_by_name),
-    Spelling(_key("MCALL") + "(?=[ \t]*+[A-Z]).*+", lambda _, found: [strange(found[0])]),
+    Spelling(_key("MCALL") + "(?=[ \t]*+[A-Z]).*+", lambda *_: [_MODAL_CALL]),
     Spelling(_key("MCALL"), nothing),
     Spelling(_key("RET"), _return),
     Spelling(rf"(?P<cycle>CYCLE(?:95|62))[ \t]*+(?P<given>{IN_PARENTHESES})", _profile),
@@ -274,9 +281,8 @@ _TABLE = (
     Spelling(r"(?P<name>L\d++)(?![\w.])", _call),
     Spelling(r"(?P<name>[A-Z_]{2}\w*+)(?![\[=])", _call),
 )
-_RESERVED = ("TO", "OF", "DEFAULT", "SAVE", "ENDLABEL", "AC", "IC", "DC", "ACP", "ACN")
-_ADDRESSES = ("FRC", "FRCM", "FB", "FZ", "FAD", "AP", "RP", "AR", "TURN", "OVR", "LIMS", "DISR", "DISCL")
-"""Words of every program."""
+_RESERVED = ("TO", "OF", "DEFAULT", "SAVE", "ENDLABEL", "AC", "IC", "DC", "ACP", "ACN", "REAL", "INT", "BOOL", "CHAR")
+_KINDS = ("STRING", "AXIS", "FRAME", "PROC", "BLOCK", "PRIO", "ASUP")
 _ENDINGS = (".SPF", ".MPF", ".ARC", "", ".txt")
 
 
@@ -290,7 +296,7 @@ def _unknown(name: str) -> str:
 
 def sinumerik(names: Iterable[str]) -> MacroLanguage:
     """The statements of SINUMERIK. The names are those of words and commands: others call subprograms."""
-    known = frozenset(name.upper() for name in (*names, *_RESERVED, *_ADDRESSES))
+    known = frozenset(name.upper() for name in (*names, *_RESERVED, *_KINDS))
     long = "|".join(sorted((re.escape(name) for name in known if len(name) > 1), key=len, reverse=True))
     form = LineForm(
         SINUMERIK,

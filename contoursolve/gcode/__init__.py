@@ -7,6 +7,7 @@ then `lexer`.
 from contoursolve.gcode.lexer import (
     LONGEST_BLOCK,
     find_words,
+    looks_like,
     parse,
     parse_block,
     read_directive,
@@ -64,6 +65,7 @@ __all__ = [
     "has_lookalike_code",
     "long_parts",
     "lookalike_at",
+    "looks_like",
     "mended",
     "number_of",
     "parse",

@@ -97,14 +97,19 @@ def parse_block(text: str, line: int, syntax: Syntax = ISO) -> Block:
         return Block(line, text, (), macro=kind, syntax=syntax)
     words: list[Word] = []
     faults: list[Fault] = []
+    looks = text.translate(_READ_AS)
     directives: list[Directive] = []
     unmarked: list[Directive] = []
     skip = syntax.skip.match(text)
-    for token in syntax.token.finditer(text, skip.end() if skip else 0):
+    for token in syntax.token.finditer(looks, skip.end() if skip else 0):
         shape = token.lastgroup
         if shape == "comment":
             directives += _directives(token[0], line, token.start(), syntax)
             unmarked += _unmarked(token[0], line, token.start(), syntax)
+        elif looks != text:
+            places = range(token.start(), token.end())
+            strange = [at for at in places if looks[at] != text[at]]
+            faults += (Fault(FaultKind.STRAY_CHARACTER, text[at], Span(line, at + 1, at + 2)) for at in strange)
         if shape == "blank" or shape == "comment":
             continue
         span = Span(line, token.start() + 1, token.end() + 1)
@@ -115,8 +120,10 @@ def parse_block(text: str, line: int, syntax: Syntax = ISO) -> Block:
                 continue
             value = Decimal(number) if number else None
             words.append(Word(address, value, "." in (number or ""), token[0], span, is_asked))
-        elif shape == "name":
-            code = syntax.codes.get(token["name"].upper())
+        elif shape in ("name", "glued"):
+            code = syntax.codes.get(token[shape].upper())
+            if shape == "glued":
+                faults.append(Fault(FaultKind.BLANK_MISSING, token[0], span))
             words.append(Word("G", None if code is None else Decimal(code), False, token[0], span))
         else:
             faults.append(Fault(_FAULTS[shape or ""], token[0], span))
@@ -169,6 +176,11 @@ def read_directive(text: str, line: int, column: int = 1) -> Directive:
     return Directive(text.strip(), Span(line, begin, begin + max(len(text.strip()), 1)))
 
 
+def looks_like(character: str) -> str:
+    """The character that one looks like on a screen, where it is another one."""
+    return character.translate(_READ_AS) if len(character) == 1 else character
+
+
 def _directives(comment: str, line: int, offset: int, syntax: Syntax) -> list[Directive]:
     """The facts in a comment, separated by semicolons."""
     match = _DIRECTIVE.match(comment)
@@ -203,6 +215,17 @@ def _unmarked(comment: str, line: int, offset: int, syntax: Syntax) -> list[Dire
     text = syntax.remark.format(f"contoursolve: {fact.strip()}")
     return [Directive(text, Span(line, offset + 1, offset + 1 + len(comment)))]
 
+
+_READ_AS = {
+    0x00: " ",
+    **dict.fromkeys((0xA0, 0x2002, 0x2003, 0x2007, 0x2009, 0x200A, 0x200B, 0x202F, 0x3000), " "),
+    **dict.fromkeys((0x2010, 0x2011, 0x2012, 0x2013, 0x2014, 0x2212), "-"),
+    0xFF0C: ",",
+    0xFF0E: ".",
+    **{0xFF10 + digit: str(digit) for digit in range(10)},
+}
+"""Characters that look like others on a screen, each with that one: they are told, and what they stand in is read as it
+looks."""
 
 _FAULTS = {
     "open": FaultKind.COMMENT_NOT_CLOSED,

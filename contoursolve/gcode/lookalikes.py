@@ -58,8 +58,14 @@ def find_lookalikes(block: Block) -> tuple[Lookalike, ...]:
     found, text, place = [], block.text, 0
     if any(fault.kind is FaultKind.BLOCK_TOO_LONG for fault in block.faults):
         return ()
+    torn = _torn(block) if block.faults else ()
     if block.syntax is not ISO:
-        return tuple(filter(None, map(_meant, block.faults)))
+        own = tuple(
+            each
+            for each in (_meant(block, fault) for fault in block.faults)
+            if each and not lookalike_at(torn, each.span)
+        )
+        return tuple(sorted((*own, *torn), key=lambda each: each.span))
     while match := _SEARCH.search(text, place):
         old, place = match[0], match.end()
         if match["number"] is None or match["text"] is not None:
@@ -70,18 +76,41 @@ def find_lookalikes(block: Block) -> tuple[Lookalike, ...]:
         elif not new:
             # A letter among the digits may be the address.
             place = max(match.start() + 1, match.end() - _LONGEST)
+    found = [each for each in found if not lookalike_at(torn, each.span)]
+    return tuple(sorted((*found, *torn), key=lambda each: each.span))
+
+
+def _torn(block: Block) -> tuple[Lookalike, ...]:
+    """Words in whose numbers a blank stands, as in `,C1. 5`: digits behind them that belong to no word."""
+    found, ends = [], {word.span.end_column: word for word in block.words if word.number is not None}
+    for fault in block.faults:
+        begin = len(block.text[: fault.span.column - 1].rstrip(" \t")) + 1
+        word = ends.get(begin)
+        digits = fault.text.strip()
+        joined = word.text + digits if word is not None else ""
+        is_number = digits.isdigit() or digits.lstrip(".").isdigit()
+        if word is not None and is_number and begin < fault.span.column and word.has_point + ("." in digits) < 2:  # noqa: PLR2004 - one point
+            old = block.text[word.span.column - 1 : fault.span.end_column - 1]
+            found.append(Lookalike(Span(block.line, word.span.column, fault.span.end_column), old, joined))
     return tuple(found)
 
 
-def _meant(fault: Fault) -> Lookalike | None:
+def _meant(block: Block, fault: Fault) -> Lookalike | None:
     """What a fault is with digits for letters, and with an equals sign behind a long address."""
-    match = _LONG.fullmatch(fault.text)
+    # A chamfer has no R: its size stands behind CHF.
+    match = _LONG.fullmatch(_CHAMFER.sub(r"\1 ", fault.text))
     if match is None or fault.kind is not FaultKind.NUMBER_MALFORMED:
         return None
-    new = spell(match["address"], match["number"].translate(_DIGITS).replace(",", "."))
+    address = (
+        _NAMES.get(match["address"].upper(), match["address"]) if block.syntax.name == "klartext" else match["address"]
+    )
+    new = spell(address, match["number"].translate(_DIGITS).replace(",", "."))
     return Lookalike(fault.span, fault.text, new) if new != fault.text else None
 
 
+_NAMES = {"RND": "ROUNDING", "CHF": "CHAMFER"}
+"""What the sizes are called that these words of Klartext state."""
+_CHAMFER = re.compile(r"\b(CHF)[ \t]*R[ \t]*(?=\d)", re.IGNORECASE)
 _LONG = re.compile(r"(?P<address>#?[A-Za-z_]\w*?)[ \t]*=?[ \t]*(?P<number>[+-]?\d[\d.,Ool|]*)", re.ASCII)
 
 

@@ -6,7 +6,10 @@ from dataclasses import dataclass, field
 
 
 def letter_parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
-    """The parts of a word whose address is a letter, or a comma and a letter."""
+    """The parts of a word whose address is a letter, or a comma and a letter; of one as other controls have them, with
+    several letters and an equals sign."""
+    if token["long"] is not None:
+        return token["long"].upper(), token["value"], False
     comma, letter, number, asked = token.group("comma", "letter", "number", "asked")
     return (comma + letter).upper(), number, asked is not None
 
@@ -74,7 +77,8 @@ ISO = Syntax(
     (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]++)
   | (?P<comment>\([^)]*+\)|;.*+)
   | (?P<open>\([^)]*+)
-  | (?P<word>(?P<comma>,?+)[ \t]*+(?P<letter>[A-Za-z])[ \t]*+
+  | (?P<word>(?P<long>\#?+[A-Za-z_][A-Za-z]\w*+)[ \t]*+=[ \t]*+(?P<value>[+-]?+(?>\d++\.?+\d*+|\.\d++))(?![\d.,\[\#])
+    |(?P<comma>,?+)[ \t]*+(?P<letter>[A-Za-z])[ \t]*+
       (?:(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))(?![\d.]|,\d|[eE][+-]?+\d++(?![\d.]))
         |(?P<expression>[+-]?+(?:\#++\d++|\#?+{IN_BRACKETS}))|(?P<asked>\?)))
   | (?P<malformed>,?+[ \t]*+[A-Za-z][ \t]*+(?>(?:[\d.+-]|,(?=\d))+)(?>(?:[eE][+-]?+\d++)?))

@@ -48,6 +48,7 @@ class FaultKind(Enum):
     NUMBER_MISSING = "number-missing"
     NUMBER_MALFORMED = "number-malformed"
     NUMBER_TOO_LONG = "number-too-long"
+    BLANK_MISSING = "blank-missing"
     COMMA_WITHOUT_ADDRESS = "comma-without-address"
     STRAY_CHARACTER = "stray-character"
     COMMENT_NOT_CLOSED = "comment-not-closed"

@@ -59,6 +59,12 @@ def _names(language: MacroLanguage, text: str) -> Iterator[str]:
             yield variable.name if isinstance(variable, Variable) else ""
 
 
+def _rounded(value: float) -> str:
+    """A value with three decimals; what is almost 0 has no sign."""
+    text = f"{value:.3f}"
+    return text.lstrip("-") if float(text) == 0 else text
+
+
 class _Search:
     """Values of one variable of a contour."""
 
@@ -77,10 +83,13 @@ class _Search:
                 runs[at][end] if 0 <= at < len(runs) else None for at, end in ((number - 1, -1), (number + 1, 0))
             )
             low, high = self._end(run[0], before), self._end(run[-1], after)
-            first = f"from {low[0]:.3f}" if before else f"below {run[0].value:g} too, from"
-            ranges.append(f"{first} to {high[0]:.3f}" if after else f"from {low[0]:.3f} on")
-            for (end, why), way in ((low, "below"), (high, "above")):
-                reasons += [f"{way} {end:.3f}: {why}"] if why else []
+            begin, end = _rounded(low[0]), _rounded(high[0])
+            if before:
+                ranges.append(f"from {begin} to {end}" if after else f"from {begin} on")
+            else:
+                ranges.append(f"up to {end}" if after else "with every value that was tried")
+            for (_, why), value, way in ((low, begin, "below"), (high, end, "above")):
+                reasons += [f"{way} {value}: {why}"] if why else []
         if not ranges:
             return [
                 f"no value of {self.name} that was tried makes a contour; with {trials[0].value:g}: {trials[0].message}"

@@ -5,6 +5,7 @@ waits. It is told
 
 * at once, if it is about a contour by itself: a slip whose fix makes a block one, a block or a fault with a word by
   which contours are known, a block too long to be read, a fact, an arc that leads to a contour, a start point apart;
+* at once, too, in a block that moves an axis of the plane: a word that cannot be read may be part of the path;
 * where the program has a contour, before or behind: words that may be meant for one, and questions;
 * at the next contour behind it: a G word that cannot be read, a comment that is not closed, text outside the %. Nobody
   knows then which plane, units and mode are in force;
@@ -19,9 +20,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
 
 from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.vocabulary import moves
 from contoursolve.diagnostics.finding import Diagnostic
-from contoursolve.gcode import Block, FaultKind, Word
-from contoursolve.reading import ReadIssue, State, words_of
+from contoursolve.gcode import Block, FaultKind, Word, spell
+from contoursolve.reading import ReadIssue, State, apply_modes, words_of
 from contoursolve.reading.dialect import Dialect
 
 _BESIDE_CONTOURS: frozenset[Enum | None] = frozenset(
@@ -39,7 +41,9 @@ class Outside:
     def __init__(self, dialect: Dialect | None, *, is_strict: bool = False) -> None:
         self.is_strict = is_strict
         self._signs = dialect.signs if dialect else _no_signs
-        self._long = {each for each in dialect.modes.lexicon.addresses if len(each) > 1} if dialect else set[str]()
+        self._modes = dialect.modes if dialect else None
+        own = [each for each in dialect.modes.lexicon.addresses if len(each) > 1] if dialect else []
+        self._long = {*own, *(spell(each, "").split(" ")[0] for each in own)}
         """Addresses with a comma or several letters: those of contours."""
         self._held: list[Diagnostic] = []
         self._contour = 0
@@ -60,8 +64,11 @@ class Outside:
             yield from findings
             return
         shown = {block.line - line for block in blocks() if self._signs(block)} if findings else set[int]()
+        is_torn = any(isinstance(each.about, FaultKind) for each in findings)
+        moved = {block.line for block in blocks() if self._moves(block, before)} if is_torn else set[int]()
         for each in findings:
-            if self._is_behind or each.span.line - line in shown or self._is_told(each):
+            is_moved = isinstance(each.about, FaultKind) and each.span.line in moved
+            if self._is_behind or is_moved or each.span.line - line in shown or self._is_told(each):
                 yield each
             else:
                 self._held.append(each)
@@ -72,6 +79,11 @@ class Outside:
         self._is_behind = answer is not None or (
             self._is_behind and not any(words_of(block.text) for block in blocks())
         )
+
+    def _moves(self, block: Block, before: State) -> bool:
+        """Whether a block moves an axis of the plane."""
+        modes = self._modes
+        return modes is not None and moves(block, apply_modes(before, block, modes), modes, ())
 
     def _settle(self, answer: Answer, before: State) -> Iterator[Diagnostic]:
         """Of what waits, that on which a contour rests; what no other one can rest on is told no more."""

@@ -20,7 +20,15 @@ from contoursolve.diagnosis.spelling import (
     explain_start_units,
     explain_unmarked,
     explain_words,
-    respelled,
+)
+from contoursolve.diagnosis.vocabulary import (
+    explain_call,
+    explain_codes_by_name,
+    explain_vocabulary,
+    is_known,
+    moves,
+    name_of,
+    not_read_yet,
 )
 from contoursolve.diagnosis.wording import either, join
 from contoursolve.diagnostics.display import Shown
@@ -31,7 +39,6 @@ from contoursolve.execution.events import EventKind, ProgramEvent
 from contoursolve.execution.machine import Machine
 from contoursolve.execution.subprograms import ALONE, Surroundings
 from contoursolve.gcode import (
-    ISO,
     Block,
     Directive,
     FaultKind,
@@ -53,12 +60,14 @@ from contoursolve.program.solve_queue import Pending, Previous, Queue, Step, Tog
 from contoursolve.program.stream import Line, View, each_block, go_on, pass_plainly, says_something
 from contoursolve.program.tape_markers import Marks
 from contoursolve.reading import (
+    COMMENTED,
     ParsedContour,
     ReadIssue,
     State,
     advance,
     advance_plainly,
     apply_modes,
+    codes_of,
     is_plain,
     next_place,
 )
@@ -437,10 +446,15 @@ class Examiner:
     def _happen(self, event: ProgramEvent, ways: Ways) -> bool:
         """Take in an event of the program; whether all that was found since a head is found anew."""
         self.previous = None
+        context = Context(self.rules, self.asked.unit, place=Span(event.line, 1, 2))
         if event.kind is EventKind.STOPPED:
-            context = Context(self.rules, self.asked.unit, place=Span(event.line, 1, 2))
             row = context.row(ReadIssue.NOT_FOLLOWED)
             self.diagnostics.append(report(context, row, Basis.RULE, [], reason=event.reason))
+        if event.unread:
+            row = context.row(ReadIssue.NOT_READ)
+            self.diagnostics.append(report(context, row, Basis.RULE, [], name=event.unread))
+        if event.called:
+            self.diagnostics += explain_call(context, event.called, ways.modes)
         return ways.happen(event)
 
     def _begin(self, dialect: Dialect) -> State:
@@ -560,7 +574,7 @@ class Examiner:
                 self._check_arc(found, Pending(found, Step((), state), view, after))
             self._check_units(found)
         else:
-            self._check_block(block)
+            self._check_block(block, apply_modes(state, block, modes))
             self._check_slips(view, (state, behind))
         self.previous = ((block,), state) if block.words else self.previous
         return Step(blocks, state, findings=self._findings()), lambda: behind
@@ -767,8 +781,9 @@ class Examiner:
                 found = explain_commas(context, dialect, blocks[index : index + _NEAR], (before, state))
                 yield from (each for each in found if each.fixes)
 
-    def _check_block(self, block: Block) -> None:
-        if self.dialect and _is_clean(block, self.dialect):
+    def _check_block(self, block: Block, here: State | None = None) -> None:
+        """What there is to say of a block that is no contour; `here` is the state with its codes in force."""
+        if self.dialect and _is_clean(block, self.dialect) and not (here and self.dialect.modes.unread(block, here)):
             return
         context = Context(self.rules, self.asked.unit, place=block.span)
         for finding in explain_faults(context, block):
@@ -784,13 +799,25 @@ class Examiner:
             addresses = lexicon.addresses
             axis_words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
             self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
-            for word in (word for word in block.words if word.address not in addresses):
-                if word.address.startswith(","):
-                    row = context.row(ReadIssue.COMMA_WORD_UNKNOWN)
-                    self.diagnostics.append(report(context, row, Basis.RULE, [word]))
-                elif block.syntax is not ISO and (meant := respelled(word, addresses)):
-                    row = context.row(ReadIssue.WORD_MISTYPED)
-                    self.diagnostics.append(report(context, row, Basis.RULE, [word], meant=meant))
+            self._check_words(context, block, here)
+
+    def _check_words(self, context: Context, block: Block, here: State | None) -> None:
+        """The words and codes of a block that the control has not; and that one is not read, which is told once of
+        several blocks in a row."""
+        dialect = self.dialect
+        if dialect is None or here is None or COMMENTED in here.memory:
+            return
+        modes, signs = dialect.modes, dialect.signs(block)
+        self.diagnostics += explain_codes_by_name(context, block, modes)
+        if moves(block, here, modes, signs):
+            self.diagnostics += explain_vocabulary(context, block, modes)
+        unread = modes.unread(block, here)
+        if unread is None:
+            return
+        last = self.previous[0][-1].words if self.previous else ()
+        is_told = unread not in block.words or any(name_of(each) == name_of(unread) for each in last)
+        if signs or not is_told:
+            self.diagnostics.append(not_read_yet(context, unread, is_needed=bool(signs)))
 
 
 _USUAL = 10_000
@@ -801,9 +828,10 @@ def _is_clean(block: Block, dialect: Dialect) -> bool:
     """Whether a block has words alone, each once, and all as usual: there is nothing to say then."""
     if block.faults or block.directives or block.unmarked:
         return False
-    addresses = [word.address for word in block.words]
-    known = dialect.modes.lexicon.addresses
-    is_read = all(each in known or (block.syntax is ISO and each[0] != ",") for each in addresses)
+    addresses, modes = [word.address for word in block.words], dialect.modes
+    is_read = all(is_known(each, modes.lexicon) for each in addresses)
+    codes = codes_of(block, modes) if "G" in addresses else ()
+    is_read = is_read and all(not isinstance(code, Word) and code.is_read for code in codes)
     is_usual = all(word.number is not None and abs(word.number) <= _USUAL for word in block.words)
     return is_read and is_usual and len({*addresses}) == len(addresses)
 

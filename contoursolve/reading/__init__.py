@@ -17,7 +17,17 @@ from contoursolve.reading.contour_form import (
     lay_out,
     stated_sets,
 )
-from contoursolve.reading.lexicon import Address, Code, Diameter, Effect, Lexicon, NumberFormat, WithoutPoint
+from contoursolve.reading.lexicon import (
+    Address,
+    Bearing,
+    Beside,
+    Code,
+    Diameter,
+    Effect,
+    Lexicon,
+    NumberFormat,
+    WithoutPoint,
+)
 from contoursolve.reading.modal_state import (
     COMMENTED,
     Awaited,
@@ -31,6 +41,7 @@ from contoursolve.reading.modal_state import (
     codes_of,
     is_plain,
     motion_of,
+    not_read,
     plain_lines,
     positions,
     words_of,
@@ -52,6 +63,8 @@ __all__ = [
     "Address",
     "Assumption",
     "Awaited",
+    "Bearing",
+    "Beside",
     "Code",
     "ContourForm",
     "Convention",
@@ -82,6 +95,7 @@ __all__ = [
     "leave",
     "motion_of",
     "next_place",
+    "not_read",
     "plain_lines",
     "positions",
     "read",

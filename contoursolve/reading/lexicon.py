@@ -66,6 +66,10 @@ class Code:
     name: str = ""
     comes_back: bool = False
     """Whether it is a cycle that ends where the tool was before it."""
+    needs_axes: bool = False
+    """Whether it does nothing without axis words in its block."""
+    is_read: bool = True
+    """Whether contoursolve follows what it does; else it is told, and a contour that depends on it is refused."""
 
     @property
     def text(self) -> str:
@@ -96,6 +100,32 @@ class Address:
     def follows_increments(self) -> bool:
         """Whether increments that are in force make it one."""
         return not self.is_increment and not self.is_absolute
+
+
+class Bearing(Enum):
+    """What a word that draws no contour has to do with the path."""
+
+    NONE = "none"
+    """Nothing: a feed, a speed, a tool."""
+    AXIS = "axis"
+    """It moves an axis that no plane has, or names it."""
+    ARGUMENT = "argument"
+    """It belongs to a G or M code of its block; beside a line or an arc alone it means nothing."""
+    UNREAD = "unread"
+    """It shapes the path in a way that contoursolve does not read; its block ends at its coordinates."""
+    END = "end"
+    """It states where its block ends, in a way that contoursolve does not read."""
+
+
+@dataclass(frozen=True, slots=True)
+class Beside:
+    """One row: words of a control beside those that draw contours, what they mean, and what they have to do with the
+    path. A number or an index may stand behind a name: `S2=500`, `SPOS[1]=90`."""
+
+    names: tuple[str, ...]
+    meaning: str
+    source: Source
+    bearing: Bearing = Bearing.NONE
 
 
 TURNED = "X"
@@ -134,6 +164,12 @@ class Lexicon:
 
     addresses: Mapping[str, Address]
     numbers: NumberFormat
+    beside: tuple[Beside, ...] = ()
+    """The other words of the control; of two rows for one word, the later one counts."""
+    unknown: Source | None = None
+    """By what it is told that the control stops at a word that it does not know; None where it leaves it out."""
+    rows: dict[str, Beside | None] = field(default_factory=dict, init=False, repr=False, compare=False)
+    """The rows of those, as far as they were asked for, by address."""
     factors: dict[tuple[str, bool, bool], Decimal] = field(default_factory=dict, init=False, repr=False, compare=False)
     """What numbers are multiplied by, as far as that was asked for, by address, whether they have a point, and whether
     they are in inches."""
@@ -152,8 +188,28 @@ class Lexicon:
                 for name, row in self.addresses.items()
                 if row.axis == TURNED
             }
-            self.others[key] = Lexicon({**self.addresses, **rows}, self.numbers)
+            self.others[key] = replace(self, addresses={**self.addresses, **rows})
         return self.others[key]
+
+    def row_beside(self, address: str) -> Beside | None:
+        """The row of a word that draws no contour: by its name, without the number or the index behind it."""
+        if address in self.addresses:
+            return None
+        if address not in self.rows:
+            name = address.partition("[")[0].partition("=")[0]
+            stems = (address, name, name.rstrip("0123456789")) if len(name) > 1 else (name,)
+            found = (row for stem in stems for row in reversed(self.beside) if stem in row.names)
+            self.rows[address] = next(found, None)
+        return self.rows[address]
+
+    def bearing(self, address: str) -> Bearing | None:
+        """What a word that draws no contour has to do with the path; None if the control has no such word."""
+        row = self.row_beside(address)
+        return row.bearing if row else None
+
+    def plain_names(self) -> frozenset[str]:
+        """The names of all words of the control, without those for which an argument of a code stands."""
+        return frozenset({*self.addresses, *(name for row in self.beside for name in row.names)})
 
     def value(self, word: Word, unit: Length) -> Decimal | None:
         """The value of a word in mm (diameters halved) or degrees; None for a variable."""

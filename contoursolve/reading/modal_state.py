@@ -27,7 +27,7 @@ from contoursolve.gcode import (
 )
 from contoursolve.geometry import Length, Plane, Start
 from contoursolve.reading.contour_form import Convention, Setting
-from contoursolve.reading.lexicon import TURNED, Code, Diameter, Effect, Lexicon
+from contoursolve.reading.lexicon import TURNED, Bearing, Code, Diameter, Effect, Lexicon
 from contoursolve.tolerance import RADIUS_DIFFERENCE, TRAVEL
 
 
@@ -204,7 +204,7 @@ class State(Struct, frozen=True):
         return self.move({axis: Position(None, reason, span) for axis in axes})
 
 
-_MOVES = "moves in a way that contoursolve does not follow"
+_UNREAD = (Bearing.UNREAD, Bearing.END)
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,6 +216,8 @@ class Modes:
     axes: tuple[str, ...]
     calls: frozenset[int]
     """M codes that call or end a subprogram."""
+    unread_calls: frozenset[int] = field(default=frozenset(), kw_only=True)
+    """M codes that may call a subprogram, in a way that contoursolve does not read."""
     call_addresses: frozenset[str] = field(default=frozenset(), kw_only=True)
     """Addresses of words that call one."""
     settings: Mapping[str, str] = field(default_factory=dict)
@@ -227,12 +229,8 @@ class Modes:
     remember: Callable[[Mapping[str, Word], Block], Mapping[str, Word]] | None = None
     """From the words that stay in force, and a block, to those behind it; the same record if nothing changes."""
 
-    moving: re.Pattern[str] | None = field(default=None, kw_only=True)
-    """Addresses of words that move, and that contoursolve does not follow."""
     lasting: Mapping[str, str] = field(default_factory=dict, kw_only=True)
     """Addresses of words that stay in force and change the path, each with the word that ends it."""
-    beside: frozenset[str] = field(default=frozenset(), kw_only=True)
-    """Addresses with several letters of words that change no path where no contour is."""
     separate: frozenset[int] = field(default=frozenset(), kw_only=True)
     """G codes of blocks that belong to a contour and move nothing."""
     language: MacroLanguage | None = field(default=None, kw_only=True)
@@ -242,16 +240,28 @@ class Modes:
     codes."""
 
     def is_call(self, word: Word) -> bool:
-        """Whether a word calls or ends a subprogram, or moves in a way that is not followed."""
-        is_call = (word.address == "M" and word.number in self.calls) or word.address in self.call_addresses
-        return is_call or self._moves(word)
+        """Whether a word calls or ends a subprogram."""
+        return (word.address == "M" and word.number in self.calls) or word.address in self.call_addresses
 
     def why_lost(self, word: Word) -> str:
         """What such a word does."""
-        return f"{word.text.strip()} {_MOVES if self._moves(word) else 'calls or ends a subprogram'}"
+        return not_read(word.text) if self.is_unread_call(word) else f"{word.text.strip()} calls or ends a subprogram"
 
-    def _moves(self, word: Word) -> bool:
-        return self.moving is not None and self.moving.fullmatch(word.address) is not None
+    def is_unread_call(self, word: Word) -> bool:
+        """Whether a word may call a subprogram, in a way that is not read."""
+        return word.address == "M" and word.number in self.unread_calls
+
+    def unread(self, block: Block, state: State) -> Word | None:
+        """The first word of a block that shapes its path in a way that contoursolve does not read; `state` is the one
+        with its codes in force."""
+        for word in block.words:
+            row = self.codes.get(word.number) if word.address == "G" and word.number is not None else None  # type: ignore[call-overload]
+            if (row and not row.is_read) or self.is_unread_call(word) or self.lexicon.bearing(word.address) in _UNREAD:
+                return word
+        motion = self.codes.get(state.motion) if state.motion is not None else None
+        if motion is None or motion.is_read or not axis_words(block, self):
+            return None
+        return Word("G", Decimal(motion.number), False, motion.text, block.span)
 
     def words(self, state: State) -> Lexicon:
         """The lexicon by which words are read in a state."""
@@ -362,7 +372,7 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
         stated = [axis for axis, at in state.axes.items() if at.span is not None and at.span.line > 0]
         state = state.lose(tuple(stated), "a new program begins", block.span)
     for word in block.words:
-        if modes.is_call(word):
+        if modes.is_call(word) or modes.is_unread_call(word):
             return state.lose(modes.axes, modes.why_lost(word), word.span)
     codes = codes_of(block, modes)
     for code in codes:
@@ -370,8 +380,9 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
             # Whatever it does, it may do to every axis.
             return state.lose(modes.axes, f"{code.text} is not known to contoursolve", code.span)
     lost = _lost_by_faults(block, modes)
-    effect, reason = _effect(state, codes, modes)
     words = axis_words(block, modes)
+    codes = [code for code in codes if words or isinstance(code, Word) or not code.needs_axes]
+    effect, reason = _effect(state, codes, modes)
     if effect is Effect.NO_MOTION:
         return state
     if effect is Effect.SINGLE or (effect is Effect.CYCLE and words):
@@ -379,7 +390,24 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
         return state.lose(axes, reason, block.span)
     if words:
         state = state.move(positions(state, words, modes, block.is_skippable))
+    state = _lose_ends(state, block, modes)
     return state.move({axis: Position(None, "the block has an error", span) for axis, span in lost.items()})
+
+
+def _lose_ends(state: State, block: Block, modes: Modes) -> State:
+    """The state where the axes of the plane are not known whose end words state that are not read."""
+    stated = {_axis(each, modes) for each in block.words}
+    for word in block.words:
+        if modes.lexicon.bearing(word.address) is Bearing.END:
+            left = tuple(axis for axis in state.plane.axes if axis not in stated)
+            state = state.lose(left, not_read(word.text), word.span)
+    return state
+
+
+def not_read(text: str) -> str:
+    """What is said of a word of the control that contoursolve does not follow."""
+    name = " ".join(text.split()).partition("=")[0].partition("(")[0]
+    return f"contoursolve does not read {name.strip()} yet"
 
 
 def positions(state: State, words: list[Word], modes: Modes, is_skippable: bool) -> dict[str, Position]:
@@ -451,7 +479,8 @@ def _effect(state: State, codes: Sequence[Code | Word], modes: Modes) -> tuple[E
         if code.comes_back:
             return Effect.NO_MOTION, ""
         if code.effect is Effect.SINGLE:
-            return Effect.SINGLE, f"contoursolve does not know where {code.text} ({code.meaning}) ends"
+            is_read = f"contoursolve does not know where {code.text} ({code.meaning}) ends"
+            return Effect.SINGLE, is_read if code.is_read else not_read(code.text)
         if code.effect in (Effect.NO_MOTION, Effect.FRAME, Effect.CORNER):
             return Effect.NO_MOTION, ""
         if code.effect is Effect.PRESET:

@@ -30,6 +30,9 @@ class ReadIssue(Enum):
     COMMA_WORD_UNKNOWN = "comma-word-unknown"
     WORD_MISTYPED = "word-mistyped"
     LETTER_FOR_DIGIT = "letter-for-digit"
+    WORD_UNKNOWN = "word-unknown"
+    CODE_UNKNOWN = "code-unknown"
+    NOT_READ = "not-read"
     CODE_MISTYPED = "code-mistyped"
     VALUE_TOO_LARGE = "value-too-large"
     POSITION_UNKNOWN = "position-unknown"
@@ -98,6 +101,8 @@ class ParsedContour:
     vocabulary: Mapping[str, tuple[str, int]]
     """The address and the block (its index) of every name that a word may state here."""
     unknown: tuple[Word, ...] = ()
+    unread: tuple[Word, ...] = ()
+    """The words that shape its path, or the block behind it, in a way that contoursolve does not read."""
     repeated: tuple[Word, ...] = ()
     circumstances: frozenset[str] = frozenset()
     choices: tuple[Choice, ...] = ()

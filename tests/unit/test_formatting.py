@@ -46,7 +46,7 @@ FANUC, HAAS, SINUMERIK, ISG = "fanuc-lathe", "haas-mill", "siemens-840d", "isg"
         (SINUMERIK, "G1X=AC( 5 )  ANG = 30 RND=5", "G1X=AC(5) ANG=30 RND=5"),
         (SINUMERIK, 'N10  MSG("A  B")G1', 'N10 MSG("A  B") G1'),
         (SINUMERIK, "LBL:G1X1", "LBL: G1 X1"),
-        (SINUMERIK, "G1 X10,5Y3  ; A  B", "G1 X10,5 Y3  ; A  B"),
+        (SINUMERIK, "G1 X10.5Y3  ; A  B", "G1 X10.5 Y3  ; A  B"),
         (SINUMERIK, "DIAMON   G18", "DIAMON G18"),
         (ISG, "G1X10# ANG=30 Y3", "G1 X10 #ANG=30 Y3"),
         (ISG, "#ANG 30  X5", "#ANG 30 X5"),

@@ -325,7 +325,7 @@ KLARTEXT_LINES = [
     ('TOOL CALL "SEQ5" Z S100', 'TOOL CALL "SEQ5" Z S100', []),
 ]
 S = of(SINUMERIK)
-SINUMERIK_LANGUAGE = sinumerik(["MSG", "TRANS", "ANG", "RND", "CHF", "CR", "AC"])
+SINUMERIK_LANGUAGE = sinumerik(["MSG", "TRANS", "ANG", "RND", "CHF", "CR", "AC", "FRCM"])
 SINUMERIK_LINES = [
     (
         "N10 R[R2]=R1+1 R3=R1*2 ; R5=1",

@@ -45,7 +45,7 @@ from contoursolve.controls.chain.language import (
 )
 from contoursolve.gcode import Block, Word, number_of, spell
 from contoursolve.geometry import Choice, Given, Side, Turn, Unit
-from contoursolve.reading import ContourForm, Modes, ParsedContour, Selector, State
+from contoursolve.reading import Bearing, ContourForm, Lexicon, Modes, ParsedContour, Selector, State
 
 
 def claim_of(language: Language, members: Sequence[Member], before: State, modes: Modes) -> ParsedContour:
@@ -103,6 +103,8 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         }
         circumstances |= {prefix + name for name in holds}
         resting.append({*own, *own_givens, *holds, *_read_by(member, modes)})
+    unknown = [word for word in words.values() if not _is_known(word, form, modes.lexicon)]
+    unread = [word for word in unknown if modes.lexicon.bearing(word.address) in (Bearing.UNREAD, Bearing.END)]
     known = {name: word for name, word in words.items() if word.address in modes.lexicon.addresses}
     return ParsedContour(
         form=form,
@@ -113,7 +115,8 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         words=known,
         givens=givens,
         vocabulary=vocabulary,
-        unknown=tuple(word for word in words.values() if word.address not in form.allowed),
+        unknown=tuple(word for word in unknown if word not in unread),
+        unread=tuple(dict.fromkeys((*unread, *filter(None, (member.unread for member in members))))),
         repeated=tuple(repeated),
         circumstances=frozenset(circumstances),
         choices=tuple(_choices(language, elements, names, known, modes)),
@@ -151,6 +154,12 @@ def _read_by(member: Member, modes: Modes) -> Iterator[str]:
 
 
 _MEASURED = (Unit.MM, Unit.DEGREE)
+
+
+def _is_known(word: Word, form: ContourForm, lexicon: Lexicon) -> bool:
+    """Whether a word may stand in a block of a contour."""
+    bears_nothing = lexicon.bearing(word.address) in (Bearing.NONE, Bearing.AXIS)
+    return word.address in form.allowed or (bears_nothing and f",{word.address}" not in lexicon.addresses)
 
 
 def _makes(form: ContourForm, members: Sequence[Member]) -> tuple[tuple[str, ...], ...]:

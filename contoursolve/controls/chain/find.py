@@ -19,7 +19,6 @@ from contoursolve.geometry import Turn, assemble
 from contoursolve.reading import (
     COMMENTED,
     Effect,
-    Lexicon,
     Modes,
     ParsedContour,
     Position,
@@ -79,6 +78,7 @@ class ChainFinder:
                 is_tied = True
                 following, here = self._next(blocks, following, here, modes)
             if following is None or not self._is_motion(blocks[following], here, modes):
+                members[-1] = replace(last, unread=self._unread(blocks, following, here, modes))
                 break
             before, here = here, self._apply(here, blocks[following], modes)
             is_over = self._begins_in_intersection(last, blocks[following], here)
@@ -102,7 +102,8 @@ class ChainFinder:
         if not is_tied:
             return None
         members[0] = replace(members[0], is_alone=is_alone)
-        members[-1] = replace(members[-1], is_last=self._has_corner(members[-1]))
+        is_last = self._has_corner(members[-1]) and members[-1].unread is None
+        members[-1] = replace(members[-1], is_last=is_last)
         members = self._without_straight(members, state, modes)
         return claim_of(self.language, members, state, modes)
 
@@ -343,6 +344,13 @@ class ChainFinder:
             )
         return self._is_open(last)
 
+    def _unread(self, blocks: Sequence[Block], following: int | None, here: State, modes: Modes) -> Word | None:
+        """What shapes the next block in a way that is not read."""
+        if following is None or blocks[following].macro is not None:
+            return None
+        unknown = (code for code in codes_of(blocks[following], modes) if isinstance(code, Word))
+        return modes.unread(blocks[following], apply_modes(here, blocks[following], modes)) or next(unknown, None)
+
     def _keeps_angle(self, member: Member) -> bool:
         """Whether a line with one coordinate runs at the angle that stays in force."""
         kept = self.language.keeps_angle and self.language.angle in member.here.memory
@@ -395,7 +403,7 @@ def reading(
         added = {**names, **like}
         named = {address: replace_fields(rows[name], address=address) for address, name in added.items()}
         rows = {address: row for address, row in rows.items() if address not in names.values()} | named
-        words = Lexicon(rows, dialect.modes.lexicon.numbers) if added else dialect.modes.lexicon
+        words = replace_fields(dialect.modes.lexicon, addresses=rows) if added else dialect.modes.lexicon
         known = language.allowed - {*names.values()} | {*added}
         language = replace_fields(language, lexicon=words, allowed=known, names={**language.names, **names}, **changes)
         return replace_fields(dialect, modes=replace_fields(dialect.modes, lexicon=words), find=ChainFinder(language))

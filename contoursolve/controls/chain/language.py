@@ -6,7 +6,7 @@ from enum import Enum
 
 from msgspec import Struct
 
-from contoursolve.gcode import Block
+from contoursolve.gcode import Block, Word
 from contoursolve.geometry import CornerShape, Heading, Plane, Side, Turn
 from contoursolve.reading import Assumption, ContourForm, Convention, Lexicon, Modes, Sample, Setting, State
 from contoursolve.reading.rules import Condition
@@ -118,6 +118,8 @@ class Member(Struct, frozen=True):
     """No G1, G2 or G3 block follows."""
     is_joined: bool = False
     """Another block of the contour follows."""
+    unread: Word | None = None
+    """What shapes the block behind it in a way that is not read."""
     corner: Block | None = None
     """The block of its own that states the corner behind it."""
     is_straight: bool = False

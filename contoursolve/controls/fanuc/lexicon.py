@@ -1,7 +1,10 @@
 """Fanuc and Haas: addresses, numbers, planes and G codes of lathes and mills."""
 
+from dataclasses import replace as dataclass_replace
+
 from msgspec.structs import replace
 
+from contoursolve.controls.further import HAAS_LATHES, HAAS_MILLS, LATHES, MILLS, UNREAD_CALLS, known_by_name
 from contoursolve.controls.plain import (
     CALLS,
     LATHE,
@@ -22,6 +25,8 @@ DRAWING = Book("FANUC lathe, direct drawing dimensions")
 CORNERS = Book("FANUC mill, optional angle chamfering and corner rounding")
 HAAS = Book("Haas operator's manual, corner rounding and chamfering")
 
+STOPS = Source("Fanuc 0i operator's manuals", "an address that cannot stand there stops the control", Evidence.ASSUMED)
+
 _INCREMENTS = NumberFormat(WithoutPoint.LEAST_INCREMENTS, FANUC_MANUAL)
 
 LATHE_PLANES = {17: replace(LATHE, code="G17"), 18: LATHE, 19: replace(LATHE, code="G19")}
@@ -34,7 +39,8 @@ _MILL_CODES = code_rows(FANUC_MANUAL, MILL_CODES, PLANES)
 
 
 def _with(words: Lexicon, *rows: Address) -> Lexicon:
-    return Lexicon({**words.addresses, **{row.address: row for row in rows}}, words.numbers)
+    addresses = {**words.addresses, **{row.address: row for row in rows}}
+    return dataclass_replace(words, addresses=addresses, unknown=STOPS)
 
 
 _TURNED = lexicon(FANUC_MANUAL, _INCREMENTS, "XZ", {"U": "X", "W": "Z"}, is_diameter=True)
@@ -65,7 +71,17 @@ HAAS_MILL_WORDS = _with(
     Address(",R", _ROUND, Unit.MM, HAAS.assumed("lathe's example")),
 )
 
-LATHE_MODES = Modes(LATHE_WORDS, _LATHE_CODES, ("Z", "X"), CALLS, language=fanuc())
-MILL_MODES = Modes(MILL_WORDS, _MILL_CODES, ("X", "Y", "Z"), CALLS, language=fanuc())
-HAAS_LATHE_MODES = Modes(HAAS_LATHE_WORDS, _LATHE_CODES, ("Z", "X"), CALLS, language=haas())
-HAAS_MILL_MODES = Modes(HAAS_MILL_WORDS, _MILL_CODES, ("X", "Y", "Z"), CALLS, language=haas())
+_CODES = {
+    name: known_by_name(FANUC_MANUAL, more, own)
+    for name, more, own in (
+        ("lathe", LATHES, _LATHE_CODES),
+        ("mill", MILLS, _MILL_CODES),
+        ("haas lathe", HAAS_LATHES, _LATHE_CODES),
+        ("haas mill", HAAS_MILLS, _MILL_CODES),
+    )
+}
+_ON_LATHES, _ON_MILLS = ("Z", "X"), ("X", "Y", "Z")
+LATHE_MODES = Modes(LATHE_WORDS, _CODES["lathe"], _ON_LATHES, CALLS, language=fanuc(), unread_calls=UNREAD_CALLS)
+MILL_MODES = Modes(MILL_WORDS, _CODES["mill"], _ON_MILLS, CALLS, language=fanuc(), unread_calls=UNREAD_CALLS)
+HAAS_LATHE_MODES = Modes(HAAS_LATHE_WORDS, _CODES["haas lathe"], _ON_LATHES, CALLS, language=haas())
+HAAS_MILL_MODES = Modes(HAAS_MILL_WORDS, _CODES["haas mill"], _ON_MILLS, CALLS, language=haas())

@@ -4,10 +4,11 @@ import re
 from collections.abc import Mapping
 
 from contoursolve.controls.common import setting
+from contoursolve.controls.further import rows as rows_beside
 from contoursolve.diagnostics.source import Book, Source
 from contoursolve.gcode import Block, Syntax, Word, words_as
 from contoursolve.geometry import Unit
-from contoursolve.reading import Address, Code, Effect, Lexicon, NumberFormat, WithoutPoint
+from contoursolve.reading import Address, Bearing, Code, Effect, Lexicon, NumberFormat, WithoutPoint
 
 BOOK = Book("HEIDENHAIN TNC user's manuals")
 _FK, _PATH = BOOK.printed("free contour programming FK"), BOOK.printed("path functions")
@@ -81,21 +82,24 @@ def _parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
         return found["sense"].upper(), f"{found['sign'] or '+'}1", False
     if found["feed"] is not None:
         return found["feed"][0].upper(), None, False
-    kind = next(kind for kind in ("long", "corner", "letter") if found[kind] is not None)
+    kind = next(kind for kind in ("long", "corner", "letter", "foreign") if found[kind] is not None)
     address, number = found[kind].upper(), found[f"{kind}_number"]
     if kind == "corner":
-        address = ROUNDING if address == "RND" else CHAMFER
+        address = ROUNDING if address.startswith("RND") else CHAMFER
     return address, number and number.replace(",", "."), found[f"{kind}_asked"] is not None
 
 
+_OWN_WORD = rf"(?:F[LC]T?)?+(?:{_LONG}|RND|CHF|{_AXIS})[ \t]*+[-+.,\d]"
 _WORDS = (
     r"(?P<label>(?:\A|(?<=/))[ \t]*+N?+\d++(?![.,\w]))",
     r"(?P<sense>DR(?=[ \t]*+[+-])|CLSD(?!\w))[ \t]*+(?P<sign>[+-]?+)",
     rf"(?P<feed>F[ \t]*+(?:AUTO|MAX)\b|F[UZ][ \t]*+{_NUMBER}|M[BT][ \t]*+(?:MAX|{_NUMBER}))",
     rf"(?P<long>{_LONG})[ \t]*+{_value('long')}",
-    rf"(?P<corner>RND|CHF)(?![A-Z])[ \t]*+(?>(?:R[ \t]*+)?){_value('corner')}",
+    rf"(?P<corner>RND(?![A-Z])[ \t]*+(?>(?:R[ \t]*+)?)|CHF(?![A-Z])[ \t]*+(?!R)){_value('corner')}",
     # R0 is no radius: it ends the compensation.
     rf"(?!R0(?![\w.,]))(?P<letter>{_AXIS}|[A-Z])(?!(?!Q[LRS]?\d)[A-Z])[ \t]*+{_value('letter')}",
+    # Such as LEM20 or ANG=30: no word of Klartext.
+    rf"(?!{_OWN_WORD})(?P<foreign>[A-Z]{{2,}}?(?:[1-3][XY])?)(?>(?:[ \t]*+=)?)[ \t]*+{_value('foreign')}",
 )
 BLOCK_NUMBER = r"[ \t/]*+(?>(?:N?(?P<number>\d++)(?![.,\w])[ \t]*+)?)"
 """What a statement begins with: its sign to skip it and its number, if any."""
@@ -104,8 +108,9 @@ _TOKENS = (
     f"(?P<word>{'|'.join(_WORDS)})",
     r"(?P<blank>[ \t\f\v\x1a\ufeff~]++)",
     r"(?P<comment>;.*+)",
+    rf"(?P<glued>(?:{'|'.join(sorted(FREE, key=len, reverse=True))})(?=(?:{_LONG}|{_AXIS})[ \t]*+[+-]?+[\d.,]))",
     rf"(?P<name>(?:APPR|DEP)[ \t]++[A-Z]++|(?:{_BY_LENGTH})(?![\w.,]))",
-    rf"(?P<malformed>(?:{_LONG}|RND[ \t]*+R?+|CHF|{_AXIS}|[A-Z](?![A-Z]))[ \t]*+(?=[\d.,+-])[\w.,+-]++)",
+    rf"(?P<malformed>(?:{_LONG}|RND[ \t]*+R?+|CHF[ \t]*+R?+|{_AXIS}|[A-Z](?![A-Z]))[ \t]*+(?=[\d.,+-])[\w.,+-]++)",
     r"(?P<bare>[A-Z]++[+-]?+)",
     r"(?P<stray>[^ \tA-Z;]++)",
 )
@@ -178,7 +183,20 @@ REFERRING = ("PAR", *(f"R{name}" for name in REFERRED))
 REFERRING_TO_LINES = ("PAR", "RAN")
 """Those of them that name a line: no page tells which direction of an arc they would mean."""
 
-LEXICON = Lexicon(_rows(), NUMBERS)
+_BESIDE = (
+    ("N", "number of a block", Bearing.NONE),
+    ("F FU FZ FT FMAXT", "feed", Bearing.NONE),
+    ("S T M MB MT", "speed, tool or function", Bearing.NONE),
+    ("A B C U V W IA IB IC IU IV IW", "further axis", Bearing.AXIS),
+    ("TX TY TZ NX NY NZ", "direction of the tool or of a surface", Bearing.NONE),
+    ("H", "height of an approach or a helix", Bearing.NONE),
+)
+LEXICON = Lexicon(
+    _rows(),
+    NUMBERS,
+    rows_beside(BOOK.assumed("addresses"), _BESIDE),
+    BOOK.assumed("the control refuses what it has no function for"),
+)
 
 
 def function_of(block: Block) -> str:

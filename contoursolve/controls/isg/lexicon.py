@@ -2,14 +2,27 @@
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 
+from contoursolve.controls.further import rows as rows_beside
 from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, lexicon
 from contoursolve.diagnostics.source import Book
 from contoursolve.execution.isg import COMMENT, isg
 from contoursolve.gcode import Block, Syntax, Word
 from contoursolve.gcode.syntax import IN_BRACKETS
 from contoursolve.geometry import Length, Unit
-from contoursolve.reading import COMMENTED, Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
+from contoursolve.reading import (
+    COMMENTED,
+    Address,
+    Bearing,
+    Code,
+    Diameter,
+    Effect,
+    Lexicon,
+    Modes,
+    NumberFormat,
+    WithoutPoint,
+)
 
 BOOK = Book("ISG kernel, programming manual")
 
@@ -49,14 +62,17 @@ def _parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
 
 _NUMBER = r"[+-]?+(?>\d++\.?+\d*+|\.\d++)"
 _OWN = r"\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)\b"
+_FOREIGN = r"\#[ \t]*+[A-Za-z]\w*+(?=[ \t]*+=[ \t]*+[-+.\d])"
+"""A word with a number sign that the control has not."""
 SYNTAX = Syntax(
     "isg",
     token=re.compile(
         rf"""
     (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff]++|%.*+)
   | (?P<comment>{COMMENT}|;.*+)
+  | (?P<mistyped>\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)(?=[-+.\d])[-+.,\d]++)
   | (?P<word>
-        (?P<long>{_OWN})[ \t]*+(?>(?:=[ \t]*+)?)(?:(?P<plain>{_NUMBER})(?![\w.+*/\[-])|(?P<wanted>\?)
+        (?P<long>{_OWN}|{_FOREIGN})[ \t]*+(?>(?:=[ \t]*+)?)(?:(?P<plain>{_NUMBER})(?![\w.+*/\[-])|(?P<wanted>\?)
           |(?P<formula>[^ \t;()]++))
       | (?P<letter>[A-Za-z])(?![A-Za-z_])[ \t]*+(?>(?:=[ \t]*+)?)(?:(?P<short>{_NUMBER})(?![\d.+*/\[-])|(?P<asked>\?)
           |(?P<expression>[+-]?+(?>(?:[A-Z]*+{IN_BRACKETS}|[PV](?>(?:[\w.]++|{IN_BRACKETS})*)|\d[\d.]*+|[+*/-])+))))
@@ -82,6 +98,13 @@ NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, BOOK.assumed("numbers"))
 _ANGLES, _CORNERS = BOOK.printed("contour line programming"), BOOK.printed("chamfers and roundings")
 
 
+_BESIDE = (
+    ("#FRC", "feed of a corner", Bearing.NONE),
+    ("E", "feed at the end of the block", Bearing.NONE),
+    ("S H D L", "spindle, function, offset or call", Bearing.NONE),
+)
+
+
 def _words() -> Lexicon:
     plain = lexicon(BOOK.printed("language"), NUMBERS, "XYZ", {}, is_diameter=False)
     rows = (
@@ -90,7 +113,10 @@ def _words() -> Lexicon:
         Address("#CHR", "chamfer: the distance of both its ends from the corner", Unit.MM, _CORNERS),
         Address("#CHF", "chamfer: the length of its face", Unit.MM, _CORNERS),
     )
-    return Lexicon({**plain.addresses, **{row.address: row for row in rows}}, NUMBERS)
+    beside = rows_beside(BOOK.assumed("addresses"), _BESIDE)
+    addresses = {**plain.addresses, **{row.address: row for row in rows}}
+    stops = BOOK.assumed("a word that is not known stops the control")
+    return replace(plain, addresses=addresses, beside=(*plain.beside, *beside), unknown=stops)
 
 
 def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
@@ -118,7 +144,6 @@ MODES = Modes(
     syntax=SYNTAX,
     remember=_remember,
     call_addresses=frozenset("L"),
-    beside=frozenset({"#FRC"}),
     separate=frozenset({CHAMFER, ROUNDING}),
     language=isg(),
 )

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from msgspec.structs import replace as replace_fields
 
+from contoursolve.controls.further import MILLS, UNREAD_CALLS, known_by_name
 from contoursolve.controls.plain import CALLS, LATHE, MILL_CODES, PLANES, code_rows, lexicon, merge
 from contoursolve.diagnostics.source import Book, Evidence, Source
 from contoursolve.execution.fanuc import fanuc
@@ -17,6 +18,7 @@ BOOK = Book("Mitsubishi M700V/M70V programming manual")
 
 _CODES = merge(MILL_CODES, {Effect.NONE: {5: "high-speed machining"}})
 _NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, BOOK.assumed("a machine parameter"))
+STOPS = BOOK.assumed("an address that cannot stand there stops the control")
 _PLACE = BOOK.printed("linear angle command, p. 375")
 _CHAMFER = Source("Mitsubishi corner chamfering, as users quote it", "length of ,C", Evidence.PRINTED)
 _CENTER = BOOK.printed("p. 378: format list 3")
@@ -35,12 +37,13 @@ def _words(*, is_diameter: bool) -> Lexicon:
         Address("Q", "centre of an arc without an end, a coordinate in place of K (in G17 of J)", Unit.MM, _CENTER),
         Address("H", "0 the crossing with the shorter line, 1 with the longer line", Unit.SIGN, BOOK.printed("p. 378")),
     )
-    return Lexicon({**plain.addresses, **{row.address: row for row in rows}}, plain.numbers)
+    return replace(plain, addresses={**plain.addresses, **{row.address: row for row in rows}}, unknown=STOPS)
 
 
 def _modes(words: Lexicon, planes: dict[int, Plane]) -> Modes:
-    codes = code_rows(BOOK.assumed("list of G codes"), _CODES, planes)
-    return Modes(words, codes, ("X", "Y", "Z"), CALLS, remember=_remember, language=fanuc())
+    source = BOOK.assumed("list of G codes")
+    codes = known_by_name(source, MILLS, code_rows(source, _CODES, planes))
+    return Modes(words, codes, ("X", "Y", "Z"), CALLS, remember=_remember, language=fanuc(), unread_calls=UNREAD_CALLS)
 
 
 HIGH_SPEED = 5

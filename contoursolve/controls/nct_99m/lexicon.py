@@ -14,6 +14,7 @@ from contoursolve.controls.chain.language import (
     OVER_LINE,
     STATED_POINT,
 )
+from contoursolve.controls.further import MILLS, UNREAD_CALLS, known_by_name, letters
 from contoursolve.controls.plain import CALLS, MILL_CODES, PLANES, code_rows, merge
 from contoursolve.diagnostics.source import Book
 from contoursolve.execution.fanuc import fanuc
@@ -54,7 +55,15 @@ XY, ZX, YZ = PLANES.values()
 _OWN_NAMES = {Effect.NONE: {64: "continuous cutting", 98: "return", 99: "return"}}
 CODES = code_rows(CHAPTER, {}, PLANES) | code_rows(CODES_SOURCE, merge(MILL_CODES, _OWN_NAMES), {})
 
-MODES = Modes(Lexicon({row.address: row for row in ADDRESSES}, NUMBERS), CODES, AXES, CALLS, language=fanuc())
+WORDS = Lexicon(
+    {row.address: row for row in ADDRESSES},
+    NUMBERS,
+    letters(BOOK.assumed("addresses")),
+    BOOK.assumed("an address that cannot stand there stops the control"),
+)
+MODES = Modes(
+    WORDS, known_by_name(CODES_SOURCE, MILLS, CODES), AXES, CALLS, language=fanuc(), unread_calls=UNREAD_CALLS
+)
 
 UNCOMPENSATED, UNCOMPENSATED_FREE = "@uncompensated", "@uncompensated-free"
 """Over-defined without compensation where that is required, and where a setting frees it."""

@@ -6,14 +6,15 @@ from functools import cache
 
 from msgspec import structs
 
-from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, lexicon
+from contoursolve.controls.further import rows as rows_beside
+from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, coming_back, lexicon
 from contoursolve.diagnostics.source import Book
 from contoursolve.execution.language import MacroLanguage
 from contoursolve.execution.sinumerik import sinumerik
 from contoursolve.gcode import Block, Syntax, Word, long_parts
 from contoursolve.gcode.syntax import IN_BRACKETS, IN_PARENTHESES
 from contoursolve.geometry import Length, Unit
-from contoursolve.reading import Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
+from contoursolve.reading import Address, Bearing, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 
 BOOK = Book("SINUMERIK NC programming manual")
 
@@ -30,17 +31,71 @@ _CODES = BASIC_CODES | {
     Effect.FRAME: dict.fromkeys((110, 111, 112), "pole of polar coordinates"),
     Effect.NONE: dict.fromkeys((9, 60, 601, 602, 603), "exact stop")
     | dict.fromkeys((64, *range(641, 646)), "continuous path")
-    | dict.fromkeys((93, 94, 95, 96, 97), "kind of feed or speed")
+    | dict.fromkeys((93, 94, 95, 96, 97, 931, 942, 952, 961, 962, 971, 972, 973), "kind of feed or speed")
+    | dict.fromkeys((62, 621), "slower at corners")
+    | dict.fromkeys((140, 141, 142, 143), "way of approach")
+    | {290: "language of SINUMERIK"}
     | dict.fromkeys((450, 451, 460, 461, 462), "corners of the compensated path"),
 }
 _UNITS = {70: Length.INCH, 71: Length.MM, 700: Length.INCH, 710: Length.MM}
-_NAMES: tuple[tuple[Effect, str, str], ...] = (
-    (Effect.FRAME, "coordinate frame", "TRANS ATRANS ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS TRAFOOF"),
-    (Effect.SINGLE, "no offset", "SUPA"),
-    (Effect.NONE, "nothing about the path", "MSG SETMS STOPRE BRISK SOFT DRIVE NORM KONT KONTC KONTT FFWON FFWOF"),
-    (Effect.NONE, "nothing about the path", "COMPOF CFC CFTCP CFIN SBLON SBLOF DISPLOF SAVE WALIMON WALIMOF DIAMCHANA"),
-    (Effect.NONE, "nothing about the path", "OFFN LIMS SETAL TC G291 G290 WORKPIECE ADIS ADISPOS SPCON SPCOF"),
+_UNREAD = (
+    (Effect.MOTION, "arc through a point", ("CIP",)),
+    (Effect.MOTION, "involute", ("INVCW INVCCW",)),
+    (Effect.MOTION, "spline or polynomial", ("ASPLINE BSPLINE CSPLINE POLY",)),
+    (Effect.FRAME, "another surface", ("TRANSMIT TRACYL TRAANG TRAORI TRACON",)),
+    (Effect.FRAME, "tilted plane", ("CYCLE800 PAROT PAROTOF TOROT TOROTX TOROTY TOROTZ TOROTOF TOFRAME",)),
+)
+"""Commands by name that change the path or the coordinates in a way that contoursolve does not follow."""
+_NAMES: tuple[tuple[Effect, str, tuple[str, ...]], ...] = (
+    (Effect.FRAME, "coordinate frame", (
+        "TRANS ATRANS ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS TRAFOOF",
+    )),
+    (Effect.SINGLE, "no offset", (
+        "SUPA",
+    )),
+    (Effect.NONE, "speeds up and slows down", (
+        "BRISK BRISKA SOFT SOFTA DRIVE DRIVEA JERKLIM JERKLIMA FFWON FFWOF DYNNORM DYNPOS DYNROUGH",
+        "DYNSEMIFIN DYNFINISH DYNPREC CYCLE832 COMPON COMPCURV COMPCAD COMPSURF COMPPATH COMPOF FIFOCTRL",
+        "STARTFIFO STOPFIFO PREPRO",
+    )),
+    (Effect.NONE, "feed", (
+        "CFC CFTCP CFIN FNORM FLIN FCUB FPO FPRAON FPRAOF FGROUP",
+    )),
+    (Effect.NONE, "spindle", (
+        "SETMS SPCON SPCOF SPI SPN SPOSON DIAMCHANA COUPDEF COUPDEL COUPON COUPONC COUPOF COUPOFS COUPRES",
+    )),
+    (Effect.NONE, "channels and axes", (
+        "WAITM WAITMC WAITE WAITP WAITS WAITENC SETM CLEARM START INIT GET GETD RELEASE AXTOCHAN TANG",
+        "TANGON TANGOF TANGDEL TLIFT TRAILON TRAILOF LEADON LEADOF CTABDEF CTABEND EGDEF EGON EGONSYN",
+        "EGONSYNE EGOFS EGOFC EGDEL CPDEF CPDEL CPON CPOF MASLON MASLOF MASLOFS MASLDEF MASLDEL AXSTRING",
+        "BFREE",
+    )),
+    (Effect.NONE, "tool", (
+        "CUT2D CUT2DF CUT3DC CUT3DF CUT3DFS CUT3DFF CUTCONON CUTCONOF CUTMOD NORM KONT KONTC KONTT CDON",
+        "CDOF CDOF2 GETSELT GETEXET SETPIECE DELT NEWT TCA TCI TMMVTL GETT SETDNO GETDNO CHKDNO DELTC",
+        "DZERO DELDL DELTOOLENV TOOLENV",
+    )),
+    (Effect.NONE, "tells or stores", (
+        "MSG SETAL WRITE READ DELETE ISFILE WORKPIECE GROUP_BEGIN GROUP_END GROUP_ADDEND DISPLOF DISPLON",
+        "ACTBLOCNO SBLON SBLOF SAVE STOPRE STOPREOF ICYCOF ICYCON MMC EXTOPEN EXTCLOSE EXTWRITE PROT",
+        "NPROT NPROTDEF PRLOC BLSYNC CONTPRON CONTDCON EXECTAB EXECUTE",
+    )),
+    (Effect.NONE, "watches", (
+        "WALIMON WALIMOF CPRECON CPRECOF CANCEL LOCK UNLOCK ENABLE DISABLE SETINT CLRINT DELDTG LIFTFAST",
+        "LFON LFOF LFWP LFTXT LFPOS WHEN WHENEVER FROM EVERY DO RDISABLE POLFMASK POLFMLIN RTLION RTLIOF",
+        "COARSEA IPOENDA FINEA",
+    )),
+    (Effect.NONE, "orientation of the tool", (
+        "ORIWKS ORIMKS ORIAXES ORIVECT ORIPLANE ORICONCW ORICONCCW ORICONIO ORICURVE ORIEULER ORIRPY",
+        "ORIRPY2 ORIVIRT1 ORIVIRT2 ORIC ORID ORISON ORISOF OSOF OSC OSS OSSE OSD OST ORIPATH ORIPATHS",
+        "ORIROTA ORIROTR ORIROTT ORIROTC",
+    )),
+    (Effect.NONE, "nothing about the path", (
+        "MCALL UPATH SPATH CP PTP PTPG0 ADISPOS ADIS OFFN LIMS BLKSKIP TOWSTD TOWMCS TOWWCS TOWTCS TOWBCS",
+        "TOWKCS",
+    )),
 )  # fmt: skip
+"""Predefined commands and subprograms by name."""
 _DIAMETERS = {
     "DIAMOF": (Diameter.OFF, "X is a radius"),
     "DIAMON": (Diameter.ON, "X is a diameter"),
@@ -55,16 +110,19 @@ def _codes() -> dict[int, Code]:
     for name, (diameter, meaning) in _DIAMETERS.items():
         number += 1
         rows.append(Code(number, Effect.NONE, meaning, BOOK.assumed("diameters"), diameter=diameter, name=name))
-    for effect, meaning, names in _NAMES:
-        for name in names.split():
-            number += 1
-            rows.append(Code(number, effect, meaning, BOOK.assumed("commands"), name=name))
+    for is_read, table in ((True, _NAMES), (False, _UNREAD)):
+        for effect, meaning, names in table:
+            for name in " ".join(names).split():
+                number += 1
+                source = BOOK.assumed("commands and predefined subprograms")
+                row = Code(number, effect, meaning, source, name=name, is_read=is_read)
+                rows.append(coming_back(row))
     return {code.number: code for code in rows}
 
 
 CODES = _codes()
 
-_NUMBER = r"[+-]?+(?>\d++(?>[.,]\d*+)?|[.,]\d++)"
+_NUMBER = r"[+-]?+(?>\d++\.?+\d*+|\.\d++)"
 _OWN = "ANG|RNDM?|CHR|CHF|CR"
 SYNTAX = Syntax(
     "sinumerik",
@@ -78,9 +136,12 @@ SYNTAX = Syntax(
         (?>(?P<long>\$?[A-Za-z_]\w*+(?>(?:{IN_BRACKETS})?))[ \t]*+=[ \t]*+)(?:
             (?P<function>[AaIi][Cc])[ \t]*+\([ \t]*+(?:(?P<inner>{_NUMBER})|(?P<unset>\?))[ \t]*+\)
           | (?P<plain>{_NUMBER})(?![\w.,+*/\-\[(])|(?P<wanted>\?)
-          | (?![\d.,+-]++(?:[\s;]|$))(?P<formula>(?>(?:[^\s;()\[\]\"]++|{IN_PARENTHESES}|{IN_BRACKETS}|\"[^\"]*+\")+)))
+          | (?![\d.,+-]++(?:[\s;]|$)|[AaIi][Cc][ \t]*+\([\d.,+-]++\))
+            (?P<formula>(?>(?:[^\s;()\[\]\"]++|{IN_PARENTHESES}|{IN_BRACKETS}|\"[^\"]*+\")+)))
       | (?P<letter>[A-Za-z])(?![A-Za-z_])[ \t]*+(?:(?P<short>{_NUMBER})(?![\d.,])|(?P<asked>\?))))
-  | (?P<malformed>(?:(?:{_OWN})[ \t]*+(?>(?:=[ \t]*+)?)|[A-Za-z][ \t]*+)(?=[\d.,+-])[\d.,+-]++)
+  | (?P<malformed>(?:(?:{_OWN})[ \t]*+(?>(?:=[ \t]*+)?)|[A-Za-z_]\w*+[ \t]*+=[ \t]*+|[A-Za-z][ \t]*+)
+      (?=[\d.,+-])[\d.,+-]++
+     |[A-Za-z_]\w*+[ \t]*+=[ \t]*+[AaIi][Cc][ \t]*+\([\d.,+-]++\))
   | (?P<name>(?>[A-Za-z_]{{2}}\w*+))[ \t]*+(?>(?:{IN_PARENTHESES})?)
   | (?P<bare>[A-Za-z])
   | (?P<stray>\"[^\"]*+\"?+|[^ \tA-Za-z;]++)
@@ -90,7 +151,7 @@ SYNTAX = Syntax(
     statement=re.compile(
         r"[ \t/]*+(?>(?:[Nn]\d++)?)[ \t]*+(?>(?:[A-Za-z_]\w++:)?)[ \t]*+(?:"
         r"(?P<assignment>DEF|EXTERN|PROC|REDEF|DEFINE)"
-        r"|(?P<flow>IF|ELSE|ENDIF|FOR|ENDFOR|WHILE|ENDWHILE|LOOP|ENDLOOP|REPEATB?|UNTIL|GOTO[BFCS]?|CASE|P?CALL|MCALL|RET))\b",
+        r"|(?P<flow>IF|ELSE|ENDIF|FOR|ENDFOR|WHILE|ENDWHILE|LOOP|ENDLOOP|REPEATB?|UNTIL|GOTO[BFCS]?|CASE|P?CALL|RET))\b",
         re.IGNORECASE,
     ),
     comment=re.compile(r";.*+"),
@@ -102,6 +163,28 @@ SYNTAX = Syntax(
 NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, BOOK.assumed("numbers"))
 _CORNER, _PLACE = BOOK.printed("p. 220"), BOOK.printed("p. 201")
 ANGLE = "angle of the line, from the plane's first axis, counter-clockwise"
+
+
+_POSITIONED = " ".join(
+    f"{word}[{axis}]" for word in ("POS", "POSA", "POSP") for axis in ("X", "Y", "Z", "X1", "Y1", "Z1")
+)
+_WORDS = (
+    ("N", "number of a block", Bearing.NONE),
+    ("F FB FL FA FD FDA FZ FAD FMA FGREF FLIM FPR FRC FRCM OVR OVRA OVRRAP", "feed", Bearing.NONE),
+    ("ACC VELOLIM VELOLIMA ACCLIMA", "limit of an axis", Bearing.NONE),
+    ("S SPOS SPOSA LIMS SVC SCC SETMS SF M3 M4 M5", "spindle", Bearing.NONE),
+    ("T D DL H M TCARR TOFFL TOFF TOFFR ISD OFFN DISC DISCL DISR DISRP ALF", "tool, offset or function", Bearing.NONE),
+    ("ADIS ADISPOS CTOL OTOL ATOL STOLF CTOLF", "rounding of the path that the control does by itself", Bearing.NONE),
+    ("RPL CRPL ID IDS", "rotation or synchronous action", Bearing.NONE),
+    ("FXS FXST FXSW FOC FOCON OS OSP1 OSP2 OSB OST1 OST2 OSCTRL OSNSC OSE CPL POLF", "axis on its own", Bearing.NONE),
+    ("LEAD TILT THETA ORIRESET", "direction of the tool", Bearing.NONE),
+    ("P", "argument of a call", Bearing.ARGUMENT),
+    ("A B C E O Q U V W AX POS POSA POSP", "further axis", Bearing.AXIS),
+    ("I J K AR TURN MEAS MEAW PO PL PW SD DITS DITE", "part of the path", Bearing.UNREAD),
+    (f"AP RP X Y Z {_POSITIONED}", "end of the block", Bearing.END),
+)  # fmt: skip
+"""The words beside contours, by the names of all of which there are some with a number or an index behind."""
+_MACHINES = (("DRESS", "word of a machine builder", Bearing.NONE),)
 
 
 def _words() -> Lexicon:
@@ -120,7 +203,13 @@ def _words() -> Lexicon:
         )
         rows.append(Address(f"{axis}=IC", "increment, whatever G90 and G91 say", Unit.MM, _PLACE, axis, True))
     kept = {name: row for name, row in plain.addresses.items() if name != "R"}
-    return Lexicon({**kept, **{row.address: row for row in rows}}, NUMBERS)
+    source = BOOK.assumed("addresses")
+    return Lexicon(
+        {**kept, **{row.address: row for row in rows}},
+        NUMBERS,
+        rows_beside(source, (*_WORDS, *_MACHINES)),
+        BOOK.assumed("a name that is not defined stops the control"),
+    )
 
 
 def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
@@ -131,13 +220,14 @@ def _remember(memory: Mapping[str, Word], block: Block) -> Mapping[str, Word]:
     return {} if word.number == 0 else {"RNDM": word}
 
 
-_ENDS, _LEXICON, _BESIDE = frozenset({17}), _words(), frozenset({"RNDM", "FRC", "FRCM", "LIMS"})
+_ENDS, _LEXICON = frozenset({17}), _words()
 
 
 @cache
 def statements() -> MacroLanguage:
     """Variables, jumps and calls: a name that is no word and no command calls a subprogram."""
-    return structs.replace(sinumerik([*SYNTAX.codes, *_LEXICON.addresses, *_BESIDE]), declares=True, made_by=statements)
+    names = [*SYNTAX.codes, *_LEXICON.plain_names()]
+    return structs.replace(sinumerik(names), declares=True, made_by=statements)
 
 
 MODES = Modes(
@@ -149,8 +239,6 @@ MODES = Modes(
     radius="CR",
     remember=_remember,
     call_addresses=frozenset("L"),
-    moving=re.compile(r"AP|RP|AR|POS[AP]?\[[XYZ]\w*\]|[XYZIJK]\d+(=\w+)?"),
     lasting={"RNDM": "RNDM=0"},
-    beside=_BESIDE,
     language=statements(),
 )

@@ -3,6 +3,7 @@
 from decimal import Decimal
 
 from contoursolve.controls.common import setting
+from contoursolve.controls.further import LATHES, UNREAD_CALLS, known_by_name, letters
 from contoursolve.controls.plain import LATHE_CODES, code_rows, merge
 from contoursolve.diagnostics.finding import Alarm
 from contoursolve.diagnostics.source import Book, Evidence
@@ -132,9 +133,10 @@ ASSUMPTIONS = (
 )
 
 MODES = Modes(
-    lexicon=Lexicon({row.address: row for row in ADDRESSES}, NUMBERS),
-    codes=CODES,
+    lexicon=Lexicon({row.address: row for row in ADDRESSES}, NUMBERS, letters(BOOK.assumed("addresses"))),
+    codes=known_by_name(LISTED, LATHES, CODES),
     axes=("Z", "X"),
     calls=frozenset({98, 99}),
     language=fanuc(),
+    unread_calls=UNREAD_CALLS,
 )

@@ -1,0 +1,218 @@
+"""Whether the control has the words of a block, and which of its words one that it has not was meant to be."""
+
+from collections.abc import Collection, Iterator, Sequence
+
+from msgspec.structs import replace
+
+from contoursolve.diagnosis.explain import Context, report
+from contoursolve.diagnosis.wording import either
+from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
+from contoursolve.gcode import Block, Word, number_of, spell
+from contoursolve.reading import Bearing, Code, Effect, Lexicon, Modes, ReadIssue, State, codes_of, not_read
+
+_SHORTEST = 2
+"""Letters of an address by which no other one is meant."""
+_LONG = 5
+"""Letters of an address from which on two slips may have been made in it."""
+_MOST = 3
+"""Words that may have been meant, of which a message tells."""
+
+_ROLES = (
+    ("rounding", ("RND", "RN", "RD", "RO", "RA", "FIL", "R")),
+    ("chamfer", ("CHR", "CHF", "CH", "FAS", "BEV", "C")),
+    ("angle", ("ANG", "AN", "WI", "A")),
+)
+"""What the meanings of corners and angles begin with, and how such words begin on one control or another."""
+
+
+def meant_by(word: Word, known: Collection[str], lexicon: Lexicon) -> list[str]:
+    """The words that one was meant to be that the control has not, the most plausible first: the same with a comma or a
+    number sign or without it, one with the same letters but for a slip, what another control calls so."""
+    number = _number(word)
+    if not number:
+        return []
+    bare = word.address.lstrip(",#")
+    others = [each for each in known if each != word.address and each.lstrip(",#")]
+    own = lexicon.addresses
+    same = [each for each in others if each.lstrip(",#") == bare and each in own]
+    near = sorted((distance, each) for each in others if (distance := _apart(bare, each)) is not None)
+    near = [each for each in near if each[1] in own] or near
+    roles = [each for each in others if _role(each, lexicon) and _role(each, lexicon) == _begins_like(word.address)]
+    corners = [each for each in others if word.address.startswith(",") and each.startswith(",")]
+    if len(bare) == 1 and corners:
+        # Which of them it is shows in the number, if at all.
+        is_angle = abs(float(word.number or 0)) > _LARGEST_CORNER
+        corners.sort(key=lambda each: (_role(each, lexicon) == "angle") is not is_angle)
+    found = dict.fromkeys([*same, *(each for _, each in near), *roles, *corners])
+    return [spell(each, number) for each in found]
+
+
+_LARGEST_CORNER = 44
+"""A number beyond which it is an angle rather than the size of a corner."""
+
+
+def _number(word: Word) -> str:
+    number = number_of(word.text, word.address)
+    return number if number and (number.strip("+-.0123456789,?") == "") else ""
+
+
+def _role(address: str, lexicon: Lexicon) -> str:
+    row = lexicon.addresses.get(address)
+    return next((role for role, _ in _ROLES if row and row.meaning.startswith(role)), "")
+
+
+def _begins_like(address: str) -> str:
+    """What a word means on another control, by how it begins; of one letter, it is the letter."""
+    bare, has_sign = address.lstrip(",#"), address[0] in ",#"
+    if len(bare) == 1 and not has_sign:
+        return ""
+    return next(
+        (role for role, names in _ROLES for name in names if bare == name or (len(name) > 1 and bare.startswith(name))),
+        "",
+    )
+
+
+def _apart(typed: str, other: str) -> int | None:
+    """By how many slips two addresses differ: letters too many, lost, exchanged or swapped; None for too many."""
+    meant = other.lstrip(",#")
+    if min(len(typed), len(meant)) < _SHORTEST or "=" in meant or typed == meant:
+        return None
+    most = 2 if min(len(typed), len(meant)) >= _LONG else 1
+    if abs(len(typed) - len(meant)) > most:
+        return None
+    distance = _slips(typed, meant)
+    return distance if distance <= most else None
+
+
+def _slips(first: str, second: str) -> int:
+    """The optimal string alignment distance of two words."""
+    rows = [list(range(len(second) + 1))]
+    for at, letter in enumerate(first, 1):
+        row = [at]
+        for other, meant in enumerate(second, 1):
+            best = min(rows[-1][other] + 1, row[-1] + 1, rows[-1][other - 1] + (letter != meant))
+            if at > 1 and other > 1 and letter == second[other - 2] and first[at - 2] == meant:
+                best = min(best, rows[-2][other - 2] + 1)
+            row.append(best)
+        rows.append(row)
+    return rows[-1][-1]
+
+
+# Blocks ----------------------------------------------------------------------------------------------------------
+
+_OF_A_MOVE = (
+    Effect.MOTION,
+    Effect.PLANE,
+    Effect.UNITS,
+    Effect.ABSOLUTE,
+    Effect.INCREMENTAL,
+    Effect.COMPENSATION,
+    Effect.NONE,
+    Effect.SHIFT,
+    Effect.CONTOUR,
+)
+"""What the codes of a block do whose axis words are where it ends."""
+_PLAIN = (0, 1, 2, 3, 17, 18, 19, 20, 21, 40, 41, 42, 70, 71, 90, 91)
+"""Codes that have no argument."""
+
+
+def moves(block: Block, here: State, modes: Modes, signs: Sequence[Word]) -> bool:
+    """Whether a block moves an axis of the plane, or has a word of a contour; `here` is the state with its codes in
+    force, `signs` are such words."""
+    if block.macro is not None or any(modes.is_call(word) for word in block.words):
+        return False
+    codes = codes_of(block, modes)
+    if any(isinstance(code, Word) or code.effect not in _OF_A_MOVE for code in codes):
+        return False
+    cycle = modes.codes.get(here.motion) if here.motion is not None else None
+    if cycle is not None and cycle.effect is not Effect.MOTION:
+        return False
+    rows = (modes.lexicon.addresses.get(word.address) for word in block.words)
+    return bool(signs) or any(row and row.axis in here.plane.axes for row in rows)
+
+
+def is_known(address: str, lexicon: Lexicon) -> bool:
+    """Whether a word may stand in any block that moves."""
+    return address == "G" or address in lexicon.addresses or lexicon.bearing(address) in (Bearing.NONE, Bearing.AXIS)
+
+
+def explain_codes_by_name(context: Context, block: Block, modes: Modes) -> Iterator[Diagnostic]:
+    """Codes of a block that the control has not."""
+    for word, code in zip((word for word in block.words if word.address == "G"), codes_of(block, modes), strict=True):
+        if isinstance(code, Word) and word.number is None and block.faults:
+            # Where characters cannot be read, a name may be a part of what they mean.
+            continue
+        if isinstance(code, Word):
+            yield from _unknown_code(context, word, modes)
+
+
+def _unknown_code(context: Context, word: Word, modes: Modes) -> Iterator[Diagnostic]:
+    name = word.text.strip()
+    if word.number is None:
+        bare = name.partition("(")[0].strip().upper()
+        known = [*modes.syntax.codes, *modes.lexicon.plain_names()]
+        near = sorted((distance, each) for each in known if (distance := _apart(bare, each)) is not None)
+        meant = [f"{each}=" if each in modes.lexicon.addresses else each for _, each in near]
+    else:
+        digits = f"{word.number:f}"
+        codes = [code for code in modes.codes.values() if not code.name and code.text.lstrip("G0") != digits]
+        slips = [(_slips(digits, str(code.number)), -_weight(code), code.text) for code in codes]
+        meant = [text for distance, _, text in sorted(slips) if distance == 1]
+    row = context.row(ReadIssue.CODE_UNKNOWN)
+    advice = f"write {either(meant[:_MOST])} if that is meant" if meant else "write out what it does"
+    yield report(context, row, Basis.RULE, [word], name=name, advice=advice)
+
+
+def explain_call(context: Context, name: str, modes: Modes) -> Iterator[Diagnostic]:
+    """A subprogram that is nowhere, and has almost the name of a command."""
+    near = sorted((distance, each) for each in modes.syntax.codes if (distance := _apart(name, each)) == 1)
+    if near:
+        advice = (
+            f"write {either([each for _, each in near[:_MOST]])} if that is meant; else name its folder with --path"
+        )
+        yield report(context, ReadIssue.CODE_UNKNOWN, Basis.RULE, [], name=name, advice=advice)
+
+
+def _weight(code: Code) -> int:
+    """How much a code has to do with contours."""
+    return (code.effect in (Effect.CONTOUR, Effect.CORNER)) * 2 + (code.effect is Effect.MOTION)
+
+
+def name_of(word: Word) -> str:
+    """What a word is called apart from its value."""
+    return not_read(word.text).split()[-2] if word.address in ("G", "M") else word.address
+
+
+def not_read_yet(context: Context, word: Word, *, is_needed: bool) -> Diagnostic:
+    """A word of the control that contoursolve does not read; an error where a contour needs it."""
+    finding = report(context, ReadIssue.NOT_READ, Basis.RULE, [word], name=name_of(word))
+    return replace(finding, severity=Severity.ERROR) if is_needed else finding
+
+
+def explain_vocabulary(context: Context, block: Block, modes: Modes) -> Iterator[Diagnostic]:
+    """The words of a block that moves which the control has not."""
+    lexicon, has_code = modes.lexicon, _has_code(block)
+    for word in block.words:
+        bearing = lexicon.bearing(word.address)
+        if is_known(word.address, lexicon) or (bearing is Bearing.ARGUMENT and has_code):
+            continue
+        if f",{word.address}" not in lexicon.addresses and bearing not in (Bearing.UNREAD, Bearing.END):
+            yield unknown_word(context, word, lexicon)
+
+
+def _has_code(block: Block) -> bool:
+    """Whether a block has a code to which an argument may belong."""
+    return any(word.address == "M" or (word.address == "G" and word.number not in _PLAIN) for word in block.words)
+
+
+def unknown_word(context: Context, word: Word, lexicon: Lexicon) -> Diagnostic:
+    """A word that the control has not: an error where the control stops at it, else a warning."""
+    meant = meant_by(word, lexicon.plain_names(), lexicon)
+    is_written_so = len(word.address) > 1
+    if meant:
+        row = context.row(ReadIssue.COMMA_WORD_UNKNOWN if word.address.startswith(",") else ReadIssue.WORD_MISTYPED)
+        finding = report(context, row, Basis.RULE, [word], meant=either(meant[:_MOST]))
+    else:
+        finding = report(context, ReadIssue.WORD_UNKNOWN, Basis.RULE, [word])
+    stops = lexicon.unknown if meant and is_written_so else None
+    return replace(finding, severity=Severity.ERROR, source=stops) if stops else finding
