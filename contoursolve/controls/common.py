@@ -5,6 +5,7 @@ from dataclasses import replace
 from decimal import Decimal
 from typing import Any
 
+from contoursolve.controls.further import WORDS
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.diagnostics.source import OWN, Evidence, Source
 from contoursolve.execution.machine import MOST_BLOCKS, Limit
@@ -111,7 +112,7 @@ BLOCKS_SETTING = Setting(
     bounds=(Decimal(1), Decimal(100_000_000)),
     unit="blocks",
 )
-SETTINGS_OF_ALL = (TRAVEL_SETTING, BLOCKS_SETTING)
+SETTINGS_OF_ALL = (TRAVEL_SETTING, BLOCKS_SETTING, WORDS)
 """Those of every control."""
 
 _GRAMMAR = _own("grammar of a word: an address and a number")
@@ -225,12 +226,12 @@ READING_RULES = (
     Rule(
         code="comma-word-unknown",
         message="{words}: this control has no {address}; it stops there, or leaves the word out",
-        help="write {meant} if that is meant; name the control by --control, if it is another one",
+        help="{advice}; name the control by --control, if it is another one",
         source=_READING,
         about=ReadIssue.COMMA_WORD_UNKNOWN,
         severity=Severity.WARNING,
         accepted=(_GOOD,),
-        rejected=("G17 G90 G0 X0 Y0\nG01 X30. ,C2.\nY20.\nG01 X50. ,B30.",),
+        rejected=(_GOOD + "\nG01 X120. ,A30.",),
     ),
     Rule(
         code="word-mistyped",
@@ -240,17 +241,30 @@ READING_RULES = (
         about=ReadIssue.WORD_MISTYPED,
         severity=Severity.WARNING,
         accepted=("G17 G90 G0 X0 Y0\nG1 X30 RND=5\nY40",),
-        rejected=("G17 G90 G0 X0 Y0\nG1 X30 RND=5\nY40\nG1 X50 AGN=5",),
+        rejected=(
+            "G17 G90 G0 X0 Y0\nG1 X30 RND=5\nY40\nG1 X50 AGN=5",
+            "G17 G90 G0 X0 Y0\nG1 X60 RN=8\nY40 CHR=5\nX20",
+        ),
     ),
     Rule(
         code="word-unknown",
         message="{words}: contoursolve knows no word {address} of this control, so the block is read without it",
-        help="delete it; if the machine builder has it, name it by the setting words",
+        help="delete it; if the machine builder has added it, name it by --set CONTROL.words={address}",
         source=_READING,
         about=ReadIssue.WORD_UNKNOWN,
         severity=Severity.WARNING,
         accepted=(_GOOD,),
         rejected=(_GOOD + "\nG01 X120. E135.",),
+    ),
+    Rule(
+        code="word-idle",
+        message="{words} means nothing in a line that ends at coordinates; the block is read without it",
+        help="delete it; or write the code or the words of the arc or of the contour that it belongs to",
+        source=_READING,
+        about=ReadIssue.WORD_IDLE,
+        severity=Severity.WARNING,
+        accepted=(_GOOD,),
+        rejected=("G17 G90 G0 X0 Y0\nG1 X30 CR=5\nY40 RND=3\nX9",),
     ),
     Rule(
         code="code-unknown",

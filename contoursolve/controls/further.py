@@ -6,8 +6,9 @@ from dataclasses import replace
 from decimal import Decimal
 from typing import cast
 
-from contoursolve.diagnostics.source import Source
-from contoursolve.reading import Bearing, Beside, Code, Effect
+from contoursolve.diagnostics.source import OWN, Evidence, Source
+from contoursolve.reading import Bearing, Beside, Code, Effect, Setting
+from contoursolve.reading.dialect import Dialect
 
 _LETTERS: tuple[tuple[str, str, Bearing], ...] = (
     ("N O", "number of a block or a program", Bearing.NONE),
@@ -31,6 +32,24 @@ def letters(source: Source) -> tuple[Beside, ...]:
 def rows(source: Source, table: Iterable[tuple[str, str, Bearing]]) -> tuple[Beside, ...]:
     """Rows of words, the names of each in one text."""
     return tuple(Beside(tuple(names.split()), meaning, source, bearing) for names, meaning, bearing in table)
+
+
+def _with_words(control: Dialect, names: tuple[str, ...]) -> Dialect:
+    """A control whose machine has more words, which move nothing."""
+    lexicon = control.modes.lexicon
+    row = Beside(names, "word of the machine builder", Source("the setting words", "", Evidence.ASSUMED))
+    words = replace(lexicon, beside=(*lexicon.beside, row))
+    return replace(control, modes=replace(control.modes, lexicon=words))
+
+
+WORDS = Setting(
+    "words",
+    "words with a value that the machine builder has added, and that move nothing",
+    {"none": "none but those of the control"},
+    "none",
+    Source(OWN, "lexicons of controls", Evidence.ASSUMED),
+    names=_with_words,
+)
 
 
 def known_by_name(

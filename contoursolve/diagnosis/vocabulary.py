@@ -112,6 +112,7 @@ _OF_A_MOVE = (
     Effect.CONTOUR,
 )
 """What the codes of a block do whose axis words are where it ends."""
+_LINES = (0, 1)
 _PLAIN = (0, 1, 2, 3, 17, 18, 19, 20, 21, 40, 41, 42, 70, 71, 90, 91)
 """Codes that have no argument."""
 
@@ -132,8 +133,9 @@ def moves(block: Block, here: State, modes: Modes, signs: Sequence[Word]) -> boo
 
 
 def is_known(address: str, lexicon: Lexicon) -> bool:
-    """Whether a word may stand in any block that moves."""
-    return address == "G" or address in lexicon.addresses or lexicon.bearing(address) in (Bearing.NONE, Bearing.AXIS)
+    """Whether a word may stand in any block that moves: it moves an axis, or has nothing to do with the path."""
+    row = lexicon.addresses.get(address)
+    return address == "G" or (row is not None and bool(row.axis)) or lexicon.is_beside(address)
 
 
 def explain_codes_by_name(context: Context, block: Block, modes: Modes) -> Iterator[Diagnostic]:
@@ -189,15 +191,22 @@ def not_read_yet(context: Context, word: Word, *, is_needed: bool) -> Diagnostic
     return replace(finding, severity=Severity.ERROR) if is_needed else finding
 
 
-def explain_vocabulary(context: Context, block: Block, modes: Modes) -> Iterator[Diagnostic]:
-    """The words of a block that moves which the control has not."""
+def explain_vocabulary(
+    context: Context, block: Block, here: State, modes: Modes, others: Collection[str]
+) -> Iterator[Diagnostic]:
+    """The words of a block that moves which the control has not; `others` are those of other controls by which these
+    are known, `here` is the state with its codes in force."""
     lexicon, has_code = modes.lexicon, _has_code(block)
     for word in block.words:
         bearing = lexicon.bearing(word.address)
         if is_known(word.address, lexicon) or (bearing is Bearing.ARGUMENT and has_code):
             continue
+        if word.address in lexicon.addresses:
+            if here.motion in _LINES and not has_code and word.address not in modes.lasting:
+                yield report(context, ReadIssue.WORD_IDLE, Basis.RULE, [word])
+            continue
         if f",{word.address}" not in lexicon.addresses and bearing not in (Bearing.UNREAD, Bearing.END):
-            yield unknown_word(context, word, lexicon)
+            yield _unknown_word(context, word, lexicon, others)
 
 
 def _has_code(block: Block) -> bool:
@@ -205,14 +214,16 @@ def _has_code(block: Block) -> bool:
     return any(word.address == "M" or (word.address == "G" and word.number not in _PLAIN) for word in block.words)
 
 
-def unknown_word(context: Context, word: Word, lexicon: Lexicon) -> Diagnostic:
+def _unknown_word(context: Context, word: Word, lexicon: Lexicon, others: Collection[str]) -> Diagnostic:
     """A word that the control has not: an error where the control stops at it, else a warning."""
     meant = meant_by(word, lexicon.plain_names(), lexicon)
     is_written_so = len(word.address) > 1
-    if meant:
-        row = context.row(ReadIssue.COMMA_WORD_UNKNOWN if word.address.startswith(",") else ReadIssue.WORD_MISTYPED)
-        finding = report(context, row, Basis.RULE, [word], meant=either(meant[:_MOST]))
+    if word.address in others:
+        advice = f"write {either(meant[:_MOST])} if that is meant" if meant else "write out what it means"
+        finding = report(context, ReadIssue.COMMA_WORD_UNKNOWN, Basis.RULE, [word], advice=advice)
+    elif meant:
+        finding = report(context, ReadIssue.WORD_MISTYPED, Basis.RULE, [word], meant=either(meant[:_MOST]))
     else:
         finding = report(context, ReadIssue.WORD_UNKNOWN, Basis.RULE, [word])
-    stops = lexicon.unknown if meant and is_written_so else None
+    stops = lexicon.unknown if (meant or word.address in others) and is_written_so else None
     return replace(finding, severity=Severity.ERROR, source=stops) if stops else finding

@@ -1000,9 +1000,7 @@ class Machine:
                 frame.at = last + 1
         self._frames.append(_Frame(source, first, first, last, call, (*frame.callers, caller), times, own, begun))
 
-    def _cannot_call(
-        self, frame: _Frame, index: int, why: Unknown, called: str
-    ) -> Iterator[Block | ProgramEvent]:
+    def _cannot_call(self, frame: _Frame, index: int, why: Unknown, called: str) -> Iterator[Block | ProgramEvent]:
         """A call of what is not found, and its name. That a file is not there is told where a contour depends on it, and
         that the program names what it has not in any case."""
         self.variables.lose_all(why.reason)

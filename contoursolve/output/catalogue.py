@@ -32,7 +32,7 @@ def _setting_lines(dialect: Dialect) -> Iterator[str]:
             for value, meaning in setting.values.items()
         ]
         yield from columns(rows, left=(0, 1, 2))
-        if setting.bounds:
+        if setting.bounds or setting.names:
             yield setting.choices("").capitalize()
         yield ""
     for each in dialect.assumptions:

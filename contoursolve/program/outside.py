@@ -5,8 +5,8 @@ waits. It is told
 
 * at once, if it is about a contour by itself: a slip whose fix makes a block one, a block or a fault with a word by
   which contours are known, a block too long to be read, a fact, an arc that leads to a contour, a start point apart;
-* at once, too, in a block that moves an axis of the plane: a word that cannot be read may be part of the path;
-* where the program has a contour, before or behind: words that may be meant for one, and questions;
+* where the program has a contour, before or behind: words that may be meant for one, and questions; what cannot be read
+  in a block that moves an axis of the plane; and what contoursolve does not know or does not follow;
 * at the next contour behind it: a G word that cannot be read, a comment that is not closed, text outside the %. Nobody
   knows then which plane, units and mode are in force;
 * at a contour whose start rests on its line: the last one that set an axis of the plane, or a word that stays in force,
@@ -22,12 +22,14 @@ from enum import Enum
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.vocabulary import moves
 from contoursolve.diagnostics.finding import Diagnostic
+from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, FaultKind, Word, spell
 from contoursolve.reading import ReadIssue, State, apply_modes, words_of
 from contoursolve.reading.dialect import Dialect
 
 _BESIDE_CONTOURS: frozenset[Enum | None] = frozenset(
     {ReadIssue.COMMA_MISSING, ReadIssue.COMMA_WORD_UNKNOWN, ReadIssue.ASKED_NOTHING, ReadIssue.FACT_UNMARKED}
+    | {ReadIssue.WORD_UNKNOWN, ReadIssue.WORD_IDLE, ReadIssue.CODE_UNKNOWN, ReadIssue.NOT_READ}
 )
 _BEFORE_CONTOURS: frozenset[Enum | None] = frozenset({ReadIssue.TEXT_OUTSIDE, FaultKind.COMMENT_NOT_CLOSED})
 _WAITING = frozenset(
@@ -49,6 +51,8 @@ class Outside:
         self._contour = 0
         """The first line of the last contour; 0 if there is none yet."""
         self._is_behind = False
+        self._torn: set[Span] = set()
+        """Where something cannot be read in a block that moves an axis of the plane."""
 
     def take(
         self,
@@ -68,7 +72,8 @@ class Outside:
         moved = {block.line for block in blocks() if self._moves(block, before)} if is_torn else set[int]()
         for each in findings:
             is_moved = isinstance(each.about, FaultKind) and each.span.line in moved
-            if self._is_behind or is_moved or each.span.line - line in shown or self._is_told(each):
+            self._torn |= {each.span} if is_moved else set()
+            if self._is_behind or each.span.line - line in shown or self._is_told(each):
                 yield each
             else:
                 self._held.append(each)
@@ -92,7 +97,7 @@ class Outside:
         # What no axis has from a line now, it never will.
         later = {place.span.line for place in before.axes.values() if place.span is not None}
         for each in held:
-            if is_counted or each.span.line in lines or _waits_for_any(each):
+            if is_counted or each.span.line in lines or _waits_for_any(each) or each.span in self._torn:
                 yield each
             elif each.span.line in later:
                 self._held.append(each)
@@ -103,8 +108,8 @@ class Outside:
             return True
         if isinstance(finding.about, FaultKind) and not self._long.isdisjoint(finding.addresses):
             return True
-        if finding.about in _BESIDE_CONTOURS:
-            return self._contour > 0
+        if finding.about in _BESIDE_CONTOURS or finding.span in self._torn:
+            return self._contour > 0 or (finding.about is ReadIssue.NOT_READ and finding.is_error)
         return finding.span.line <= self._contour and _waits_for_any(finding)
 
 

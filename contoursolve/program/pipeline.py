@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
-from functools import partial
+from functools import cache, partial
 from itertools import chain, islice
 from typing import TYPE_CHECKING, Any, cast
 
@@ -783,7 +783,11 @@ class Examiner:
 
     def _check_block(self, block: Block, here: State | None = None) -> None:
         """What there is to say of a block that is no contour; `here` is the state with its codes in force."""
-        if self.dialect and _is_clean(block, self.dialect) and not (here and self.dialect.modes.unread(block, here)):
+        if (
+            self.dialect
+            and _is_clean(block, self.dialect, here)
+            and not (here and self.dialect.modes.unread(block, here))
+        ):
             return
         context = Context(self.rules, self.asked.unit, place=block.span)
         for finding in explain_faults(context, block):
@@ -810,7 +814,7 @@ class Examiner:
         modes, signs = dialect.modes, dialect.signs(block)
         self.diagnostics += explain_codes_by_name(context, block, modes)
         if moves(block, here, modes, signs):
-            self.diagnostics += explain_vocabulary(context, block, modes)
+            self.diagnostics += explain_vocabulary(context, block, here, modes, _comma_words())
         unread = modes.unread(block, here)
         if unread is None:
             return
@@ -820,16 +824,26 @@ class Examiner:
             self.diagnostics.append(not_read_yet(context, unread, is_needed=bool(signs)))
 
 
+_OF_ARCS = frozenset("IJKR")
+"""Words that most arcs have."""
 _USUAL = 10_000
 """A number that is no value too large, in inches neither."""
 
 
-def _is_clean(block: Block, dialect: Dialect) -> bool:
+@cache
+def _comma_words() -> frozenset[str]:
+    """The words with a comma that any control has."""
+    words = (each for dialect in DIALECTS.values() for each in dialect.modes.lexicon.addresses)
+    return frozenset(each for each in words if each.startswith(","))
+
+
+def _is_clean(block: Block, dialect: Dialect, here: State | None) -> bool:
     """Whether a block has words alone, each once, and all as usual: there is nothing to say then."""
     if block.faults or block.directives or block.unmarked:
         return False
     addresses, modes = [word.address for word in block.words], dialect.modes
-    is_read = all(is_known(each, modes.lexicon) for each in addresses)
+    own = _OF_ARCS if here is not None and here.motion in _ARCS else frozenset[str]()
+    is_read = all(each in own or is_known(each, modes.lexicon) for each in addresses)
     codes = codes_of(block, modes) if "G" in addresses else ()
     is_read = is_read and all(not isinstance(code, Word) and code.is_read for code in codes)
     is_usual = all(word.number is not None and abs(word.number) <= _USUAL for word in block.words)

@@ -33,7 +33,7 @@ class Setting:
     and why.
 
     The value of one with `bounds` is a number between them, both in `unit`, and its values are the default one alone; a
-    number of blocks is a whole one.
+    number of blocks is a whole one. So they are where `names` are its value: several with commas between them.
     """
 
     name: str
@@ -46,9 +46,20 @@ class Setting:
     """Where a value is about more than its contours: from the control to the control with it, by the value."""
     unit: str = "mm"
     """Of a number: `mm` or `blocks`."""
+    names: Callable[[Any, tuple[str, ...]], Any] | None = None
+    """From the control and some names to the control with them."""
+
+    def change(self, control: Any, value: str) -> Any:
+        """The control with a value of it."""
+        if self.names is not None and value != self.default:
+            return self.names(control, tuple(value.upper().split(",")))
+        return self.changes[value](control) if value in self.changes else control
 
     def choices(self, value: str) -> str:
         """What it can be, if it cannot have this value; else empty."""
+        if self.names is not None:
+            is_one = value == self.default or _NAMES.fullmatch(value) is not None
+            return "" if is_one else f"it is {self.default}, or names with commas between them, such as CLAMP,V9"
         if self.bounds is None:
             return "" if value in self.values else f"values are: {', '.join(self.values)}"
         least, most = self.bounds
@@ -62,10 +73,13 @@ class Setting:
 
     def meaning_of(self, value: str) -> str:
         """What a value means."""
-        return self.values[value] if self.bounds is None else f"{self.meaning}: {value} {self.unit}"
+        if value in self.values and self.bounds is None:
+            return self.values[value]
+        return f"{self.meaning}: {value}{'' if self.names else f' {self.unit}'}"
 
 
 _WHOLE = re.compile(r"\d{1,9}", re.ASCII)
+_NAMES = re.compile(r"#?[A-Za-z_]\w*(?:,#?[A-Za-z_]\w*)*", re.ASCII)
 _NUMBER = re.compile(r"\d{1,9}(\.\d{0,9})?|\.\d{1,9}", re.ASCII)
 
 

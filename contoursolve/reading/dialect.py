@@ -16,11 +16,6 @@ from contoursolve.reading.parsed_contour import ReadIssue
 from contoursolve.reading.rules import Rule
 from contoursolve.reading.writer import Writing
 
-
-def _unchanged(dialect: "Dialect") -> "Dialect":
-    return dialect
-
-
 Follower = Callable[..., Iterator[Diagnostic]]
 """(name of the form, path or None, what gives the state behind it, lines behind it with their numbers, context of
 messages, modes) to the findings about the block behind a contour."""
@@ -105,7 +100,7 @@ class Dialect:
                 raise ValueError(f"{self.name}.{name} cannot be {value!r}; {choices}")
         changed = replace(self, modes=replace(self.modes, settings={**self.modes.settings, **values}))
         for name, value in values.items():
-            changed = known[name].changes.get(value, _unchanged)(changed)
+            changed = known[name].change(changed, value)
         return changed
 
     def initial_state(self, unit: Length) -> State:

@@ -202,6 +202,12 @@ class Lexicon:
             self.rows[address] = next(found, None)
         return self.rows[address]
 
+    def is_beside(self, address: str) -> bool:
+        """Whether a word may stand in any block that moves, whatever else it means in contours."""
+        rows = [row for row in self.beside if address in row.names] if address in self.addresses else []
+        row = rows[-1] if rows else self.row_beside(address)
+        return row is not None and row.bearing in (Bearing.NONE, Bearing.AXIS)
+
     def bearing(self, address: str) -> Bearing | None:
         """What a word that draws no contour has to do with the path; None if the control has no such word."""
         row = self.row_beside(address)

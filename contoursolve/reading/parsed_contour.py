@@ -31,6 +31,7 @@ class ReadIssue(Enum):
     WORD_MISTYPED = "word-mistyped"
     LETTER_FOR_DIGIT = "letter-for-digit"
     WORD_UNKNOWN = "word-unknown"
+    WORD_IDLE = "word-idle"
     CODE_UNKNOWN = "code-unknown"
     NOT_READ = "not-read"
     CODE_MISTYPED = "code-mistyped"

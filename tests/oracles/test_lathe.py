@@ -266,7 +266,7 @@ def test_arc_that_cannot_run_is_reported_and_not_listed(arc, code):
     assert len(solve(text).answers) == 1
     assert finding.code == code
     assert finding.span.line == 2
-    assert codes(solve(text.replace(" Z0.", "", 1))) == []
+    assert {*codes(solve(text.replace(" Z0.", "", 1)))} <= {"word-unknown"}
 
 
 def configured(values, block):

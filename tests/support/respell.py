@@ -105,4 +105,4 @@ def _coordinate(rng: Random, address: str, value: str, is_step: bool) -> str:
         return f"{address}=AC({value})"
     if way < 0.2:
         return f"{address}={value}"
-    return f"{address}{value.replace('.', ',')}" if way < 0.3 else address + value
+    return f"{address} {value}" if way < 0.3 else address + value

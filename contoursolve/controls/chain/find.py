@@ -242,6 +242,8 @@ class ChainFinder:
         plane: a contour that goes on in another one is refused."""
         if block.faults or block.macro or any(modes.is_call(word) for word in block.words):
             return False
+        if modes.unread(block, apply_modes(here, block, modes)) is not None:
+            return False
         codes = codes_of(block, modes)
         is_quiet = all(not isinstance(code, Word) and code.effect in _QUIET and code.diameter is None for code in codes)
         return is_quiet and not self._moves(block, here) and not self._is_corner(block)

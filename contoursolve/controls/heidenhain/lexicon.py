@@ -89,7 +89,7 @@ def _parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
     return address, number and number.replace(",", "."), found[f"{kind}_asked"] is not None
 
 
-_OWN_WORD = rf"(?:F[LC]T?)?+(?:{_LONG}|RND|CHF|{_AXIS})[ \t]*+[-+.,\d]"
+_OWN_WORD = rf"(?:F[LC]T?)?+(?:{_LONG}|RND|CHF|{_AXIS})[ \t]*+[-+.,\d]|[A-Z]++(?<=Q)\d|[A-Z]++(?<=Q[LRS])\d"
 _WORDS = (
     r"(?P<label>(?:\A|(?<=/))[ \t]*+N?+\d++(?![.,\w]))",
     r"(?P<sense>DR(?=[ \t]*+[+-])|CLSD(?!\w))[ \t]*+(?P<sign>[+-]?+)",

@@ -1,0 +1,262 @@
+"""Words of a block that moves which the control has not, which contoursolve does not read, or which bear on nothing."""
+
+import pytest
+
+import contoursolve
+from contoursolve import DIALECTS, Severity, Status
+from contoursolve.diagnostics.source import Evidence
+
+MILL = "G17 G90 G0 X0 Y0\n"
+SINUMERIK, ISG, KLARTEXT, YASNAC, MITSUBISHI = "siemens-840d", "isg", "heidenhain", "yasnac-lx3", "mitsubishi"
+LATHE_CONTOUR = "G111 A180. K-30. B120. X140."
+CHAIN = {
+    SINUMERIK: MILL + "G1 X60 {} F200\nY40 CHR=5\nX20",
+    ISG: MILL + "G1 X60 {} F200\nY40 #CHR=5\nX20",
+    MITSUBISHI: MILL + "G1 X60. {} F200\nY40. ,R5.\nX20.",
+    "fanuc-mill": MILL + "G1 X60. {} F200\nY40. ,R5.\nX20.",
+    "haas-mill": MILL + "G1 X60. {} F200\nY40. ,R5.\nX20.",
+    "nct-99m": MILL + "G1 X60. {} F200\nY40. ,R5.\nX20.",
+    "fanuc-lathe": "G0 X40. Z0.\nG1 X60. {} F.2\nZ-40. ,R5.\nX80.",
+    "haas-lathe": "G0 X40. Z0.\nG1 X60. {} F.2\nZ-40. ,R5.\nX80.",
+    YASNAC: "G00 X40. Z0.\nG01 X100. {} F.2\n" + LATHE_CONTOUR,
+}
+"""A block that moves, with a word besides; a contour stands behind it."""
+
+
+def findings(control, text, **options):
+    return contoursolve.check(text, control=control, **options)
+
+
+@pytest.mark.parametrize(
+    ("control", "word", "meant"),
+    [
+        (SINUMERIK, "RN=8", "RND=8"),
+        (SINUMERIK, "RD=8", "RND=8"),
+        (SINUMERIK, "RMD=8", "RND=8"),
+        (SINUMERIK, "CHAM=2", "CHR=2"),
+        (SINUMERIK, "CHFR=2", "CHF=2"),
+        (SINUMERIK, "CRH=2", "CHR=2"),
+        (SINUMERIK, "SPSO=90", "SPOS=90"),
+        (ISG, "#RDN=5", "#RND=5"),
+        (ISG, "#FASE=1", "#CHR=1"),
+        (MITSUBISHI, "#CHR=1", ",C1"),
+        (MITSUBISHI, "RND=4", ",R4"),
+        (MITSUBISHI, ",B120.", ",A120."),
+        ("fanuc-lathe", ",B120.", ",A120."),
+        ("fanuc-mill", "RAD=2", ",R2"),
+        ("haas-mill", ",D2.", ",C2."),
+        ("nct-99m", ",E2.", ",C2."),
+    ],
+)
+def test_a_misspelt_word_is_an_error_with_what_it_was_meant_to_be(control, word, meant):
+    (finding,) = findings(control, CHAIN[control].format(word))
+    assert finding.code == "word-mistyped"
+    assert finding.severity is Severity.ERROR
+    assert finding.source.evidence.value == "assumed"
+    assert meant in finding.help
+    assert finding.span.line == 2
+
+
+@pytest.mark.parametrize("control", [each for each in CHAIN if each != YASNAC])
+def test_a_word_that_nothing_is_like_is_a_warning(control):
+    word = "QZW=5" if control == SINUMERIK else "#QZW=5" if control == ISG else "P5"
+    (finding,) = findings(control, CHAIN[control].format(word))
+    allowed = {"word-unknown", "word-idle"}
+    assert (finding.code in allowed, finding.severity) == (True, Severity.WARNING)
+
+
+def test_a_letter_without_a_meaning_is_told():
+    (finding,) = findings(YASNAC, CHAIN[YASNAC].format("E135."))
+    assert (finding.code, finding.severity) == ("word-unknown", Severity.WARNING)
+    assert "E135." in finding.message
+    (first, *_) = findings(YASNAC, "G00 X40. Z0.\nG111 A180. K-30. E135. X100.")
+    assert first.code == "address-unknown"
+    assert first.fixes[0].description.startswith("write B135. for E135. ")
+
+
+@pytest.mark.parametrize(
+    ("control", "words"),
+    [
+        (SINUMERIK, "SPOS=90 M3=4 S2=500 C=DC(90) Q1=5 B2=4 D1 T2 H3 LIMS=2000 FB=100 OVR=50 DRESS=1 A3=1 ADIS=.1"),
+        (ISG, "S500 T1 D2 M3 H1 C90 A5 E200 #FRC=50"),
+        (MITSUBISHI, "S500 T1 D2 M3 H1 B90. U5."),
+        ("fanuc-mill", "S500 T1 D2 M3 H1 B90. V3. U5."),
+        ("fanuc-lathe", "S500 T0101 M3 Y5. B9."),
+        (YASNAC, "S500 T0101 M3 C90."),
+    ],
+)
+def test_words_beside_the_path_are_known(control, words):
+    assert not findings(control, CHAIN[control].format(words))
+
+
+def test_a_machine_builder_s_words_are_a_setting():
+    text = CHAIN[SINUMERIK].format("CLAMP=8").replace("X20", "X20 V9Q=4")
+    assert {each.code for each in findings(SINUMERIK, text)} == {"word-unknown", "address-unknown"}
+    assert not findings(SINUMERIK, text, settings={"siemens-840d.words": "clamp,V9Q"})
+    with pytest.raises(contoursolve.SettingError, match="names with commas between them"):
+        findings(SINUMERIK, text, settings={"siemens-840d.words": "a b"})
+
+
+def test_a_declared_variable_is_no_word():
+    text = CHAIN[SINUMERIK].format("RN=8")
+    assert not findings(SINUMERIK, f"DEF REAL RN\n{text}")
+    assert not findings(SINUMERIK, f"R1=5\n{CHAIN[SINUMERIK].format('R2=8')}")
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"), [("RND=8,5", "RND=8.5"), ("X60,5 RND=8", "X60.5"), ("ANG=30,5", "ANG=30.5")]
+)
+def test_a_decimal_comma_is_no_point_on_sinumerik(typed, meant):
+    found = findings(SINUMERIK, MILL + f"G1 {'' if 'X' in typed else 'X60 '}{typed}\nY40 X70 CHR=5\nX20")
+    finding = next(each for each in found if each.code == "number-malformed")
+    assert (finding.severity, meant in finding.message) == (Severity.ERROR, True)
+
+
+@pytest.mark.parametrize(
+    ("control", "typed", "meant"), [("fanuc-lathe", ",C1. 5", ",C1.5"), (SINUMERIK, "CHR=1. 5", "CHR=1.5")]
+)
+def test_a_blank_in_a_number_is_no_word_to_delete(control, typed, meant):
+    start, number = ("G0 X40. Z0.", "X80.") if control == "fanuc-lathe" else ("G18 G90 DIAMOF G0 X0 Z0", "X80")
+    (finding,) = findings(control, f"{start}\nG1 Z-40. {typed}\n{number}")[:1]
+    assert f"did you mean {meant}?" in finding.message
+    assert finding.fixes[0].description.startswith(f"write {meant} for {typed}")
+
+
+def test_letters_that_are_almost_words_of_isg_and_klartext():
+    (finding, *_) = findings(ISG, MILL + "G1 #ANG30\nX60 #ANG=90\nX20 Y40")
+    assert finding.message.endswith("did you mean #ANG=30?")
+    text = "1 L X+0 Y+0 R0 FMAX\n2 {} LEN20\n3 FL X+60 Y+40\n4 L Y+80"
+    (finding, *_) = findings(KLARTEXT, text.format("FLAN+30"))
+    assert (finding.code, finding.severity) == ("blank-missing", Severity.ERROR)
+    assert not any(each.is_error for each in findings(KLARTEXT, text.format("FL AN+30")))
+    text = "1 L X+0 Y+0 R0 FMAX\n2 FL X+60 Y+0 AN+0\n3 {}\n4 FL Y+40 AN+90"
+    (finding, *_) = findings(KLARTEXT, text.format("CHF R5"))
+    assert finding.fixes[0].description.startswith("write CHF 5 for CHF R5")
+    assert not any(each.is_error for each in findings(KLARTEXT, text.format("CHF 5")))
+
+
+@pytest.mark.parametrize(("typed", "meant"), [("TC", "CT"), ("DIAMONN", "DIAMON"), ("G310", "G110")])
+def test_a_command_that_the_control_has_not_is_told(typed, meant):
+    text = f"G17 G90\n{typed}\nG0 X0 Y0\nG1 X60 F200\nY40 RND=5\nX20"
+    (finding,) = findings(SINUMERIK, text)
+    assert (finding.code, finding.span.line) == ("code-unknown", 2)
+    assert meant in finding.help
+
+
+def test_g310_is_g301_on_isg():
+    (finding, *_) = findings(ISG, MILL + "G1 X60 F200\nG310 I5\nY40\nX20 #RND=3\nY9")
+    assert finding.code == "position-unknown" or "G301" in finding.help
+
+
+def test_a_word_that_belongs_to_arcs_is_told_in_a_line():
+    (finding,) = findings(SINUMERIK, CHAIN[SINUMERIK].format("CR=5"))
+    assert (finding.code, finding.severity) == ("word-idle", Severity.WARNING)
+    assert not findings(SINUMERIK, MILL + "G2 X60 Y0 CR=50\nG1 Y40 CHR=5\nX20")
+
+
+# What contoursolve does not read ----------------------------------------------------------------------------------
+
+
+def told(found):
+    return [(each.code, each.severity.value, each.message) for each in found]
+
+
+@pytest.mark.parametrize(
+    ("block", "name"),
+    [("CIP X40 Y40 I1=50 J1=20", "CIP"), ("ASPLINE X40 Y40", "ASPLINE"), ("INVCW X40 Y40 I1 J2", "INVCW")],
+)
+def test_what_ends_at_its_coordinates_is_told_and_the_end_is_used(block, name):
+    result = contoursolve.solve(f"{MILL}G1 X5 Y5\n{block}\nG1 Y60 RND=3\nX20", control=SINUMERIK)
+    assert told(result.diagnostics) == [("not-read", "info", f"contoursolve does not read {name} yet")]
+    (answer,) = result.answers
+    assert (answer.status, answer.contour.start) == (Status.SOLVED, (40.0, 40.0))
+
+
+@pytest.mark.parametrize(
+    ("lines", "name"),
+    [
+        ("G1 X60 RND=3\nCIP X40 Y40 I1=50 J1=20", "CIP"),
+        ("CIP X40 Y40 I1=50 J1=20 RND=3\nG1 Y60", "CIP"),
+        ("CIP X40 Y40 I1=50 J1=20\nY60 RND=3\nX9", "CIP"),
+        ("G1 X10 RND=2\nAP=30 RP=40", "AP"),
+        ("G1 X10\nAP=30 RP=40 RND=3\nY60", "AP"),
+    ],
+)
+def test_a_contour_that_needs_it_is_refused_with_its_name_alone(lines, name):
+    found = findings(SINUMERIK, f"{MILL}G1 X5 Y5\n{lines}")
+    errors = [each for each in found if each.is_error]
+    assert {each.code for each in errors} == {"not-read"}
+    assert f"contoursolve does not read {name} yet" in {each.message for each in errors}
+    assert not any(each.fixes for each in found)
+
+
+@pytest.mark.parametrize(
+    ("control", "block", "name"),
+    [
+        (SINUMERIK, "AP=30 RP=40", "AP"),
+        (SINUMERIK, "POS[X]=20", "POS[X]"),
+        (SINUMERIK, "X1=20", "X1"),
+        (SINUMERIK, "TRANSMIT", "TRANSMIT"),
+        ("fanuc-mill", "G66 P100 A5.", "G66"),
+        ("fanuc-mill", "M97 P100", "M97"),
+        ("fanuc-mill", "G12.1", "G12.1"),
+        (YASNAC, "M97 P100", "M97"),
+    ],
+)
+def test_behind_what_ends_elsewhere_nothing_is_known(control, block, name):
+    start = "G00 X40. Z0.\n" if control == YASNAC else f"{MILL}G1 X5. Y5.\n"
+    rest = {YASNAC: "G111 A180. K-30. B120.", SINUMERIK: "Y60 RND=3\nX20"}.get(control, "Y60. ,R3.\nX20.")
+    found = findings(control, f"{start}{block}\n{rest}")
+    assert f"contoursolve does not read {name} yet" in {each.message for each in found if not each.is_error}
+    assert "position-unknown" in {each.code for each in found}
+
+
+def test_a_modal_call_is_told_and_its_end_is_none():
+    text = f"{MILL}G1 X5 Y5\nMCALL CYCLE81(1,2)\nX10 Y10\nMCALL\nX20 RND=2\nY30"
+    assert told(findings(SINUMERIK, text)) == [("not-read", "info", "contoursolve does not read MCALL yet")]
+
+
+@pytest.mark.parametrize("code", ["G02.2", "G03.2", "G2.3", "G02.4"])
+def test_curves_of_a_special_kind_are_no_arcs(code):
+    text = f"{MILL}G1 X5. Y5.\n{code} X50. Y20. I5. J5. R2.\nG1 X60. ,R2.\nY40."
+    (finding,) = findings("fanuc-mill", text)
+    assert (finding.code, finding.severity) == ("not-read", Severity.INFO)
+    (first, *_) = findings("fanuc-mill", f"{MILL}G1 X5. Y5.\nX60. ,R2.\n{code} X50. Y20. I5. J5. R2.")
+    assert (first.code, first.severity, first.fixes) == ("not-read", Severity.ERROR, ())
+
+
+QUIET = """
+WAITS(2)|WAITM(1,1,2)|CYCLE832(0.01,1)|FGROUP(X,Y)|GET(C)|RELEASE(C)|GROUP_BEGIN(0,"A",0,0)|GROUP_END(0,0)
+WRITE(ERR,"LOG","A")|SETMS(1)|SOFT|STOPRE|SPOS[2]=0|G01 G53 F=0.15|G4 F1|GETSELT(T1)|BRISKA(X)|MCALL
+"""
+
+
+@pytest.mark.parametrize("command", QUIET.strip().replace("\n", "|").split("|"))
+def test_predefined_words_neither_move_nor_shift(command):
+    text = f"G18 G90 DIAMON\nG0 X60 Z2\nG1 X40 F0.2\n{command}\nG1 Z-20 RND=2\nX52\nM30"
+    result = contoursolve.solve(text, control=SINUMERIK)
+    assert (result.diagnostics, result.answers[0].contour.end) == ((), (-20.0, 26.0))
+    (row,) = (each for each in DIALECTS[SINUMERIK].modes.codes.values() if each.name == "WAITS")
+    assert row.source.evidence is Evidence.ASSUMED
+
+
+def test_r_behind_an_arc_of_sinumerik_is_its_radius():
+    text = MILL + "R10=18\nG1 X60 Y-10 F500 RND=3\nG3 X78 Y8 R=R10\nG1 X78 Y50 CHR=2\nG2 X60 Y68 R=R10"
+    found = findings(SINUMERIK, text)
+    assert [each.fixes[0].description.split(" for ")[0] for each in found if each.fixes] == ["write CR=18."] * 2
+    assert any("the radius of an arc is CR" in each.message for each in found)
+
+
+@pytest.mark.parametrize("character", ["\u00a0", "\u2212", "\0", "\u2003"])
+def test_a_character_that_looks_like_another_is_told_by_its_name(character):
+    line = f"X60{character}F200" if character != "\u2212" else "X\u221260"
+    for control in (SINUMERIK, "fanuc-mill"):
+        corner = "Y40 RND=5" if control == SINUMERIK else "Y40. ,R5."
+        found = findings(control, f"{MILL}G1 {line}\nG0 X0 Y0\nG1 X5 F9\n{corner}\nX20.")
+        assert any(f"U+{ord(character):04X} (" in each.message for each in found)
+
+
+def test_a_range_of_values_has_two_ends():
+    text = "DEF REAL XC\nDIAMOF G18\nG0 X0 Z4\nG1 X0 Z-10 RND=1.5\nX=XC Z-13\nM17"
+    (finding,) = findings(SINUMERIK, text.replace("DEF REAL XC\n", ""))
+    assert not any("from to" in note or "-0.000" in note for note in finding.notes)
