@@ -480,7 +480,7 @@ class Machine:
     def _has_strange_words(self, block: Block, code: CodeLine) -> bool:
         """Whether what looks like assignments stands among words, to variables that nobody has declared: `G1 X5 AGN=30`
         has a word that is mistyped."""
-        variables = [each.variable for each in code.statements if isinstance(each, Assign)]
+        variables = [each.variable for each in code.statements if isinstance(each, Assign | Forget)]
         names = [each.name for each in variables if isinstance(each, Variable)]
         is_strange = any(_is_word(name) and name not in self.variables.values for name in names)
         rest = parse_block(code.rest, block.line, block.syntax) if is_strange else block
