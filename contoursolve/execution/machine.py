@@ -1001,8 +1001,8 @@ class Machine:
         self._frames.append(_Frame(source, first, first, last, call, (*frame.callers, caller), times, own, begun))
 
     def _cannot_call(self, frame: _Frame, index: int, why: Unknown, called: str) -> Iterator[Block | ProgramEvent]:
-        """A call of what is not found, and its name. That a file is not there is told where a contour depends on it, and
-        that the program names what it has not in any case."""
+        """A call of what is not found, and its name. That a file is not there is told where a contour depends on it,
+        and that the program names what it has not in any case."""
         self.variables.lose_all(why.reason)
         if isinstance(why, Absent):
             raise _RefusedError(why.reason)
