@@ -3,7 +3,7 @@
 A system comes in, its determinacy goes out: what is free, what is tied. Begin with `determinacy`.
 """
 
-from contoursolve.analysis.determinacy import Determinacy, analyse, basis_of, derive, groups_of, spare_of
+from contoursolve.analysis.determinacy import Determinacy, analyse, basis_of, circuits_of, derive, groups_of, spare_of
 from contoursolve.analysis.partition import Group, Parts, decompose, match, order
 
 __all__ = [
@@ -12,6 +12,7 @@ __all__ = [
     "Parts",
     "analyse",
     "basis_of",
+    "circuits_of",
     "decompose",
     "derive",
     "groups_of",

@@ -103,6 +103,14 @@ def groups_of(system: System) -> tuple[Group, ...]:
     return order(system, basis_of(system))
 
 
+@lru_cache(maxsize=256)
+def circuits_of(system: System) -> Mapping[Fact, tuple[Fact, ...]]:
+    """For each fact beside the basis, the facts of the basis from which it follows, in order: one elimination tells it
+    for all of them."""
+    circuits = generic_rank(system).circuits.items()
+    return {system.facts[number]: tuple(system.facts[row] for row in rows) for number, rows in circuits}
+
+
 def survey(system: System) -> Determinacy:
     """The verdict on a system without sympy, from its rank modulo a prime; it has no condition."""
 

@@ -131,6 +131,8 @@ class ExactRank(Struct, frozen=True):
     """Rows that take part in some dependency."""
     free_columns: tuple[int, ...]
     """Columns whose unknown is not determined."""
+    circuits: Mapping[int, tuple[int, ...]] = {}
+    """For each row that does not raise the rank: the independent rows that it is a combination of."""
 
 
 Row = dict[int, int]
@@ -141,7 +143,7 @@ def exact_rank(matrix: Sequence[Row], columns: int) -> ExactRank:
     """Rank and null spaces of a matrix of residues."""
     kept: dict[int, tuple[Row, Row]] = {}
     """By its pivot, each reduced row, and of which rows it is made."""
-    dependent: set[int] = set()
+    circuits: dict[int, tuple[int, ...]] = {}
     independent: list[int] = []
     for number, entries in enumerate(matrix):
         row, made_of = entries, {number: 1}
@@ -150,7 +152,7 @@ def exact_rank(matrix: Sequence[Row], columns: int) -> ExactRank:
             factor, (other, others) = row[pivot], kept[pivot]
             row, made_of = _less(row, factor, other), _less(made_of, factor, others)
         if not row:
-            dependent |= made_of.keys()
+            circuits[number] = tuple(sorted(made_of.keys() - {number}))
             continue
         lead = min(row)
         scale = pow(row[lead], -1, PRIME)
@@ -163,7 +165,8 @@ def exact_rank(matrix: Sequence[Row], columns: int) -> ExactRank:
     free = set(range(columns)) - kept.keys()
     # An unknown with a pivot is determined unless its row holds a free one as well.
     loose = {pivot for pivot, (row, _) in kept.items() if not free.isdisjoint(row)}
-    return ExactRank(len(kept), tuple(independent), tuple(sorted(dependent)), tuple(sorted(free | loose)))
+    dependent = sorted({*circuits, *(row for rows in circuits.values() for row in rows)})
+    return ExactRank(len(kept), tuple(independent), tuple(dependent), tuple(sorted(free | loose)), circuits)
 
 
 def _less(row: Row, factor: int, other: Row) -> Row:

@@ -1,14 +1,14 @@
 """Contours with open choices, further facts or asked values: all solutions, or the facts that are to blame."""
 
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Sequence, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from decimal import Decimal
+from functools import lru_cache
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import Group, analyse, basis_of, groups_of, spare_of
-from contoursolve.analysis.determinacy import survey
+from contoursolve.analysis import Group, analyse, circuits_of, groups_of
 from contoursolve.analysis.identities import is_affine
 from contoursolve.gcode import Word
 from contoursolve.geometry import (
@@ -82,20 +82,20 @@ def tied_with(system: System, fact: Fact) -> tuple[str, ...]:
     A fact beside the basis can replace exactly those facts of the basis that it is tied with. A fact of the basis
     is tied with the first fact beside it that can replace it.
     """
-    verdict = analyse(system)
-    if system.facts.index(fact) in verdict.basis:
-        found = (tied_with(system, each) for each in spare_of(system))
-        return next((names for names in found if fact.given in names), ())
-    basis = basis_of(system)
-    # A fact without unknowns is about the givens alone, and the angles among them tell which.
-    replaceable = basis if system.unknowns_of(fact) else ()
-    tied = [each for each in replaceable if _rank(system, basis, each, fact) == verdict.rank]
-    names = [name for each in (*tied, fact) for name in (*headings_of(each, system), each.given) if name]
-    return tuple(dict.fromkeys(names))
+    return _ties(system).get(fact, ())
 
 
-def _rank(system: System, basis: tuple[Fact, ...], old: Fact, new: Fact) -> int:
-    return survey(system.keep((*(fact for fact in basis if fact is not old), new))).rank
+@lru_cache(maxsize=256)
+def _ties(system: System) -> Mapping[Fact, tuple[str, ...]]:
+    """What `tied_with` says of every fact that is tied with others."""
+    found: dict[Fact, tuple[str, ...]] = {}
+    for fact, others in circuits_of(system).items():
+        # Of a fact without unknowns, which is about the givens alone, the angles among them tell it.
+        tied = [name for each in (*others, fact) for name in (*headings_of(each, system), each.given) if name]
+        found[fact] = tuple(dict.fromkeys(tied))
+        for each in others:
+            found.setdefault(each, found[fact])
+    return found
 
 
 def headings_of(fact: Fact, system: System) -> tuple[str, ...]:
