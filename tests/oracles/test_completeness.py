@@ -1,6 +1,8 @@
 """A list of solutions that is called complete holds all of them in 100 m; what is not known to be all is not solved."""
 
 import json
+from cmath import rect
+from math import degrees, pi
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -139,3 +141,44 @@ def test_a_search_looks_at_no_more_intervals_than_it_may(monkeypatch: pytest.Mon
     monkeypatch.setattr(enumerating, "divide", counted)
     contoursolve.solve(random_chain(Random(15), 3, 8).text, depth="verdict")
     assert DRAWING.intervals < sum(looked_at) < 1.5 * DRAWING.intervals
+
+
+def told_twice(size: int) -> str:
+    """A chain that says everything twice, with one length that is wrong by 1 mm."""
+    random, here, way, lines = Random(size), 0j, 0.0, ["0 BEGIN PGM T MM", "1 L X+0 Y+0"]
+    for number in range(size):
+        if number % 2 == 0:
+            length = random.uniform(10, 30)
+            here += rect(length, way)
+            stated = length + (1 if number == size // 2 else 0)
+            words = (
+                f"FL{'T' if number else ''} X{here.real:+.4f} Y{here.imag:+.4f} AN{degrees(way):+.4f} LEN{stated:.4f}"
+            )
+        else:
+            sense, radius = random.choice((-1, 1)), random.uniform(5, 20)
+            center = here + rect(radius, way + sense * pi / 2)
+            way += sense * random.uniform(0.5, 1.5)
+            here = center + rect(radius, way - sense * pi / 2)
+            words = f"FCT DR{'+' if sense > 0 else '-'} X{here.real:+.4f} Y{here.imag:+.4f} R{radius:.4f}"
+        lines.append(f"{number + 2} {words}")
+    return "\n".join([*lines, "99 END PGM T MM", ""])
+
+
+@pytest.mark.parametrize("size", [8, 40])
+def test_what_is_tied_with_what_takes_one_elimination_however_long_the_chain(
+    size: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from contoursolve.numeric import modular_rank  # noqa: PLC0415
+
+    calls, eliminate = [], modular_rank.exact_rank
+
+    def counted(*arguments: Any) -> Any:
+        calls.append(arguments)
+        return eliminate(*arguments)
+
+    monkeypatch.setattr(modular_rank, "exact_rank", counted)
+    (answer,) = contoursolve.solve(told_twice(size)).answers
+    assert answer.status.value == "conflicting"
+    (finding,) = (each for each in answer.diagnostics if each.is_error)
+    assert finding.span.line == size // 2 + 3
+    assert 1 <= len(calls) < 40
