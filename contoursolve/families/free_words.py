@@ -21,7 +21,6 @@ from contoursolve.families.spec import (
     FamilyError,
     Places,
     Ranges,
-    RefusedError,
     Template,
     called,
     errors_of,
@@ -312,9 +311,7 @@ def check_block(template: Template, values: Mapping[str, float] | None = None) -
                 left, chosen = found, tried
             if not left:
                 return
-    result = template.examined()
-    # With the values that it has as it stands, it may not be refused.
-    raise RefusedError(result if errors_of(result) else template.filled(chosen).examined())
+    raise template.refused(chosen)
 
 
 def _refusals(answer: Answer) -> Refusals:

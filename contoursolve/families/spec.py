@@ -179,14 +179,15 @@ def first_error(found: Answer | Result) -> str:
 
 
 class RefusedError(FamilyError):
-    """A block that is refused whatever the values of its free words. The message has the first error and what to do;
-    `result` is what `solve` says of the block as it stands."""
+    """A block that is refused whatever the values of its free words, or with those of a row (`where`) although not as
+    it stands. The message has the first error and what to do; `result` is what `solve` says of it."""
 
-    def __init__(self, result: Result) -> None:
+    def __init__(self, result: Result, where: str = "") -> None:
         self.result = result
         error = errors_of(result)[0]
         remedy = error.fixes[0].description if error.fixes else error.help
-        super().__init__(f"{error.message}; {remedy}" if remedy else error.message)
+        told = f"{error.message}; {remedy}" if remedy else error.message
+        super().__init__(f"with {where}: {told}" if where else told)
 
 
 class Template(Struct, frozen=True, eq=False):
@@ -208,16 +209,24 @@ class Template(Struct, frozen=True, eq=False):
         result = self.filled(values).examined(Depth.VERDICT)
         if len(result.answers) != 1:
             if not result.answers and result.has_errors:
-                raise RefusedError(self.examined())
+                raise self.refused(values)
             reasons = [each.message for each in result.diagnostics]
             told = f"the block has {len(result.answers)} contours; a family is about one"
             raise FamilyError(reasons[0] if reasons and not result.answers else told)
         answer = result.answers[0]
         if not answer.start.is_known:
             if any(not each.span.line for each in errors_of(result)):
-                raise RefusedError(self.examined())
+                raise self.refused(values)
             raise FamilyError('the start point is not known; state it as the start, such as "X40. Z0."')
         return answer
+
+    def refused(self, values: Mapping[str, float]) -> RefusedError:
+        """Why the block is refused: as it stands, or if it is not, with these values, which refuse it."""
+        as_it_stands = self.examined()
+        if errors_of(as_it_stands):
+            return RefusedError(as_it_stands)
+        told = ", ".join(f"{called(name)} {value:g}" for name, value in values.items())
+        return RefusedError(self.filled(values).examined(), told)
 
     def examined(self, depth: Depth = Depth.FULL) -> Result:
         """All that `solve` says of the block as it stands, with every repair."""

@@ -132,6 +132,19 @@ def test_rows_of_several_kinds_are_what_a_single_solve_says(block, word, values,
         assert not difference({name: found[name][row] for name in found.columns}, answer)
 
 
+@pytest.mark.parametrize(
+    ("block", "word", "message"),
+    [
+        ("G1 X30 RNDM=5\nX40 Y40", "RNDM", r"with RNDM 0: nothing to solve"),
+        (CUT, "2:Y", r"with Y of block 2 0: one word is missing"),
+    ],
+)
+def test_what_refuses_a_block_by_a_value_of_its_rows_alone_names_the_value(block, word, message):
+    options = {"control": "siemens-840d", "start": "G17 X0 Y0"} if "RNDM" in block else KLARTEXT
+    with pytest.raises(FamilyError, match=message):
+        family(block, vary={word: [0]}, **options)
+
+
 BENT = "G17 G90 G1 X10 Y0\nCT X20 Y5"
 
 
