@@ -389,6 +389,16 @@ READING_RULES = (
         rejected=(_START + "G111 A180. B120. X100.\nG111 A180. K-10. B120. X120.",),
     ),
     Rule(
+        code="not-checked",
+        message="not checked: {reason}, and each call gives it",
+        help="check a program that calls it; or state a value by --let",
+        source=_READING,
+        about=ReadIssue.NOT_CHECKED,
+        severity=Severity.INFO,
+        accepted=(_GOOD,),
+        rejected=("PROC A(REAL C)\nG17 G90 G0 X0 Y0\nG1 X60\nY40 RND=C\nX20",),
+    ),
+    Rule(
         code="calls-differ",
         message="what runs here is not the same every time; {results}",
         help="check each call; expand --inline writes each of them out",

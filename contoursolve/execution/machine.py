@@ -197,6 +197,10 @@ def _place(frames: Iterable[_Frame]) -> Place:
     return tuple(each for frame in frames for each in frame.place) + _BEHIND
 
 
+ARGUMENT = " is an argument of "
+"""What tells of a value that each call of the program gives."""
+
+
 class _RefusedError(Exception):
     """The control stops at a block; the message says why."""
 
@@ -243,7 +247,7 @@ class Machine:
         """The blocks of the main program and of what it calls, as one program without calls. What is set to a value
         that is not known stays; the profile of a cycle that is written elsewhere does not run."""
         self._is_alone = True
-        yield from self._run_from(self._begin())
+        yield from self._run_from(self._begin_main())
         last = next((at for at in reversed(range(len(self.main))) if self.main.blocks[at].text.strip()), None)
         if last is not None and last not in self._visited and _ENDS_FILE.fullmatch(self.main.blocks[last].text):
             yield self.main.blocks[last]
@@ -256,7 +260,7 @@ class Machine:
     def run(self) -> Iterator[Block | ProgramEvent]:
         """Every block in the order in which it runs, with numbers for its variables; behind the end of the program,
         what nothing calls."""
-        yield from self._run_from(self._begin())
+        yield from self._run_from(self._begin_main())
         self._is_reached = False
         for index in range(len(self.main)):
             if index not in self._visited and self._says_something(index):
@@ -315,6 +319,17 @@ class Machine:
                 if index == first or index - 1 in self._visited:
                     yield ProgramEvent(EventKind.FRESH, block.line, "the program is not followed as far as this")
                 yield block
+
+    def _begin_main(self) -> int:
+        """The index of the line with which the main program begins; the arguments of one that others call are not
+        known."""
+        begin = self._begin()
+        heads = (self.main.code(at) for at in range(begin, len(self.main)) if self._says_something(at))
+        head = next(heads, None)
+        for name in head.parameters if head is not None else ():
+            if name not in self.variables.given:
+                self.variables.set(name, Unknown(f"{name}{ARGUMENT}{head.begins if head else ''}"))
+        return begin
 
     def _begin(self) -> int:
         """The index of the line with which the main program begins: no subprogram by its head, and none calls it."""

@@ -302,7 +302,8 @@ def sinumerik(names: Iterable[str]) -> MacroLanguage:
         SINUMERIK,
         head=r"(?:%_N_(?P<program>\w+?)_(?:(?P<part>SPF)|[A-Z]{3})(?!\w))?[ \t\ufeff]*+(?>(?:/[0-9]?+)?)[ \t]*+"
         r"(?>(?:[N:][ \t]*+(?P<number>\d++)(?!\.))?)",
-        comment=r";.*+",
+        # A line in braces is the head that a simulator writes.
+        comment=r";.*+|\A[ \t\ufeff]*+\{.*+",
         table=_TABLE,
         skip=r"[ \t]++|\"[^\"]*+\"?+|[A-Z](?![A-Z_])[\d.]*+|[A-Z_$]\w*+|[\d.]++|.",
         behind_value="[A-Z_$]",

@@ -11,7 +11,7 @@ from contoursolve.diagnosis.explain import Context, context_of, report
 from contoursolve.diagnosis.wording import join, measured
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Fix, Label, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.execution.machine import Limit, Machine, machine_of
+from contoursolve.execution.machine import ARGUMENT, Limit, Machine, machine_of
 from contoursolve.execution.subprograms import Surroundings
 from contoursolve.gcode import Block, Caller, Program, Substitution
 from contoursolve.program.profiles import CycleProfile, profiles_of, turns_back
@@ -62,7 +62,8 @@ def in_text_order(
             called.append(step.answer)
             findings += _of_other_file(step.answer, step.blocks[0], rules)
         elif step.answer is not None:
-            ran.setdefault(step.blocks[0].line, []).append(replace(step, answer=_typed(step.answer, blocks, here)))
+            answer = _checked(_typed(step.answer, blocks, here), here, rules)
+            ran.setdefault(step.blocks[0].line, []).append(replace(step, answer=answer))
         for block in step.blocks if not step.blocks or not step.blocks[0].file else ():
             before.setdefault(block.line, step.before)
     findings += _solved_elsewhere(called, rules)
@@ -261,6 +262,26 @@ def _typed(answer: Answer, blocks: Sequence[Block], here: _Substituted) -> Answe
     if not any(line in here for line in answer.lines):
         return answer
     return replace(answer, diagnostics=tuple(_as_typed(each, blocks, here, answer) for each in answer.diagnostics))
+
+
+def _checked(answer: Answer, here: _Substituted, rules: tuple[Rule, ...]) -> Answer:
+    """An answer; one that depends on arguments alone, which each call of the program gives, with one note in the place
+    of its errors."""
+    errors = [each for each in answer.diagnostics if each.is_error]
+    if not errors or any(each.about not in _OF_VALUES for each in errors):
+        return answer
+    lines = {*answer.lines, *(label.span.line for each in errors for label in each.labels)}
+    reasons = [each.reason for line in sorted(lines) for each in here.get(line, ()) if each.reason]
+    if not reasons or not all(ARGUMENT in each for each in reasons):
+        return answer
+    context = context_of(answer.claim, rules)
+    note = report(context, context.row(ReadIssue.NOT_CHECKED), Basis.RULE, [], reason=reasons[0])
+    others = tuple(each for each in answer.diagnostics if not each.is_error)
+    return replace(answer, diagnostics=(note, *others))
+
+
+_OF_VALUES = (ReadIssue.VARIABLE, ReadIssue.POSITION_UNKNOWN)
+"""What is wrong where a value is not known."""
 
 
 def _as_typed(

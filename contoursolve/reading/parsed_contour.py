@@ -40,6 +40,7 @@ class ReadIssue(Enum):
     MODE_UNKNOWN = "mode-unknown"
     START_ASSUMED = "start-assumed"
     CONTOUR_WAITS = "contour-waits"
+    NOT_CHECKED = "not-checked"
     CALLS_DIFFER = "calls-differ"
     SUBPROGRAM_REFUSED = "subprogram-refused"
     SUBPROGRAM_SOLVED = "subprogram-solved"
@@ -219,8 +220,14 @@ def unused_words(claim: ParsedContour, profile: Profile) -> list[Word]:
     used |= {name for row in claim.form.corners for name in row.shapes} | claim.lasting
     # One block moves all its axes; where several make a contour, that is left to its rules.
     beside = claim.beside_plane(claim.blocks[0]) if len(claim.blocks) == 1 else []
-    words = (given.word for name, given in claim.givens.items() if given.word and name not in used)
-    return [word for word in words if word not in beside]
+    words = ((name, given.word) for name, given in claim.givens.items() if given.word and name not in used)
+    return [word for name, word in words if word not in beside and not _moves_beside(name, word, claim)]
+
+
+def _moves_beside(name: str, word: Word, claim: ParsedContour) -> bool:
+    """Whether a word that would state something of a contour moves another axis, because there is another one for it:
+    A beside ,A."""
+    return name.partition(":")[2] == f"beside-{word.address}" and claim.lexicon.is_beside(word.address)
 
 
 def _questions(claim: ParsedContour, asked: frozenset[str], layout: Layout) -> Iterator[Question]:

@@ -340,8 +340,9 @@ def test_corner_blocks_between_arcs_and_meeting_lines():
 def test_a_corner_block_may_say_more_and_a_word_and_a_block_are_one_too_many():
     refused(MILL + "G1 X30 #RND=2\nG302 I2\nG1 Y30", "isg-corner-twice")
     refused(MILL + "G1 X30 #RND=2\nG301 I2\nG1 Y30", "isg-two-corners")
-    for block in ("G302 I2 X50", "G302 G301 I2", "G302 I2 I3", "G302 I2 #ANG=30", "G302 I2 Z-5", "G302 I2 Q1"):
+    for block in ("G302 I2 X50", "G302 I2 I3", "G302 I2 #ANG=30", "G302 I2 Z-5", "G302 I2 Q1"):
         refused(MILL + f"G1 X30\n{block}\nG1 Y30", "isg-corner-crowded")
+    refused(MILL + "G1 X30\nG302 G301 I2\nG1 Y30", "isg-corner-both", "20130")
     assert ends(MILL + "G1 X30\nN5 G302 I2 F100 M8\nG1 Y30") == ends(MILL + "G1 X30\nG302 I2\nG1 Y30")
 
 

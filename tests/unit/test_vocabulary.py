@@ -260,3 +260,29 @@ def test_a_range_of_values_has_two_ends():
     text = "DEF REAL XC\nDIAMOF G18\nG0 X0 Z4\nG1 X0 Z-10 RND=1.5\nX=XC Z-13\nM17"
     (finding,) = findings(SINUMERIK, text.replace("DEF REAL XC\n", ""))
     assert not any("from to" in note or "-0.000" in note for note in finding.notes)
+
+
+def test_the_head_of_a_simulator_is_no_call():
+    head = '{   Maschine: "DMU 50"\n{ Werkzeug T5 }\n  {CALL ABC\n'
+    text = "G17 G90 G0 X0 Y0\nG1 X60 F200\nY40 RND=5\nX20\nM30"
+    assert not findings(SINUMERIK, head + text, strict=True)
+    assert any(each.is_error for each in findings(SINUMERIK, text.replace("X60", "X60 {")))
+
+
+@pytest.mark.parametrize("block", ["Y40 RND=CORNER", "Y=CORNER RND=2", "Y40 RND=2*CORNER"])
+def test_an_argument_of_a_subprogram_is_one_note(block):
+    text = f"PROC POCKET(REAL DEPTH, REAL CORNER)\nG17 G90 G0 X0 Y0\nG1 X60 F200\n{block}\nX20\nM17"
+    (finding,) = findings(SINUMERIK, text)
+    assert (finding.code, finding.severity) == ("not-checked", Severity.INFO)
+    assert "CORNER is an argument of POCKET" in finding.message
+    assert not findings(SINUMERIK, text, variables={"CORNER": 3.0})
+
+
+def test_a_beside_comma_a_is_an_axis_on_mitsubishi():
+    result = contoursolve.solve(MILL + "G01 X40. A30. ,A45.\nX60. Y50.", control=MITSUBISHI)
+    assert (result.diagnostics, result.answers[0].contour.end) == ((), (40.0, pytest.approx(40.0)))
+
+
+def test_two_codes_of_one_group_stop_isg():
+    (finding,) = findings(ISG, MILL + "G1 X40\nG301 G302 I5\nY50")
+    assert (finding.code, finding.alarm.number.split()[0]) == ("isg-corner-both", "20130")

@@ -12,6 +12,7 @@ from contoursolve.controls.chain.language import (
     ALONE,
     BESIDE_ARC,
     CORNER_ALONE,
+    CORNER_BOTH,
     CORNER_CROWDED,
     CORNER_TWICE,
     FEED,
@@ -83,7 +84,9 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         if member.corner is not None:
             sized, corner, in_force = _corner_of(language, member.corner, member.here, modes)
             own_givens |= sized
-            if _is_crowded(language, member.corner):
+            if len(_shapes_of(language, member.corner)) > 1:
+                circumstances.add(prefix + CORNER_BOTH)
+            elif _is_crowded(language, member.corner):
                 circumstances.add(prefix + CORNER_CROWDED)
             for name, word in corner.items():
                 if name in own:
@@ -187,10 +190,14 @@ def _corner_of(
 
 def _is_crowded(language: Language, block: Block) -> bool:
     """Whether a block of its own that makes a corner says more about the path than the size, or says that twice."""
-    shapes = [word for word in block.words if word.address == "G" and word.number in language.corner_codes]
     sizes = [word for word in block.words if word.address == language.corner_size]
     others = [word for word in block.words if word.address not in (*"NGFSTMDH", language.corner_size)]
-    return len(shapes) > 1 or len(sizes) > 1 or bool(others)
+    return len(_shapes_of(language, block)) > 1 or len(sizes) > 1 or bool(others)
+
+
+def _shapes_of(language: Language, block: Block) -> list[Word]:
+    """The codes of a block that make a corner."""
+    return [word for word in block.words if word.address == "G" and word.number in language.corner_codes]
 
 
 def _kept_corner(

@@ -2,6 +2,7 @@
 
 from contoursolve.controls.chain.language import (
     CORNER_ALONE,
+    CORNER_BOTH,
     CORNER_CROWDED,
     CORNER_TWICE,
     FOLLOWED,
@@ -24,6 +25,7 @@ _IDS = {
     "closing-incomplete": "21904 (contour line not completely defined)",
     "closing-increment": "21910 (second block incremental)",
     "corner-size": "20012 (no size, or 0)",
+    "corner-both": "20130 (two G codes of one group)",
     "corner-alone": "20351 (no motion block before), or 20701 (two corners without a motion between)",
 }
 _START = "G17 G90 G0 X0 Y0\n"
@@ -38,7 +40,10 @@ MANUAL = Manual(
     vertex=_START + "G1 #ANG=70\nX80 Y25 #ANG=-30",
     cut=_START + "G1 X30 #RND=5\nX40 Y40",
     arc=_START + "G1 X40 #RND=6\nG2 X60 Y20 I20 J0",
-    alarms={code: Alarm(number, Evidence.PRINTED) for code, number in _IDS.items()},
+    alarms={
+        code: Alarm(number, Evidence.ASSUMED if code == "corner-both" else Evidence.PRINTED)
+        for code, number in _IDS.items()
+    },
 )
 _row, _PRINTED = MANUAL.row, Evidence.PRINTED
 _BLOCK = _START + "G1 X30\nG302 I5\nG1 X40 Y40"
@@ -51,7 +56,9 @@ _OWN = (
          some(CORNER_TWICE), ANY, MANUAL.cut, ("\nX40", "\nG302 I5\nG1 X40")),
     _row("corner-crowded", "the block behind it makes a corner, and takes the size I of one corner alone",
          "put everything else in a block of its own", some(CORNER_CROWDED), ANY, _BLOCK, (" I5", " I5 X50"),
-         (" I5", " I5 I6"), (" I5", " I5 #RND=3"), ("G302", "G301 G302")),
+         (" I5", " I5 I6"), (" I5", " I5 #RND=3")),
+    _row("corner-both", "the block behind it has G301 and G302, which are of one group",
+         "keep one of them", some(CORNER_BOTH), ANY, _BLOCK, ("G302", "G301 G302")),
     _row("angle-redundant", "{words} is one word too many beside both coordinates{comparison}",
          "delete a coordinate, or the angle", all_of(FIRST, SECOND, "#ANG") & ~some(FOLLOWED), (LINE,), MANUAL.angled,
          ("X40", "X40 Y20"), evidence=_PRINTED, ignores="#ANG"),

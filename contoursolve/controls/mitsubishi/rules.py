@@ -39,7 +39,7 @@ from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.reading.rules import Condition, Parallel, Rule, Value, all_of, some
 from contoursolve.solving import RefusalKind
 
-_BESIDE = tuple(f"beside-{axis}" for axis in "XYZA")
+_BESIDE = tuple(f"beside-{axis}" for axis in "XYZ")
 _GUARD = Decimal("0.9999999")
 """Degrees: less than 1."""
 _LINES, _ARCS = (LINE, OVER_LINE), (ARC, OVER_CIRCLE)
@@ -105,7 +105,7 @@ _ROWS = (
     _row("outside-plane", "{words} does not belong to the plane of the contour",
          "delete it, or move that axis in a block of its own",
          BOOK.printed("p. 375: in the selected plane"), some(*_BESIDE, "wrong-center"), _ANY,
-         _CUT, ("X40. Y40.", "G02 X40. Y10. K10."), ("X30.", "X30. Z-5."), ("X30.", "X30. A20. ,A0")),
+         _CUT, ("X40. Y40.", "G02 X40. Y10. K10."), ("X30.", "X30. Z-5.")),
     _row("plane-changes", "the plane changes inside the contour", "select the plane before its first block",
          BOOK.assumed("one plane"), some(OTHER_PLANE), _ANY, _CUT, ("X40. Y40.", "G18 X40. Z40."),
          alarm="P396 (plane changed)"),

@@ -128,7 +128,7 @@ SYNTAX = Syntax(
     "sinumerik",
     token=re.compile(
         rf"""
-    (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff]++|%.*+|[A-Za-z_]\w++:(?!=)|:\d++)
+    (?P<blank>\A[ \t\ufeff]*+\{{.*+|[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff]++|%.*+|[A-Za-z_]\w++:(?!=)|:\d++)
   | (?P<comment>;.*+)
   | (?P<mistyped>(?:[A-Za-z_]\w*+[ \t]*+=|[A-Za-z](?![A-Za-z_]))[ \t]*+
       [+-]?+[\d.,]++(?-i:[Ool|][\d.,Ool|]*+)(?![\w(\[=]))
