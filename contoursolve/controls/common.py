@@ -588,7 +588,7 @@ SYSTEM_RULES = (
     ),
     Rule(
         code="only-unproven",
-        message="undecided: one contour was found, and that no other one fits the block is not proven",
+        message="undecided: one contour fits the block{within}, and that no other one {does} is not proven",
         help="{advice}; `contoursolve solve` lists what was found",
         source=_GEOMETRY,
         about=RefusalKind.COUNT_OPEN,

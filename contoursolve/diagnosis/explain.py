@@ -398,6 +398,11 @@ def explain_result(
     if event.kind in (RefusalKind.SEARCH_UNFINISHED, RefusalKind.COUNT_OPEN) and alternatives is not None:
         fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle.name]
         notes = tuple(_search_notes(profile, alternatives))
+        # Whether everything nearby is decided, and only what lies farther away is not.
+        is_near = all(doubt.obstacle.name == "FARTHER" for doubt in alternatives.doubts)
+        far = length_text(alternatives.reach, profile.unit) if is_near and alternatives.reach is not None else ""
+        fields |= {"within": f" within {far} of the start point", "does": "lies farther away"} if far else {}
+        fields = {"within": "", "does": "fits", **fields}
     labels = [f"expected {fields['expected']}"] if "expected" in fields else []
     if event.kind is RefusalKind.RADIUS_TOO_SMALL:
         fields["limit"] = value_text(float(length_limit(values["limit"], context.unit, -1)), context.unit.value)

@@ -88,7 +88,8 @@ def test_one_contour_that_is_not_known_to_be_the_only_one_is_undecided(tmp_path:
     assert listing.within == pytest.approx(230, abs=1)
     (finding,) = (each for each in answer.diagnostics if each.is_error)
     assert finding.code == "only-unproven"
-    assert any("within 230.4" in note for note in finding.notes)
+    assert "one contour fits the block within 230.4" in finding.message
+    assert "no other one lies farther away is not proven" in finding.message
     path = tmp_path / "given-up.h"
     path.write_text(text)
     printed = CliRunner().invoke(main, ["solve", str(path), "--format", "json"])
