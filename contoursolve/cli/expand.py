@@ -26,7 +26,7 @@ from contoursolve.cli.options import (
 from contoursolve.cli.printing import say, style_of_output
 from contoursolve.diagnosis.examine import Policy
 from contoursolve.diagnosis.wording import count
-from contoursolve.gcode.files import Tape, check_target, open_tape, tape_of, write_whole
+from contoursolve.gcode.files import Tape, check_target, check_unprotected, open_tape, tape_of, write_whole
 from contoursolve.output.findings import Style, finding_lines, plain
 from contoursolve.output.listing import without_repeated
 from contoursolve.postprocess.expansion_report import Options, Summary
@@ -215,7 +215,9 @@ def program_itself(program: str | None, output: str | None) -> Path:
     """The file that is replaced by what is written."""
     if output is not None or program in (None, STANDARD):
         raise click.UsageError("--in-place takes a file OLD, and no NEW")
-    return Path(str(program))
+    file = Path(str(program))
+    check_unprotected(file)
+    return file
 
 
 def target_of(program: str | None, output: str | None, *, is_forced: bool) -> Path | None:

@@ -1,5 +1,6 @@
 """The options that commands share, the control, programs from files and options, and the exit statuses."""
 
+import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -138,6 +139,18 @@ rules_option = click.option(
 )
 
 
+def _read_folders(_context: click.Context, _option: click.Parameter, folders: tuple[str, ...]) -> tuple[str, ...]:
+    """The folders of `--path`, which are there."""
+    for folder in folders:
+        try:
+            with os.scandir(folder):
+                pass
+        except (OSError, ValueError) as error:
+            told = getattr(error, "strerror", None) or error
+            raise click.BadParameter(f"{folder} cannot be read as a folder: {told}") from None
+    return folders
+
+
 def _read_values(_context: click.Context, _option: click.Parameter, texts: tuple[str, ...]) -> dict[str, float]:
     """The values of `--let`, by the names of the variables."""
     values = {}
@@ -166,6 +179,7 @@ path_option = click.option(
     "folders",
     multiple=True,
     metavar="FOLDER",
+    callback=_read_folders,
     help="Where subprograms are that are neither in the program nor beside it; may be repeated.",
 )
 
@@ -298,7 +312,9 @@ def examine(program: Program, start: str | None, assignments: Sequence[str], opt
 def follow(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Run:
     """The same as a stream."""
     with naming(program.name):
-        return follow_program(program, start=start, settings=settings_of(program, assignments), **options)
+        run = follow_program(program, start=start, settings=settings_of(program, assignments), **options)
+    run.check_start()
+    return run
 
 
 @contextmanager

@@ -183,10 +183,23 @@ def _unknown(name: str) -> str:
     return f"{name} is set by nothing before"
 
 
+_NAMES = r"#(?!0+\Z)(?:\d+|<[^<>]+>)"
+
+
 @cache
 def fanuc() -> MacroLanguage:
     """Macro B, and the calls, jumps and profiles of the controls that follow Fanuc."""
-    return MacroLanguage("fanuc", _FORM.may_say, _FORM.read, program_files, _unknown, always_empty="#0", made_by=fanuc)
+    return MacroLanguage(
+        "fanuc",
+        _FORM.may_say,
+        _FORM.read,
+        program_files,
+        _unknown,
+        variables=_NAMES,
+        examples="#100",
+        always_empty="#0",
+        made_by=fanuc,
+    )
 
 
 _HAAS = structs.replace(_FORM, table=(Spelling(r"M0*+9(?P<kind>7)(?![\d.])", _call), *_TABLE))
@@ -195,4 +208,14 @@ _HAAS = structs.replace(_FORM, table=(Spelling(r"M0*+9(?P<kind>7)(?![\d.])", _ca
 @cache
 def haas() -> MacroLanguage:
     """The same with M97, which calls lines of the same program; on a Fanuc, M97 is the machine's own."""
-    return MacroLanguage("haas", _HAAS.may_say, _HAAS.read, program_files, _unknown, always_empty="#0", made_by=haas)
+    return MacroLanguage(
+        "haas",
+        _HAAS.may_say,
+        _HAAS.read,
+        program_files,
+        _unknown,
+        variables=_NAMES,
+        examples="#100",
+        always_empty="#0",
+        made_by=haas,
+    )

@@ -134,7 +134,12 @@ def _unknown(name: str) -> str:
     return f"{name} is the machine's" if name.startswith(_MACHINES) else f"{name} is set by nothing before"
 
 
+_NAMES = r"P\d+|V\.[A-Z]+\.[A-Z_][\w.\[\],]*"
+
+
 @cache
 def isg() -> MacroLanguage:
     """The statements of the ISG kernel."""
-    return MacroLanguage("isg", _FORM.may_say, _FORM.read, _files, _unknown, made_by=isg)
+    return MacroLanguage(
+        "isg", _FORM.may_say, _FORM.read, _files, _unknown, variables=_NAMES, examples="P100 or V.P.X", made_by=isg
+    )

@@ -146,6 +146,8 @@ def klartext() -> MacroLanguage:
         _files,
         _unknown,
         jumps_to_numbers=False,
+        variables=r"Q[LRS]?\d+",
+        examples="Q100, QL1 or QR1",
         passes_return=True,
         made_by=klartext,
     )

@@ -268,6 +268,10 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     """Whether a jump names a block number; Klartext knows labels alone."""
     declares: bool = False
     """Whether variables with names have to be declared: SINUMERIK's DEF."""
+    variables: str = ""
+    """What the name of a variable looks like, in upper case, as a pattern; any name where it is empty."""
+    examples: str = ""
+    """Names of variables, for a reader: the first one has a number."""
     always_empty: str = ""
     """The variable that is always empty, where variables may be: `#0`."""
     passes_return: bool = False

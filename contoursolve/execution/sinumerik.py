@@ -294,6 +294,9 @@ def _unknown(name: str) -> str:
     return f"{name} is the machine's" if name.startswith("$") else f"{name} is set by nothing before"
 
 
+_NAMES = r"R\d+|\$?[A-Z_]{2}\w*|\$?[A-Z_]\w*\[\d+(?:,\d+)*\]"
+
+
 def sinumerik(names: Iterable[str]) -> MacroLanguage:
     """The statements of SINUMERIK. The names are those of words and commands: others call subprograms."""
     known = frozenset(name.upper() for name in (*names, *_RESERVED, *_KINDS))
@@ -312,4 +315,6 @@ def sinumerik(names: Iterable[str]) -> MacroLanguage:
         r"|(?<![A-Z_])(?:[RL]\d|M0*+(?:2|17|30)(?!\d|[ \t]*+=))|%_N_|\$",
         names=known,
     )
-    return MacroLanguage("sinumerik", form.may_say, form.read, _files, _unknown)
+    return MacroLanguage(
+        "sinumerik", form.may_say, form.read, _files, _unknown, variables=_NAMES, examples="R100 or a name such as _ANG"
+    )

@@ -1,8 +1,10 @@
 """What the variables of a program hold while it runs."""
 
+import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
+from contoursolve.diagnostics.errors import UserError
 from contoursolve.execution.evaluate import evaluate, is_true, name_of_indexed
 from contoursolve.execution.language import (
     VACANT,
@@ -21,6 +23,27 @@ MOST_LOGGED = 10_000
 """Assignments that are kept in mind while it is not known whether a jump took place."""
 
 _LAST_LOCAL = 33
+
+
+class VariableNameError(UserError, ValueError):
+    """A value is stated of what is no variable of a control; the message says what its variables are called."""
+
+
+def check_names(names: Iterable[str], languages: Sequence[MacroLanguage]) -> None:
+    """Raise VariableNameError for the first name that is no variable in any of some languages."""
+    for name in names:
+        if any(not each.variables or re.fullmatch(each.variables, name, re.ASCII) for each in languages):
+            continue
+        if any(name == each.always_empty for each in languages):
+            raise VariableNameError(f"{name} is always empty; no value can be stated")
+        told = ", ".join(dict.fromkeys(each.examples for each in languages))
+        number = re.fullmatch(r"[A-Z#]+(\d+)", name)
+        meant = f": write {languages[0].examples[0]}{number[1]}" if number and len(languages) == 1 else ""
+        raise VariableNameError(f"there is no variable {name}; variables are called {told}{meant}{_setting(name)}")
+
+
+def _setting(name: str) -> str:
+    return "; a setting is stated with --set" if re.fullmatch(r"[\w-]+\.[\w-]+", name) else ""
 
 
 class Variables:

@@ -2,6 +2,7 @@
 
 import io
 import os
+import stat
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import partial
@@ -141,6 +142,21 @@ def check_target(target: Path, source: Path | None, *, is_forced: bool) -> None:
             raise CannotWriteError(f"{target} is not a regular file")
         if not is_forced:
             raise CannotWriteError(f"{target} exists; give --force to replace it")
+        check_unprotected(target)
+
+
+def check_unprotected(target: Path) -> None:
+    """Raise CannotWriteError if a file is write-protected: it would be replaced all the same."""
+    try:
+        mode = target.stat().st_mode
+    except (OSError, ValueError):
+        return
+    if stat.S_ISREG(mode) and (not mode & _WRITABLE or not os.access(target, os.W_OK)):
+        raise CannotWriteError(f"{target} is write-protected; make it writable, or write to another file")
+
+
+_WRITABLE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
+"""Permissions of which a file that is not write-protected has one, on Windows too."""
 
 
 def _resolve(target: Path) -> Path:
@@ -182,6 +198,7 @@ def open_whole(target: Path, *, temporary: Path | None = None, keeps_backup: boo
     import shutil  # noqa: PLC0415 - most commands write nothing
 
     real = _resolve(target)
+    check_unprotected(real)
     temporary = temporary or real.with_name(f".{real.name}.{os.urandom(4).hex()}.tmp")
     whole = None
     try:

@@ -18,7 +18,7 @@ from contoursolve.postprocess.numbering import numbers_of
 from contoursolve.postprocess.post_processors import Numbering
 from contoursolve.program.called_files import blocks_of_called_files
 from contoursolve.program.lines import Lines
-from contoursolve.program.pipeline import Examiner
+from contoursolve.program.pipeline import Examiner, check_start
 from contoursolve.program.project import check_settings, configure
 from contoursolve.program.readers import choose_alike
 from contoursolve.program.recognise import Recogniser, SeveralControlsError, for_machine, named_control
@@ -97,6 +97,7 @@ def rewrite(
         if not isinstance(control, Dialect):
             dialect = for_machine(dialect, settings or {}, tape.lines())
         asked = asked.of(dialect)
+        check_start(asked)
         summary.concluded += Examiner(asked).conclusions(())
         places = lines_of_facts(parse(tape.read(), tape.name), asked) if asked.facts else {}
         is_certain = bool(named or recogniser.begun) or not recogniser.is_sure

@@ -32,7 +32,7 @@ from contoursolve.diagnosis.vocabulary import (
 )
 from contoursolve.diagnosis.wording import either, join
 from contoursolve.diagnostics.display import Shown
-from contoursolve.diagnostics.errors import ProgramError
+from contoursolve.diagnostics.errors import ProgramError, UserError
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.execution.events import EventKind, ProgramEvent
@@ -205,6 +205,10 @@ class Run:
         if not is_told:
             yield examiner.nothing_to_solve(program.blocks)
 
+    def check_start(self) -> None:
+        """Raise StartError where the start point that is stated apart cannot be read."""
+        check_start(self._asked)
+
     @property
     def called(self) -> Sequence[Answer]:
         """The contours of other files that are called, when all is examined."""
@@ -232,6 +236,27 @@ class Run:
         profiles = tuple(self._examiner.profiles)
         found = tuple(sorted(everything, key=rank))
         return replace(self.frame, answers=tuple(answers), diagnostics=found, profiles=profiles)
+
+
+class StartError(UserError, ValueError):
+    """A start point that is stated apart from a program and cannot be read; the message says why."""
+
+
+def check_start(asked: Request) -> None:
+    """Raise StartError where words that state the start point cannot be read, or give no position."""
+    dialect, start = asked.dialect, asked.start
+    if dialect is None or start is None or not start.text.strip():
+        return
+    examiner = Examiner(asked)
+    examiner.begin()
+    error = next((each for each in examiner.diagnostics if each.is_error), None)
+    axes = {name for name, each in dialect.modes.lexicon.addresses.items() if each.axis}
+    has_position = any(word.address in axes for block in start.blocks for word in block.words)
+    if error is not None or not has_position:
+        told = error.message if error is not None else "it gives no position"
+        raise StartError(
+            f'--start "{start.text}": {told}; write words such as "X40. Z0.", as {dialect.name} reads them'
+        )
 
 
 def walk(

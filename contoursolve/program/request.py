@@ -11,6 +11,7 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.examine import Depth, Policy
 from contoursolve.diagnostics.choices import choice_of
 from contoursolve.execution.subprograms import ALONE, Surroundings, surroundings_of
+from contoursolve.execution.variables import check_names
 from contoursolve.gcode import Directive, Program, parse, read_directive, spelled
 from contoursolve.geometry import Length
 from contoursolve.reading.dialect import Dialect
@@ -39,7 +40,10 @@ class Request(Struct, frozen=True):
     """Whether every line is told of, and not only that on which a contour depends."""
 
     def of(self, dialect: Dialect) -> "Request":
-        """The same for a program of this control, as which the start point is read, too."""
+        """The same for a program of this control, as which the start point is read, too. Raises VariableNameError
+        where a value is stated of what is none of its variables."""
+        if self.around.values and dialect.modes.language is not None:
+            check_names(self.around.values, [dialect.modes.language])
         return replace(self, dialect=dialect, start=self.start and spelled(self.start, dialect.modes.syntax))
 
     @property
@@ -74,6 +78,8 @@ def request_for(  # noqa: PLR0913 - takes what `solve` takes
         surroundings_of(name, variables, folders),
         strict,
     )
+    if dialect is None and asked.around.values:
+        check_names(asked.around.values, [each.modes.language for each in DIALECTS.values() if each.modes.language])
     return asked.of(dialect) if dialect is not None else asked
 
 

@@ -184,3 +184,73 @@ def test_every_level_of_brackets_around_an_unset_variable_is_told_alike(control,
         text = text.format(axis=axis, block=block)
     told = {each.code for each in contoursolve.check(text.format(term), control=control) if each.is_error}
     assert told == {VARIABLE if control == "heidenhain" else "value-variable"}
+
+
+@pytest.mark.parametrize(
+    ("control", "name", "told"),
+    [
+        *((each, "foo.bar", "there is no variable FOO.BAR") for each in DIALECTS),
+        *((each, "#-1", "there is no variable #-1") for each in DIALECTS),
+        *((each, "yasnac-lx3.foo", "a setting is stated with --set") for each in DIALECTS),
+        *((each, "R100", "write #100") for each in MACRO_B),
+        ("siemens-840d", "#100", "variables are called R100 or a name such as _ANG: write R100"),
+        ("isg", "#100", "write P100"),
+        ("heidenhain", "#100", "write Q100"),
+        ("fanuc-mill", "#0", "#0 is always empty"),
+        ("", "foo.bar", "there is no variable FOO.BAR"),
+    ],
+)
+def test_a_value_of_what_is_no_variable_is_told(control, name, told):
+    named = ["--control", control] if control else []
+    for command in ("check", "solve", "expand"):
+        done = CliRunner().invoke(main, [command, *named, "--block", "G0 X0", "--let", f"{name}=1"])
+        assert (done.exit_code, told in done.output) == (2, True), done.output
+
+
+NAMES = {"fanuc-mill": ("#1", "#<depth>"), "siemens-840d": ("R1", "_ANG", "A[2]", "$AN"), "isg": ("P1", "V.L.B")}
+
+
+@pytest.mark.parametrize("control", NAMES)
+def test_values_of_variables_of_every_kind_are_taken(control):
+    for name in NAMES[control]:
+        done = CliRunner().invoke(main, ["check", "--control", control, "--block", "G0 X0", "--let", f"{name}=1"])
+        assert done.exit_code == 0, done.output
+
+
+COMMANDS = ("solve", "check", "expand", "plot", "report", "range", "sensitivity")
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (("--start", "hello"), "hello has no number"),
+        (("--start", "X4O. Z0."), "did you mean the digit 0 (X40.)"),
+        (("--start", "Q5."), "it gives no position"),
+        (("--start", "X40. Z0.", "--path", "nowhere/at/all"), "cannot be read as a folder"),
+    ],
+)
+def test_a_start_or_a_folder_that_cannot_be_read_is_wrong_usage(command, options, told, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    if command in ("range", "sensitivity") and "--path" in options:
+        return
+    if command in ("range", "sensitivity") and told == "it gives no position":
+        told = "the start point is not known"
+    more = {"plot": ["-o", "a.svg"], "report": ["-o", "a.html"], "range": ["--word", "X"]}.get(command, [])
+    done = CliRunner().invoke(main, [command, "--block", "G111 X100. A180. K-30. B120.", *options, *more])
+    assert (done.exit_code, told in done.output) == (2, True), done.output
+    assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.parametrize("way", ["in place", "forced"])
+def test_a_write_protected_file_is_not_replaced(way, tmp_path):
+    text = "G00 X40. Z0.\nG111 X100. A180. K-30. B120.\n"
+    old, new = tmp_path / "old.nc", tmp_path / "new.nc"
+    old.write_text(text)
+    new.write_text(text)
+    new.chmod(0o444)
+    arguments = ["--in-place", str(new)] if way == "in place" else [str(old), "-o", str(new), "--force"]
+    done = CliRunner().invoke(main, ["expand", *arguments])
+    assert (done.exit_code, "is write-protected; make it writable" in done.output) == (2, True), done.output
+    assert new.read_text() == text
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["new.nc", "old.nc"]
