@@ -631,7 +631,9 @@ class Machine:
             return
         values = self.variables.join(head.values, self.variables.values, told)
         own = None if frame.own is None else self.variables.join(head.own or {}, frame.own, told)
-        is_last = self._is_alone or head.passes >= MOST_PASSES
+        # The deeper a loop is in others, the less often it runs each time.
+        within = sum(bool(each.reason) and each.lines.first != first for each in frame.loops)
+        is_last = self._is_alone or head.passes >= max(MOST_PASSES - within, 1)
         yield ProgramEvent(EventKind.AGAIN, line, told, head.mark, is_last=is_last)
         if is_last:
             changed = [name for name, value in {**values, **(own or {})}.items() if isinstance(value, Unknown)]
@@ -902,14 +904,18 @@ class Machine:
             return
         truth = self.variables.truth(loop.condition) if loop.condition is not None else True
         if isinstance(truth, Unknown):
-            yield from self._run_unknown_loop(frame, lines, truth.reason)
+            yield from self._run_unknown_loop(frame, lines, truth.reason, known)
         elif truth is False:
             self._leave_loop(frame, lines)
         elif known is None:
             frame.loops.append(_Loop(lines))
 
-    def _run_unknown_loop(self, frame: _Frame, lines: Part, reason: str) -> Iterator[Block | ProgramEvent]:
+    def _run_unknown_loop(
+        self, frame: _Frame, lines: Part, reason: str, known: _Loop | None
+    ) -> Iterator[Block | ProgramEvent]:
         """Run a loop once more, of which nobody knows whether it does."""
+        if not self._is_alone and not (known is not None and known.reason):
+            yield self._begin_head(frame, lines.first)
         if self._is_alone:
             yield from self._unclear(frame, lines.first, reason)
         _leave_loop(frame, lines)
@@ -920,14 +926,14 @@ class Machine:
         name = self.variables.name(loop.variable)
         first, last, step = (self.variables.value(each) for each in (loop.first, loop.last, loop.step))
         if known is not None and known.reason:
-            yield from self._run_unknown_loop(frame, lines, known.reason)
+            yield from self._run_unknown_loop(frame, lines, known.reason, known)
             return
         if known is None:
             if not (isinstance(name, str) and isinstance(first, float) and isinstance(last, float)):
                 why = next(each for each in (name, first, last) if not isinstance(each, float) and each is not None)
                 told = why if isinstance(why, Unknown) else Unknown(f"{why} counts what is not known")
                 self.variables.set(name, told) if isinstance(name, str) else self.variables.lose_all(told.reason)
-                yield from self._run_unknown_loop(frame, lines, told.reason)
+                yield from self._run_unknown_loop(frame, lines, told.reason, None)
                 return
             frame.loops.append(_Loop(lines, last, step if isinstance(step, float) else 1.0))
             self.variables.set(name, first)

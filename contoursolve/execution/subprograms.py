@@ -23,6 +23,8 @@ from contoursolve.execution.language import (
     JumpWay,
     Loop,
     MacroLanguage,
+    ProgramEnd,
+    Return,
     Term,
     Unknown,
     When,
@@ -149,8 +151,9 @@ class Source:
 
     @cached_property
     def heads(self) -> frozenset[int]:
-        """The indices of the lines that may run again: those of loops, and those to which jumps lead back."""
-        found = {first for first, _ in self.nesting.loops}
+        """The indices of the lines to which something may come back while it is not known how often: those to which
+        jumps lead, and those of loops that have no condition or that something in them may leave."""
+        found = {part.first for part in self.nesting.loops.values() if self._may_be_left(part)}
         for index in range(len(self)):
             for jump in self._jumps(index):
                 target = f"{jump.target.value:.0f}" if isinstance(jump.target, Constant) else jump.target
@@ -158,6 +161,14 @@ class Source:
                     places = self.label(target.upper(), range(index, -1, -1)), self.number(target, 0, index)
                     found.update(each for each in places if each is not None)
         return frozenset(found)
+
+    def _may_be_left(self, loop: Part) -> bool:
+        """Whether anything but its own condition ends a loop."""
+        begins = self.code(loop.first).statements
+        if not any(isinstance(each, For) or (isinstance(each, Loop) and each.condition is not None) for each in begins):
+            return True
+        inside = (each for index in range(loop.first + 1, loop.last) for each in self.code(index).statements)
+        return any(isinstance(each, Jump | When | Return | ProgramEnd) for each in inside)
 
     def _jumps(self, index: int) -> Iterator[Jump]:
         for each in self.code(index).statements:

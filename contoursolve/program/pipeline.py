@@ -352,9 +352,11 @@ class Examiner:
         """The profiles of cycles that ran, known at the end."""
         self.called: list[Answer] = []
         """The contours of other files, known at the end."""
+        self.known: dict[object, Answer] = {}
+        """The answers of a program that runs, by what is known before a contour, its blocks and those behind it."""
         self.faulty: Counter[tuple[str, int]] | None = None
         """Of a program that runs: how often the contour at a line of a file was wrong. In a loop, each pass may be."""
-        self.queue = Queue(self.dialect or DIALECTS["yasnac-lx3"], together, self._examine, goes_on=goes_on)
+        self.queue = Queue(self.dialect or DIALECTS["yasnac-lx3"], together, self._examine_once, goes_on=goes_on)
 
     def steps(self, blocks: Iterable[Line]) -> Iterator[Step]:
         """Every block and every contour, in order; without a dialect, only what is found."""
@@ -431,7 +433,7 @@ class Examiner:
     def _run(self, lines: Iterable[Block | ProgramEvent]) -> list[Step | Pending]:
         """Every block and every contour of a program that runs, on each of its ways."""
         dialect, found = cast("Dialect", self.dialect), list[Step | Pending]()
-        ways, heads = self._ways(dialect), dict[int, int]()
+        ways, heads, last = self._ways(dialect), dict[int, int](), list[tuple[Sequence[Block], int]]()
 
         def read(
             held: Sequence[Block], index: int, state: State, is_open: bool
@@ -442,6 +444,10 @@ class Examiner:
             contour, after = self._find(view, state)
             if is_open and view.reach > len(held) - index:
                 return None
+            if not last or last[-1][0] is not held or last[-1][1] != index:
+                # Another way.
+                self.previous = None
+            last[:] = [(held, index + after)]
             taken, leave = self._take(view, contour, after, state)
             found.append(taken)
             return after, leave
@@ -670,6 +676,16 @@ class Examiner:
         findings, self.diagnostics = tuple(self.diagnostics), []
         return findings
 
+    def _examine_once(self, found: ParsedContour, pending: Pending) -> Answer:
+        """The answer to a contour of a program that runs: where it comes to the same again, that it gave before."""
+        if self.faulty is None or found.directives:
+            return self._examine(found, pending)
+        behind = pending.view[pending.after : pending.after + _NEAR]
+        key = (found.before.known(), tuple(map(_key_of, (*found.blocks, *behind))), len(found.blocks))
+        if key not in self.known:
+            self.known[key] = self._examine(found, pending)
+        return self.known[key]
+
     def _examine(self, found: ParsedContour, pending: Pending) -> Answer:
         """The answer to a contour, with the values that it asks for filled in."""
         dialect, blocks, after, state = self.dialect, pending.view, pending.after, pending.step.before
@@ -851,6 +867,12 @@ class Examiner:
 
 _OF_ARCS = frozenset("IJKR")
 """Words that most arcs have."""
+
+
+def _key_of(block: Block) -> object:
+    return block.line, block.text, block.file, block.callers, block.substituted
+
+
 _USUAL = 10_000
 """A number that is no value too large, in inches neither."""
 

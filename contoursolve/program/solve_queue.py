@@ -102,14 +102,20 @@ class Queue:
                 if self.together is None
                 else self.together.solve([claim for _, claim in claimed], each_alone)
             )
-            for (each, claim), answer in zip(claimed, answers, strict=True):
-                step, origin = each.step, _awaited(claim, answer) if answer.contour is None else None
-                told, tried = self._check_on(each, answer) if self.goes_on and origin else (answer, answer)
-                end = partial(self._end_of_fix, tried) if self.goes_on else _nowhere
-                each.left = cache(partial(_after, claim, self.dialect.modes, answer, origin, end))
-                behind = self._behind(each, claim.form.name, answer.contour, each.left)
-                told = replace(told, diagnostics=(*told.diagnostics, *behind)) if behind else told
-                each.step = Step(step.blocks, step.before, told, step.findings)
+            for (each, _), answer in zip(claimed, answers, strict=True):
+                self._take(each, answer)
+
+    def _take(self, each: Pending, answer: Answer) -> None:
+        """Take in the answer to a contour that was pending."""
+        claim = each.contour
+        if each.left is None:
+            step, origin = each.step, _awaited(claim, answer) if answer.contour is None else None
+            told, tried = self._check_on(each, answer) if self.goes_on and origin else (answer, answer)
+            end = partial(self._end_of_fix, tried) if self.goes_on else _nowhere
+            each.left = cache(partial(_after, claim, self.dialect.modes, answer, origin, end))
+            behind = self._behind(each, claim.form.name, answer.contour, each.left)
+            told = replace(told, diagnostics=(*told.diagnostics, *behind)) if behind else told
+            each.step = Step(step.blocks, step.before, told, step.findings)
 
     def _check_on(self, each: Pending, answer: Answer) -> tuple[Answer, Answer]:
         """The answer to a contour whose start is not known, with what is found if it begins where the best fix of the
@@ -182,6 +188,9 @@ class Queue:
         def find(axis: str) -> Position:
             if pending.left is None:
                 self.settle()
+            if pending.left is None:
+                # While others are solved, one of them asks for it.
+                self._take(pending, self.examine(pending.contour, pending))
             return cast("Callable[[], State]", pending.left)().axes[axis]
 
         return state.move({axis: Awaited(partial(find, axis), pending.wave + 1) for axis in axes})

@@ -193,6 +193,14 @@ class State(Struct, frozen=True):
         changed = [name for name in names if memory.get(name) is not self.memory.get(name)]
         return replace(self, memory=memory).settle(*changed)
 
+    def known(self) -> object:
+        """What is known, and why the rest is not, to be compared."""
+        places = tuple((at.value, at.is_skippable, at.assumed, at.span, at.reason) for at in self.axes.values())
+        words = tuple((name, word.text) for name, word in self.memory.items())
+        plane, doubts = (self.plane.code, self.plane.axes, self.plane.diameters), tuple(self.doubts.items())
+        modes = self.motion, plane, self.unit, self.is_incremental, self.compensation, self.diameter
+        return places, modes, words, doubts
+
     def counts_diameters(self) -> bool:
         """Whether a plain word of X is a diameter, where codes switch that."""
         if self.diameter is Diameter.BY_PLANE:
