@@ -100,7 +100,9 @@ def _report_failure(found: Conversion, name: str, to: str | Dialect) -> None:
     difference = found.comparison.difference if found.comparison else None
     if difference is not None:
         lines = [
-            f"line {step.line} of {side}" for side, step in (("OLD", difference.old), ("NEW", difference.new)) if step
+            f"program line {step.line} of {side}"
+            for side, step in (("OLD", difference.old), ("NEW", difference.new))
+            if step
         ]
         say(f"the new program is another path: {difference.reason} ({join(lines)})", err=True)
     say("nothing was written", err=True)

@@ -316,7 +316,7 @@ def report_left(summary: Summary, name: str, style: Style) -> None:
     """Why contours were not expanded, on standard error."""
     for left in summary.left:
         if all(not finding.is_error for finding in left.diagnostics):
-            say(f"{style('error', 'error')}: line {left.lines[0]}: {left.reason}", err=True)
+            say(f"{style('error', 'error')}: program line {left.lines[0]}: {left.reason}", err=True)
         for finding in without_repeated(left.diagnostics):
             here = tuple(label for label in finding.labels if label.span.line in left.sources)
             about = replace(finding, labels=here)
@@ -328,14 +328,14 @@ def report_misread(summary: Summary, post: Post, style: Style, *, is_kept: bool)
     """What the target would run along another path, on standard error."""
     severity = "warning" if is_kept else "error"
     for each in summary.misread:
-        say(f"{style(severity, severity)}: line {each.line}: {each.sentence(post.title)}", err=True)
+        say(f"{style(severity, severity)}: program line {each.line}: {each.sentence(post.title)}", err=True)
 
 
 def report_told(summary: Summary, post: Post) -> None:
     """What the target stops at, or reads in another way on the same path, on standard error."""
     for each in summary.unfamiliar:
         if each.risk is Risk.TOLD:
-            say(f"line {each.line}: {each.sentence(post.title)}", err=True)
+            say(f"program line {each.line}: {each.sentence(post.title)}", err=True)
 
 
 def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
@@ -344,7 +344,11 @@ def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
         say(f"{style('info', 'info')}[{finding.code}]: {finding.message}", err=True)
     for finding in summary.warned:
         place = (
-            f"line {finding.span.line}" if finding.span.line > 0 else "--start" if not finding.span.line else "--fact"
+            f"program line {finding.span.line}"
+            if finding.span.line > 0
+            else "--start"
+            if not finding.span.line
+            else "--fact"
         )
         say(f"{place}: {style('warning', 'warning')}[{finding.code}]: {finding.message}", err=True)
     if summary.warnings > len(summary.warned):

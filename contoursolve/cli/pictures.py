@@ -175,7 +175,7 @@ def _pictures(
 
 
 def _about(answer: Answer) -> str:
-    return f"line {answer.lines[0]}, {answer.status.value}"
+    return f"program line {answer.lines[0]}, {answer.status.value}"
 
 
 def _at(answers: Sequence[Answer], line: int) -> Answer:
@@ -184,8 +184,8 @@ def _at(answers: Sequence[Answer], line: int) -> Answer:
         if answer.lines[0] <= line <= answer.lines[-1]:
             return answer
     have = ", ".join(str(answer.lines[0]) for answer in answers)
-    begin = "contours begin in lines" if len(answers) > 1 else "the contour begins in line"
-    raise CouldNotRunError(f"line {line} belongs to no contour; {begin} {have}")
+    begin = "contours begin in program lines" if len(answers) > 1 else "the contour begins in program line"
+    raise CouldNotRunError(f"program line {line} belongs to no contour; {begin} {have}")
 
 
 def _drawings_for_cad(result: Result, target: Path) -> list[Written]:

@@ -38,7 +38,7 @@ from contoursolve.output.families import (
     multiple=True,
     required=True,
     metavar="WORD",
-    help="A word of the block, such as P, or 2:,A for line 2; start.X of the start point; a fact, by what it "
+    help="A word of the block, such as P, or 2:,A for program line 2; start.X of the start point; a fact, by what it "
     "gives the value of. Given twice, the region of both.",
 )
 @click.option(
@@ -96,7 +96,7 @@ def range_(
     "--word",
     required=True,
     metavar="WORD",
-    help="A word of the block, such as A, or 2:,A for line 2; start.X of the start point; a fact, by what it "
+    help="A word of the block, such as A, or 2:,A for program line 2; start.X of the start point; a fact, by what it "
     "gives the value of.",
 )
 @click.option(

@@ -274,7 +274,7 @@ class Machine:
         """Begin at a line that has not run: with what was known where a decision did not lead to it, or with nothing
         but the variables that were set once in all."""
         code, line = self.main.code(index), self.main.blocks[index].line
-        told = f"program {code.begins}" if code.begins is not None else f"line {line}"
+        told = f"program {code.begins}" if code.begins is not None else f"program line {line}"
         is_begun = code.begins is not None or bool(code.labels) or self._follows_end(index)
         self._is_passing_over = index in self._untaken or not is_begun
         why = f"nothing in this file calls {told}" if is_begun else f"{told} does not run here"
@@ -693,8 +693,8 @@ class Machine:
                 places = " and ".join(str(frame.source.blocks[at].line) for at in lines[:2])
                 line = frame.source.blocks[index].line
                 what = "block" if self.language.jumps_to_numbers else "label"
-                told = f"which stands twice, in lines {places}: give each its own number"
-                yield f"line {line} names {what} {name}, {told}"
+                told = f"which stands twice, in program lines {places}: give each its own number"
+                yield f"program line {line} names {what} {name}, {told}"
 
     def _do_assign(self, _frame: _Frame, _index: int, statement: Assign | Forget) -> Iterator[Block | ProgramEvent]:
         self.variables.assign(statement)
@@ -750,7 +750,7 @@ class Machine:
         if target is None:
             where = self.variables.resolve(jump.target)
             told = f"{where}, which is not there" if isinstance(where, str) else f"an unknown block: {where.reason}"
-            raise _RefusedError(f"line {self._line(frame, index)} jumps to {told}")
+            raise _RefusedError(f"program line {self._line(frame, index)} jumps to {told}")
         if self._waiting and self._is_alone:
             self._named.add((frame.source.name, target))
             yield from self._stay(frame, index)
@@ -783,13 +783,16 @@ class Machine:
         )
         if loops:
             line, begun = self._line(frame, index), frame.source.blocks[min(loops).first].line
-            told = f"line {line} jumps into the loop that line {begun} begins: how often that runs then is not known"
+            told = f"program line {line} jumps into the loop that program line {begun} begins: how often that runs "
+            told += "then is not known"
             yield ProgramEvent(EventKind.STOPPED, line, told)
 
     def _check_repetition(self, frame: _Frame, index: int, target: int) -> None:
         """Refuse to go back to a line where everything was the same before: that would go on for ever."""
         if self._repeats(frame, index, target):
-            raise _RefusedError(f"line {self._line(frame, index)} runs for ever: nothing changes from pass to pass")
+            raise _RefusedError(
+                f"program line {self._line(frame, index)} runs for ever: nothing changes from pass to pass"
+            )
 
     def _repeats(self, frame: _Frame, index: int, target: int) -> bool:
         """Whether everything was the same before where a line leads back."""
@@ -852,7 +855,7 @@ class Machine:
         """The lines of the branch that a line begins or goes on with. Raises if it has no end."""
         lines = frame.source.nesting.branches.get(index)
         if lines is None or lines.last > frame.last:
-            raise _RefusedError(f"the IF of line {self._line(frame, index)} has no end")
+            raise _RefusedError(f"the IF of program line {self._line(frame, index)} has no end")
         return lines
 
     def _keep_parts(self, frame: _Frame, index: int) -> None:
@@ -897,7 +900,7 @@ class Machine:
     def _begin_loop(self, frame: _Frame, index: int, loop: Loop | For) -> Iterator[Block | ProgramEvent]:
         lines = frame.source.nesting.loops.get((index, loop.name))
         if lines is None or lines.last > frame.last:
-            raise _RefusedError(f"the loop of line {self._line(frame, index)} has no end")
+            raise _RefusedError(f"the loop of program line {self._line(frame, index)} has no end")
         known = next((each for each in frame.loops if each.lines == lines), None)
         if isinstance(loop, For):
             yield from self._count(frame, loop, lines, known)
@@ -994,7 +997,7 @@ class Machine:
             raise _RefusedError(f"{text} {_backwards(source, first, last, index)}")
         if len(self._frames) >= DEEPEST:
             yield from self._unwind(source, first)
-            raise _RefusedError(f"line {line} calls itself again and again: {DEEPEST} calls in one another")
+            raise _RefusedError(f"program line {line} calls itself again and again: {DEEPEST} calls in one another")
         if isinstance(count, Unknown):
             yield from self._unclear(frame, index, f"how often {text} runs is not known: {count.reason}")
         times = int(count) if isinstance(count, float) else 1
@@ -1034,7 +1037,7 @@ class Machine:
         itself for ever."""
         begun = source.name, first, last, frozenset({**self.variables.values, **(own or {})}.items())
         if any(each.begun == begun for each in self._frames):
-            raise _RefusedError(f"line {line} calls itself again and again: nothing changes from call to call")
+            raise _RefusedError(f"program line {line} calls itself again and again: nothing changes from call to call")
         return begun
 
     def _as_written(self, frame: _Frame, index: int) -> Block:
@@ -1161,7 +1164,9 @@ def _in_doubt(block: Block, statements: Sequence[MacroStatement]) -> str:
     does = [told for kind, told in _DOES.items() if any(isinstance(each, kind) for each in statements)]
     if not ends or len(does) == 1:
         return ""
-    return f"line {block.line} {' and '.join(does)} in one block: which comes first is not known; write two blocks"
+    return (
+        f"program line {block.line} {' and '.join(does)} in one block: which comes first is not known; write two blocks"
+    )
 
 
 _DOES: Mapping[type[MacroStatement], str] = {
@@ -1181,8 +1186,8 @@ def _backwards(source: Source, first: int, last: int, index: int) -> str:
     """That a call on a line names lines of which the last one stands before the first one."""
     begins, ends = (source.blocks[each].line for each in (first, last))
     if last == index - 1:
-        return f"repeats from line {begins} up to itself, but that line stands behind it"
-    return f"runs from line {begins}, but its last line, {ends}, stands before that"
+        return f"repeats from program line {begins} up to itself, but that line stands behind it"
+    return f"runs from program line {begins}, but its last line, {ends}, stands before that"
 
 
 _ADDRESS = re.compile(r",?[A-Z][ \t]*\Z", re.IGNORECASE)

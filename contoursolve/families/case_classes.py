@@ -472,7 +472,7 @@ def asked_of(profile: Profile) -> dict[str, Question]:
     found: dict[str, Question] = {}
     for question in profile.questions:
         name = f"asked.{question.word.text.partition('=')[0].rstrip('? ').strip()}"
-        found[f"{name} in line {question.word.span.line}" if name in found else name] = question
+        found[f"{name} in program line {question.word.span.line}" if name in found else name] = question
     return found
 
 

@@ -313,7 +313,9 @@ def _only(address: str, words: Sequence[Word], where: str, line: str) -> Word:
             which = " or ".join(call(word, words) for word in same)
             raise FamilyError(f"{where} has {len(same)} words {address}; write {which}")
         told = f"{len(same)} words {address}" if same else f"no word {address}"
-        raise FamilyError(f"{where} has {told}{f' in line {line}' if line else ''}; its words are {have or 'none'}")
+        raise FamilyError(
+            f"{where} has {told}{f' in program line {line}' if line else ''}; its words are {have or 'none'}"
+        )
     if same[0].number is None:
         raise FamilyError(f"{same[0].text} has no number to vary")
     return same[0]

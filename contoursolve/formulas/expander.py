@@ -245,7 +245,7 @@ class FormulaExpander(Expander):
             raise FormulaError("the example has no contour")
         rows = zip(answer.plane.axes, ends, contour.end, writing.scales, strict=True)
         for axis, term, at_end, scale in rows:
-            name = f"end of line {answer.lines[-1]} on {axis}"
+            name = f"end of program line {answer.lines[-1]} on {axis}"
             names = names_of(term)
             if not names:
                 self.axes.pop(axis, None)

@@ -83,7 +83,7 @@ class FormulaLines(Lines):
         for place, word in enumerate(code.words):
             value = evaluate(word.value, self._look_up)
             if isinstance(value, float):
-                name, number_of = f"value {place + 1} of line {number}", Decimal(str(round(value, DECIMALS)))
+                name, number_of = f"value {place + 1} of program line {number}", Decimal(str(round(value, DECIMALS)))
                 term = place_in(word.value, {self.language.always_empty: Constant(0.0)})
                 slots.append(Slot(word.begin, word.end, Free(name, term, number_of, self._known(term))))
         for statement in code.statements:

@@ -92,8 +92,8 @@ def convert_program(opened: Opened | None, control: str) -> Reply:
 
 def _what_was_left(found: Expansion | Conversion, target: str) -> str:
     """Why contours were left as they are, and what the target reads in another way; empty if there is nothing."""
-    left = [f"line {each.lines[0]}: {each.reason}" for each in found.summary.left]
-    left += [f"line {each.line}: {each.sentence(target)}" for each in found.summary.unfamiliar]
+    left = [f"program line {each.lines[0]}: {each.reason}" for each in found.summary.left]
+    left += [f"program line {each.line}: {each.sentence(target)}" for each in found.summary.unfamiliar]
     return "; ".join(left[:MOST_TOLD]) + (f"; and {len(left) - MOST_TOLD} more" if len(left) > MOST_TOLD else "")
 
 

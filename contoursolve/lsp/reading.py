@@ -273,7 +273,7 @@ def symbols_of(opened: Opened) -> Iterator[types.DocumentSymbol]:
     for contour in opened.program.contours:
         answer, end = contour.answer, end_text(contour.answer)
         yield types.DocumentSymbol(
-            name=f"{answer.claim.form.name}, line {contour.first}",
+            name=f"{answer.claim.form.name}, program line {contour.first}",
             detail=f"{answer.status.value}{f', ends at {end}' if end else ''}",
             kind=types.SymbolKind.Function if answer.status is Status.SOLVED else types.SymbolKind.Event,
             range=opened.places.whole(contour.first, contour.last),

@@ -68,7 +68,9 @@ def begin(text: str, facts: Iterable[str] = (), **options: Any) -> Exploration:
 def _check_single(result: Result) -> None:
     if len(result.answers) > 1:
         lines = ", ".join(str(answer.lines[0]) for answer in result.answers)
-        raise ValueError(f"one contour can be explored at a time; this text has {len(result.answers)} (lines {lines})")
+        raise ValueError(
+            f"one contour can be explored at a time; this text has {len(result.answers)} (program lines {lines})"
+        )
 
 
 def _with_facts(program: Program, facts: Sequence[str]) -> str:

@@ -35,7 +35,7 @@ SMALLEST = 0.0001
 def _called(answer: Answer) -> str:
     """From where a contour of a subprogram is called."""
     lines = [str(line) for line in answer.calls]
-    return f", called in line{'s' * (len(lines) > 1)} {join(lines)}" if lines else ""
+    return f", called in program line{'s' * (len(lines) > 1)} {join(lines)}" if lines else ""
 
 
 def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False) -> list[str]:

@@ -38,7 +38,8 @@ def comparison_lines(comparison: Comparison) -> Iterator[str]:
         yield f"  {name} {printable(path.name)} ({path.control}): {count(len(path.steps), 'element')}"
     if lines is not None:
         until = "" if difference is None else " before the difference"
-        yield f"  largest deviation{until}: {comparison.deviation:.4f} mm, OLD line {lines[0]}, NEW line {lines[1]}"
+        where = f"OLD program line {lines[0]}, NEW program line {lines[1]}"
+        yield f"  largest deviation{until}: {comparison.deviation:.4f} mm, {where}"
     yield from _unfollowed_lines(comparison)
     yield "  not compared: feeds, leads of threads, speeds, tools, offsets, dwells, M functions"
 
@@ -81,7 +82,7 @@ def _runs(blocks: Sequence[Unfollowed]) -> Iterator[str]:
     """One row for the blocks in a row with the same reason."""
     for (reason, _), run in groupby(blocks, key=lambda each: (each.reason, each.file)):
         first, *more = run
-        until = f", and {len(more)} more up to line {more[-1].line}" if more else ""
+        until = f", and {len(more)} more up to program line {more[-1].line}" if more else ""
         file = f"{printable(first.file)} " if first.file else ""
         yield f"{file}line {first.line}: {_cut(first.text)} ({reason}){until}"
 

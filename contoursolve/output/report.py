@@ -196,7 +196,7 @@ def _contour(answer: Answer, number: int, result: Result, places: Places, progre
     path = path_element(answer, identity=f"path-{number}")
     words = words_table(answer, identity=f"words-{number}")
     element = h.article(id=f"contour-{number}")[
-        h.h3[short(f"Contour {number}, line {answer.lines[0]}: {form_text(answer)}"), ": ", _status(answer)],
+        h.h3[short(f"Contour {number}, program line {answer.lines[0]}: {form_text(answer)}"), ": ", _status(answer)],
         h.div(".blocks")[
             (
                 h.p[_line_link(block.line, places), " ", h.code[short(block.text.strip())]]
@@ -239,7 +239,7 @@ def _found(findings: tuple[Diagnostic, ...]) -> str:
 
 def _line_link(line: int, places: Places) -> h.Node:
     target = places.line(line)
-    return h.a(href=target)[f"line {line}"] if target else f"line {line}"
+    return h.a(href=target)[f"program line {line}"] if target else f"program line {line}"
 
 
 def _others(result: Result, places: Places) -> h.Element | None:

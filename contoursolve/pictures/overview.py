@@ -162,7 +162,7 @@ def _profile_parts(profiles: Sequence[CycleProfile], plane: Plane, moves: Sequen
 
 def _cycle(profile: CycleProfile) -> str:
     """The cycle that cuts a profile, and its line."""
-    return f"{profile.caller.cycle}, line {profile.caller.line}"
+    return f"{profile.caller.cycle}, program line {profile.caller.line}"
 
 
 def _contour_parts(drawn: Sequence[Drawn]) -> Iterator[Part]:
@@ -204,7 +204,7 @@ def _closeups(drawn: Sequence[Drawn]) -> Iterator[Closeup]:
     """The contours, each of which may be too small."""
     for each in drawn:
         if each.trails and each.answer.contour is not None:
-            yield Closeup(f"{each.number}  line {each.answer.lines[0]}", each.segments, _READABLE)
+            yield Closeup(f"{each.number}  program line {each.answer.lines[0]}", each.segments, _READABLE)
 
 
 def _trails(answer: Answer) -> list[Trail]:

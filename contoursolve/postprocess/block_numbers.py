@@ -193,21 +193,21 @@ def rename_block(
     numbers = numbers_of(text, control, settings)
     own = numbers.own.get(line)
     if own is None:
-        raise ValueError(f"line {line} has no block number")
+        raise ValueError(f"program line {line} has no block number")
     if isinstance(number, bool) or not isinstance(number, int) or not 0 < number <= LONG:
         raise ValueError(f"a block number is a whole number from 1 to {LONG:,}, not {number!r}")
     if number == own.number:
         return ()
     section = own.section
     if (section, number) in numbers.blocks:
-        raise ValueError(f"N{number} is in line {numbers.blocks[section, number][0].span.line} already")
+        raise ValueError(f"N{number} is in program line {numbers.blocks[section, number][0].span.line} already")
     for doubt in numbers.doubts:
         if doubt.section == section and doubt.number in (None, number, own.number):
             raise ValueError(doubt.message)
     places = [own]
     for jump in numbers.jumps:
         if jump.section == section and jump.number == number:
-            raise ValueError(f"line {jump.span.line} leads to N{number} already, which is not there")
+            raise ValueError(f"program line {jump.span.line} leads to N{number} already, which is not there")
         if jump.section == section and jump.number == own.number:
             numbers.target(jump)
             places.append(jump)
@@ -326,8 +326,8 @@ class Directory:
         if len(found) == 1:
             return found[0]
         lines = join([str(each.span.line) for each in found])
-        where = f"which is in lines {lines}" if found else "which is not there"
-        raise ValueError(f"line {jump.span.line}: {jump.text} leads to N{jump.number}, {where}")
+        where = f"which is in program lines {lines}" if found else "which is not there"
+        raise ValueError(f"program line {jump.span.line}: {jump.text} leads to N{jump.number}, {where}")
 
     def _has(self, row: WordJump) -> bool:
         """Whether the control may have a code."""
@@ -445,7 +445,7 @@ class Directory:
         return self._syntax is not ISO and (_MARK.fullmatch(target) is not None or target.upper() in self._labels)
 
     def _doubt(self, block: Block, reason: str, number: int | None = None) -> None:
-        self.doubts.append(Doubt(f"line {block.line}: {reason}", self.sections[block.line], number))
+        self.doubts.append(Doubt(f"program line {block.line}: {reason}", self.sections[block.line], number))
 
 
 def _code(word: Word) -> str:

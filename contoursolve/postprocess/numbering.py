@@ -65,8 +65,8 @@ class Numberer:
         if not is_call or word is None or word.number is None:
             return ""
         if word.number in self._divided:
-            end = f"N{word.number} of line {self._divided[word.number]}"
-            return f"the profile of line {block.line} ends with {end}, which is more than one line now"
+            end = f"N{word.number} of program line {self._divided[word.number]}"
+            return f"the profile of program line {block.line} ends with {end}, which is more than one line now"
         self._ends.add(word.number)
         return ""
 

@@ -214,7 +214,11 @@ def _results(answers: Sequence[Answer]) -> str:
         place = measured(values, answer.plane, answer.unit) if answer.start.is_known else "an unknown point"
         errors = [each.message for each in answer.diagnostics if each.is_error]
         lines = join([str(line) for line in answer.calls])
-        called = f"called in line{'s' * (len(answer.calls) > 1)} {lines}" if answer.calls else f"pass {len(told) + 1}"
+        called = (
+            f"called in program line{'s' * (len(answer.calls) > 1)} {lines}"
+            if answer.calls
+            else f"pass {len(told) + 1}"
+        )
         told.append(f"{called}: from {place} {errors[0] if errors else answer.status.value}")
     more = len(answers) - MOST_TOLD
     return "; ".join(told) + (f"; and {more} more" if more > 0 else "")
@@ -241,7 +245,9 @@ def _solved_elsewhere(called: Sequence[Answer], rules: tuple[Rule, ...]) -> Iter
         unit = next(iter(answers.values())).unit
         context = Context(rules, unit, place=Span(caller.line, 1, len(caller.text) + 1))
         lines = join([str(each[0]) for each in answers])
-        contours = f"the contours in lines {lines}" if len(answers) > 1 else f"the contour in line {lines}"
+        contours = (
+            f"the contours in program lines {lines}" if len(answers) > 1 else f"the contour in program line {lines}"
+        )
         row, are = context.row(ReadIssue.SUBPROGRAM_SOLVED), "are" if len(answers) > 1 else "is"
         yield report(context, row, Basis.RULE, [], file=file, contours=contours, are=are)
 

@@ -138,8 +138,8 @@ def attach(program: Program, asked: Request) -> tuple[Program, tuple[Directive, 
     if len(contours) > 1:
         lines = ", ".join(str(each.blocks[0].line) for each in contours)
         raise FactPlaceError(
-            f"the program has {len(contours)} contours (lines {lines}); write the fact into the block that it is "
-            "about, as a comment (contoursolve: ...)"
+            f"the program has {len(contours)} contours (program lines {lines}); write the fact into the block that it "
+            "is about, as a comment (contoursolve: ...)"
         )
     state, own = (contours[0].after, contours[0].blocks) if contours else (before, ())
     worded = tuple(_in_words(fact, state.plane, state.unit) for fact in asked.facts)

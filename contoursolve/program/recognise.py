@@ -328,5 +328,5 @@ def sign_against(block: Block, dialect: Dialect, other: Dialect) -> str:
 
 
 def _sign(words: Sequence[Word], block: Block) -> str:
-    where = f"line {block.line} of {block.file}" if block.file else f"program line {block.line}"
+    where = f"program line {block.line} of {block.file}" if block.file else f"program line {block.line}"
     return f"{join([word.text.strip() for word in words])} in {where}"

@@ -293,7 +293,9 @@ def with_facts(
     found = [each.claim.blocks for each in follow(program, dialect, unit, {}, start=start)]
     if len(found) > 1:
         lines = ", ".join(str(each[0].line) for each in found)
-        raise CannotVerifyError(f"a fact is about the only contour, and the program has {len(found)} (lines {lines})")
+        raise CannotVerifyError(
+            f"a fact is about the only contour, and the program has {len(found)} (program lines {lines})"
+        )
     directives = [gcode.read_directive(text, -number) for number, text in enumerate(facts, 1)]
     return state_facts(program, found[0] if found else (), directives)
 

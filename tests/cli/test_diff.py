@@ -263,8 +263,8 @@ def test_blocks_that_are_not_followed_are_listed_once_where_both_have_them(tmp_p
     assert "different: blocks that diff does not follow are not the same\n" in output
     assert "the same word by word in both: 15 blocks" in output
     assert (
-        "X91. Z-144. F0.35 (contoursolve does not know where G90 (turning cycle) ends), and 12 more up to line 33"
-        in output
+        "X91. Z-144. F0.35 (contoursolve does not know where G90 (turning cycle) ends), "
+        "and 12 more up to program line 33" in output
     )
     assert "only in OLD: 1 block\n    OLD line 30: N260 X46. " in output
     assert "only in NEW: 1 block\n    NEW line 30: N260 X46.5 " in output

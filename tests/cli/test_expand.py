@@ -352,7 +352,7 @@ def test_a_contour_that_is_left_without_an_error_of_its_own_is_told_with_its_rea
     status, _, said = run("expand", old)[:3]
     assert status == 1
     assert "info[start-skippable]" in said
-    assert "error: line 3: it begins where a block with / leads" in said
+    assert "error: program line 3: it begins where a block with / leads" in said
 
 
 def test_what_the_target_reads_otherwise_is_named_once():
@@ -370,7 +370,7 @@ def test_a_word_that_the_control_ignores_is_not_passed_over():
     text = f"{START}G111 A135. I10. K-12. B180. Z-40."
     assert contoursolve.expand(text).summary.warnings == 1
     said = run("expand", "-", stdin=text)[2]
-    assert "line 2: warning[g111-a-ignored]: the control ignores A135." in said
+    assert "program line 2: warning[g111-a-ignored]: the control ignores A135." in said
     assert "1 warning: contoursolve check says more about it" in said
     said = run("expand", "-", stdin=f"{text}\n" * 30)[2]
     assert said.count("warning[g111-a-ignored]") == 20
@@ -392,52 +392,58 @@ BY_HAND = "nothing was written: write by hand what is meant there"
         (
             "linuxcnc",
             TURNED,
-            f"line 2: {HERE} G90 {TURNING} is absolute coordinates, {RUN} X91. Z-40. and 1 line behind it as {RAPID}",
+            (
+                f"program line 2: {HERE} G90 {TURNING} is absolute coordinates, "
+                f"{RUN} X91. Z-40. and 1 line behind it as {RAPID}"
+            ),
         ),
         (
             "linuxcnc",
             f"{START}{TAPER}\nG94 X20. Z-50.\nG00 X50.",
-            f"line 3: {HERE} G94 (facing cycle on {LX3}) is feed a minute, {RUN} X20. Z-50. as {LINE}",
+            f"program line 3: {HERE} G94 (facing cycle on {LX3}) is feed a minute, {RUN} X20. Z-50. as {LINE}",
         ),
         (
             "linuxcnc",
             f"{START}{TAPER} P5. Q5.\n/X60.\nG94 X20. Z-50.",
-            f"line 4: {HERE} G94 (facing cycle on {LX3}) is feed a minute, {RUN} X20. Z-50. as {RAPID}",
+            f"program line 4: {HERE} G94 (facing cycle on {LX3}) is feed a minute, {RUN} X20. Z-50. as {RAPID}",
         ),
         (
             "linuxcnc",
             f"{START}{TAPER}\nG01 X60.\nG92 X59. Z-70. F2.\nX58.\n(THIRD)\nX57.",
-            f"line 4: {HERE} G92 (thread cycle on {LX3}) sets coordinates, {RUN} 2 lines behind it as {LINE}",
+            f"program line 4: {HERE} G92 (thread cycle on {LX3}) sets coordinates, {RUN} 2 lines behind it as {LINE}",
         ),
         (
             "linuxcnc",
             f"{START}{TAPER}\nG90\nM08\nX59.\nX58.",
-            f"line 3: {HERE} G90 {TURNING} is absolute coordinates, {RUN} 2 lines behind it as {LINE}",
+            f"program line 3: {HERE} G90 {TURNING} is absolute coordinates, {RUN} 2 lines behind it as {LINE}",
         ),
         (
             "linuxcnc",
             f"{START}{TAPER}\ng76 X26. Z-30. K1.8 D400 F3. A60",
-            f"line 3: on LinuxCNC 2.9, g76 (threading cycle on {LX3}) is a threading cycle with other words",
+            f"program line 3: on LinuxCNC 2.9, g76 (threading cycle on {LX3}) is a threading cycle with other words",
         ),
         (
             "linuxcnc",
             f"{START}{TAPER}\nG91 X1.",
-            f"line 3: {HERE} G91 (not known to contoursolve on {LX3}) is incremental coordinates, {RUN} X1. as {RAPID}",
+            (
+                f"program line 3: {HERE} G91 (not known to contoursolve on {LX3}) is incremental coordinates, "
+                f"{RUN} X1. as {RAPID}"
+            ),
         ),
         (
             "linuxcnc",
             f"{START}{TAPER}\nG00 X-1500",
-            f"line 3: on LinuxCNC 2.9, X-1500 (-1.5 mm on {LX3}) has no point and is -1500 mm; write X-1.5",
+            f"program line 3: on LinuxCNC 2.9, X-1500 (-1.5 mm on {LX3}) has no point and is -1500 mm; write X-1.5",
         ),
         (
             "fanuc",
             f"{CIRCLED}G0 Z50",
-            "line 4: on Fanuc 0i and relatives, Z50 (50 mm on nct-99m) has no point and is 0.05 mm; write Z50.",
+            "program line 4: on Fanuc 0i and relatives, Z50 (50 mm on nct-99m) has no point and is 0.05 mm; write Z50.",
         ),
         (
             "linuxcnc",
             f"{CIRCLED}G76 X1. Y1. Z-5. R1. Q1.",
-            "line 4: on LinuxCNC 2.9, G76 (drilling cycle on nct-99m) is a threading cycle",
+            "program line 4: on LinuxCNC 2.9, G76 (drilling cycle on nct-99m) is a threading cycle",
         ),
     ],
 )
@@ -445,7 +451,7 @@ def test_what_the_target_would_run_along_another_path_keeps_the_program_from_bei
     expansion = contoursolve.expand(text, post=post)
     assert expansion.text is None
     (found,) = expansion.summary.misread
-    assert f"line {found.line}: {found.sentence(POSTS[post].title)}" == sentence
+    assert f"program line {found.line}: {found.sentence(POSTS[post].title)}" == sentence
     status, written, said = run("expand", "-", "--post", post, stdin=text)
     assert (status, written) == (1, b"")
     assert f"error: {sentence}\n" in said
@@ -543,7 +549,9 @@ def test_numbers_of_new_lines_are_those_that_nothing_else_uses(text, numbers, wr
 def test_numbers_that_cannot_stand_where_they_are_needed_are_told():
     text = START + ROUNDED + "\nG70 P100 Q120"
     (left,) = contoursolve.expand(text).summary.left
-    assert left.reason == "the profile of line 3 ends with N120 of line 2, which is more than one line now"
+    assert (
+        left.reason == "the profile of program line 3 ends with N120 of program line 2, which is more than one line now"
+    )
     full = START + ROUNDED + "\n(" + " ".join(f"N{n}" for n in range(1, 9999)) + ")"
     (left,) = contoursolve.expand(full, block_numbers="all").summary.left
     assert "no block number up to 9999 is free" in left.reason

@@ -187,7 +187,10 @@ def test_the_broken_shaft_is_mended_fix_by_fix(served):
         assert reversed_.severity is types.DiagnosticSeverity.Warning
         assert any("start point" in each.message for each in reversed_.related_information)
         fix = (await actions(editor, SHAFT, large.range))[0]
-        assert fix.title == "write P2.5 for P4. -> the contour ends at Z-75.500 mm X66.000 mm"
+        assert (
+            fix.title
+            == "write P2.5 for P4. -> the contour ends at Z-75.500 mm X66.000 mm, corner 1 with radius 2.500 mm"
+        )
         assert [each.code for each in fix.diagnostics] == ["g111-corner-too-large"]
         editor.edit(SHAFT, *edits_of(fix))
         assert "g111-corner-too-large" not in {each.code for each in await editor.findings(SHAFT)}
@@ -248,7 +251,7 @@ def test_hovers_hints_symbols_folds(served):
         )
         assert (hint.position, hint.label) == (at(5, 37), "ends at Z-50.2073 X100.0000")
         (symbol,) = await editor.ask(client.text_document_document_symbol_async(types.DocumentSymbolParams(document)))
-        assert (symbol.name, symbol.detail) == ("G111, line 5", "solved, ends at Z-50.2073 X100.0000")
+        assert (symbol.name, symbol.detail) == ("G111, program line 5", "solved, ends at Z-50.2073 X100.0000")
         folds = await editor.ask(client.text_document_folding_range_async(types.FoldingRangeParams(document)))
         assert [(each.start_line, each.end_line, each.kind) for each in folds] == [(1, 2, "comment")]
         lenses = await editor.ask(client.text_document_code_lens_async(types.CodeLensParams(document)))
@@ -400,7 +403,7 @@ def test_formatting_and_block_numbers(served):
         change = await editor.ask(client.text_document_rename_async(types.RenameParams(new_name="N300", **place)))
         editor.edit(SHAFT, *edits_of(SimpleNamespace(edit=change)))
         assert editor.texts[SHAFT] == "N300 G00 X40. Z0.\nN20 G01 X50. F0.2\nGOTO 300\n"
-        with pytest.raises(Exception, match="N20 is in line 2 already"):
+        with pytest.raises(Exception, match="N20 is in program line 2 already"):
             await editor.ask(client.text_document_rename_async(types.RenameParams(new_name="20", **place)))
 
     served(use)

@@ -183,7 +183,7 @@ def test_the_command_writes_one_page_and_tells_by_its_status_whether_there_are_e
     block = ("--block", "G111 X100. A180. K-30. B120. P5.", "--start", "X40. Z0.", "-o", tmp_path / "b.html")
     assert run(*block)[0] == 0
     assert run("-", "-o", tmp_path / "c.html", input="G00 X40. Z0.\nG111 A180. B120.")[0] == 1
-    assert "Contour 1, line 2" in Page((tmp_path / "c.html").read_text(encoding="utf-8")).shown
+    assert "Contour 1, program line 2" in Page((tmp_path / "c.html").read_text(encoding="utf-8")).shown
     warned = ("-", "--rules", "off", "--fact", "length of line 1 = 3", "-o", tmp_path / "d.html")
     run(*warned, input="G00 X40. Z0.\nG111 A180. B120. X60.")
     told = Page((tmp_path / "d.html").read_text(encoding="utf-8")).shown

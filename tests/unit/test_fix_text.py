@@ -62,3 +62,21 @@ def test_what_differs_is_shown(block, ends):
 def test_fixes_that_make_one_contour_show_one_place():
     finding = check("G111 X100. A180. K-30. B120. U60.", control="yasnac-lx3", start="X40. Z0.")[0]
     assert len({re.sub(r".*-> ", "", each.description) for each in finding.fixes}) == 1
+
+
+@some_of(("name", "text"), REJECTED, one_in=3)
+def test_a_line_with_a_number_is_an_element_and_a_line_of_the_program_is_called_so(name, text):
+    # Far down in its program, no line of it has the number of an element.
+    shifted = "\n" * 40 + text
+    result = solve(shifted, control=name, depth="path")
+    told = [
+        each
+        for finding in result.diagnostics
+        for each in (finding.message, finding.help, *finding.notes, *(fix.description for fix in finding.fixes))
+    ]
+    lines = {
+        int(number)
+        for each in told
+        for number in re.findall(r"(?<!program )\b[Ll]ines? (\d+)", each.replace("G-code", ""))
+    }
+    assert not [each for each in lines if each > 40], told

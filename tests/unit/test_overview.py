@@ -99,7 +99,7 @@ def test_a_contour_without_a_path_has_its_message():
 def test_a_contour_that_is_too_small_is_shown_enlarged():
     picture = draw_result(small())
     check(picture)
-    assert {"A: 2  line 5", "3, program line 7: the path crosses the turning axis"} <= set(texts(picture))
+    assert {"A: 2  program line 5", "3, program line 7: the path crosses the turning axis"} <= set(texts(picture))
     (told,) = (text for text in texts(picture) if text.endswith("times as large"))
     times = float(told.split()[0])
     arcs = [
@@ -129,8 +129,8 @@ def test_of_very_many_small_contours_none_is_enlarged_and_the_picture_says_how_m
     check(picture)
     shown = texts(picture)
     assert not [told for told in shown if told.endswith("times as large") or told.startswith("0 words")]
-    names = ", ".join(f"{number}  line {2 * number}" for number in range(1, 7))
-    assert f"too small to be read here: {names} and 54 more".replace("  ", " ") in shown
+    names = ", ".join(f"{number}  program line {2 * number}" for number in range(1, 7))
+    assert f"too small to be read here: {names} and 54 more".replace("  ", " ") in " ".join(shown)
 
 
 PROFILE = """G00 X64. Z2.
@@ -153,9 +153,9 @@ M30"""
 def test_dashed_lines_lead_from_the_start_of_a_cycle_to_its_profile_and_back(theme):
     found = contoursolve.solve(PROFILE, control="fanuc-lathe")
     picture = draw_result(found, theme=theme)
-    assert "G71, line 3; G70, line 13" in texts(picture)
+    assert "G71, program line 3; G70, program line 13" in texts(picture)
     ways = {frozenset(spots(stroke)) for stroke in strokes(picture, Role.RAPID)}
     assert len(ways) == 2
     assert len(frozenset.intersection(*ways)) == 1
-    told = "G71, line 3: dashed lines lead to its profile and back."
+    told = "G71, program line 3: dashed lines lead to its profile and back."
     assert told in picture.svg

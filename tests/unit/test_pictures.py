@@ -1001,7 +1001,7 @@ def test_plot_writes_one_contour_or_each_in_the_theme_that_is_asked_for(tmp_path
     )
     status, output = plot(SHAFT, "--line", 1, "-o", tmp_path / "c.svg")
     assert status == 2
-    assert "line 1 belongs to no contour; contours begin in lines 53, 67" in output
+    assert "program line 1 belongs to no contour; contours begin in program lines 53, 67" in output
     assert not (tmp_path / "c.svg").exists()
     for wrong in (("--line", 69, "--each"), ("--each", "-o", "x.dxf"), ("--line", 69, "-o", "x.dxf")):
         assert plot(SHAFT, *wrong)[0] == 2

@@ -126,7 +126,10 @@ def test_what_nothing_calls_begins_where_start_says(tmp_path):
             f"G00 X40. Z0.\nIF [#900 EQ 1] GOTO 5\nG00 X45.\nN5 {TAPER}",
             "X40. (program line 1) or X45. (program line 3)",
         ),
-        ("G00 X40. Z0.\nM98 P1\nG00 X58. Z0.\nM98 P1\nM30\nO1\nG01 Z-20. ,R5.\nX60.\nM99", "called in line 4: from"),
+        (
+            "G00 X40. Z0.\nM98 P1\nG00 X58. Z0.\nM98 P1\nM30\nO1\nG01 Z-20. ,R5.\nX60.\nM99",
+            "called in program line 4: from",
+        ),
         ("G00 X60. Z2.\nG71 P1 Q2 U.5\nN1 G00 X20.\nG01 Z-20. ,R3.\nX40. ,A120.\nX30.\nN2 Z-60.", "X"),
     ],
 )
@@ -336,7 +339,9 @@ def test_jumps_out_of_and_into_loops_of_macro_b():
     assert [each.start.values for each in result.answers] == [(10 * at, 10 * at) for at in range(4)]
     into = solve(FANUC_LOOP.replace("#1=0", "GOTO 60").replace("#2=#2+1", "N60 #2=1"), control=MILL)
     told = [each.message for each in into.diagnostics if each.code == "not-followed"]
-    assert told == ["line 2 jumps into the loop that line 4 begins: how often that runs then is not known"]
+    assert told == [
+        "program line 2 jumps into the loop that program line 4 begins: how often that runs then is not known"
+    ]
     assert {each.status for each in into.answers} == {Status.UNDERDETERMINED}
 
 
@@ -361,17 +366,17 @@ M30"""
         (
             "heidenhain",
             "L X+0 Y+0 F100\nCALL LBL 1 REP2\nFL X+50 AN+20\nM30\nLBL 1\nL IX+5\nLBL 0",
-            "CALL LBL 1 REP2 repeats from line 5 up to itself, but that line stands behind it",
+            "CALL LBL 1 REP2 repeats from program line 5 up to itself, but that line stands behind it",
         ),
         (
             "siemens-840d",
             "G17 G90 G0 X0 Y0\nREPEAT AAA P=2\nG1 X50 ANG=20\nM30\nAAA: G1 X=IC(5)\nM17",
-            "REPEAT AAA P=2 repeats from line 5 up to itself, but that line stands behind it",
+            "REPEAT AAA P=2 repeats from program line 5 up to itself, but that line stands behind it",
         ),
         (
             "siemens-840d",
             "G17 G90 G0 X0 Y0\nBBB: X1\nAAA: X2\nREPEAT AAA BBB\nG1 X50 ANG=20",
-            "REPEAT AAA BBB runs from line 3, but its last line, 2, stands before that",
+            "REPEAT AAA BBB runs from program line 3, but its last line, 2, stands before that",
         ),
     ],
 )
@@ -494,19 +499,27 @@ MILLED = "O1\nG17 G90 G0 X0. Y0.\n{}\nN10 G1 X10. ,R1. F1.\n{} Y10.\nM30"
     ("control", "text", "told"),
     [
         (LATHE, TURNED.format(58, ""), "G71 P10 Q58 U.5 W.1 names block 58, which is not there"),
-        (LATHE, TURNED.format(60, "N60 X42.\n"), "line 3 names block 60, which stands twice, in lines 6 and 7"),
-        (MILL, MILLED.format("GOTO 10", "N10"), "line 3 names block 10, which stands twice, in lines 4 and 5"),
-        ("haas-mill", MILLED.format("M97 P10\nM30", "N10"), "line 3 names block 10, which stands twice"),
+        (
+            LATHE,
+            TURNED.format(60, "N60 X42.\n"),
+            "program line 3 names block 60, which stands twice, in program lines 6 and 7",
+        ),
+        (
+            MILL,
+            MILLED.format("GOTO 10", "N10"),
+            "program line 3 names block 10, which stands twice, in program lines 4 and 5",
+        ),
+        ("haas-mill", MILLED.format("M97 P10\nM30", "N10"), "program line 3 names block 10, which stands twice"),
         ("haas-mill", MILLED.format("M97 P12", "N11"), "M97 P12 names block 12, which is not there"),
         (
             "siemens-840d",
             "G17 G90 G0 X0 Y0\nGOTOF N10\nN10 G1 X10 RND=1\nN10 Y10",
-            "line 2 names block N10, which stands twice, in lines 3 and 4",
+            "program line 2 names block N10, which stands twice, in program lines 3 and 4",
         ),
         (
             "heidenhain",
             "CALL LBL 1\nM30\nLBL 1\nL X+0 Y+0 F100\nFL X+10 AN+0\nLBL 0\nLBL 1\nLBL 0",
-            "line 1 names label 1, which stands twice, in lines 3 and 7",
+            "program line 1 names label 1, which stands twice, in program lines 3 and 7",
         ),
         # Nothing jumps there; or the number stands in another program.
         (MILL, MILLED.format("G0 Z1.", "N10"), ""),
