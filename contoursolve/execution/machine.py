@@ -217,6 +217,7 @@ class Machine:
         limit: Limit | None = None,
     ) -> None:
         self.language, self.library = language, library
+        self._program = program
         self.main = Source(program, language, is_other=False)
         self.variables = Variables(language, given or {}, self._own)
         self._frames: list[_Frame] = []
@@ -246,11 +247,21 @@ class Machine:
     def run_alone(self) -> Iterator[Block | ProgramEvent]:
         """The blocks of the main program and of what it calls, as one program without calls. What is set to a value
         that is not known stays; the profile of a cycle that is written elsewhere does not run."""
-        self._is_alone = True
+        self._is_alone, self._named = True, self._named_by_what_stays()
         yield from self._run_from(self._begin_main())
         last = next((at for at in reversed(range(len(self.main))) if self.main.blocks[at].text.strip()), None)
         if last is not None and last not in self._visited and _ENDS_FILE.fullmatch(self.main.blocks[last].text):
             yield self.main.blocks[last]
+
+    def _named_by_what_stays(self) -> set[tuple[str, int]]:
+        """By file and index: lines to which jumps lead that stay as they are written, also those behind the lines."""
+        if not any(isinstance(each, Jump) for at in range(len(self.main)) for each in self.main.code(at).statements):
+            return set()
+        ahead = Machine(self._program, self.language, self.library, self.variables.given, self._limit)
+        ahead._is_alone = True
+        for _ in ahead._run_from(ahead._begin_main()):
+            pass
+        return ahead._named
 
     def run_all_alone(self) -> Iterator[Block | ProgramEvent]:
         """The same, and behind it what nothing calls."""
@@ -521,7 +532,10 @@ class Machine:
 
     def _block(self, frame: _Frame, block: Block, code: CodeLine) -> Block:
         """A block with numbers in the place of variables."""
-        if not frame.callers and not frame.source.name and not code.statements and not code.words:
+        is_label = self._is_alone and bool(code.labels)
+        if is_label and (frame.source.name, frame.here) in self._named:
+            return block
+        if not (frame.callers or frame.source.name or code.statements or code.words or is_label):
             return block
         text, changes = code.rest, list[Substitution]()
         for word in reversed(code.words):

@@ -530,3 +530,33 @@ MILLED = "O1\nG17 G90 G0 X0. Y0.\n{}\nN10 G1 X10. ,R1. F1.\n{} Y10.\nM30"
 def test_a_block_that_is_named_and_stands_nowhere_or_twice_is_told(control, text, told):
     found = [each.message for each in solve(text, control=control).diagnostics if each.code == "not-followed"]
     assert [each.startswith(told) for each in found] == [True] * bool(told)
+
+
+LABELLED = """0 BEGIN PGM A MM
+1 L X+0 Y+0 R0 F100
+2 LBL 2
+3 L X+10 Y+0
+4 FL X+20 AN+10
+5 {}
+6 LBL "END"
+7 CALL LBL 7
+8 L Z+100 R0 FMAX M30
+9 LBL 7
+10 FL X+30 AN+10
+11 LBL 0
+12 END PGM A MM
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "kept"),
+    [
+        ("CALL LBL 2 REP 1", []),
+        ('FN 9: IF +1 EQU +1 GOTO LBL "END"', []),
+        ('FN 9: IF +Q5 EQU +1 GOTO LBL "END"', ['5 FN 9: IF +Q5 EQU +1 GOTO LBL "END"', '6 LBL "END"']),
+        ("FN 9: IF +Q5 EQU +1 GOTO LBL 2", ["2 LBL 2", "5 FN 9: IF +Q5 EQU +1 GOTO LBL 2"]),
+    ],
+)
+def test_labels_that_nothing_names_any_more_are_not_written(line, kept):
+    inline = expand(LABELLED.format(line), control="heidenhain", inline=True, comments=False, keep_going=True)
+    assert [each for each in inline.text.splitlines() if "LBL" in each] == kept
