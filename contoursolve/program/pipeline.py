@@ -61,6 +61,8 @@ from contoursolve.program.stream import Line, View, each_block, go_on, pass_plai
 from contoursolve.program.tape_markers import Marks
 from contoursolve.reading import (
     COMMENTED,
+    Effect,
+    Modes,
     ParsedContour,
     ReadIssue,
     State,
@@ -846,6 +848,11 @@ class Examiner:
             self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
             self._check_words(context, block, here)
 
+    def _is_behind_contour(self, modes: Modes) -> bool:
+        """Whether the last block that said something has the code of a contour."""
+        codes = codes_of(self.previous[0][-1], modes) if self.previous else ()
+        return any(not isinstance(code, Word) and code.effect is Effect.CONTOUR for code in codes)
+
     def _check_words(self, context: Context, block: Block, here: State | None) -> None:
         """The words and codes of a block that the control has not; and that one is not read, which is told once of
         several blocks in a row."""
@@ -855,7 +862,10 @@ class Examiner:
         modes, signs = dialect.modes, dialect.signs(block)
         self.diagnostics += explain_codes_by_name(context, block, modes)
         if moves(block, here, modes, signs):
-            self.diagnostics += explain_vocabulary(context, block, here, modes, _comma_words())
+            found = explain_vocabulary(context, block, here, modes, _comma_words())
+            # Of the block behind a contour, some controls tell by themselves what its words would have meant there.
+            is_said = dialect.follow is not None and self._is_behind_contour(modes)
+            self.diagnostics += (each for each in found if not is_said or each.about is not ReadIssue.WORD_IDLE)
         unread = modes.unread(block, here)
         if unread is None:
             return
