@@ -70,7 +70,8 @@ class Fault(Struct, frozen=True):
 
 
 _ADDRESS = re.compile(
-    r"[ \t]*(,?)[ \t]*(#?[A-Za-z_]\w*(?=[ \t]*=)|[A-Za-z]{2,}(?=[ \t]*[+-]?\.?\d)|[A-Za-z])", re.ASCII
+    r"[ \t]*(,?)[ \t]*(#?[A-Za-z_]\w*(?=[ \t]*=)|(?:RND|CHF)(?=[ \t]+R)|[A-Za-z]{2,}(?=[ \t]*[+-]?\.?\d)|[A-Za-z])",
+    re.ASCII,
 )
 
 

@@ -133,6 +133,8 @@ def test_letters_that_are_almost_words_of_isg_and_klartext():
     (finding, *_) = findings(KLARTEXT, text.format("CHF R5"))
     assert finding.fixes[0].description.startswith("write CHF 5 for CHF R5")
     assert not any(each.is_error for each in findings(KLARTEXT, text.format("CHF 5")))
+    (finding, *_) = findings(KLARTEXT, "1 L X+0 Y+0 R0 FMAX\n2 L X+60 F200\n3 CHF R5\n4 L Y+40")
+    assert (finding.is_error, finding.message.endswith("did you mean CHF 5?")) == (True, True)
 
 
 @pytest.mark.parametrize(("typed", "meant"), [("TC", "CT"), ("DIAMONN", "DIAMON"), ("G310", "G110")])
