@@ -47,14 +47,17 @@ def order(system: System, facts: Sequence[Fact], unknowns: Sequence[str] | None 
     matched = match(system, facts, wanted)
     if len(matched) != len(wanted) or len(facts) != len(matched):
         raise ValueError(f"{len(facts)} facts match {len(matched)} of {len(wanted)} unknowns")
+    places = {name: place for place, name in enumerate(wanted)}
+    numbers = {id(fact): number for number, fact in enumerate(facts)}
     index: dict[str, int] = {}
     low: dict[str, int] = {}
-    stack: list[str] = []
+    stack: dict[str, None] = {}
+    """In the order in which they were met."""
     groups: list[Group] = []
 
     def visit(unknown: str) -> None:
         index[unknown] = low[unknown] = len(index)
-        stack.append(unknown)
+        stack[unknown] = None
         for needed in system.unknowns_of(matched[unknown]):
             if needed not in matched:
                 continue
@@ -64,11 +67,12 @@ def order(system: System, facts: Sequence[Fact], unknowns: Sequence[str] | None 
             elif needed in stack:
                 low[unknown] = min(low[unknown], index[needed])
         if low[unknown] == index[unknown]:
-            members = stack[stack.index(unknown) :]
-            del stack[stack.index(unknown) :]
-            names = tuple(name for name in wanted if name in members)
-            own = {id(matched[name]) for name in names}
-            groups.append(Group(tuple(fact for fact in facts if id(fact) in own), names))
+            members = [stack.popitem()[0]]
+            while members[-1] != unknown:
+                members.append(stack.popitem()[0])
+            names = tuple(sorted(members, key=places.__getitem__))
+            own = sorted((matched[name] for name in names), key=lambda fact: numbers[id(fact)])
+            groups.append(Group(tuple(own), names))
 
     for unknown in wanted:
         if unknown not in index:

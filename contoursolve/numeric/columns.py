@@ -45,7 +45,7 @@ class ColumnFunction(Struct, frozen=True, eq=False):
 
 def compile_columns(tape: Tape, names: Collection[str]) -> ColumnFunction:
     """The function of a tape for columns of the inputs of these names; some milliseconds."""
-    return columns_of(tape.shared(), tape.inputs, tape.outputs, names)
+    return columns_of(tape.shared(), tape.inputs, tuple(tape.outputs), names)
 
 
 def columns_of(function: Any, inputs: Sequence[str], outputs: Sequence[str], names: Collection[str]) -> ColumnFunction:

@@ -2,7 +2,7 @@
 
 import threading
 from array import array
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, KeysView, Mapping, Sequence
 from functools import reduce
 from math import inf
 from typing import Any
@@ -120,7 +120,13 @@ def larger(first: Any, second: Any) -> Expression:
 
 def where(condition: Any, then: Any, otherwise: Any) -> Expression:
     """`then` where the condition is true."""
-    return Expression(casadi.if_else(_sx(condition), _sx(then), _sx(otherwise)))
+    chosen, other = _if(condition, then), _if(opposite(condition), otherwise)
+    return chosen + other
+
+
+def _if(condition: Any, value: Any) -> Expression:
+    """A value where the condition is true, else 0."""
+    return _binary(casadi.OP_IF_ELSE_ZERO, condition, value)
 
 
 def at_most(first: Any, second: Any) -> Expression:
@@ -153,7 +159,7 @@ def largest(values: Iterable[Any]) -> Expression:
         return sizes[0] if sizes else Expression(casadi.SX(0))
     total = reduce(Expression.__add__, sizes)
     # The larger of two is the one that is a number.
-    return reduce(larger, sizes) + _binary(casadi.OP_IF_ELSE_ZERO, opposite(below(total, inf)), total)
+    return reduce(larger, sizes) + _if(opposite(below(total, inf)), total)
 
 
 def is_zero(value: Any) -> Expression:
@@ -212,13 +218,12 @@ class Tape:
         outputs = casadi.densify(_stack(self._outputs.values()))
         return casadi.Function("contour", [_stack(self._inputs.values())], [casadi.cse(outputs)])
 
-    def keep(self, prefixes: tuple[str, ...], names: Sequence[str]) -> "Tape":
+    def keep(self, prefixes: tuple[str, ...], names: Collection[str]) -> "Tape":
         """A tape of its own with only the outputs of these names, or that begin so."""
         kept = Tape()
         kept._inputs = dict(self._inputs)
-        kept._outputs = {
-            name: each for name, each in self._outputs.items() if name in names or name.startswith(prefixes)
-        }
+        own = frozenset(names)
+        kept._outputs = {name: each for name, each in self._outputs.items() if name in own or name.startswith(prefixes)}
         return kept
 
     def copy(self) -> "Tape":
@@ -236,13 +241,13 @@ class Tape:
         return Compiled(function, self.inputs, tuple(f"{output} by {name}" for output in outputs for name in inputs))
 
     @property
-    def outputs(self) -> tuple[str, ...]:
+    def outputs(self) -> KeysView[str]:
         """The names of the outputs, in order."""
-        return tuple(self._outputs)
+        return self._outputs.keys()
 
     def finish(self) -> "Compiled":
         """The function of all inputs and outputs."""
-        return Compiled(self.function(), self.inputs, self.outputs)
+        return Compiled(self.function(), self.inputs, tuple(self._outputs))
 
 
 def symbol(name: str) -> Expression:

@@ -100,7 +100,8 @@ class Batch(Struct):
         if answer.status is Status.SOLVED and not answer.diagnostics and answer.contour and not answer.alternatives:
             system = assemble(answer.profile)
             machine = compile_system(system)
-            wanted = (name for name in machine.function.outputs if name in system.unknowns or name.startswith(_MADE_OF))
+            unknowns, outputs = frozenset(system.unknowns), machine.function.outputs
+            wanted = (name for name in outputs if name in unknowns or name.startswith(_MADE_OF))
             checked = compile_checks(system)
             kind = Kind(answer, system, machine, checked.checks, checked.tape.finish(), tuple(wanted))
             self.kinds[key] = kind

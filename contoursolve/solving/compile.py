@@ -224,10 +224,10 @@ class _Builder:
         arriving = {element.name: self._edge(element, element.head) for element in path}
         for element in path:
             self._measure(element, leaving[element.name])
-        names = [element.name for element in path]
+        places = {element.name: index for index, element in enumerate(path)}
         for corner in self.system.figure.corners:
-            index = names.index(corner.before)
-            before, earlier = arriving[corner.before], arriving[names[max(index - 1, 0)]]
+            index = places[corner.before]
+            before, earlier = arriving[corner.before], arriving[path[max(index - 1, 0)].name]
             if corner.after is not None:
                 after = leaving[corner.after]
                 quadrant = _quadrant_between(before.direction, after.direction)
@@ -413,7 +413,7 @@ class ProofMachine(Struct, frozen=True):
 def compile_proof(system: System) -> ProofMachine:
     """The closed form of a determined system for exact numbers and balls."""
     tape = compile_system(system).tape.keep(_PROOF_OUTPUTS, system.unknowns)
-    return ProofMachine(Replay(tape.function(), Exactly, ball.exact), tape.inputs, tape.outputs)
+    return ProofMachine(Replay(tape.function(), Exactly, ball.exact), tape.inputs, tuple(tape.outputs))
 
 
 @lru_cache(maxsize=256)
@@ -424,7 +424,7 @@ def compile_decision(system: System, number: int) -> ProofMachine:
     for each, step in enumerate(make_plan(system).steps[: number + 1]):
         builder.run(step, each)
     tape = builder.tape.keep((), (f"discriminant:{number}",))
-    return ProofMachine(Replay(tape.function(), _Deciding, ball.exact), tape.inputs, tape.outputs)
+    return ProofMachine(Replay(tape.function(), _Deciding, ball.exact), tape.inputs, tuple(tape.outputs))
 
 
 class _Deciding:
