@@ -3,15 +3,15 @@
 from collections.abc import Callable, Collection, Sequence
 from itertools import combinations
 
-import numpy
 from msgspec import Struct
 
 from contoursolve.analysis.determinacy import survey
 from contoursolve.diagnosis.wording import NUMBERS, either, join
 from contoursolve.geometry import Fact, Profile, assemble
+from contoursolve.numeric.linear_algebra import svd
 from contoursolve.reading import ParsedContour, read, stating
 from contoursolve.solving.affine import affine_facts
-from contoursolve.tolerance import LENGTH
+from contoursolve.tolerance import REGULAR
 
 MOST_WORDS = 10
 """Words among which those that complete a contour are looked for by all their sets."""
@@ -67,7 +67,7 @@ def _rank_with(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> 
 
         if affine is not None:
             rows = affine.matrix[[is_kept(fact) for fact in affine.facts]]
-            return int(numpy.linalg.matrix_rank(rows, tol=LENGTH)) if rows.size else 0
+            return int((svd(rows)[1] > REGULAR).sum()) if rows.size else 0
         system = assemble(whole)
         return survey(system.keep(tuple(fact for fact in system.facts if is_kept(fact)))).rank
 
