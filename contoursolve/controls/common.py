@@ -17,7 +17,7 @@ from contoursolve.solving import NoteKind, RefusalKind
 from contoursolve.tolerance import LARGEST, TRAVEL
 
 _GOOD = "G00 X40. Z0.\nG111 A180. K-30. B120. X100."
-_CUT = "0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL X+0 Y+20\n3 FL Y+20\n4 FL X+50 Y+20\n5 END PGM A MM"
+_CUT = "0 BEGIN PGM A MM\n1 L X+0 Y+0" + "\n2 FL X+0 Y+20\n3 FL Y+20\n4 FL X+50 Y+20" + "\n5 END PGM A MM"
 _START = "G00 X40. Z0.\n"
 _PROFILE = (
     "G00 X140. Z2.\nG71 P10 Q20 U.4 W.1 F.2\nN10 G00 X40.\nG01 Z0.\n"
@@ -108,7 +108,7 @@ BLOCKS_SETTING = Setting(
     "how many blocks may run again, or in another file, before a program is said to go on for ever",
     {f"{MOST_BLOCKS}": "blocks"},
     f"{MOST_BLOCKS}",
-    _own("programs are shorter, and one that never ends is told at once"),
+    _own("programs are shorter, and one that never ends stops soon"),
     bounds=(Decimal(1), Decimal(100_000_000)),
     unit="blocks",
 )

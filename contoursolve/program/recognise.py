@@ -89,7 +89,7 @@ def shown_of_machine(line: str, syntax: Syntax) -> frozenset[str]:
 
 
 _MACHINE = "machine"
-_OF_MACHINE = re.compile(r"(?<![A-Z0-9_$.\[,])(?:[XYZ](?=\s*[-+.=\d])|G0?1[789](?!\d))", re.IGNORECASE)
+_OF_MACHINE = re.compile(r"(?<![A-Z_$\[,])(?:[XYZ](?=\s*[-+.=\d])|G0?1[789](?!\d))", re.IGNORECASE)
 TURNED_AXES = frozenset({"X", "Z"})
 """The axes of a lathe."""
 

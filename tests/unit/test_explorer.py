@@ -143,7 +143,7 @@ def test_a_selected_value_takes_the_place_of_the_facts_that_asked_for_it(text, f
 
 
 def test_one_contour_is_explored_at_a_time():
-    with pytest.raises(ValueError, match=r"this text has 7 \(lines 53, 67"):
+    with pytest.raises(ValueError, match=r"this text has 7 \(program lines 53, 67"):
         explore.begin((PROGRAMS / "shaft.nc").read_text())
     with pytest.raises(contoursolve.UnknownControlError):
         explore.begin("G111 A180.\nG3 X-50 Y0 R50 Q-1\nG1 X-50 Y42.857 ,A171.87")

@@ -930,10 +930,10 @@ def test_the_facts_of_a_sketch_are_dimensions_and_its_points_tell_the_drawings_a
     check(picture)
     inside = {text.words for text in picture.sheet.drawing if isinstance(text, Text)}
     assert {"length of a = 8", "length of b = 7", "length of c = 5", "direction of a = 0"} <= inside
-    assert {"1: P2  X12.5 Y15.67", "2: P2  X12.5 Y24.33", "P1  X18 Y20"} <= inside
+    assert {"1: P2  X12.5 Y24.33", "2: P2  X12.5 Y15.67", "P1  X18 Y20"} <= inside
     one = draw(drawings[0])
     check(one)
-    assert "P2  X12.5 Y15.67" in labels(one)
+    assert "P2  X12.5 Y24.33" in labels(one)
     assert "direction of c = 120" in labels(one)
     sketch.state("length of a = 9")
     check(draw(sketch))  # facts that disagree leave no drawing
@@ -992,7 +992,7 @@ def test_plot_writes_an_svg_of_the_whole_program_with_its_name(tmp_path, monkeyp
 def test_plot_writes_one_contour_or_each_in_the_theme_that_is_asked_for(tmp_path):
     result = contoursolve.solve_file(SHAFT)
     status, output = plot(SHAFT, "--line", 69, "-o", tmp_path / "a.PNG", "--theme", "dark")
-    assert (status, "a.PNG: line 69, solved" in output) == (0, True)
+    assert (status, "a.PNG: program line 69, solved" in output) == (0, True)
     wanted = next(answer for answer in result.answers if answer.lines[0] == 69)
     assert (tmp_path / "a.PNG").read_bytes() == draw_answer(wanted, theme=Theme.DARK).png()
     status, output = plot(SHAFT, "--each", "-o", tmp_path / "b.svg")
