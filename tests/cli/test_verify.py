@@ -784,7 +784,10 @@ def test_verify_takes_what_solve_takes(desk):
     several = desk.solve(SAMPLES["one after the other"])
     desk.verify(several)
     status, _, errors = run("verify", desk.program, desk.result, "--fact", "length of line 1 = 3")
-    assert (status, "a fact is about the only contour, and the program has 3 (program lines 2, 4, 5)" in errors) == (2, True)
+    assert (status, "a fact is about the only contour, and the program has 3 (program lines 2, 4, 5)" in errors) == (
+        2,
+        True,
+    )
 
 
 # --- Further facts, values that are asked for, several solutions -------------------------------------
@@ -1552,7 +1555,11 @@ def test_the_verifier_uses_nothing_of_the_solver(module):
         elif isinstance(node, ast.ImportFrom):
             imported |= {str(node.module), *(f"{node.module}.{alias.name}" for alias in node.names)}
     assert "importlib" not in imported
-    own = {name.split(".")[1] for name in imported if re.match(r"contoursolve\.(?!diagnosis\.wording|numeric\.linear_algebra)", name)}
+    own = {
+        name.split(".")[1]
+        for name in imported
+        if re.match(r"contoursolve\.(?!diagnosis\.wording|numeric\.linear_algebra)", name)
+    }
     assert own & set(FORBIDDEN.split()) == set()
     assert not {name.split(".")[0] for name in imported} & {"casadi", "sympy", "flint", "scipy"}
     calls = [
