@@ -132,6 +132,8 @@ class Arc(Struct, frozen=True):
     radius: str
     turn: Turn
     counts_clockwise: bool = False
+    may_be_full: bool = False
+    """Whether it is a full circle if it ends where it begins. Any other arc must end elsewhere."""
 
 
 class CornerShape(Enum):

@@ -424,7 +424,7 @@ def trace_known(profile: Profile, known: Known) -> Iterator[tuple[Segment, Role]
 
 
 def _segment(element: Line | Arc, tail: Point, head: Point, known: Known) -> Segment | None:
-    if distance(head, tail) <= LENGTH:
+    if distance(head, tail) <= LENGTH and not (isinstance(element, Arc) and element.may_be_full):
         return None
     if isinstance(element, Line):
         return LineSegment(element.name, tail, head)

@@ -4,6 +4,7 @@ from math import atan2, cos, hypot, pi, sin, tau
 
 from contoursolve.solving import Point
 from contoursolve.solving.contour import ArcSegment, Segment
+from contoursolve.tolerance import LENGTH
 
 SAME = 1e-6
 """mm. Points nearer to each other are one on a drawing."""
@@ -63,6 +64,8 @@ def _begin(arc: ArcSegment) -> float:
 
 def sweep_of(arc: ArcSegment) -> float:
     """The angle travelled, radians, positive counter-clockwise; a whole turn where it ends as it begins."""
+    if distance(arc.end, arc.start) <= LENGTH:
+        return tau * arc.turn.sign
     end = atan2(arc.end[1] - arc.center[1], arc.end[0] - arc.center[0])
     return (((end - _begin(arc)) * arc.turn.sign) % tau or tau) * arc.turn.sign
 

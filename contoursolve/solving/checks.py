@@ -302,7 +302,8 @@ def check_path(source: Source) -> Checks:
     """Whether the control can make the path: the direction of travel, and the room for each corner."""
     figure, out = source.figure, source.out
     for element in figure.path:
-        yield _check_element(source, element)
+        if not (isinstance(element, Arc) and element.may_be_full):
+            yield _check_element(source, element)
     for corner in figure.corners:
         yield from _check_corner(source, corner)
     for corner in figure.corners:

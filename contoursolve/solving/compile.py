@@ -47,7 +47,7 @@ from contoursolve.numeric.interpreter import Replay
 from contoursolve.solving.compare import half_circle_allowance
 from contoursolve.solving.corners import Edge, Pair, build_corner, drop_straight, unit
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep, make_plan
-from contoursolve.tolerance import REGULAR, TOUCHING
+from contoursolve.tolerance import LENGTH, REGULAR, TOUCHING
 
 _FUNCTIONS = Functions(sqrt, cosine_of, sine_of)
 
@@ -275,6 +275,9 @@ class _Builder:
             (a, b), (c, d) = edge.spoke or (0, 0), self._edge(element, element.head).spoke or (0, 0)
             swept = element.turn.sign * angle(a * d - b * c, a * c + b * d)
             length = edge.radius * where(swept > 0, swept, swept + tau)
+            if element.may_be_full:
+                chord = sqrt((head[0] - tail[0]) ** 2 + (head[1] - tail[1]) ** 2)
+                length = where(chord > LENGTH, length, edge.radius * tau)
         self.tape.output(f"length:{element.name}", length)
         self.rooms[element.name] = length
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from math import asin, atan2, cos, degrees, hypot, pi, radians, sin, sqrt, tau
+from math import asin, atan2, cos, degrees, dist, hypot, pi, radians, sin, sqrt, tau
 from typing import NamedTuple
 
 from msgspec import Struct
@@ -43,7 +43,9 @@ class ArcSegment(Struct, frozen=True):
 
     @property
     def sweep(self) -> float:
-        """Angle travelled, degrees, more than 0."""
+        """Angle travelled, degrees, more than 0: a full circle where it ends as it begins."""
+        if hypot(self.end[0] - self.start[0], self.end[1] - self.start[1]) <= LENGTH:
+            return 360.0
         begin = atan2(self.start[1] - self.center[1], self.start[0] - self.center[0])
         end = atan2(self.end[1] - self.center[1], self.end[0] - self.center[0])
         return degrees(((end - begin) * self.turn.sign) % tau)
@@ -178,8 +180,8 @@ def trace(profile: Profile, solution: Solution) -> Contour:
     start = here = points[profile.figure.start]
     elements: list[Segment] = []
 
-    def add(segment: Segment) -> Point:
-        if hypot(segment.end[0] - here[0], segment.end[1] - here[1]) <= LENGTH:
+    def add(segment: Segment, *, is_full: bool = False) -> Point:
+        if hypot(segment.end[0] - here[0], segment.end[1] - here[1]) <= LENGTH and not is_full:
             return here
         elements.append(segment)
         return segment.end
@@ -192,7 +194,10 @@ def trace(profile: Profile, solution: Solution) -> Contour:
             here = add(LineSegment(element.name, here, end))
         else:
             center, radius = points[element.center], solution.radii[element.radius]
-            here = add(ArcSegment(element.name, here, end, center, radius, element.turn))
+            is_full = element.may_be_full and all(
+                dist(at, points[element.tail]) <= LENGTH for at in (here, end, points[element.head])
+            )
+            here = add(ArcSegment(element.name, here, end, center, radius, element.turn), is_full=is_full)
         if corner and built:
             if built.center is None:
                 here = add(LineSegment(corner.name, here, built.end))

@@ -31,7 +31,8 @@ def check_path(
     remarks: list[Note] = []
     for element in figure.path if not refusals else ():
         if isinstance(element, Arc):
-            if hypot(*_difference(points[element.tail], points[element.head])) <= LENGTH:
+            is_closed = hypot(*_difference(points[element.tail], points[element.head])) <= LENGTH
+            if is_closed and not element.may_be_full:
                 refusals.append(Refusal(RefusalKind.ARC_EMPTY, element.name))
         else:
             refusals += _check_direction(element, out, profile)

@@ -115,10 +115,18 @@ class Drawing:
             moves.append(Move(element.name, here, end, self.circle(element) if isinstance(element, Arc) else None))
             moves += [drawn] if drawn else []
             here = drawn.end if drawn else end
+        full = {
+            each.name
+            for each in self.figure.path
+            if isinstance(each, Arc) and each.may_be_full and self.room[each.name] >= self.length(each) - LENGTH
+        }
         for name, room in self.room.items():
             if room < -LENGTH and not self.against:
                 self.against.append(f"the corners on {name} overlap by {-room:.6g} mm")
-        return Path(tuple(move for move in moves if abs(move.end - move.start) > LENGTH), tuple(self.against))
+        return Path(
+            tuple(move for move in moves if abs(move.end - move.start) > LENGTH or move.name in full),
+            tuple(self.against),
+        )
 
     def point(self, name: str) -> complex:
         return complex(self.values[scalar(name, FIRST)], self.values[scalar(name, SECOND)])
@@ -145,9 +153,11 @@ class Drawing:
             if length < -LENGTH:
                 self.against.append(f"{element.name} runs {-length:.6g} mm against its direction")
             return length
-        if abs(head - tail) <= LENGTH:
-            self.against.append(f"{element.name} has no length")
         center = self.point(element.center)
+        if abs(head - tail) <= LENGTH:
+            if element.may_be_full:
+                return abs(head - center) * tau
+            self.against.append(f"{element.name} has no length")
         swept = element.turn.sign * _angle(tail - center, head - center)
         return abs(head - center) * (swept if swept > 0 else swept + tau)
 

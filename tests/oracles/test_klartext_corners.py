@@ -9,6 +9,8 @@ from examples import some_of
 import contoursolve
 from contoursolve import ArcSegment
 from contoursolve.families import Code, family
+from contoursolve.output.document import to_json
+from contoursolve.verification import Document, Verdict, verify
 
 BEGIN, END = "0 BEGIN PGM A MM\n", "99 END PGM A MM\n"
 
@@ -73,6 +75,61 @@ def test_corners_between_plain_moves_are_those_of_other_controls(seed):
     for mine, yours in zip(one or (), two or (), strict=True):
         assert mine == pytest.approx(yours, abs=1e-5)
     assert theirs.has_errors is ours.has_errors
+
+
+# Full circles -----------------------------------------------------------------------------------------------------
+
+FULL_CIRCLES = ("C X{x} Y{y} DR{s}", "C IX+0 IY+0 DR{s}", "C DR{s}", "CP IPA{s}360 DR{s}", "CP PA{a} DR{s}")
+
+
+@some_of("seed", range(60), one_in=3)
+def test_a_full_circle_between_corners_is_what_the_corners_leave_of_it(seed):
+    """Each corner is that beside half of the circle."""
+    rng = Random(seed)
+    first, second, radius, angle = (
+        round(rng.uniform(*each), 3) for each in ((-80, 80), (-80, 80), (5, 60), (-180, 180))
+    )
+    spoke = radius * complex(cos(angle * pi / 180), sin(angle * pi / 180))
+    at, beyond = (f"X{first + each.real:+.9f} Y{second + each.imag:+.9f}" for each in (spoke, -spoke))
+    sense, side = rng.choice("+-"), rng.choice([1, -1])
+    sizes = [rng.choice([0, 0.5, 1.5]) for _ in "12"]
+    corners = [f"RND R{size}" if rng.random() < 0.7 else f"CHF {size}" for size in sizes]
+    # Both lines lie without the circle, or within it.
+    start, end = (
+        f"L X{first + each.real:+.3f} Y{second + each.imag:+.3f}"
+        for each in (spoke + spoke / radius * complex(12 * side, rng.uniform(1, 4) * way) for way in (1, -1))
+    )
+
+    def elements(before, *blocks):
+        result = contoursolve.solve(klartext(before, *blocks, before=f"CC X{first} Y{second}"))
+        assert {each.code for each in result.diagnostics} <= {"heidenhain-chamfer-beside-arc"}
+        (answer,) = result.answers
+        return answer.contour.elements
+
+    form = FULL_CIRCLES[seed % len(FULL_CIRCLES)].format(
+        x=at.split()[0][1:], y=at.split()[1][1:], a=f"{angle:+}", s=sense
+    )
+    whole = elements(start, f"L {at}", corners[0], form, corners[1], end)
+    one = elements(start, f"L {at}", corners[0], f"C {beyond} DR{sense}")
+    other = elements(f"L {beyond}", f"C {at} DR{sense}", corners[1], end)
+    meant = [*one[:-1], *other[1:]]
+    (circle,) = [each for each in whole if each.name == whole[len(one) - 1].name]
+    assert len(whole) == len(meant) + 1
+    for mine, yours in zip([each for each in whole if each is not circle], meant, strict=True):
+        assert (*mine.start, *mine.end) == pytest.approx((*yours.start, *yours.end), abs=1e-6)
+    assert circle.sweep == pytest.approx(one[-1].sweep + other[0].sweep, abs=1e-5)
+    assert circle.turn.sign == int(f"{sense}1")
+
+
+def test_a_full_circle_rests_on_an_assumption_and_is_verified():
+    text = klartext(
+        "L X+80 Y+50", "RND R0", "CC X+50 Y+50", "C X+80 Y+50 DR-", "RND R0", "L X+90 Y+60", before="L X+90 Y+40"
+    )
+    result = contoursolve.solve(text)
+    assert [each.name for each in result.answers[0].assumptions] == ["full-circle"]
+    assert [each.sweep for each in result.answers[0].contour.elements if isinstance(each, ArcSegment)] == [360]
+    documents = Document("program", text.encode()), Document("result", to_json(result).encode())
+    assert verify(*documents).verdict is Verdict.VERIFIED
 
 
 PATHS = {

@@ -9,6 +9,7 @@ from msgspec import Struct
 
 from contoursolve.controls.chain.language import TITLES
 from contoursolve.controls.heidenhain.lexicon import (
+    ABOUT_CENTER,
     BOOK,
     CHAMFER,
     FREE,
@@ -266,6 +267,9 @@ def _goes_on(before: Place, place: Place) -> Iterator[Fact]:
         yield from _spokes(f"{place.prefix}AN", before, place.tail, -before.turn.sign)
 
 
+FULL = "@full-circle"
+"""An arc about CC that ends where it begins."""
+
 ALONG = "along"
 """The direction of a line that begins where CCA ends an arc: a quarter of a turn from that."""
 
@@ -396,6 +400,13 @@ ASSUMPTIONS = tuple(
         ("angle", "AN counts from +X, counter-clockwise", BOOK.derived("the printed programs"), (LINE, ARC), ("AN",)),
         ("sense", "DR+ is counter-clockwise", BOOK.derived("the printed programs"), (ARC,), ("DR",)),
         ("centre", "ICCX and ICCY count from where the arc begins", BOOK.assumed("centres"), (ARC,), ("ICCX", "ICCY")),
+        (
+            "full-circle",
+            "C and CP that end where they begin are a full circle",
+            BOOK.assumed("path functions"),
+            (PLAIN,),
+            (FULL,),
+        ),
         ("parallel", "PAR says nothing of the direction of travel", BOOK.derived("FKEXAMP1"), (LINE,), ("PAR",)),
     )
 )
@@ -427,7 +438,15 @@ def compose(elements: tuple[Element, ...], labels: tuple[str, ...]) -> ContourFo
     path = tuple(
         Line(each.name, each.tail, each.head, _heading(chain, each))
         if each.element.is_line
-        else Arc(each.name, each.tail, each.head, each.center, each.radius, each.turn)
+        else Arc(
+            each.name,
+            each.tail,
+            each.head,
+            each.center,
+            each.radius,
+            each.turn,
+            may_be_full=each.element.function in ABOUT_CENTER,
+        )
         for each in places
     )
     poles = tuple(dict.fromkeys(each.element.pole for each in places if each.element.pole))

@@ -16,6 +16,7 @@ from contoursolve.analysis import analyse
 from contoursolve.controls.heidenhain.elements import (
     ALONG,
     BESIDE,
+    FULL,
     OF_ARCS,
     OF_LINES,
     POINTS,
@@ -30,12 +31,14 @@ from contoursolve.controls.heidenhain.follow import (
     POLE,
     TOOL_AXIS,
     begins_chain,
+    place_of,
     pole_of,
     says_nothing,
     senses,
     set_pole,
 )
 from contoursolve.controls.heidenhain.lexicon import (
+    ABOUT_CENTER,
     AMBIGUOUS,
     CHAMFER,
     FREE,
@@ -54,6 +57,7 @@ from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Choice, Given, Pick, Profile, Side, Turn, Unit, assemble
 from contoursolve.reading import Convention, Modes, ParsedContour, State, apply_modes, read
 from contoursolve.solving.free_cuts import place_cuts
+from contoursolve.tolerance import LENGTH
 
 NO_SENSE, NO_POLE, NO_BEFORE = "@no-sense", "@no-pole", "@no-before"
 """An arc without DR; polar data without a pole; a tangent element behind none."""
@@ -113,6 +117,8 @@ class _Member(Struct):
     pole: str
     center_at: tuple[Decimal, Decimal] | None
     """Where CC is, mm, for a conventional arc about it."""
+    returns: bool = False
+    """Whether it ends where it begins, as far as that is known before anything is solved."""
     corners: tuple[tuple[int, Block], ...] = ()
     """The blocks of corners behind it, with their places in the chain: more than one is refused."""
     picked: Word | None = None
@@ -197,9 +203,11 @@ class _Chain:
             pole = f"centre {len(self.members) + 1}" if center and function in ("CP", "LP", "CTP") else ""
             if center and pole:
                 self.poles[pole] = center
-        index = len(self.blocks)
+        index, before = len(self.blocks), place_of(self.state)
         self._pass(block)
-        self.members.append(_Member(block, function, self.state, index, pole, center))
+        end = place_of(self.state)
+        returns = before is not None and end is not None and abs(end - before) <= LENGTH
+        self.members.append(_Member(block, function, self.state, index, pole, center, returns=returns))
 
 
 def _stands_between(block: Block, function: str) -> bool:
@@ -502,7 +510,8 @@ def _element(
     tool = member.here.memory.get(TOOL_AXIS)
     holds = {
         NO_BEFORE: number == 1 and (member.function in TANGENT or ("IAN" in own and "RAN" not in own)),
-        NO_CENTER: member.function in ("C", "CP") and member.center_at is None,
+        NO_CENTER: member.function in ABOUT_CENTER and member.center_at is None,
+        FULL: member.function in ABOUT_CENTER and member.returns,
         NO_RADIUS: member.function == "CR" and "R" not in own,
         CLOSES_NOTHING: "CLSD-" in own and not 0 < opening < number,
         CONTINUED: _CONTINUES.search(member.block.text),
@@ -546,7 +555,7 @@ def _givens(member: _Member, own: Mapping[str, Word], modes: Modes, *, is_behind
         for axis in PLANE:
             if axis not in own and f"I{axis}" not in own:
                 stated[f"I{axis}"] = Given("", Decimal(0), Unit.MM, None)
-    if member.function in ("C", "CP") and member.center_at is not None:
+    if member.function in ABOUT_CENTER and member.center_at is not None:
         for axis, value in zip(PLANE, member.center_at, strict=True):
             stated[f"CC{axis}"] = Given("", value, Unit.MM, None)
     if member.function == "LP":

@@ -160,7 +160,7 @@ def senses(blocks: Sequence[Block], state: State, modes: Modes) -> Iterator[tupl
     for index, block in enumerate(blocks):
         function, before = function_of(block), state
         state = follow(state, block, modes)
-        start, end = _place(before), _place(state)
+        start, end = place_of(before), place_of(state)
         if function in ("RND", "CHF", "CC", "FPOL", "FSELECT", "") or block.macro is not None:
             continue
         if start is None or end is None or abs(end - start) <= LENGTH:
@@ -180,7 +180,8 @@ def senses(blocks: Sequence[Block], state: State, modes: Modes) -> Iterator[tupl
             direction = _behind_arc(block, before, start, end)
 
 
-def _place(state: State) -> complex | None:
+def place_of(state: State) -> complex | None:
+    """Where the tool is in the plane, mm; None where that is not known."""
     first, second = state.start().values
     return None if first is None or second is None else complex(float(first), float(second))
 

@@ -19,6 +19,8 @@ ROUNDING, CHAMFER = "ROUNDING", "CHAMFER"
 FREE = ("FL", "FLT", "FC", "FCT")
 """Elements of free contour programming."""
 STRAIGHT = ("L", "LP", "FL", "FLT")
+ABOUT_CENTER = ("C", "CP")
+"""Arcs about CC."""
 TANGENT = ("FLT", "FCT", "CT", "CTP")
 """Elements that begin in the direction of the one before them."""
 MOVES = ("L", "LP", "C", "CP", "CR", "CT", "CTP", *FREE)

@@ -59,6 +59,7 @@ _TURNING = START + "2 FL AN+0\n3 FCT DR+ R10 CCA+0\n4 FLT X+40 Y+30"
 _NUMBERED = START + "2 FL X+30 Y+0\n3 FL IX+5 IY+20 RX 2\n4 END PGM A MM"
 _CORNER = START + "2 L X+40 Y+0\n3 RND R5\n4 L X+40 Y+30\n5 END PGM A MM"
 _BOW = _CORNER.replace("4 L X+40 Y+30", "4 CR X+40 Y+30 R15 DR+")
+_CIRCLE = START + "2 CC X+20 Y+0\n3 L X+40 Y+0\n4 RND R2\n5 CP IPA+360 DR-\n6 RND R2\n7 L X+60 Y+20"
 _FAR = START + "2 FL X+30 Y+0\n3 FL X+50 Y+10\n4 FL IX+5 IY+20 RX 2\n5 END PGM A MM"
 _CHOSEN = START + "2 FL LEN40 P1X+30 P1Y+10\n3 FSELECT 1\n4 FL X+80 Y+20"
 _TOOL = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S100\n2 L X+0 Y+0\n" + "3 FL AN+60\n4 FL X+80 Y+20 AN-30"
@@ -170,6 +171,10 @@ _ROWS = (
          "check it on the control, or write RND", BOOK.printed("path functions: chamfer between two lines"),
          some(CHAMFER) & some(AT_ARC), _ANY, _CORNER.replace("RND R5", "CHF 5"),
          ("4 L X+40 Y+30", "4 CR X+40 Y+30 R15 DR+"), severity=Severity.WARNING),
+    _row("turns", "{words}: the arc turns more than once, and contoursolve makes one turn of it at most",
+         "write each turn as a block of its own", BOOK.assumed("path functions"),
+         Value(("IPA",), least=Decimal(-360), most=Decimal(360)) & some("DR"), (PLAIN,), _CIRCLE,
+         ("IPA+360", "IPA+720"), severity=Severity.WARNING),
     _row("size", "{words}: a radius, and a distance from the pole, is larger than 0", "write a positive number",
          BOOK.assumed("polar coordinates"), Value(("PR", "CCPR", "R", "LEN"), least=_LEAST), _FK, _POLAR,
          ("PR+20", "PR-20")),
