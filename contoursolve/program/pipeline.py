@@ -615,7 +615,10 @@ class Examiner:
     def _check_arc(self, found: ParsedContour, pending: Pending) -> None:
         """What is read as a contour is, but is none."""
         answer = self._examine(found, pending)
-        self.diagnostics += answer.diagnostics if answer.start.is_known else ()
+        if answer.start.is_known:
+            self.diagnostics += answer.diagnostics
+        elif not found.form.needs_start:
+            self.diagnostics += (each for each in answer.diagnostics if not each.is_error)
 
     def _check_arc_before(self, view: View) -> None:
         """The arc that leads to a contour; others are looked at only where every line is."""

@@ -1,6 +1,7 @@
 """Following a program through its contours, one after the other, and a contour through its blocks."""
 
 from collections.abc import Callable, Iterator, Sequence
+from operator import lt
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -45,9 +46,13 @@ def contours_of(
 
 def reach_of(contour: ParsedContour, blocks: Sequence[Block], index: int = 0) -> int:
     """The number of blocks from an index on up to the last one of a contour that begins there."""
-    first, *_, last = (each.line for each in (contour.blocks[0], *contour.blocks))
-    count = last - first + 1
-    if count > 0 and blocks[index + count - 1 : index + count] and blocks[index + count - 1].line == last:
+    lines = [each.line for each in contour.blocks]
+    last, count = lines[-1], lines[-1] - lines[0] + 1
+    if (
+        all(map(lt, lines, lines[1:]))
+        and blocks[index + count - 1 : index + count]
+        and blocks[index + count - 1].line == last
+    ):
         return count
     # Jumps have left lines out, or lines run again.
     place = index - 1

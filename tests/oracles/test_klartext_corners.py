@@ -162,10 +162,10 @@ def test_a_corner_between_plain_moves_is_made(blocks, drawn):
 
 WRONG = {
     "too large": (["L X+6 Y+0", "RND R12", "L X+6 Y+7"], "corner-too-large"),
-    "first": (["APPR LT X+40 Y+0 LEN5 RL", "RND R5", "L X+40 Y+30"], "heidenhain-corner-first"),
+    "first": (["DEP LT LEN5", "RND R5", "L X+40 Y+30"], "heidenhain-corner-first"),
     "last": (["L X+40 Y+0", "CHF 5"], "heidenhain-corner-without-next"),
     "before the end": (["L X+40 Y+0", "RND R5", "M30"], "heidenhain-corner-without-next"),
-    "behind a free element": (["FL X+40 Y+0", "RND R5", "DEP LT LEN5"], "heidenhain-corner-without-next"),
+    "behind a free element": (["FL X+40 Y+0", "RND R5", "M30"], "heidenhain-corner-without-next"),
     "reversal": (["L X+40 Y+0", "CHF 5", "L X+10"], "corner-reverses"),
     "straight on": (["L X+40 Y+0", "RND R5", "L X+60"], "corner-straight"),
     "two shapes": (["L X+40 Y+0", "RND R5", "CHF 3", "L X+40 Y+30"], "corner-twice"),
@@ -184,6 +184,49 @@ def test_a_corner_between_plain_moves_that_cannot_be_made_is_told(blocks, code):
     result = contoursolve.solve(klartext(*blocks))
     assert code in [each.code for each in result.diagnostics if each.is_error]
     assert [each.contour for each in result.answers] == [None]
+
+
+# Behind each corner that stands apart a corner is solved: its first line begins where the one before is stated to end.
+_BEHIND, _END = ["L X+80 Y+30", "RND R5", "L X+80 Y+60"], [(75, 30), (80, 35, 75, 35, 1), (80, 60)]
+APART = {
+    "behind an approach": (["APPR LT X+40 Y+30 LEN5 RL", "RND R5", *_BEHIND], 1, [_END]),
+    "before a departure": (["L X+40 Y+0", "RND R5", "DEP LT LEN5", "L X+40 Y+30", *_BEHIND], 1, [_END]),
+    "two, one of them apart": (
+        ["L X+40 Y+0", "RND R5", "L X+40 Y+30", "CHF 2", "DEP LT LEN5"],
+        1,
+        [[(35, 0), (40, 5, 35, 5, 1), (40, 30)]],
+    ),
+    "free": (["FL AN+0", "FL X+40 Y+30 AN+90", "RND R5", "DEP LN LEN5"], 1, [[(40, 0), (40, 30)]]),
+    "before a call": (
+        ["L X+40 Y+0", "RND R5", "CALL LBL 1", *_BEHIND, "M30", "LBL 1", "L X+40 Y+30", "LBL 0"],
+        1,
+        [_END],
+    ),
+    "behind a call": (["CALL LBL 1", "RND R5", *_BEHIND, "M30", "LBL 1", "L X+40 Y+30", "LBL 0"], 1, [_END]),
+    "first of a call": (["L X+40 Y+30", "CALL LBL 1", "M30", "LBL 1", "RND R5", *_BEHIND, "LBL 0"], 1, [_END]),
+    "last of a call": (["CALL LBL 1", *_BEHIND, "M30", "LBL 1", "L X+40 Y+30", "RND R5", "LBL 0"], 1, [_END]),
+    "a program that is not there": (["RND R5", "CALL PGM AWAY.H", "RND R4", "L X+40 Y+30", *_BEHIND], 2, [_END]),
+}
+
+
+@pytest.mark.parametrize(("blocks", "count", "drawn"), APART.values(), ids=APART)
+def test_a_corner_beside_a_call_or_an_approach_is_told_and_stays(blocks, count, drawn):
+    text = klartext(*blocks)
+    result = contoursolve.solve(text)
+    assert not result.has_errors
+    assert [each.code for each in result.diagnostics].count("heidenhain-corner-apart") == count
+    assert [path(each) for each in result.answers] == [[pytest.approx(each) for each in one] for one in drawn]
+    written = contoursolve.expand(text).text
+    kept = [line.split(maxsplit=1)[1] for line in written.splitlines() if not line.startswith(";") and " " in line]
+    assert sum(each.startswith(("RND", "CHF")) for each in kept) == count
+
+
+def test_a_corner_in_lines_that_are_repeated_is_in_one_contour():
+    found = contoursolve.solve(
+        klartext("L X+40 Y+0", "LBL 1", "RND R5", "L IY+30", "RND R5", "L IX+30", "CALL LBL 1 REP 2", "L X+0 Y+80")
+    )
+    assert not found.diagnostics
+    assert [path(each)[-1] for each in found.answers] == [(130, 90)]
 
 
 def test_a_corner_behind_a_move_from_an_unknown_place_asks_for_it():

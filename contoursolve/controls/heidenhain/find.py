@@ -27,10 +27,13 @@ from contoursolve.controls.heidenhain.elements import (
 )
 from contoursolve.controls.heidenhain.follow import (
     CENTER,
+    DEPARTED,
+    JOINT,
     PLANE,
     POLE,
     TOOL_AXIS,
     begins_chain,
+    keep_joint,
     place_of,
     pole_of,
     says_nothing,
@@ -76,6 +79,9 @@ CUT, TOOL, CLOSES_NOTHING = "@cut", "@tool-axis", "@closes-nothing"
 FIRST_CORNER, LAST_CORNER, CORNERED, AT_ARC = "@first-corner", "@last-corner", "@cornered", "@at-arc"
 """A corner behind no element; an element with a corner, behind which none follows; an element beside a corner; an
 element with a corner, of which that or the next one is an arc."""
+
+APART = "@apart"
+"""A corner beside an approach, a departure or a call."""
 
 _CORNERS = {"RND": ROUNDING, "CHF": CHAMFER}
 _BESIDE_ANY = frozenset({"N", "G", "F", "M", "S"})
@@ -141,6 +147,7 @@ class _Chain:
     def read(self, blocks: Sequence[Block], index: int) -> None:
         """Read the chain that begins at a block."""
         self._keep(POLE, "pole 0")
+        corner = index
         for place in count(index):
             try:
                 block = blocks[place]
@@ -148,8 +155,12 @@ class _Chain:
                 break
             if block.macro is None and not block.words and not block.faults:
                 continue
+            corner = place if self.members and not self.members[-1].corners else corner
             if not self._take(block):
                 break
+        if corner > index and self.members[-1].corners and _leads_elsewhere(blocks, corner):
+            # That corner stands alone.
+            self.members[-1].corners = ()
         while self.blocks and self.blocks[-1] is not self._last_block():
             self.blocks.pop()
         self.poles = {name: pole for name, pole in self.poles.items() if not _is_behind(pole, self.blocks)}
@@ -205,6 +216,7 @@ class _Chain:
                 self.poles[pole] = center
         index, before = len(self.blocks), place_of(self.state)
         self._pass(block)
+        self.state = keep_joint(self.state, block, function)
         end = place_of(self.state)
         returns = before is not None and end is not None and abs(end - before) <= LENGTH
         self.members.append(_Member(block, function, self.state, index, pole, center, returns=returns))
@@ -217,6 +229,31 @@ def _stands_between(block: Block, function: str) -> bool:
     # A move of the tool axis alone may, too.
     is_beside = function in MOVES and function not in FREE and not _is_in_plane(block)
     return is_beside or function in ("", "STOP", "FSELECT", POLE, CENTER)
+
+
+def _leads_elsewhere(blocks: Sequence[Block], index: int) -> bool:
+    """Whether an approach or a departure stands behind a corner, or what stands there is run by another call."""
+    for place in count(index):
+        try:
+            block = blocks[place]
+        except IndexError:
+            return True
+        if any(word.address == "M" and word.number in _ENDS_PROGRAM for word in block.words):
+            return False
+        function, is_empty = function_of(block), block.macro is None and not block.words and not block.faults
+        if not is_empty and function not in _CORNERS and not _stands_between(block, function):
+            is_end_of_call = block.macro is not None and bool(block.callers)
+            return is_end_of_call or function.startswith(("APPR", "DEP"))
+    return False
+
+
+_ENDS_PROGRAM = (2, 30)
+
+
+def _follows_elsewhere(block: Block, state: State) -> bool:
+    """Whether a corner that follows no element may join an approach, or one that another call has run."""
+    lost = (each for each in (state.axes[axis] for axis in PLANE) if each.value is None and each.span is not None)
+    return bool(block.callers) or JOINT in state.memory or any(each.reason != DEPARTED for each in lost)
 
 
 def _is_behind(pole: Pole, blocks: Sequence[Block]) -> bool:
@@ -255,7 +292,14 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Par
         return None
     chain = _Chain(state, modes)
     chain.read(blocks, index)
-    return _claim(chain, state, modes)
+    if len(chain.members) == 1 and function in MOVES and function not in FREE and not chain.members[0].corners:
+        return None
+    claim = _claim(chain, state, modes)
+    if function in _CORNERS and (_follows_elsewhere(block, state) or _leads_elsewhere(blocks, index)):
+        form = replace_fields(claim.form, path=(), is_contour=False, needs_start=False)
+        circumstances = claim.circumstances - {f"1:{FIRST_CORNER}", f"1:{LAST_CORNER}"} | {f"1:{APART}"}
+        return replace_fields(claim, form=form, circumstances=circumstances)
+    return claim
 
 
 def _next_function(blocks: Sequence[Block], index: int) -> str:

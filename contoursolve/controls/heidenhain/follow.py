@@ -8,7 +8,8 @@ from math import atan2, cos, degrees, hypot, radians, sin
 
 from msgspec.structs import replace
 
-from contoursolve.controls.heidenhain.lexicon import BLOCK_NUMBER, FREE, LEXICON, STRAIGHT, function_of
+from contoursolve.controls.heidenhain.lexicon import BLOCK_NUMBER, FREE, LEXICON, MOVES, STRAIGHT, function_of
+from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
 from contoursolve.reading import Modes, Position, State, apply_modes
@@ -20,6 +21,10 @@ CENTER, POLE = "CC", "FPOL"
 """Poles: of conventional moves and of free contours. Their coordinates stay in force under these names and an axis."""
 
 TOOL_AXIS = "tool axis"
+JOINT = "joint"
+"""An approach, or an element that a call ran, as long as no other element stands behind it: what a corner that is the
+first of its chain may join."""
+DEPARTED = "the tool departs from the contour"
 
 _UNMOVED = ("RND", "CHF", "FSELECT", "STOP")
 _DECIMALS = Decimal("1e-9")
@@ -30,6 +35,7 @@ def follow(state: State, block: Block, modes: Modes) -> State:
     if block.macro is not None:
         return _statement(state, block, modes)
     state, function = apply_modes(state, block, modes), function_of(block)
+    state = keep_joint(state, block, function)
     if block.faults:
         return state.lose(modes.axes, "the block has an error", block.span)
     if not function or function in _UNMOVED:
@@ -37,7 +43,7 @@ def follow(state: State, block: Block, modes: Modes) -> State:
     elif function in (CENTER, POLE):
         return set_pole(state, block, function, modes)
     elif function.startswith("DEP"):
-        return state.lose(PLANE, "the tool departs from the contour", block.span)
+        return state.lose(PLANE, DEPARTED, block.span)
     elif function in FREE and not begins_chain(function, block):
         return state.lose(PLANE, "a free contour leads there", block.span)
     elif any(block.find(name) for name in ("PR", "PA", "IPR", "IPA")):
@@ -48,6 +54,17 @@ def follow(state: State, block: Block, modes: Modes) -> State:
         if any(word.address == "M" and word.number in numbers for word in block.words):
             return moved.lose(modes.axes, reason, block.span)
     return moved
+
+
+def keep_joint(state: State, block: Block, function: str) -> State:
+    """The state behind a block of a function, with what a corner behind it may join beside what it follows at once."""
+    is_joint = function.startswith("APPR") or (bool(block.callers) and function in MOVES)
+    if is_joint:
+        word = Word(JOINT, None, False, JOINT, Span(0, 1, 1))
+        return replace(state, memory={**state.memory, JOINT: word})
+    if JOINT in state.memory and (function in MOVES or function.startswith("DEP")):
+        return replace(state, memory={name: word for name, word in state.memory.items() if name != JOINT})
+    return state
 
 
 _LOSING_M = {(2, 30): "the program ends there", (91, 92): "its coordinates are those of the machine"}

@@ -10,6 +10,7 @@ from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.controls.heidenhain.elements import ARC, CORNERS, LINE, PLAIN, POLAR, POLE, TANGENCY
 from contoursolve.controls.heidenhain.find import (
+    APART,
     AT_ARC,
     CLOSES_NOTHING,
     CONTINUED,
@@ -163,7 +164,12 @@ _ROWS = (
          some(*CORNERS) & some(LAST_CORNER) & ~some(FIRST_CORNER), _ANY, _CORNER, ("4 L X+40 Y+30\n", "")),
     _row("corner-first", "{words}: a corner needs a line or an arc right before it, and none is there",
          "put it right behind the block that leads to the corner, or delete it", _CORNERS,
-         some(*CORNERS) & some(FIRST_CORNER), (PLAIN,), _CORNER, ("2 L X+40 Y+0\n", "2 APPR LT X+40 Y+0 LEN5 RL\n")),
+         some(*CORNERS) & some(FIRST_CORNER), (PLAIN,), _CORNER, ("2 L X+40 Y+0\n", "2 DEP LT LEN5\n")),
+    _row("corner-apart", "{words} is not checked: it stands beside a call, an approach or a departure",
+         "nothing has to be changed; contoursolve solves corners between two elements in a row",
+         BOOK.assumed("RND and CHF beside calls, approaches and departures"), some(*CORNERS) & some(APART), (PLAIN,),
+         _CORNER, ("2 L X+40 Y+0\n", "2 APPR LT X+40 Y+0 LEN5 RL\n"), ("4 L X+40 Y+30", "4 DEP LT LEN5"),
+         severity=Severity.INFO),
     _row("corner-outside-plane", "{words} leads out of the plane of the corner beside it",
          "move the tool axis in a block of its own", BOOK.printed("RND: both elements lie in the plane of the arc"),
          some("Z", "IZ") & some(CORNERED) & ~some(TOOL), _ANY, _CORNER, ("X+40 Y+30", "X+40 Y+30 Z-5")),
