@@ -615,10 +615,10 @@ class Examiner:
     def _check_arc(self, found: ParsedContour, pending: Pending) -> None:
         """What is read as a contour is, but is none."""
         answer = self._examine(found, pending)
-        if answer.start.is_known:
+        if not found.form.needs_values:
+            self.diagnostics += (each for each in answer.diagnostics if each.about not in _ABOUT_VALUES)
+        elif answer.start.is_known:
             self.diagnostics += answer.diagnostics
-        elif not found.form.needs_start:
-            self.diagnostics += (each for each in answer.diagnostics if not each.is_error)
 
     def _check_arc_before(self, view: View) -> None:
         """The arc that leads to a contour; others are looked at only where every line is."""
@@ -877,6 +877,9 @@ class Examiner:
         if signs or not is_told:
             self.diagnostics.append(not_read_yet(context, unread, is_needed=bool(signs)))
 
+
+_ABOUT_VALUES = (ReadIssue.VARIABLE, ReadIssue.POSITION_UNKNOWN)
+"""What matters only to what is calculated."""
 
 _OF_ARCS = frozenset("IJKR")
 """Words that most arcs have."""

@@ -212,8 +212,8 @@ class ContourForm:
     """Whether each word states one value, whatever the values are."""
     is_contour: bool = True
     """False for what a control calculates nothing for: it is checked, and not listed."""
-    needs_start: bool = True
-    """Whether nothing can be said of what is no contour where its start point is not known."""
+    needs_values: bool = True
+    """Whether what is no contour is checked by its values, so that its start point must be known."""
     corner_note: str = ""
     """What the control does at each corner that it inserts, half a sentence without a full stop."""
     assumptions: tuple[Assumption, ...] = ()

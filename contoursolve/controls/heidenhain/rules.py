@@ -32,7 +32,7 @@ from contoursolve.controls.heidenhain.find import (
     TURNS_BACK,
     TWO_BLOCKS,
 )
-from contoursolve.controls.heidenhain.lexicon import BOOK, CHAMFER, REFERRED, REFERRING, REFERRING_TO_LINES
+from contoursolve.controls.heidenhain.lexicon import BOOK, CHAMFER, REFERRED, REFERRING, REFERRING_TO_LINES, ROUNDING
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Evidence, Source
 from contoursolve.gcode import FaultKind
@@ -170,6 +170,9 @@ _ROWS = (
          BOOK.assumed("RND and CHF beside calls, approaches and departures"), some(*CORNERS) & some(APART), (PLAIN,),
          _CORNER, ("2 L X+40 Y+0\n", "2 APPR LT X+40 Y+0 LEN5 RL\n"), ("4 L X+40 Y+30", "4 DEP LT LEN5"),
          severity=Severity.INFO),
+    _row("corner-size", "{words}: the size of a corner is negative", "write a positive number", _CORNERS,
+         Value((ROUNDING, CHAMFER), least=Decimal(0)) & some(APART), (PLAIN,),
+         _CORNER.replace("4 L X+40 Y+30", "4 DEP LT LEN5"), ("RND R5", "RND R-5")),
     _row("corner-outside-plane", "{words} leads out of the plane of the corner beside it",
          "move the tool axis in a block of its own", BOOK.printed("RND: both elements lie in the plane of the arc"),
          some("Z", "IZ") & some(CORNERED) & ~some(TOOL), _ANY, _CORNER, ("X+40 Y+30", "X+40 Y+30 Z-5")),
