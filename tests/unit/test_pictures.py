@@ -934,7 +934,7 @@ def test_the_facts_of_a_sketch_are_dimensions_and_its_points_tell_the_drawings_a
     one = draw(drawings[0])
     check(one)
     assert "P2  X12.5 Y24.33" in labels(one)
-    assert "direction of c = 120" in labels(one)
+    assert "direction of c = -120" in labels(one)
     sketch.state("length of a = 9")
     check(draw(sketch))  # facts that disagree leave no drawing
 
