@@ -295,7 +295,7 @@ def follow_program(
         strict=strict,
     )
     dialect = choose_alike(control, program, asked, settings)
-    asked = asked if dialect is None else asked.of(dialect)
+    asked = asked if dialect is None else asked.of(dialect, lambda: (block.text for block in program.blocks))
     together = None
     if asked.dialect is not None and len(program.blocks) >= _MANY:
         from contoursolve.program.batch import Batch  # noqa: PLC0415 - a few blocks are solved before it is imported

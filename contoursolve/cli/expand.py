@@ -364,7 +364,10 @@ def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
         done += f"; {count(summary.warnings, 'warning')}: contoursolve check says more about {them}"
     if summary.restated:
         done += f"; {count(summary.restated, 'other block')} read for {post.title}"
-    say(
-        done if summary.replaced or summary.left or summary.restated else "no contour block: nothing to expand",
-        err=True,
-    )
+    if not (summary.replaced or summary.left or summary.restated):
+        here = "no contour block in this file" if summary.elsewhere else "no contour block"
+        done = f"{here}: nothing to expand"
+    say(done, err=True)
+    for finding in summary.elsewhere:
+        way = "" if finding.is_error else "; expand --inline writes it out"
+        say(f"program line {finding.span.line}: {finding.message}{way}", err=True)

@@ -4,10 +4,11 @@ are known by name alone."""
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from decimal import Decimal
+from itertools import count
 from typing import cast
 
 from contoursolve.diagnostics.source import OWN, Evidence, Source
-from contoursolve.reading import Bearing, Beside, Code, Effect, Setting
+from contoursolve.reading import Bearing, Beside, Code, Effect, Modes, Setting
 from contoursolve.reading.dialect import Dialect
 
 _LETTERS: tuple[tuple[str, str, Bearing], ...] = (
@@ -39,12 +40,31 @@ def _with_words(control: Dialect, names: tuple[str, ...]) -> Dialect:
     lexicon = control.modes.lexicon
     row = Beside(names, "word of the machine builder", Source("the setting words", "", Evidence.ASSUMED))
     words = replace(lexicon, beside=(*lexicon.beside, row))
-    return replace(control, modes=replace(control.modes, lexicon=words))
+    return replace(control, modes=_with_commands(replace(control.modes, lexicon=words), names, row.source))
+
+
+def _with_commands(modes: Modes, names: Iterable[str], source: Source) -> Modes:
+    """The same where a name without a value is a command, on controls that have such ones."""
+    syntax, language = modes.syntax, modes.language
+    new = tuple(name for name in names if len(name) > 1 and name not in syntax.codes)
+    if not syntax.codes or language is None or language.with_names is None or not new:
+        return modes
+    numbers = dict(zip(new, count(max(modes.codes) + 1), strict=False))
+    rows = {
+        number: Code(number, Effect.NONE, "command of the machine builder", source, name=name)
+        for name, number in numbers.items()
+    }
+    return replace(
+        modes,
+        codes={**modes.codes, **rows},
+        syntax=replace(syntax, codes={**syntax.codes, **numbers}),
+        language=language.with_names(new),
+    )
 
 
 WORDS = Setting(
     "words",
-    "words with a value that the machine builder has added, and that move nothing",
+    "words and commands that the machine builder has added, and that move nothing",
     {"none": "none but those of the control"},
     "none",
     Source(OWN, "lexicons of controls", Evidence.ASSUMED),

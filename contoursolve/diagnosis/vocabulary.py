@@ -169,8 +169,10 @@ def explain_call(context: Context, name: str, modes: Modes) -> Iterator[Diagnost
     """A subprogram that is nowhere, and has almost the name of a command."""
     near = sorted((distance, each) for each in modes.syntax.codes if (distance := _apart(name, each)) == 1)
     if near:
+        named = either([each for _, each in near[:_MOST]])
         advice = (
-            f"write {either([each for _, each in near[:_MOST]])} if that is meant; else name its folder with --path"
+            f"write {named} if that is meant; else name the folder of the subprogram with --path, or state a command of "
+            f"the machine builder that moves nothing with --set CONTROL.words={name}"
         )
         yield report(context, ReadIssue.CODE_UNKNOWN, Basis.RULE, [], name=name, advice=advice)
 

@@ -34,6 +34,9 @@ class EventKind(Enum):
 
     BEYOND = "beyond"
     """What follows has run: it only shows what the last blocks before it are."""
+    CALLED = "called"
+    """What is not followed has run behind a move: where the tool stands is not known, as behind each move. A contour of
+    several moves goes on, and is refused for its start."""
 
     @property
     def is_open(self) -> bool:
@@ -41,7 +44,17 @@ class EventKind(Enum):
         return self in _OPEN
 
 
-_OPEN = frozenset({EventKind.PART, EventKind.PAUSE, EventKind.MEET, EventKind.HEAD, EventKind.AGAIN, EventKind.BEYOND})
+_OPEN = frozenset(
+    {
+        EventKind.PART,
+        EventKind.PAUSE,
+        EventKind.MEET,
+        EventKind.HEAD,
+        EventKind.AGAIN,
+        EventKind.BEYOND,
+        EventKind.CALLED,
+    }
+)
 
 
 class ProgramEvent(Struct, frozen=True):
@@ -59,3 +72,5 @@ class ProgramEvent(Struct, frozen=True):
     """The name of what is called and is nowhere to be found."""
     unread: str = ""
     """The word of the control that is not read, where that is why."""
+    is_told: bool = False
+    """Whether what makes it has been told where it began."""

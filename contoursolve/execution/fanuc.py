@@ -19,6 +19,7 @@ from contoursolve.execution.language import (
     Loop,
     MacroLanguage,
     MacroStatement,
+    ModalCall,
     ProgramEnd,
     Return,
     Strange,
@@ -142,9 +143,10 @@ _TABLE = (
     Spelling(r"G0*+65(?![\d.])", _macro_call),
     Spelling(
         r"G0*+66(?!\d)",
-        lambda *_: [Strange("contoursolve does not read G66 yet: it calls a macro behind each move")],
+        lambda *_: [ModalCall("contoursolve does not read G66 yet: it calls a macro behind each move")],
         stays=True,
     ),
+    Spelling(r"G0*+67(?![\d.])", lambda *_: [ModalCall()], stays=True),
     Spelling(r"M0*+99(?![\d.])", _return, stays=True),
     Spelling(PROGRAM_END, lambda *_: [ProgramEnd()], stays=True),
     Spelling(
@@ -163,7 +165,7 @@ _FORM = LineForm(
     table=_TABLE,
     skip=r"[ \t]++|[\d.+-]++|.",
     behind_value="[A-Z,#/]",
-    says=r"[#\[]|M0*+(?:2|30|9[789])(?!\d)|G0*+(?:6[56](?!\d)|7[0-3](?!\d).*?[PQ][ \t]*+\d)|GOTO|DO[ \t]*+\d"
+    says=r"[#\[]|M0*+(?:2|30|9[789])(?!\d)|G0*+(?:6[567](?!\d)|7[0-3](?!\d).*?[PQ][ \t]*+\d)|GOTO|DO[ \t]*+\d"
     r"|END[ \t]*+[\dI]|ELSE|\A[ \t\f\v\x11-\x14\ufeff%]*+[O:][ \t]*+\d",
 )
 

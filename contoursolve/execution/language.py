@@ -210,6 +210,14 @@ class Strange(Struct, frozen=True, tag=True):
     unread: str = ""
 
 
+class ModalCall(Struct, frozen=True, tag=True):
+    """A call behind each move from here on, which is not followed, and why; without a reason, it ends."""
+
+    reason: str = ""
+    name: str = ""
+    """The word of the control that makes it."""
+
+
 MacroStatement = (
     Assign
     | Forget
@@ -226,6 +234,7 @@ MacroStatement = (
     | EndLoop
     | When
     | Strange
+    | ModalCall
 )
 
 
@@ -270,12 +279,17 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     """Whether variables with names have to be declared: SINUMERIK's DEF."""
     variables: str = ""
     """What the name of a variable looks like, in upper case, as a pattern; any name where it is empty."""
+    declared: str = ""
+    """What the name of a variable may look like besides where a program declares it, as a pattern; none where it is
+    empty."""
     examples: str = ""
     """Names of variables, for a reader: the first one has a number."""
     always_empty: str = ""
     """The variable that is always empty, where variables may be: `#0`."""
     passes_return: bool = False
     """Whether the end of a subprogram does nothing where none was called: LBL 0."""
+    with_names: "Callable[[tuple[str, ...]], MacroLanguage] | None" = None
+    """The same where some more names are those of commands, which call no subprogram; None where a name calls none."""
     made_by: Callable[[], "MacroLanguage"] | None = None
     """What makes it, by whose name it is sent to another process."""
 

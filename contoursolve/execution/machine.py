@@ -28,6 +28,7 @@ from contoursolve.execution.language import (
     Loop,
     MacroLanguage,
     MacroStatement,
+    ModalCall,
     ProgramEnd,
     Return,
     Strange,
@@ -248,10 +249,37 @@ class Machine:
         """The blocks of the main program and of what it calls, as one program without calls. What is set to a value
         that is not known stays; the profile of a cycle that is written elsewhere does not run."""
         self._is_alone, self._named = True, self._named_by_what_stays()
-        yield from self._run_from(self._begin_main())
+        yield from self._with_own_numbers(self._run_from(self._begin_main()))
         last = next((at for at in reversed(range(len(self.main))) if self.main.blocks[at].text.strip()), None)
         if last is not None and last not in self._visited and _ENDS_FILE.fullmatch(self.main.blocks[last].text):
             yield self.main.blocks[last]
+
+    def _with_own_numbers(self, ran: Iterable[Block | ProgramEvent]) -> Iterator[Block | ProgramEvent]:
+        """What runs, no block number twice: a block of what is called, and one that runs again, goes without, unless
+        a jump leads to it that stays. It is told where the profile of a cycle would lose its number."""
+        first = self._begin()
+        last, taken = self.main.section_end(first), set[str]()
+
+        def is_taken(number: str, block: Block) -> bool:
+            return number in taken or (_is_called(block) and self.main.number(number, first, last) is not None)
+
+        for each in ran:
+            if isinstance(each, ProgramEvent):
+                yield each
+                continue
+            code = self.language.read(each.text) if self.language.may_say(each.text) else None
+            for call in code.statements if code is not None and _is_called(each) else ():
+                if isinstance(call, Call) and call.kind is CallKind.PROFILE and call.cycle in _CUTTING_PROFILES:
+                    names = (one for one in (call.target, call.last) if isinstance(one, str) and is_taken(one, each))
+                    for name in names:
+                        told = f"{call.cycle} names N{name}, which stands twice in a program without calls"
+                        yield ProgramEvent(EventKind.BARRIER, each.line, told)
+            number = _numbered(each)
+            if number and is_taken(number, each) and (each.file, each.line - 1) not in self._named:
+                yield _without_number(each)
+                continue
+            taken.add(number)
+            yield each
 
     def _named_by_what_stays(self) -> set[tuple[str, int]]:
         """By file and index: lines to which jumps lead that stay as they are written, also those behind the lines."""
@@ -502,6 +530,10 @@ class Machine:
             self._last = here
             yield replace(ran, mark=self._here) if self._is_marking else ran
             self._go_on()
+            called = self.variables.values.get(_CALLED_BEHIND)
+            if called is not None and any(word.address.rstrip("0123456789") in _AXES for word in ran.words):
+                reason = called.reason if isinstance(called, Unknown) else str(called)
+                yield ProgramEvent(EventKind.CALLED, self._line(frame, frame.here), reason)
 
     def _has_strange_words(self, block: Block, code: CodeLine) -> bool:
         """Whether what looks like assignments stands among words, to variables that nobody has declared: `G1 X5 AGN=30`
@@ -526,7 +558,8 @@ class Machine:
         self, frame: _Frame, index: int, reason: str, called: str = "", unread: str = ""
     ) -> Iterator[Block | ProgramEvent]:
         """A line that does what is not known; without calls, it stays as it is written."""
-        if self._is_alone:
+        is_written = self._says_words(frame, index) and frame.source.code(index).rest == frame.source.blocks[index].text
+        if self._is_alone and not is_written:
             yield self._as_written(frame, index)
         yield ProgramEvent(EventKind.LOST, self._line(frame, index), reason, called=called, unread=unread)
 
@@ -721,6 +754,18 @@ class Machine:
     def _do_strange(self, frame: _Frame, index: int, statement: Strange) -> Iterator[Block | ProgramEvent]:
         self.variables.lose_all(statement.reason)
         yield from self._unclear(frame, index, statement.reason, unread=statement.unread)
+
+    def _do_modal_call(self, frame: _Frame, index: int, call: ModalCall) -> Iterator[Block | ProgramEvent]:
+        if not call.reason:
+            called = self.variables.values.pop(_CALLED_BEHIND, None)
+            if called is not None:
+                reason = called.reason if isinstance(called, Unknown) else str(called)
+                yield from self._stay(frame, index) if not self._says_words(frame, index) else ()
+                yield ProgramEvent(EventKind.LOST, self._line(frame, index), reason, is_told=True)
+            return
+        self.variables.lose_all(call.reason)
+        self.variables.values[_CALLED_BEHIND] = call.reason
+        yield from self._unclear(frame, index, call.reason, unread=call.name)
 
     def _do_when(self, frame: _Frame, index: int, when: When) -> Iterator[Block | ProgramEvent]:
         truth = self.variables.truth(when.condition)
@@ -1169,6 +1214,7 @@ _DO: Mapping[type[MacroStatement | _Taken], Callable[..., Iterator[Block | Progr
     For: Machine._begin_loop,
     EndLoop: Machine._end_loop,
     Strange: Machine._do_strange,
+    ModalCall: Machine._do_modal_call,
 }
 
 
@@ -1220,6 +1266,37 @@ def _is_word(name: str) -> bool:
 
 def _first(values: Iterable[int | None]) -> int | None:
     return next((each for each in values if each is not None), None)
+
+
+_CALLED_BEHIND = "a call behind each move"
+"""Under this name it is known what a modal call does: ways that meet agree on it as on variables."""
+_AXES = frozenset("XYZUVWABC")
+"""Addresses of what moves."""
+
+_CUTTING_PROFILES = ("G71", "G72", "G73")
+"""Cycles that run the profile which their P and Q name; G70 runs one that another has named."""
+
+
+def _is_called(block: Block) -> bool:
+    """Whether a block is of another program than the main one: the profile of a cycle is none."""
+    return bool(block.file) or any(not each.cycle.startswith("G") for each in block.callers)
+
+
+def _numbered(block: Block) -> str:
+    """The number of a block, which N states in its first word; empty if it has none."""
+    word = block.words[0] if block.words else None
+    is_number = word is not None and word.address == "N" and word.number is not None and word.number % 1 == 0
+    return f"{word.number:.0f}" if word is not None and is_number else ""
+
+
+def _without_number(block: Block) -> Block:
+    """A block without the number with which it begins, and without the blanks behind that."""
+    span = block.words[0].span
+    text = block.text[: span.column - 1] + block.text[span.end_column - 1 :].lstrip()
+    bare = parse_block(text, block.line, block.syntax)
+    shift = len(block.text) - len(text)
+    moved = (replace(each, begin=each.begin - shift, end=each.end - shift) for each in block.substituted)
+    return replace(bare, callers=block.callers, file=block.file, directives=block.directives, substituted=tuple(moved))
 
 
 _RETURNS = (17, 29, 99)

@@ -22,6 +22,7 @@ from contoursolve.execution.language import (
     Loop,
     MacroLanguage,
     MacroStatement,
+    ModalCall,
     ProgramEnd,
     Quoted,
     Return,
@@ -239,7 +240,7 @@ def _key(word: str) -> str:
     return word + _BEHIND
 
 
-_MODAL_CALL = Strange("contoursolve does not read MCALL yet: it calls a subprogram behind each move", "MCALL")
+_MODAL_CALL = ModalCall("contoursolve does not read MCALL yet: it calls a subprogram behind each move", "MCALL")
 _TABLE = (
     Spelling(r"%.*+", nothing),
     Spelling(r"(?P<label>[A-Z_]\w++):(?!=)", _label),
@@ -269,7 +270,7 @@ _TABLE = (
     Spelling(_key(rf"CALL[ \t]++BLOCK[ \t]++(?P<first>{_LABEL})[ \t]++TO[ \t]++(?P<last>{_LABEL})"), _between),
     Spelling(_key("(?:CALL|PCALL|EXTCALL)"), _call_by_name),
     Spelling(_key("MCALL") + "(?=[ \t]*+[A-Z]).*+", lambda *_: [_MODAL_CALL]),
-    Spelling(_key("MCALL"), nothing),
+    Spelling(_key("MCALL"), lambda *_: [ModalCall()]),
     Spelling(_key("RET"), _return),
     Spelling(rf"(?P<cycle>CYCLE(?:95|62))[ \t]*+(?P<given>{IN_PARENTHESES})", _profile),
     Spelling(r"M0*+17(?![\w.=])", lambda *_: [Return()], stays=True),
@@ -295,6 +296,8 @@ def _unknown(name: str) -> str:
 
 
 _NAMES = r"R\d+|\$?[A-Z_]{2}\w*|\$?[A-Z_]\w*\[\d+(?:,\d+)*\]"
+_DECLARED = r"[A-Z_]\w*"
+"""DEF and PROC may give any name to a variable, also one letter, which is an address elsewhere."""
 
 
 def sinumerik(names: Iterable[str]) -> MacroLanguage:
@@ -312,9 +315,16 @@ def sinumerik(names: Iterable[str]) -> MacroLanguage:
         behind_value="[A-Z_$]",
         says=rf"(?<![A-Z_])(?=[A-Z_]{{2}})(?!(?:{long})(?![A-Z_]))"
         r"|=[ \t]*+[-+]?+(?:[^-+.\d \t]|[\d.,]++[ \t]*+[-+*/])"
-        r"|(?<![A-Z_])(?:[RL]\d|M0*+(?:2|17|30)(?!\d|[ \t]*+=))|%_N_|\$",
+        r"|(?<![A-Z_])(?:[RL]\d|MCALL(?![A-Z_])|M0*+(?:2|17|30)(?!\d|[ \t]*+=))|%_N_|\$",
         names=known,
     )
     return MacroLanguage(
-        "sinumerik", form.may_say, form.read, _files, _unknown, variables=_NAMES, examples="R100 or a name such as _ANG"
+        "sinumerik",
+        form.may_say,
+        form.read,
+        _files,
+        _unknown,
+        variables=_NAMES,
+        declared=_DECLARED,
+        examples="R100 or a name such as _ANG",
     )

@@ -29,10 +29,16 @@ class VariableNameError(UserError, ValueError):
     """A value is stated of what is no variable of a control; the message says what its variables are called."""
 
 
-def check_names(names: Iterable[str], languages: Sequence[MacroLanguage]) -> None:
-    """Raise VariableNameError for the first name that is no variable in any of some languages."""
+def check_names(
+    names: Iterable[str], languages: Sequence[MacroLanguage], lines: Callable[[], Iterable[str]] | None = None
+) -> None:
+    """Raise VariableNameError for the first name that is no variable in any of some languages, and that the lines of a
+    program do not declare; without lines, any name is that may be declared."""
     for name in names:
         if any(not each.variables or re.fullmatch(each.variables, name, re.ASCII) for each in languages):
+            continue
+        may_be = [each for each in languages if each.declared and re.fullmatch(each.declared, name, re.ASCII)]
+        if may_be and (lines is None or any(_declares(each, text, name) for text in lines() for each in may_be)):
             continue
         if any(name == each.always_empty for each in languages):
             raise VariableNameError(f"{name} is always empty; no value can be stated")
@@ -40,6 +46,15 @@ def check_names(names: Iterable[str], languages: Sequence[MacroLanguage]) -> Non
         number = re.fullmatch(r"[A-Z#]+(\d+)", name)
         meant = f": write {languages[0].examples[0]}{number[1]}" if number and len(languages) == 1 else ""
         raise VariableNameError(f"there is no variable {name}; variables are called {told}{meant}{_setting(name)}")
+
+
+def _declares(language: MacroLanguage, text: str, name: str) -> bool:
+    """Whether a line declares a variable."""
+    if not language.may_say(text):
+        return False
+    code = language.read(text)
+    set_here = (each.variable for each in code.statements if isinstance(each, Assign | Forget))
+    return name in code.parameters or any(isinstance(each, Variable) and each.name == name for each in set_here)
 
 
 def _setting(name: str) -> str:

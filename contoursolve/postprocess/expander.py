@@ -20,6 +20,7 @@ from contoursolve.postprocess.translate import Moves, translate
 from contoursolve.postprocess.untranslatable import Watch
 from contoursolve.program.calls import path_of
 from contoursolve.program.lines import Lines
+from contoursolve.program.pipeline import ELSEWHERE
 from contoursolve.program.solve_queue import Step
 from contoursolve.reading import (
     Code,
@@ -106,6 +107,7 @@ class Expander:
                 self.summary.line_end = self.lines.end_of(step.blocks[0].line)
                 yield OPENING
             self.summary.warn([each for each in step.findings if each.about in _TOLD])
+            self.summary.elsewhere += [each for each in step.findings if each.about in ELSEWHERE]
             if step.passage is not None:
                 yield from self._pass(step.passage, step.before)
                 continue

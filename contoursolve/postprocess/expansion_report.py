@@ -54,6 +54,8 @@ class Summary(Struct):
     left: list[Left] = field(default_factory=list)
     concluded: list[Diagnostic] = field(default_factory=list)
     """What was concluded about the control, where the program does not say it."""
+    elsewhere: list[Diagnostic] = field(default_factory=list)
+    """What is found about contours of files that are called, which stay as they are."""
     unfamiliar: list[Unfamiliar] = field(default_factory=list)
     restated: int = 0
     """Blocks outside contours that were written in G codes, where the program is in other words."""

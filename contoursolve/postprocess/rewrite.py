@@ -96,7 +96,7 @@ def rewrite(
         dialect = configure(dialect, settings)
         if not isinstance(control, Dialect):
             dialect = for_machine(dialect, settings or {}, tape.lines())
-        asked = asked.of(dialect)
+        asked = asked.of(dialect, tape.lines)
         check_start(asked)
         summary.concluded += Examiner(asked).conclusions(())
         places = lines_of_facts(parse(tape.read(), tape.name), asked) if asked.facts else {}

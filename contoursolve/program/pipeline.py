@@ -402,7 +402,7 @@ class Examiner:
         def watched() -> Iterator[Line]:
             for each in machine.run_alone():
                 if isinstance(each, ProgramEvent):
-                    if each.kind in _OPENING or (each.kind is EventKind.BARRIER and each.reason):
+                    if (each.kind in _OPENING and not each.is_told) or (each.kind is EventKind.BARRIER and each.reason):
                         told(each)
                     if each.kind is EventKind.HEAD:
                         # What is written out runs once.

@@ -109,7 +109,8 @@ def _choose(
 
 def _read(program: Program, dialect: Dialect, asked: Request) -> _Reading:
     """What a control makes of a program."""
-    running = Run(program, replace_fields(asked.of(dialect), depth=Depth.VERDICT))
+    own = asked.of(dialect, lambda: (block.text for block in program.blocks))
+    running = Run(program, replace_fields(own, depth=Depth.VERDICT))
     found = (*running.collect().answers, *running.called)
     words = (word for answer in found for word in answer.claim.words.values())
     corners = ((word.span.line, word.span.column) for word in words if word.address in CORNERS_WITHOUT_COMMA)

@@ -1,6 +1,6 @@
 """What is asked of a program besides its text: for which control it is, and how it is examined."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +14,7 @@ from contoursolve.execution.subprograms import ALONE, Surroundings, surroundings
 from contoursolve.execution.variables import check_names
 from contoursolve.gcode import Directive, Program, parse, read_directive, spelled
 from contoursolve.geometry import Length
+from contoursolve.program.called_files import blocks_of_called_files
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import Rule
 
@@ -39,12 +40,18 @@ class Request(Struct, frozen=True):
     is_strict: bool = False
     """Whether every line is told of, and not only that on which a contour depends."""
 
-    def of(self, dialect: Dialect) -> "Request":
+    def of(self, dialect: Dialect, lines: Callable[[], Iterable[str]] | None = None) -> "Request":
         """The same for a program of this control, as which the start point is read, too. Raises VariableNameError
-        where a value is stated of what is none of its variables."""
+        where a value is stated of what is none of its variables, nor one that its `lines` declare."""
         if self.around.values and dialect.modes.language is not None:
-            check_names(self.around.values, [dialect.modes.language])
+            check_names(self.around.values, [dialect.modes.language], lines and (lambda: self._with_called(lines())))
         return replace(self, dialect=dialect, start=self.start and spelled(self.start, dialect.modes.syntax))
+
+    def _with_called(self, lines: Iterable[str]) -> Iterator[str]:
+        """Lines, and those of the files that they call."""
+        own = [*lines]
+        yield from own
+        yield from (block.text for block in blocks_of_called_files(own, self.around))
 
     @property
     def rules(self) -> tuple[Rule, ...]:

@@ -112,7 +112,7 @@ class Ways:
                     replace(each, state=each.entered[-1], entered=each.entered[:-1]) if each.entered else each
                     for each in self.now
                 ]
-            case EventKind.LOST | EventKind.STOPPED:
+            case EventKind.LOST | EventKind.STOPPED | EventKind.CALLED:
                 axes = self.modes.axes
                 self.now = [replace(each, state=each.state.lose(axes, event.reason, span)) for each in self.now]
             case EventKind.PART:

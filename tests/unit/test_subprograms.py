@@ -428,6 +428,9 @@ def test_the_control_is_told_from_what_is_called_and_contours_there_are_found(ca
     told = "is solved" if is_right else "corner 1 does not fit"
     assert (done.exit_code, told in done.output) == (0 if is_right else 1, True), done.output
     assert "no contour of its own examined" in done.output
+    kept = CliRunner().invoke(main, ["expand", str(main_program)])
+    assert ("in this file: nothing to expand" in kept.output, told in kept.output) == (True, True), kept.output
+    assert ("expand --inline writes it out" in kept.output) is is_right
     if call != "CYCLE95":
         inline = CliRunner().invoke(main, ["expand", "--inline", str(main_program)])
         assert inline.exit_code == (0 if is_right else 1), inline.output
@@ -560,3 +563,30 @@ LABELLED = """0 BEGIN PGM A MM
 def test_labels_that_nothing_names_any_more_are_not_written(line, kept):
     inline = expand(LABELLED.format(line), control="heidenhain", inline=True, comments=False, keep_going=True)
     assert [each for each in inline.text.splitlines() if "LBL" in each] == kept
+
+
+CUTS = "G71 U2. R1.\nG71 P10 Q60 U.5 W.1 F.3\nN10 G00 X16.\nG01 Z0.\nX30. ,C1.5\nN60 Z-20.\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "numbers"),
+    [
+        (f"O1\nG00 X64. Z2.\n{CUTS}N70 M98 P2\nN80 M30\nO2\nN10 G01 X70. Z-30.\nN70 X80. ,R2.\nN90 Z-50.\nM99", ""),
+        (f"O1\nG00 X64. Z2.\n{CUTS}N70 M98 P2 L2\nN80 M30\nO2\nN90 G01 U5. ,R1.\nN91 W-5.\nN92 M99", "90 91"),
+        (f"O1\nG00 X64. Z2.\nM98 P2\nN80 M30\nO2\n{CUTS}M99", "10 60"),
+    ],
+)
+def test_calls_that_are_written_out_leave_each_block_number_once(text, numbers):
+    inline = expand(text, control="fanuc-lathe", inline=True, comments=False)
+    found = re.findall(r"(?m)^N(\d+)", inline.text)
+    assert len(found) == len({*found})
+    assert set(numbers.split()) <= {*found}
+    assert inline.summary.left == []
+
+
+def test_a_profile_that_is_written_out_twice_is_told():
+    text = f"O1\nG00 X64. Z2.\nM98 P2 L2\nN80 M30\nO2\n{CUTS}M99"
+    inline = expand(text, control="fanuc-lathe", inline=True, keep_going=True)
+    assert "G71 names N10, which stands twice in a program without calls" in {
+        each.reason for each in inline.summary.left
+    }

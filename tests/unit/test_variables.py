@@ -254,3 +254,14 @@ def test_a_write_protected_file_is_not_replaced(way, tmp_path):
     assert (done.exit_code, "is write-protected; make it writable" in done.output) == (2, True), done.output
     assert new.read_text() == text
     assert sorted(each.name for each in tmp_path.iterdir()) == ["new.nc", "old.nc"]
+
+
+@pytest.mark.parametrize("head", ["PROC REC(INT K)", "DEF REAL K", "DEF INT K=1"])
+def test_a_variable_that_the_program_declares_has_any_name(head):
+    text = f"{head}\nG18 G90 DIAMON\nG0 X60 Z2\nG1 X40 F0.2\nIF K>0\n  Z-20 RND=2\nELSE\n  Z-25 RND=3\nENDIF\nX52\nM17"
+    for value, end in ((1.0, -20.0), (-1.0, -25.0)):
+        result = contoursolve.solve(text, control="siemens-840d", variables={"K": value})
+        assert {each.status.value for each in result.answers} == {"solved"}
+        assert any(each.contour.end == (end, 26.0) for each in result.answers)
+    with pytest.raises(ValueError, match="no variable H"):
+        contoursolve.solve(text, control="siemens-840d", variables={"H": 1.0})

@@ -97,6 +97,17 @@ def test_a_machine_builder_s_words_are_a_setting():
         findings(SINUMERIK, text, settings={"siemens-840d.words": "a b"})
 
 
+@pytest.mark.parametrize("command", ["TC", "TOOLCHG(1)", "N5 tc", "LUB_ON T5", 'SAY_IT("A",2) M8'])
+def test_a_machine_builder_s_commands_are_the_same_setting(command):
+    text = f"G17 G90\n{command}\nG0 X0 Y0\nG1 X60 F200\n{command}\nY40 RND=5\nX20"
+    told = [each.message for each in findings(SINUMERIK, text) if each.is_error]
+    assert len(told) == 1
+    assert "or state with --set CONTROL.words=" in told[0]
+    settings = {"siemens-840d.words": "TC,TOOLCHG,lub_on,SAY_IT"}
+    assert not findings(SINUMERIK, text, settings=settings)
+    assert contoursolve.expand(text, control=SINUMERIK, settings=settings).text.count(command) == 2
+
+
 def test_a_declared_variable_is_no_word():
     text = CHAIN[SINUMERIK].format("RN=8")
     assert not findings(SINUMERIK, f"DEF REAL RN\n{text}")
@@ -213,9 +224,35 @@ def test_behind_what_ends_elsewhere_nothing_is_known(control, block, name):
     assert "position-unknown" in {each.code for each in found}
 
 
-def test_a_modal_call_is_told_and_its_end_is_none():
-    text = f"{MILL}G1 X5 Y5\nMCALL CYCLE81(1,2)\nX10 Y10\nMCALL\nX20 RND=2\nY30"
-    assert told(findings(SINUMERIK, text)) == [("not-read", "info", "contoursolve does not read MCALL yet")]
+@pytest.mark.parametrize(
+    ("control", "call", "end", "corner", "name"),
+    [
+        (SINUMERIK, "MCALL CYCLE81(1,2)", "MCALL", "RND=2", "MCALL"),
+        (SINUMERIK, "MCALL DRILLING", "MCALL", "RND=2", "MCALL"),
+        ("fanuc-mill", "G66 P100 A5.", "G67", ",R2.", "G66"),
+        ("haas-mill", "G66 P100", "N9 G67", ",R2.", "G66"),
+        (MITSUBISHI, "G66 P100", "G67", ",R2.", "G66"),
+    ],
+)
+def test_behind_each_move_of_a_modal_call_nothing_is_known(control, call, end, corner, name):
+    """What is called behind each move is not read: the position is not known there, nor behind the last one."""
+    head = f"{MILL}G1 X5. Y5. F9.\n{call}\nX10. Y10.\n"
+    info = ("not-read", "info", f"contoursolve does not read {name} yet")
+    chain, stated = f"Y60. {corner}\nX20.", "X10. Y10.\n"
+    for text in (head + chain, f"{head}{end}\n{chain}", f"{head}{chain}\n{end}\n{chain}\n{stated}"):
+        first, *others = told(findings(control, text))
+        assert first == info
+        assert {each[0] for each in others} == {"position-unknown"}
+    result = contoursolve.solve(f"{head}{end}\n{stated}{chain}", control=control)
+    assert (told(result.diagnostics), result.answers[0].contour.end) == ([info], (20.0, 60.0))
+    assert not told(findings(control, f"{MILL}{end}\nG1 X5. Y5. F9.\n{chain}"))
+
+
+@pytest.mark.parametrize("decides", ["IF R5>0", "IF R5>0 GOTOF ON"])
+def test_ways_that_meet_know_whether_a_modal_call_is_in_force(decides):
+    ends = "ENDIF" if "GOTO" not in decides else "ON:"
+    text = f"{MILL}G1 X5 Y5 F9\n{decides}\nMCALL DRILLING\n{ends}\nX10 Y10\nX30 Y10\nY60 RND=3\nX20"
+    assert {each.code for each in findings(SINUMERIK, text)} == {"not-read", "position-unknown"}
 
 
 @pytest.mark.parametrize("code", ["G02.2", "G03.2", "G2.3", "G02.4"])

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, partial
 
 from msgspec import structs
 
@@ -224,10 +224,12 @@ _ENDS, _LEXICON = frozenset({17}), _words()
 
 
 @cache
-def statements() -> MacroLanguage:
-    """Variables, jumps and calls: a name that is no word and no command calls a subprogram."""
-    names = [*SYNTAX.codes, *_LEXICON.plain_names()]
-    return structs.replace(sinumerik(names), declares=True, made_by=statements)
+def statements(more: tuple[str, ...] = ()) -> MacroLanguage:
+    """Variables, jumps and calls: a name that is no word and no command calls a subprogram; `more` are further ones of
+    the machine builder."""
+    names = [*SYNTAX.codes, *_LEXICON.plain_names(), *more]
+    made_by = partial(statements, more)
+    return structs.replace(sinumerik(names), declares=True, made_by=made_by, with_names=statements)
 
 
 MODES = Modes(
