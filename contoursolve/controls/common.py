@@ -559,7 +559,7 @@ SYSTEM_RULES = (
     ),
     Rule(
         code="cut-free",
-        message="{subject} cuts a straight line in two: the path is the same wherever it lies; it is put in the middle",
+        message="{subject} cuts {what} in two: the path is the same wherever it lies; it is put in the middle",
         help="nothing has to be changed; a coordinate or a length would say where it lies",
         source=_GEOMETRY,
         about=ReadIssue.CUT_FREE,

@@ -40,7 +40,7 @@ from contoursolve.diagnosis.spelling import (
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.geometry import Length, Plane, Profile, Question, Side, Start, System, assemble
+from contoursolve.geometry import Length, Line, Plane, Profile, Question, Side, Start, System, assemble
 from contoursolve.reading import AT_ITS_LIMIT, Assumption, ParsedContour, ReadIssue, Resting, read, unused_words
 from contoursolve.reading.rules import Offence, Rule, check
 from contoursolve.solving import (
@@ -419,7 +419,7 @@ def _behind(finding: Diagnostic, against: Sequence[Diagnostic], claim: ParsedCon
 def _without_cuts(
     context: Context, profile: Profile, claim: ParsedContour, open_: Sequence[str], notebook: _Notebook
 ) -> Profile:
-    """The profile with the points in place that only cut a straight line in two, each of them told."""
+    """The profile with the points in place that only cut a line or an arc in two, each of them told."""
     if not open_ or not profile.start.is_known:
         return profile
     from contoursolve.solving.free_cuts import place_cuts  # noqa: PLC0415 - few blocks leave something open
@@ -429,7 +429,8 @@ def _without_cuts(
     for element in profile.figure.path:
         if element.head in cuts:
             place = replace(context, place=lines[element.name].span)
-            notebook.add(report(place, ReadIssue.CUT_FREE, Basis.NUMERICAL, [], subject=element.head))
+            what = "a straight line" if isinstance(element, Line) else "an arc"
+            notebook.add(report(place, ReadIssue.CUT_FREE, Basis.NUMERICAL, [], subject=element.head, what=what))
     return profile
 
 
@@ -447,7 +448,10 @@ def _solve(
 
     settlement = settle(profile, is_blaming=depth is not Depth.TRIAL)
     open_ = [
-        name for each in settlement.solution.refusals if each.kind in _LEAVING_OPEN for name in each.subject.split(",")
+        name
+        for each in settlement.solution.refusals
+        if each.kind in _LEAVING_OPEN and each.subject
+        for name in each.subject.split(",")
     ]
     is_cut = claim.form.is_general and (settlement.loose or open_)
     placed = _without_cuts(context, profile, claim, settlement.loose or open_, notebook) if is_cut else profile

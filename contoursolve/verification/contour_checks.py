@@ -68,7 +68,9 @@ def _check_contour(found: Found, claimed: ClaimedContour, ledger: Ledger) -> boo
     case, values = prepare(found), None
     paths = [each for each in (claimed, *claimed.solutions) if each.elements]
     solutions = candidates(case, [told(case, each) for each in paths]) if case.has_solutions else []
-    if paths and not solutions and found.claim.form.is_general:
+    # Values may leave open what the words alone do not.
+    is_fixed = bool(solutions) and not any(each.is_open for each in solutions)
+    if paths and not is_fixed and found.claim.form.is_general:
         case = prepare(found, has_cuts=True)
         solutions = candidates(case, [told(case, each) for each in paths]) if case.has_solutions else []
     for text in (each.text for each in found.claim.directives if each.span.line < -found.apart):

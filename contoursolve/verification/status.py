@@ -1,10 +1,11 @@
 """What the words of a contour say, what solutions they have, and what status that gives it."""
 
+from cmath import phase
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
 from itertools import combinations, pairwise
-from math import hypot, inf, pi
+from math import degrees, dist, hypot, inf, pi, tau
 from typing import get_args
 
 import numpy
@@ -17,6 +18,7 @@ from contoursolve.geometry import (
     FIRST,
     INCREMENT_OF,
     SECOND,
+    Arc,
     Choice,
     Coordinate,
     Directed,
@@ -42,7 +44,7 @@ from contoursolve.reading.rules import check as check_rules
 from contoursolve.statements import apply_statements
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH, REGULAR, RESIDUAL
 from contoursolve.verification import rank
-from contoursolve.verification.decode import PRINTED, ClaimedContour, Status
+from contoursolve.verification.decode import PRINTED, ClaimedArc, ClaimedContour, ClaimedLine, Point, Status
 from contoursolve.verification.drawing import Drawing, Path, side_of
 from contoursolve.verification.residuals import Array, Place, ResidualSystem, norm, residual, senses, system_of
 
@@ -152,7 +154,7 @@ class Case(Struct, frozen=True):
 
 def prepare(found: Found, *, has_cuts: bool = False) -> Case:
     """What the words and facts of a contour say, read with the tables of its control. Where it `has_cuts`, what the
-    words leave open at their values is where its result has it, as far as that only cuts lines."""
+    words leave open at their values is where its result has it, as far as that only cuts lines and arcs."""
     claim, statuses, ignored = found.claim, dict[str, str](), set[str]()
     unreadable = _unreadable(claim)
     if unreadable:
@@ -203,18 +205,59 @@ def _with_cuts(profile: Profile, found: Found, *, is_first: bool) -> Profile:
     facts, givens = list(profile.facts), dict(profile.givens)
     for first, second in pairwise(figure.path):
         point, ends = first.head, (first.tail, first.head, second.head)
-        is_cut = isinstance(first, Line) and isinstance(second, Line) and point not in sharp
-        if not is_cut or not at.keys() >= set(ends):
+        if point in sharp or not at.keys() >= set(ends):
             continue
-        before, here, behind = (complex(*at[end]) for end in ends)
-        along = (behind - before) / abs(behind - before) if behind != before else 0j
-        part = (here - before) * along.conjugate()
-        if abs(part.imag) <= RESIDUAL + PRINTED and 0 < part.real < abs(behind - before):
-            axis = FIRST if abs(along.real) >= abs(along.imag) else SECOND
-            name = f"{point} as the result has it"
+        places = (complex(*at[end]) for end in ends)
+        name = f"{point} as the result has it"
+        if isinstance(first, Line) and isinstance(second, Line):
+            axis = _axis_of_cut(*places)
+            if axis is None:
+                continue
+            fact: Fact = Coordinate(name, point, axis)
             givens[name] = Given(name, Decimal(repr(at[point][axis])), Unit.MM, None)
-            facts.insert(0 if is_first else len(facts), Coordinate(name, point, axis))
+        elif isinstance(first, Arc) and isinstance(second, Arc) and first.turn is second.turn:
+            angle = _angle_of_cut(_centers_at(claimed.elements, at[point]), first.turn.sign, *places)
+            if angle is None:
+                continue
+            fact = Ray(name, first.center, point)
+            givens[name] = Given(name, Decimal(repr(angle)), Unit.DEGREE, None)
+        else:
+            continue
+        facts.insert(0 if is_first else len(facts), fact)
     return replace(profile, layout=Layout(figure, tuple(facts)), givens=givens)
+
+
+def _axis_of_cut(before: complex, here: complex, behind: complex) -> int | None:
+    """The axis along which a point counts that lies between two others, on the line through them."""
+    along = (behind - before) / abs(behind - before) if behind != before else 0j
+    part = (here - before) * along.conjugate()
+    is_between = abs(part.imag) <= RESIDUAL + PRINTED and 0 < part.real < abs(behind - before)
+    return (FIRST if abs(along.real) >= abs(along.imag) else SECOND) if is_between else None
+
+
+def _centers_at(elements: Sequence[ClaimedLine | ClaimedArc], at: Point) -> tuple[complex, complex] | None:
+    """The centres of the two arcs of a result that meet in a point."""
+    for one, other in pairwise(elements):
+        if isinstance(one, ClaimedArc) and isinstance(other, ClaimedArc) and dist(one.end, at) <= RESIDUAL + PRINTED:
+            return complex(*one.center), complex(*other.center)
+    return None
+
+
+def _angle_of_cut(
+    centers: tuple[complex, complex] | None, sign: int, before: complex, here: complex, behind: complex
+) -> float | None:
+    """The direction from the centre to a point that lies between two others on an arc of this sense, where both arcs
+    have one circle, degrees."""
+    if centers is None or abs(centers[0] - centers[1]) > RESIDUAL + PRINTED:
+        return None
+    spokes = [each - centers[0] for each in (before, here, behind)]
+    radii = [abs(each) for each in spokes]
+    if max(radii) - min(radii) > RESIDUAL + PRINTED or min(radii) == 0:
+        return None
+    turned, whole = (sign * phase(each / spokes[0]) % tau for each in spokes[1:])
+    # An arc that ends where it begins is a full circle.
+    whole = tau if abs(behind - before) <= RESIDUAL + PRINTED else whole
+    return degrees(phase(spokes[1])) if 0 < turned < whole else None
 
 
 def _with_half_circles(profile: Profile, system: ResidualSystem) -> ResidualSystem:

@@ -115,6 +115,9 @@ CUT = "FL X+0 Y+20\nFL Y+20\nFL X+50 Y+20"
         # What only cuts a line in two is free; beside the line it is open.
         (CUT, "3:Y", [20, 17.8, 20], KLARTEXT),
         (CUT, "3:Y", [17.8, 20], KLARTEXT),
+        ("FL AN+0\nFL AN+0 X+50", "2:AN", [10, 0], KLARTEXT),
+        ("FC DR- CCX+20 CCY+0 R20\nFC DR- CCX+20 CCY+0 R20 X+40 Y+0", "2:CCX", [19, 20, 21], KLARTEXT),
+        ("FC DR- CCX+20 CCY+0 R20\nFCT DR- R20 X+40 Y+0", "2:R", [20, 19], KLARTEXT),
         ("FL LEN40 P1X+30 P1Y+10\nFSELECT 3\nFL X+80 Y+20", "FSELECT", [2.729, -3, 3, 1], KLARTEXT),
         ("G1 X40 Y20 #ANG=30", "#ANG", [30, 26.565, 31], {"control": "isg", "start": "X0 Y0"}),
         (

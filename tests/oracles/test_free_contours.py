@@ -222,6 +222,9 @@ def test_data_that_agree_are_accepted_with_a_note_and_others_are_told_by_how_muc
     assert parallel.status.value == "no-solution"
 
 
+TOP = "FC DR- CCX+20 CCY+0 R20"
+
+
 @pytest.mark.parametrize(
     ("blocks", "cuts"),
     [
@@ -231,9 +234,22 @@ def test_data_that_agree_are_accepted_with_a_note_and_others_are_told_by_how_muc
         (["FL X+0 Y+20", "FL Y+20", "FL AN+0", "FL X+60 Y+20"], {"P3": (20, 20), "P4": (40, 20)}),
         (["FL X+10 Y+20", "FL AN+45", "FL X+50 Y+60 AN+45", "FL X+50 Y+0"], {"P3": (30, 40)}),
         (["FL X+10 Y+20", "FL AN+45", "FLT X+50 Y+60", "FL X+50 Y+0"], {"P3": (30, 40)}),
+        # What is behind the cut is known through it alone.
+        (["FL AN+0", "FL AN+0 X+50"], {"P2": (25, 0)}),
+        (["FL AN+90", "FLT Y+50", "FL X+10 Y+50"], {"P2": (0, 25)}),
+        (["FL AN+0", "FL AN+0 X+50", "FL AN+90", "FL AN+90 Y+30"], {"P2": (25, 0), "P4": (50, 15)}),
+        (["FL AN+0", "FLT", "FL X+60 AN+0", "FL X+60 Y+20"], {"P2": (20, 0), "P3": (40, 0)}),
+        (["FL AN+0", "FL AN+0", "FCT DR+ R10 CCA+0 X+40"], {"P2": (15, 0)}),
+        # Arcs on one circle, by their centres or by their radii.
+        ([TOP, "FC DR- CCX+20 CCY+0 R20 X+40 Y+0"], {"P2": (20, 20)}),
+        ([TOP, "FC DR- CCX+20 CCY+0 R20 X+0 Y+0"], {"P2": (40, 0)}),
+        ([TOP, "FCT DR- R20 X+40 Y+0"], {"P2": (20, 20)}),
+        ([TOP, "FCT DR- R20", "FLT AN-90 Y-30"], {"P2": (20, 20)}),
+        ([TOP, TOP, "FC DR- CCX+20 CCY+0 X+40 Y+0"], {"P2": (10, 17.320508), "P3": (30, 17.320508)}),
+        ([TOP, "FC DR- CCX+20 CCY+0 R20 X+40 Y+0", "FL AN+0", "FL AN+0 X+60"], {"P2": (20, 20), "P4": (50, 0)}),
     ],
 )
-def test_a_block_that_only_cuts_a_straight_line_is_told_and_the_path_is_solved(blocks, cuts):
+def test_a_block_that_only_cuts_a_line_or_an_arc_is_told_and_the_path_is_solved(blocks, cuts):
     answer = solved(chain(*blocks))
     told = [each.message.split()[0] for each in answer.diagnostics if each.code == "cut-free"]
     assert told == list(cuts)
@@ -249,8 +265,11 @@ def test_a_block_that_only_cuts_a_straight_line_is_told_and_the_path_is_solved(b
         ["FL X+0 Y+20", "FL", "FL X+50 Y+20"],
         ["FL X+0 Y+20", "FL Y+20", "RND R2", "FL X+50 Y+20"],
         ["FL X+0 Y+20", "FL Y+20", "FL X+50 Y+30"],
+        ["FL AN+180", "FL AN+0 X+50"],
+        ["FL AN+0", "FL AN+0 LEN20", "FL X+50 Y+30"],
+        ["FL AN+0", "FLT", "FCT DR+ R10 CCA+0"],
     ],
-    ids=["the other way", "anywhere", "with a corner", "not straight"],
+    ids=["the other way", "anywhere", "with a corner", "not straight", "turning back", "sliding", "of any length"],
 )
 def test_a_point_that_does_more_than_cut_a_line_is_missing_a_word(blocks):
     answer = solved(chain(*blocks))

@@ -84,7 +84,9 @@ class Element(Struct, frozen=True):
     is_placed: bool = False
     """Whether its end is stated, though it may say so twice."""
     goes_round: bool = False
-    """Whether it is on the circle of the arc before it, in the same sense."""
+    """Whether it is on the circle of the arc before it, in the same sense, as the centres of both say."""
+    has_radius_of_before: bool = False
+    """Whether it touches the arc before it in the same sense with the same stated radius: it is on its circle, too."""
     closes: int = 0
     """The number of the element at whose begin it ends: the one with CLSD+."""
 
@@ -229,6 +231,9 @@ def _touches_before(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
         return
     if _is_aimed(chain, place):
         yield from _goes_on(before, place)
+        return
+    if place.element.has_radius_of_before:
+        yield from (Level(place.center, before.center, axis, given) for axis in (FIRST, SECOND))
         return
     if place.element.is_line and before.element.is_placed and not before.element.is_line:
         yield Leaving(place.name, place.tail, before.center, before.turn, given)

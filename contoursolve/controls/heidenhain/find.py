@@ -342,9 +342,10 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
         own = _own_words(member, repeated)
         referred = dict(_referred(member, own, members, numbers))
         element, lacking = _element(member, own, number, referred, opening, is_closed=is_closed)
-        if number > 1 and member.function == "FCT" and _is_same_circle(members[number - 2].block, member.block):
-            element = replace(element, goes_round=elements[-1].turn is element.turn)
-            lacking += [TURNS_BACK] * (not element.goes_round)
+        if number > 1 and member.function == "FCT":
+            element = _on_circle_of(elements[-1], element, members[number - 2].block, member.block)
+            is_turned = element.turn is not elements[-1].turn
+            lacking += [TURNS_BACK] * (is_turned and _is_same_circle(members[number - 2].block, member.block))
         elements.append(element)
         words |= {prefix + name: word for name, word in own.items()}
         circumstances |= {prefix + each for each in (*lacking, *_corner_circumstances(members, number))}
@@ -416,6 +417,18 @@ def _picks(stated: Sequence[Pick], count: int, modes: Modes) -> Iterator[Pick]:
     if modes.has(AMBIGUOUS, "first"):
         told = {each.element for each in stated}
         yield from (Pick(number, 1, "") for number in range(1, count + 1) if number not in told)
+
+
+def _on_circle_of(other: Element, element: Element, before: Block, block: Block) -> Element:
+    """An arc that touches the one before it, where both run one way on one circle: by the centres that they state, or
+    by the radii."""
+    if element.turn is not other.turn:
+        return element
+    if _is_same_circle(before, block):
+        return replace(element, goes_round=True)
+    radii = [word.number for word in (before.find("R"), block.find("R")) if word is not None]
+    is_one = len(radii) == 2 and radii[0] == radii[1] is not None  # noqa: PLR2004 - of both
+    return replace(element, has_radius_of_before=is_one)
 
 
 def _is_same_circle(before: Block, block: Block) -> bool:
