@@ -128,6 +128,8 @@ def test_a_full_circle_rests_on_an_assumption_and_is_verified():
     result = contoursolve.solve(text)
     assert [each.name for each in result.answers[0].assumptions] == ["full-circle"]
     assert [each.sweep for each in result.answers[0].contour.elements if isinstance(each, ArcSegment)] == [360]
+    half = contoursolve.solve(text.replace("C X+80", "C X+20"))
+    assert [each.name for each in half.answers[0].assumptions] == []
     documents = Document("program", text.encode()), Document("result", to_json(result).encode())
     assert verify(*documents).verdict is Verdict.VERIFIED
 

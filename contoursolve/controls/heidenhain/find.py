@@ -33,8 +33,8 @@ from contoursolve.controls.heidenhain.follow import (
     POLE,
     TOOL_AXIS,
     begins_chain,
+    full_circles,
     keep_joint,
-    place_of,
     pole_of,
     says_nothing,
     senses,
@@ -60,7 +60,6 @@ from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Choice, Given, Pick, Profile, Side, Turn, Unit, assemble
 from contoursolve.reading import Convention, Modes, ParsedContour, State, apply_modes, read
 from contoursolve.solving.free_cuts import place_cuts
-from contoursolve.tolerance import LENGTH
 
 NO_SENSE, NO_POLE, NO_BEFORE = "@no-sense", "@no-pole", "@no-before"
 """An arc without DR; polar data without a pole; a tangent element behind none."""
@@ -123,8 +122,8 @@ class _Member(Struct):
     pole: str
     center_at: tuple[Decimal, Decimal] | None
     """Where CC is, mm, for a conventional arc about it."""
-    returns: bool = False
-    """Whether it ends where it begins, as far as that is known before anything is solved."""
+    is_full: bool = False
+    """Whether it is a full circle, as far as that is known before anything is solved."""
     corners: tuple[tuple[int, Block], ...] = ()
     """The blocks of corners behind it, with their places in the chain: more than one is refused."""
     picked: Word | None = None
@@ -214,12 +213,10 @@ class _Chain:
             pole = f"centre {len(self.members) + 1}" if center and function in ("CP", "LP", "CTP") else ""
             if center and pole:
                 self.poles[pole] = center
-        index, before = len(self.blocks), place_of(self.state)
+        index = len(self.blocks)
         self._pass(block)
         self.state = keep_joint(self.state, block, function)
-        end = place_of(self.state)
-        returns = before is not None and end is not None and abs(end - before) <= LENGTH
-        self.members.append(_Member(block, function, self.state, index, pole, center, returns=returns))
+        self.members.append(_Member(block, function, self.state, index, pole, center))
 
 
 def _stands_between(block: Block, function: str) -> bool:
@@ -321,11 +318,13 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
     members, numbers, labels = chain.members, _numbers(chain), _labels(chain)
     bends = any(member.function in TANGENT[2:] for member in members)
     tangents = dict(senses(chain.blocks, before, modes)) if bends else {}
+    turns = any(member.function in ABOUT_CENTER for member in members)
+    circles = frozenset(full_circles(chain.blocks, before, modes)) if turns else frozenset[int]()
     place = -1
     for member in members:
         # A line may run several times.
         place = next(at for at in range(place + 1, len(chain.blocks)) if chain.blocks[at].line == member.block.line)
-        member.sense = tangents.get(place, 0)
+        member.sense, member.is_full = tangents.get(place, 0), place in circles
     opening = next((n for n, each in enumerate(members, 1) if _sign_of(each.block, "CLSD") > 0), 0)
     is_closed = any(_sign_of(each.block, "CLSD") < 0 for each in members)
     elements: list[Element] = []
@@ -568,7 +567,7 @@ def _element(
     holds = {
         NO_BEFORE: number == 1 and (member.function in TANGENT or ("IAN" in own and "RAN" not in own)),
         NO_CENTER: member.function in ABOUT_CENTER and member.center_at is None,
-        FULL: member.function in ABOUT_CENTER and member.returns,
+        FULL: member.is_full,
         NO_RADIUS: member.function == "CR" and "R" not in own,
         CLOSES_NOTHING: "CLSD-" in own and not 0 < opening < number,
         CONTINUED: _CONTINUES.search(member.block.text),

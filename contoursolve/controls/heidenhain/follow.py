@@ -8,7 +8,15 @@ from math import atan2, cos, degrees, hypot, radians, sin
 
 from msgspec.structs import replace
 
-from contoursolve.controls.heidenhain.lexicon import BLOCK_NUMBER, FREE, LEXICON, MOVES, STRAIGHT, function_of
+from contoursolve.controls.heidenhain.lexicon import (
+    ABOUT_CENTER,
+    BLOCK_NUMBER,
+    FREE,
+    LEXICON,
+    MOVES,
+    STRAIGHT,
+    function_of,
+)
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
@@ -177,7 +185,7 @@ def senses(blocks: Sequence[Block], state: State, modes: Modes) -> Iterator[tupl
     for index, block in enumerate(blocks):
         function, before = function_of(block), state
         state = follow(state, block, modes)
-        start, end = place_of(before), place_of(state)
+        start, end = _place(before), _place(state)
         if function in ("RND", "CHF", "CC", "FPOL", "FSELECT", "") or block.macro is not None:
             continue
         if start is None or end is None or abs(end - start) <= LENGTH:
@@ -197,8 +205,17 @@ def senses(blocks: Sequence[Block], state: State, modes: Modes) -> Iterator[tupl
             direction = _behind_arc(block, before, start, end)
 
 
-def place_of(state: State) -> complex | None:
-    """Where the tool is in the plane, mm; None where that is not known."""
+def full_circles(blocks: Sequence[Block], state: State, modes: Modes) -> Iterator[int]:
+    """The indices of arcs about CC that end where they begin, as far as that is known."""
+    for index, block in enumerate(blocks):
+        start, state = _place(state), follow(state, block, modes)
+        end = _place(state)
+        is_closed = start is not None and end is not None and abs(end - start) <= LENGTH
+        if is_closed and function_of(block) in ABOUT_CENTER:
+            yield index
+
+
+def _place(state: State) -> complex | None:
     first, second = state.start().values
     return None if first is None or second is None else complex(float(first), float(second))
 
