@@ -410,7 +410,7 @@ READING_RULES = (
     ),
     Rule(
         code="subprogram-refused",
-        message="the contour in program line {line} of {file}, which is called here, is refused: {finding}",
+        message="the contour in program line {line} of {file}, which is called here, has an error: {finding}",
         help="check {file} by itself, with --start for where the tool is then",
         source=_READING,
         about=ReadIssue.SUBPROGRAM_REFUSED,

@@ -7,6 +7,8 @@ from functools import cache
 from msgspec import structs
 
 from contoursolve.execution.language import (
+    MACHINES,
+    UNSET,
     Assign,
     Call,
     CallKind,
@@ -181,8 +183,8 @@ def program_files(name: str) -> tuple[str, ...]:
 def _unknown(name: str) -> str:
     digits = name[1:]
     if digits.isdigit() and int(digits) >= _FIRST_OF_MACHINE:
-        return f"{name} is the machine's"
-    return f"{name} is set by nothing before"
+        return f"{name}{MACHINES}"
+    return f"{name}{UNSET}"
 
 
 _NAMES = r"#(?!0+\Z)(?:\d+|<[^<>]+>)"

@@ -5,6 +5,8 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 
 from contoursolve.execution.language import (
+    MACHINES,
+    UNSET,
     Apply,
     Assign,
     Call,
@@ -131,7 +133,7 @@ def _files(name: str) -> tuple[str, ...]:
 
 
 def _unknown(name: str) -> str:
-    return f"{name} is the machine's" if name.startswith(_MACHINES) else f"{name} is set by nothing before"
+    return f"{name}{MACHINES}" if name.startswith(_MACHINES) else f"{name}{UNSET}"
 
 
 _NAMES = r"P\d+|V\.[A-Z]+\.[A-Z_][\w.\[\],]*"

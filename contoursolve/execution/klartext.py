@@ -5,6 +5,8 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 
 from contoursolve.execution.language import (
+    MACHINES,
+    UNSET,
     Apply,
     Call,
     CallKind,
@@ -133,7 +135,7 @@ def _files(name: str) -> tuple[str, ...]:
 def _unknown(name: str) -> str:
     digits = name.lstrip("QLRS")
     is_machines = name[1:] == digits and digits.isdigit() and int(digits) in _MACHINES
-    return f"{name} is the machine's" if is_machines else f"{name} is set by nothing before"
+    return f"{name}{MACHINES}" if is_machines else f"{name}{UNSET}"
 
 
 @cache

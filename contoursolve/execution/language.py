@@ -6,6 +6,15 @@ from typing import Any
 
 from msgspec import Struct
 
+UNSET = " is set by nothing before"
+"""Why a variable of the user has no value."""
+
+MACHINES = " is the machine's"
+"""Why one has none that only the machine knows."""
+
+ARGUMENT = " is an argument of "
+"""Why one has none that each call of the program gives."""
+
 
 class Unknown(Struct, frozen=True):
     """No value, and why: `#5041 is the machine's position`."""

@@ -10,6 +10,7 @@ from msgspec.structs import replace
 from contoursolve.execution.evaluate import written
 from contoursolve.execution.events import EventKind, ProgramEvent
 from contoursolve.execution.language import (
+    ARGUMENT,
     Apply,
     Assign,
     Call,
@@ -198,10 +199,6 @@ def _place(frames: Iterable[_Frame]) -> Place:
     return tuple(each for frame in frames for each in frame.place) + _BEHIND
 
 
-ARGUMENT = " is an argument of "
-"""What tells of a value that each call of the program gives."""
-
-
 class _RefusedError(Exception):
     """The control stops at a block; the message says why."""
 
@@ -368,7 +365,16 @@ class Machine:
         for name in head.parameters if head is not None else ():
             if name not in self.variables.given:
                 self.variables.set(name, Unknown(f"{name}{ARGUMENT}{head.begins if head else ''}"))
+        self.variables.is_called = self._is_for_calls(begin)
         return begin
+
+    def _is_for_calls(self, begin: int) -> bool:
+        """Whether the main program is one that others call: it returns, or is a whole Klartext program, and nothing in
+        it ends the run."""
+        last = self.main.section_end(begin)
+        said = {type(each) for at in range(begin, last + 1) for each in self.main.code(at).statements}
+        is_whole = _WHOLE_PROGRAM.match(self.main.blocks[begin].text) is not None
+        return ProgramEnd not in said and (Return in said or is_whole)
 
     def _begin(self) -> int:
         """The index of the line with which the main program begins: no subprogram by its head, and none calls it."""
@@ -849,9 +855,11 @@ class Machine:
     def _check_repetition(self, frame: _Frame, index: int, target: int) -> None:
         """Refuse to go back to a line where everything was the same before: that would go on for ever."""
         if self._repeats(frame, index, target):
-            raise _RefusedError(
-                f"program line {self._line(frame, index)} runs for ever: nothing changes from pass to pass"
-            )
+            line, values = self._line(frame, index), self.variables.all().values()
+            if any(isinstance(each, Unknown) for each in values):
+                told = f"program line {line} goes back again and again: what ends that is not known"
+                raise _RefusedError(f"{told}, so it is followed no further")
+            raise _RefusedError(f"program line {line} runs for ever: nothing changes from pass to pass")
 
     def _repeats(self, frame: _Frame, index: int, target: int) -> bool:
         """Whether everything was the same before where a line leads back."""
@@ -1312,5 +1320,6 @@ def _without_return(text: str, block: Block) -> str:
     return text
 
 
+_WHOLE_PROGRAM = re.compile(r"\s*\d*\s*BEGIN\s+PGM\b", re.IGNORECASE)
 _ENDS_FILE = re.compile(r"\s*(?:%|\d*\s*END\s+PGM\b.*)\s*", re.IGNORECASE)
 """The last line of a file, which stands behind all of its subprograms."""

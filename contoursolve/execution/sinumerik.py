@@ -5,6 +5,8 @@ import re
 from collections.abc import Iterable, Iterator
 
 from contoursolve.execution.language import (
+    MACHINES,
+    UNSET,
     Apply,
     Assign,
     Call,
@@ -292,7 +294,7 @@ def _files(name: str) -> tuple[str, ...]:
 
 
 def _unknown(name: str) -> str:
-    return f"{name} is the machine's" if name.startswith("$") else f"{name} is set by nothing before"
+    return f"{name}{MACHINES}" if name.startswith("$") else f"{name}{UNSET}"
 
 
 _NAMES = r"R\d+|\$?[A-Z_]{2}\w*|\$?[A-Z_]\w*\[\d+(?:,\d+)*\]"

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contoursolve.diagnostics.errors import UserError
 from contoursolve.execution.evaluate import evaluate, is_true, name_of_indexed
 from contoursolve.execution.language import (
+    ARGUMENT,
+    UNSET,
     VACANT,
     Assign,
     Forget,
@@ -73,6 +75,8 @@ class Variables:
         """What was set, in order."""
         self.line = 0
         """The line that runs."""
+        self.is_called = False
+        """Whether others call the program, so that what nothing sets is an argument."""
         self._lines: dict[tuple[str, Known], int] = {}
         """On which line a variable got a value last."""
         self._language, self._own = language, own
@@ -168,7 +172,11 @@ class Variables:
         if own is not None and _is_local(name):
             # The call does not give it.
             return VACANT
-        return self._language.value_of(name, self.values)
+        value = self._language.value_of(name, self.values)
+        is_given = self.is_called and (_is_local(name) or not name.startswith("#"))
+        if is_given and isinstance(value, Unknown) and value.reason == f"{name}{UNSET}":
+            return Unknown(f"{name}{ARGUMENT}this program")
+        return value
 
 
 def _shown(value: Known) -> str:

@@ -11,7 +11,8 @@ from contoursolve.diagnosis.explain import Context, context_of, report
 from contoursolve.diagnosis.wording import join, measured
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Fix, Label, Severity
 from contoursolve.diagnostics.source import Span
-from contoursolve.execution.machine import ARGUMENT, Limit, Machine, machine_of
+from contoursolve.execution.language import ARGUMENT, MACHINES
+from contoursolve.execution.machine import Limit, Machine, machine_of
 from contoursolve.execution.subprograms import Surroundings
 from contoursolve.gcode import Block, Caller, Program, Substitution
 from contoursolve.program.profiles import CycleProfile, profiles_of, turns_back
@@ -278,10 +279,11 @@ def _checked(answer: Answer, here: _Substituted, rules: tuple[Rule, ...]) -> Ans
         return answer
     lines = {*answer.lines, *(label.span.line for each in errors for label in each.labels)}
     reasons = [each.reason for line in sorted(lines) for each in here.get(line, ()) if each.reason]
-    if not reasons or not all(ARGUMENT in each for each in reasons):
+    arguments = [each for each in reasons if ARGUMENT in each]
+    if not arguments or not all(ARGUMENT in each or each.endswith(MACHINES) for each in reasons):
         return answer
     context = context_of(answer.claim, rules)
-    note = report(context, context.row(ReadIssue.NOT_CHECKED), Basis.RULE, [], reason=reasons[0])
+    note = report(context, context.row(ReadIssue.NOT_CHECKED), Basis.RULE, [], reason=arguments[0])
     others = tuple(each for each in answer.diagnostics if not each.is_error)
     return replace(answer, diagnostics=(note, *others))
 

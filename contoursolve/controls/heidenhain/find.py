@@ -341,6 +341,7 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
         own = _own_words(member, repeated)
         referred = dict(_referred(member, own, members, numbers))
         element, lacking = _element(member, own, number, referred, opening, is_closed=is_closed)
+        lacking += [NO_TURN] * _turns_either_way(member, members[: number - 1])
         if number > 1 and member.function == "FCT":
             element = _on_circle_of(elements[-1], element, members[number - 2].block, member.block)
             is_turned = element.turn is not elements[-1].turn
@@ -397,7 +398,7 @@ def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
         picks=tuple(_picks(picks, len(members), modes)),
         conventions=tuple(_conventions(bool(picks), modes)),
     )
-    if chain.is_cut and _is_open(read(claim, frozenset())):
+    if chain.is_cut and _has_free(members) and _is_open(read(claim, frozenset())):
         return replace_fields(claim, circumstances=claim.circumstances | {f"{len(members)}:{CUT}"})
     return claim
 
@@ -542,6 +543,15 @@ def _referred(
             yield name, other
 
 
+def _turns_either_way(member: _Member, before: Sequence[_Member]) -> bool:
+    """Whether CT has no sense that is known from what is before it, because that is still to be found."""
+    return member.function in TANGENT[2:] and not member.sense and _has_free(before)
+
+
+def _has_free(members: Sequence[_Member]) -> bool:
+    return any(each.function in FREE for each in members)
+
+
 def _element(
     member: _Member,
     own: Mapping[str, Word],
@@ -559,8 +569,6 @@ def _element(
     sense = _sign_of(member.block, "DR")
     if not is_line and member.function not in TANGENT[2:] and not sense:
         lacking.append(NO_SENSE)
-    if member.function in TANGENT[2:] and not member.sense and number > 1:
-        lacking.append(NO_TURN)
     if own.keys() & POLAR and not member.pole:
         lacking.append(NO_POLE)
     tool = member.here.memory.get(TOOL_AXIS)
