@@ -369,12 +369,10 @@ class Machine:
         return begin
 
     def _is_for_calls(self, begin: int) -> bool:
-        """Whether the main program is one that others call: it returns, or is a whole Klartext program, and nothing in
-        it ends the run."""
+        """Whether the main program is one that others call: it returns, and nothing in it ends the run."""
         last = self.main.section_end(begin)
         said = {type(each) for at in range(begin, last + 1) for each in self.main.code(at).statements}
-        is_whole = _WHOLE_PROGRAM.match(self.main.blocks[begin].text) is not None
-        return ProgramEnd not in said and (Return in said or is_whole)
+        return Return in said and ProgramEnd not in said
 
     def _begin(self) -> int:
         """The index of the line with which the main program begins: no subprogram by its head, and none calls it."""
@@ -1320,6 +1318,5 @@ def _without_return(text: str, block: Block) -> str:
     return text
 
 
-_WHOLE_PROGRAM = re.compile(r"\s*\d*\s*BEGIN\s+PGM\b", re.IGNORECASE)
 _ENDS_FILE = re.compile(r"\s*(?:%|\d*\s*END\s+PGM\b.*)\s*", re.IGNORECASE)
 """The last line of a file, which stands behind all of its subprograms."""

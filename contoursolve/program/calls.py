@@ -284,8 +284,10 @@ def _checked(answer: Answer, here: _Substituted, rules: tuple[Rule, ...]) -> Ans
         return answer
     context = context_of(answer.claim, rules)
     note = report(context, context.row(ReadIssue.NOT_CHECKED), Basis.RULE, [], reason=arguments[0])
+    # For which values there is a contour is worth knowing all the same.
+    notes = tuple(dict.fromkeys(one for each in errors for one in each.notes))
     others = tuple(each for each in answer.diagnostics if not each.is_error)
-    return replace(answer, diagnostics=(note, *others))
+    return replace(answer, diagnostics=(replace(note, notes=notes), *others))
 
 
 _OF_VALUES = (ReadIssue.VARIABLE, ReadIssue.POSITION_UNKNOWN)

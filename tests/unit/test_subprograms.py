@@ -7,7 +7,7 @@ from click.testing import CliRunner
 from examples_fanuc import FL_G5, FM_G1, FM_G3
 from examples_heidenhain import PROGRAMS
 
-from contoursolve import Status, expand, parse, solve, solve_file
+from contoursolve import Status, check, expand, parse, solve, solve_file
 from contoursolve.cli import main
 from contoursolve.controls import DIALECTS
 from contoursolve.execution.subprograms import Surroundings
@@ -590,3 +590,24 @@ def test_a_profile_that_is_written_out_twice_is_told():
     assert "G71 names N10, which stands twice in a program without calls" in {
         each.reason for each in inline.summary.left
     }
+
+
+LIBRARIES = [
+    ("fanuc-mill", "O7002\nG90 G17\nG00 X0 Y0\nG01 X#24 F200 ,R#18\nY40.\nX0\nM99", "#24"),
+    ("siemens-840d", "G17 G90 G0 X0 Y0\nG1 X=R1 RND=R2\nY40\nX20\nM17", "R1"),
+]
+
+
+@pytest.mark.parametrize(("control", "program", "name"), LIBRARIES)
+def test_what_a_program_that_others_call_sets_nowhere_is_an_argument(control, program, name):
+    told = check(program, control=control)
+    assert [(each.code, each.severity.value) for each in told] == [("not-checked", "info")]
+    assert told[0].message == f"not checked: {name} is an argument of this program, and each call gives it"
+    main = program.replace("M99", "M30").replace("M17", "M30")
+    assert "error" in {each.severity.value for each in check(main, control=control)}
+
+
+def test_a_loop_that_ends_by_what_nobody_knows_is_not_said_to_run_for_ever():
+    program = "O1\n#1=5.\nN5 #1=#1-#5041\nG01 X10. ,R1.\nY10.\nX0\nY0\nIF[#1 GT 0]GOTO6\nN6 GOTO5\nM30"
+    told = " ".join(each.message for each in check(program, control="fanuc-mill", start="X0 Y0"))
+    assert "runs for ever" not in told
