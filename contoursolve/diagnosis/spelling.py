@@ -9,13 +9,14 @@ from decimal import Decimal
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.explain import Context, report, spans_of
-from contoursolve.diagnosis.vocabulary import meant_by, not_read_yet
-from contoursolve.diagnosis.wording import angle_text, join, length_text
+from contoursolve.diagnosis.vocabulary import corner_at, meant_by, not_read_yet
+from contoursolve.diagnosis.wording import angle_text, either, join, length_text
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Label, Severity
 from contoursolve.diagnostics.source import Span
 from contoursolve.gcode import (
     Block,
     Fault,
+    FaultKind,
     Lookalike,
     Word,
     find_lookalikes,
@@ -34,11 +35,21 @@ def explain_spelling(context: Context, claim: ParsedContour) -> Iterator[Diagnos
     """What keeps the words of a contour from being read: nothing can be said of what they mean then."""
     words = [word for block in claim.blocks for word in block.words]
     for block in claim.blocks:
-        yield from explain_faults(context, block)
+        yield from (_with_corner(each, block, claim.lexicon) for each in explain_faults(context, block))
     yield from explain_words(context, claim.lexicon, claim.repeated, words)
     yield from _explain_unknown(context, claim)
     yield from (not_read_yet(context, word, is_needed=True) for word in claim.unread)
     yield from _explain_asked(context, claim)
+
+
+def _with_corner(finding: Diagnostic, block: Block, lexicon: Lexicon) -> Diagnostic:
+    """A finding about what belongs to no word, with the word of a corner or an angle that may have been meant."""
+    is_open = finding.about in (FaultKind.STRAY_CHARACTER, FaultKind.NUMBER_MISSING) and "meant" not in finding.help
+    found = corner_at(block.text, finding.span, lexicon) if is_open else None
+    if found is None or not found[1]:
+        return finding
+    word, meant = found
+    return replace(finding, help=f"write {either(meant[:2])} for {word.text} if that is meant; else {finding.help}")
 
 
 def explain_unmarked(context: Context, block: Block) -> Iterator[Diagnostic]:

@@ -1,13 +1,16 @@
 """Whether the control has the words of a block, and which of its words one that it has not was meant to be."""
 
+import re
 from collections.abc import Collection, Iterator, Sequence
+from enum import Enum
 
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import either
 from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
-from contoursolve.gcode import Block, Word, number_of, spell
+from contoursolve.diagnostics.source import Span
+from contoursolve.gcode import Block, FaultKind, Word, number_of, spell
 from contoursolve.reading import Bearing, Code, Effect, Lexicon, Modes, ReadIssue, State, codes_of, not_read
 
 _SHORTEST = 2
@@ -29,13 +32,16 @@ def meant_by(word: Word, known: Collection[str], lexicon: Lexicon) -> list[str]:
     """The words that one was meant to be that the control has not, the most plausible first: the same with a comma or a
     number sign or without it, one with the same letters but for a slip, what another control calls so."""
     number = _number(word)
-    if not number:
-        return []
+    return [spell(each, number) for each in _meant(word, known, lexicon)] if number else []
+
+
+def _meant(word: Word, known: Collection[str], lexicon: Lexicon) -> list[str]:
+    """Their addresses."""
     bare = word.address.lstrip(",#")
     others = [each for each in known if each != word.address and each.lstrip(",#")]
     own = lexicon.addresses
     same = [each for each in others if each.lstrip(",#") == bare and each in own]
-    near = sorted((distance, each) for each in others if (distance := _apart(bare, each)) is not None)
+    near = sorted((distance, each) for each in others if (distance := _apart(bare, _typed(each))) is not None)
     near = [each for each in near if each[1] in own] or near
     roles = [each for each in others if _role(each, lexicon) and _role(each, lexicon) == _begins_like(word.address)]
     corners = [each for each in others if word.address.startswith(",") and each.startswith(",")]
@@ -43,8 +49,12 @@ def meant_by(word: Word, known: Collection[str], lexicon: Lexicon) -> list[str]:
         # Which of them it is shows in the number, if at all.
         is_angle = abs(float(word.number or 0)) > _LARGEST_CORNER
         corners.sort(key=lambda each: (_role(each, lexicon) == "angle") is not is_angle)
-    found = dict.fromkeys([*same, *(each for _, each in near), *roles, *corners])
-    return [spell(each, number) for each in found]
+    return [*dict.fromkeys([*same, *(each for _, each in near), *roles, *corners])]
+
+
+def _typed(address: str) -> str:
+    """How the name of a word is typed."""
+    return spell(address, "").split()[0].strip("=") if " " in spell(address, "") else address
 
 
 _LARGEST_CORNER = 44
@@ -98,6 +108,78 @@ def _slips(first: str, second: str) -> int:
     return rows[-1][-1]
 
 
+_STRETCH = re.compile(
+    r"(?:(?P<sign>[,#.]++)[ \t]*+)?+(?P<name>[A-Z]++(?:(?<=[A-Z]{2})[ \t]++R(?![A-Z]))?+)"
+    r"(?P<between>[ \t]*+[=:,]*+[ \t]*+)(?P<number>[+-]?+(?:\d[\d.,]*+|\.\d[\d.,]*+))",
+    re.IGNORECASE | re.ASCII,
+)
+"""What is typed like a word of a contour, however it is spelled."""
+
+
+def corner_at(text: str, span: Span, lexicon: Lexicon) -> tuple[Word, list[str]] | None:
+    """The stretch of a line at some columns that is typed like a word of a corner or an angle and is none, and the
+    words that may have been meant, none where the control has no such words; None if it is like no such word."""
+    for found in _STRETCH.finditer(text):
+        if found.start() >= span.end_column - 1 or found.end() <= span.column - 1:
+            continue
+        name, number = " ".join(found["name"].upper().split()), found["number"]
+        number = number.replace(",", ".") if number.count(",") == 1 and "." not in number else number.strip(",")
+        is_signed = bool(found["sign"] or "," in found["between"] or ("=" in found["between"] and len(name) == 1))
+        word = Word(f"#{name}" if is_signed else name, None, False, found[0], span)
+        place = Span(span.line, found.start() + 1, found.end() + 1)
+        known = [each for each in lexicon.addresses if _role(each, lexicon)]
+        meant = [spell(each, number) for each in _meant(word, known, lexicon)]
+        own = [spell(each, number) for each in known if _typed(each).lstrip(",#") == name]
+        meant = [each for each in dict.fromkeys([*own, *meant]) if each != found[0].strip()]
+        typed = replace(word, address=(found["sign"] or "") + name.split()[0], span=place)
+        is_like = bool(meant) or (typed.address.startswith(",") and bool(_begins_like(word.address)))
+        return (typed, meant) if is_like and (not meant or number.count(".") <= 1) else None
+    return None
+
+
+def explain_corners(
+    context: Context, text: str, findings: Sequence[Diagnostic], lexicon: Lexicon, others: Collection[str]
+) -> Iterator[Diagnostic]:
+    """Findings about a line that is no contour, in which each stretch that is typed like a word of a corner or an angle
+    is told as such; `others` are those words of other controls."""
+    told: set[Span] = set()
+    for each in findings:
+        found = corner_at(text, each.span, lexicon) if each.about in _UNREADABLE else None
+        if found is not None and _MEANT in each.help and _is_spelled(found[0].address, lexicon):
+            # That another number is meant is told already.
+            found = None
+        if found is None:
+            yield each
+        elif found[0].span not in told:
+            told.add(found[0].span)
+            word, meant = found
+            if meant and word.address not in others:
+                finding = report(context, ReadIssue.WORD_MISTYPED, Basis.RULE, [word], meant=either(meant[:_MOST]))
+            else:
+                advice = f"write {either(meant[:_MOST])} if that is meant" if meant else "write out what it means"
+                finding = report(context, ReadIssue.COMMA_WORD_UNKNOWN, Basis.RULE, [word], advice=advice)
+            yield replace(finding, severity=Severity.ERROR, source=lexicon.unknown or finding.source)
+
+
+_MEANT = "if that is meant"
+
+
+def corner_words(lexicon: Lexicon) -> Iterator[str]:
+    """The addresses of several characters that make corners and angles."""
+    yield from (each for each in lexicon.addresses if len(each) > 1 and _role(each, lexicon))
+
+
+def _is_spelled(name: str, lexicon: Lexicon) -> bool:
+    """Whether a name of several characters is that of a word of the control."""
+    return len(name) > 1 and any(_typed(each) == name for each in lexicon.addresses)
+
+
+_UNREADABLE: frozenset[Enum | None] = frozenset(
+    {FaultKind.STRAY_CHARACTER, FaultKind.NUMBER_MISSING, FaultKind.NUMBER_MALFORMED}
+    | {ReadIssue.CODE_UNKNOWN, ReadIssue.WORD_UNKNOWN}
+)
+
+
 # Blocks ----------------------------------------------------------------------------------------------------------
 
 _OF_A_MOVE = (
@@ -130,6 +212,24 @@ def moves(block: Block, here: State, modes: Modes, signs: Sequence[Word]) -> boo
         return False
     rows = (modes.lexicon.addresses.get(word.address) for word in block.words)
     return bool(signs) or any(row and row.axis in here.plane.axes for row in rows)
+
+
+def has_corners(block: Block, here: State, modes: Modes) -> bool:
+    """Whether a block may have a word of a corner: it moves an axis of the plane in a line or an arc; where corners are
+    blocks of their own, it is not read as any other."""
+    if modes.follow is not None:
+        return block.macro is None and not any(word.address == "G" for word in block.words)
+    return (here.motion in _CUTTING and moves(block, here, modes, ())) or _has_unread_code(block, here, modes)
+
+
+_CUTTING = (1, 2, 3)
+
+
+def _has_unread_code(block: Block, here: State, modes: Modes) -> bool:
+    """Whether a block moves an axis of the plane, and has what is read as the name of a code."""
+    rows = (modes.lexicon.addresses.get(word.address) for word in block.words)
+    named = any(word.address == "G" and word.number is None for word in block.words)
+    return named and here.motion in _CUTTING and any(row and row.axis in here.plane.axes for row in rows)
 
 
 def is_known(address: str, lexicon: Lexicon) -> bool:

@@ -22,9 +22,12 @@ from contoursolve.diagnosis.spelling import (
     explain_words,
 )
 from contoursolve.diagnosis.vocabulary import (
+    corner_words,
     explain_call,
     explain_codes_by_name,
+    explain_corners,
     explain_vocabulary,
+    has_corners,
     is_known,
     moves,
     name_of,
@@ -836,6 +839,7 @@ class Examiner:
         ):
             return
         context = Context(self.rules, self.asked.unit, place=block.span)
+        known = len(self.diagnostics)
         for finding in explain_faults(context, block):
             is_slight = finding.about in _FAULTS_OF_NO_CONSEQUENCE
             self.diagnostics.append(replace(finding, severity=Severity.WARNING) if is_slight else finding)
@@ -850,6 +854,10 @@ class Examiner:
             axis_words = [word for word in block.words if word.address in addresses and addresses[word.address].axis]
             self.diagnostics += explain_words(context, lexicon, _repeated(axis_words), axis_words)
             self._check_words(context, block, here)
+            modes = self.dialect.modes
+            if here is not None and len(self.diagnostics) > known and has_corners(block, here, modes):
+                found = self.diagnostics[known:]
+                self.diagnostics[known:] = explain_corners(context, block.text, found, lexicon, _corner_words())
 
     def _is_behind_contour(self, modes: Modes) -> bool:
         """Whether the last block that said something has the code of a contour."""
@@ -864,7 +872,7 @@ class Examiner:
             return
         modes, signs = dialect.modes, dialect.signs(block)
         self.diagnostics += explain_codes_by_name(context, block, modes)
-        if moves(block, here, modes, signs):
+        if moves(block, here, modes, signs) or has_corners(block, here, modes):
             found = explain_vocabulary(context, block, here, modes, _comma_words())
             # Of the block behind a contour, some controls tell by themselves what its words would have meant there.
             is_said = dialect.follow is not None and self._is_behind_contour(modes)
@@ -898,6 +906,12 @@ def _comma_words() -> frozenset[str]:
     """The words with a comma that any control has."""
     words = (each for dialect in DIALECTS.values() for each in dialect.modes.lexicon.addresses)
     return frozenset(each for each in words if each.startswith(","))
+
+
+@cache
+def _corner_words() -> frozenset[str]:
+    """The words that make corners and angles on any control."""
+    return frozenset(each for dialect in DIALECTS.values() for each in corner_words(dialect.modes.lexicon))
 
 
 def _is_clean(block: Block, dialect: Dialect, here: State | None) -> bool:

@@ -57,6 +57,51 @@ def test_a_misspelt_word_is_an_error_with_what_it_was_meant_to_be(control, word,
     assert finding.span.line == 2
 
 
+ALONE = {
+    SINUMERIK: MILL + "G1 X60 F200\nY40 {}\nX20",
+    ISG: MILL + "G1 X60 F200\nY40 {}\nX20",
+    KLARTEXT: "1 L X+0 Y+0 R0 FMAX\n2 L X+60 F200\n3 {}\n4 L Y+40",
+    "fanuc-lathe": "G0 X40. Z0.\nG1 X60. F.2\nZ-40. {}\nX80.",
+    "nct-99m": MILL + "G1 X60. F200\nY40. {}\nX20.",
+}
+"""Programs whose only word of a contour is misspelt."""
+
+
+@pytest.mark.parametrize(
+    ("control", "typed", "meant"),
+    [
+        ("fanuc-lathe", ",FIL5.", ",R5."),
+        ("fanuc-lathe", "R,5.", ",R5."),
+        ("fanuc-lathe", ",ANG30.", ",A30."),
+        ("nct-99m", ".R5.", ",R5."),
+        (ISG, "#C5", "#CHR=5"),
+        (ISG, "##RND=5", "#RND=5"),
+        (ISG, ",R5", "#RND=5"),
+        (SINUMERIK, "R=5", "RND=5"),
+        (SINUMERIK, ",C5", "CHR=5"),
+        (SINUMERIK, "RND:5", "RND=5"),
+        (KLARTEXT, "RNDR5", "RND R5"),
+        (KLARTEXT, "RDN R5", "RND R5"),
+        (KLARTEXT, "ROUND R5", "RND R5"),
+        (KLARTEXT, "CFH 5", "CHF 5"),
+        (KLARTEXT, "FAS 5", "CHF 5"),
+        (KLARTEXT, "CHR5", "CHF 5"),
+    ],
+)
+def test_the_only_word_of_a_contour_is_told_where_it_is_misspelt(control, typed, meant):
+    (finding, *_) = findings(control, ALONE[control].format(typed))
+    assert (finding.severity, f"write {meant}" in finding.help) == (Severity.ERROR, True)
+
+
+@pytest.mark.parametrize("words", ["A+5", "IC+30", "U+3 V+2", "A+3 C+9 M13", "TX+0.5 TY+0.1"])
+def test_axes_that_turn_stand_beside_moves_that_a_corner_joins(words):
+    text = f"1 L X+0 Y+0 R0 FMAX\n2 L X+60 {words} F200\n3 RND R5\n4 L Y+40 {words}"
+    result = contoursolve.solve(text, control=KLARTEXT)
+    assert (result.diagnostics, result.answers[0].contour.end) == ((), (60.0, 40.0))
+    free = f"1 L X+0 Y+0 R0 FMAX\n2 FL X+60 AN+0 {words}"
+    assert any(each.code == "heidenhain-word-unknown" for each in findings(KLARTEXT, free))
+
+
 @pytest.mark.parametrize("control", [each for each in CHAIN if each != YASNAC])
 def test_a_word_that_nothing_is_like_is_a_warning(control):
     word = "QZW=5" if control == SINUMERIK else "#QZW=5" if control == ISG else "P5"

@@ -488,8 +488,13 @@ def _own_words(member: _Member, repeated: list[Word]) -> dict[str, Word]:
 
 def _foreign(block: Block) -> Iterator[Word]:
     """The words of a block that have no meaning in it."""
-    allowed = _ALLOWED.get(function_of(block), frozenset()) | _BESIDE_ANY
-    return (word for word in block.words if word.address not in allowed)
+    function = function_of(block)
+    allowed, is_plain = _ALLOWED.get(function, frozenset()) | _BESIDE_ANY, function in MOVES and function not in FREE
+    return (
+        word
+        for word in block.words
+        if word.address not in allowed and not (is_plain and LEXICON.is_beside(word.address))
+    )
 
 
 def _labels(chain: _Chain) -> tuple[str, ...]:

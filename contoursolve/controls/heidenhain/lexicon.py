@@ -66,7 +66,10 @@ _MOVING = (
 """What a block begins with that is read into words."""
 
 
-_MISSPELT = r"F(?!N\b|UNCTION\b)[A-Z]|L(?!BL\b|N\b)[A-Z]"
+_MISSPELT = (
+    r"F(?!N\b|UNCTION\b)[A-Z]|L(?!BL\b|N\b)[A-Z]"
+    r"|(?:R|C(?!YCL\b|ALL\b))[A-Z]{1,6}+(?:(?<=R)|[ \t]*+=?[ \t]*+R?+)[ \t]*+=?[ \t]*+[\d.,]"
+)
 """What begins like a function and is none: it is read into words, and told."""
 
 
