@@ -219,7 +219,9 @@ def has_corners(block: Block, here: State, modes: Modes) -> bool:
     blocks of their own, it is not read as any other."""
     if modes.follow is not None:
         return block.macro is None and not any(word.address == "G" for word in block.words)
-    return (here.motion in _CUTTING and moves(block, here, modes, ())) or _has_unread_code(block, here, modes)
+    is_torn = any(fault.text.startswith(",") for fault in block.faults)
+    is_cut = here.motion in _CUTTING and (is_torn or moves(block, here, modes, ()))
+    return is_cut or _has_unread_code(block, here, modes)
 
 
 _CUTTING = (1, 2, 3)
