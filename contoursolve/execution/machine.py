@@ -171,7 +171,9 @@ class _Frame(Struct):
         """How far it has come; what is left of a line comes before the next one."""
         loops = ((each.lines.first, each.passes) for each in self.loops if each.lines.has(self.at))
         has_run = not self.branches or self.branches[-1].has_run
-        return ((-self.left, self.first), *loops, (self.at - 0.5 * bool(self.rest), has_run))
+        # CASE names several blocks: ways to two of them do not meet on its line.
+        taken = ((float(each.target), 0.0) for each in self.rest[:1] if isinstance(each, _Taken))
+        return ((-self.left, self.first), *loops, (self.at - 0.5 * bool(self.rest), has_run), *taken)
 
 
 class _Way(Struct):

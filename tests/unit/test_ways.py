@@ -74,7 +74,7 @@ G111 = (
         (LATHE, J1, 3, 5),
         ("haas-lathe", J1, 3, 5),
         (SIEMENS, J3, 4, 6),
-        ("siemens-808d", CASE, 4, 8),
+        ("siemens-808d", CASE, 4, 6),
         ("isg", ISG, 3, 5),
         ("heidenhain", KLARTEXT, 5, 8),
         ("yasnac-lx3", G111, 3, 5),
@@ -278,3 +278,23 @@ def test_a_corner_finds_its_neighbour_in_lines_that_are_repeated(repeat):
     text = f"G17 G90 G0 X0 Y0\nG1 F200\nAA:\nG1 X=IC(10) RND=1\nY=IC(10) RND=1\nBB:\n{repeat}\nX=IC(10)\nM30"
     (answer,) = solve(text, control=SIEMENS).answers
     assert (answer.status, len(answer.contour.elements)) == (Status.SOLVED, 13)
+
+
+@pytest.mark.parametrize("places", [(20, 30, 20), (20, 20, 30), (30, 20, 20), (20, 30, 40), (20, 20, 20)])
+def test_all_ways_of_case_meet(places):
+    """The tool is where all ways that CASE opens end alike, else it is not known."""
+    ways = [f"LA{number}: X{place}\nGOTOF EE" for number, place in enumerate(places, 1)]
+    text = "\n".join(
+        [
+            "G17 G90 G0 X0 Y0\nG1 F9",
+            "CASE R1 OF 1 GOTOF LA1 2 GOTOF LA2 DEFAULT GOTOF LA3",
+            *ways,
+            "EE: Y10 RND=2\nX60",
+        ]
+    )
+    result = solve(text, control="siemens-840d")
+    told = {each.code for each in result.diagnostics}
+    assert told == (set() if len({*places}) == 1 else {"position-unknown"})
+    for value, place in enumerate(places, 1):
+        (answer,) = solve(text, control="siemens-840d", variables={"R1": value}).answers
+        assert answer.start.values[0] == place
