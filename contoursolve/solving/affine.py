@@ -5,7 +5,8 @@ constant. What the matrix maps to zero can still move; a combination of rows tha
 facts that say the same.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
 from itertools import combinations
 from math import comb
 from typing import NamedTuple
@@ -17,7 +18,8 @@ from msgspec.structs import replace
 from contoursolve.analysis.identities import is_affine
 from contoursolve.diagnostics.finding import Freedom
 from contoursolve.geometry import FIRST, SECOND, Fact, Profile, assemble, scalar
-from contoursolve.numeric.linear_algebra import pinv, shortest_solution, svd
+from contoursolve.numeric.echelon import CONSTANT, Echelon
+from contoursolve.numeric.linear_algebra import pinv, svd
 from contoursolve.solving.numbers import lookup
 from contoursolve.tolerance import REGULAR
 
@@ -56,14 +58,28 @@ class Part(NamedTuple):
     values: numpy.ndarray
 
 
-class AffineFacts(Struct, frozen=True):
+class AffineFacts(Struct, frozen=True, dict=True):
     """Facts as rows of `matrix`, shape (facts, unknowns), and `constants`, shape (facts,), mm."""
 
     facts: tuple[Fact, ...]
     unknowns: tuple[str, ...]
     matrix: numpy.ndarray
     constants: numpy.ndarray
-    parts: tuple[Part, ...]
+
+    @cached_property
+    def parts(self) -> tuple[Part, ...]:
+        """The parts of all facts."""
+        return _parts(self.matrix, self.constants)
+
+    @cached_property
+    def places(self) -> Mapping[Fact, int]:
+        """The row of each fact."""
+        return {fact: row for row, fact in reversed([*enumerate(self.facts)])}
+
+    @cached_property
+    def columns(self) -> Mapping[str, int]:
+        """The column of each unknown."""
+        return {name: column for column, name in enumerate(self.unknowns)}
 
     def circuits(self) -> Circuits:
         """The minimal sets of facts that are tied at these values, smallest first.
@@ -73,10 +89,15 @@ class AffineFacts(Struct, frozen=True):
         """
         found: list[tuple[int, ...]] = []
         is_complete = True
-        for part in self.parts:
+        basis, tied = IndependentFacts(self), set[int]()
+        for row in range(len(self.facts)):
+            tied.update(basis.add_row(row) or ())
+        rows = sorted(tied)
+        # What is in no circuit of a basis is in none.
+        for part in _parts(self.matrix[rows], self.constants[rows]):
             for within in _connected(part.tied):
                 supports, is_whole = _supports(part.tied[list(within)])
-                found += [tuple(part.rows[within[index]] for index in support) for support in supports]
+                found += [tuple(rows[part.rows[within[index]]] for index in support) for support in supports]
                 is_complete = is_complete and is_whole
         circuits = [self._circuit(rows) for rows in sorted(set(found), key=lambda rows: (len(rows), rows))]
         return Circuits(tuple(filter(None, circuits)), is_complete and None not in circuits)
@@ -91,26 +112,6 @@ class AffineFacts(Struct, frozen=True):
         present = [row for row in rows if abs(weights[row]) > REGULAR]
         gap = sum(weights[row] * float(self.constants[row]) for row in present)
         return Circuit(tuple(self.facts[row] for row in present), tuple(abs(gap / weights[row]) for row in present))
-
-    def circuit_with(self, fact: Fact, basis: Sequence[Fact]) -> Circuit | None:
-        """The facts of an independent set from which a further one follows, and that one, which comes last; None if it
-        does not follow from them."""
-        if not basis:
-            return None
-        index, kept = self.facts.index(fact), {*basis}
-        part = next(part for part in self.parts if index in part.rows)
-        rows = [row for row in part.rows if self.facts[row] in kept]
-        row, others = self.matrix[index, list(part.columns)], self.matrix[numpy.ix_(rows, part.columns)]
-        weights = shortest_solution(others.T, row) if others.size else numpy.zeros(len(rows))
-        if (abs(row - weights @ others) > REGULAR).any():
-            return None
-        gap = abs(float(self.constants[index] - weights @ self.constants[rows]))
-        used = [
-            (self.facts[each], abs(float(weight)))
-            for each, weight in zip(rows, weights, strict=True)
-            if abs(weight) > REGULAR
-        ]
-        return Circuit((*(each for each, _ in used), fact), (*(gap / weight for _, weight in used), gap))
 
     def freedoms(self) -> tuple[Freedom, ...]:
         """What can still move, point by point, in the order of the unknowns."""
@@ -141,7 +142,11 @@ class AffineFacts(Struct, frozen=True):
 
     def fixed_by(self, facts: Sequence[Fact]) -> dict[str, float]:
         """The unknowns that some of the facts determine, with their values, mm."""
-        rows = [self.facts.index(fact) for fact in facts]
+        rows = [self.places[fact] for fact in facts]
+        basis = IndependentFacts(self)
+        if all(basis.add_row(row) is None for row in rows):
+            return basis.fixed(self.unknowns)
+        # Where they disagree, what satisfies them best counts.
         parts = self.parts if rows == list(range(len(self.facts))) else _parts(self.matrix[rows], self.constants[rows])
         fixed = {
             column: value
@@ -152,20 +157,59 @@ class AffineFacts(Struct, frozen=True):
         return {self.unknowns[column]: fixed[column] for column in sorted(fixed)}
 
 
+class IndependentFacts:
+    """Facts of which none follows from the others, added one after the other."""
+
+    def __init__(self, affine: AffineFacts) -> None:
+        self._affine = affine
+        self._echelon = Echelon(REGULAR)
+
+    def add(self, fact: Fact) -> Circuit | None:
+        """Add a fact, and give None; or else give the facts from which it follows, in order, and itself, which comes
+        last."""
+        affine, index = self._affine, self._affine.places[fact]
+        weights = self.add_row(index)
+        if weights is None:
+            return None
+        present = {row: weight for row, weight in weights.items() if abs(weight) > REGULAR and row != index}
+        told = sum(weight * float(affine.constants[row]) for row, weight in present.items())
+        gap = abs(float(affine.constants[index]) - told)
+        rows = sorted(present)
+        return Circuit((*(affine.facts[row] for row in rows), fact), (*(gap / abs(present[row]) for row in rows), gap))
+
+    def add_row(self, row: int) -> dict[int, float] | None:
+        """The same by the number of a fact: the multiples of facts that it is the sum of, and itself, once."""
+        affine = self._affine
+        columns = affine.matrix[row].nonzero()[0].tolist()
+        entries = dict(zip(columns, affine.matrix[row, columns].tolist(), strict=True))
+        weights = self._echelon.add(row, {**entries, CONSTANT: float(affine.constants[row])})
+        return None if weights is None else {**weights, row: 1.0}
+
+    def fixed(self, names: Iterable[str]) -> dict[str, float]:
+        """Of some unknowns, those that the facts determine, with their values, mm, in the order of the unknowns."""
+        columns = self._affine.columns
+        found = self._echelon.fixed(columns[name] for name in names if name in columns)
+        return {self._affine.unknowns[column]: found[column] for column in sorted(found)}
+
+
 def affine_facts(profile: Profile, facts: Sequence[Fact]) -> AffineFacts | None:
     """Facts of a profile, at its values, as a matrix; None if one is not affine or the start is unknown."""
     if not is_affine(facts) or not profile.start.is_known:
         return None
     unknowns = assemble(profile).unknowns
     place = {name: column for column, name in enumerate(unknowns)}
-    nowhere = lookup(profile, dict.fromkeys(unknowns, 0.0))
-    at_one = {name: replace(nowhere, scalars={**nowhere.scalars, name: 1.0}) for name in unknowns}
-    constants = numpy.array([float(fact.residual(nowhere)) for fact in facts])
+    at = lookup(profile, dict.fromkeys(unknowns, 0.0))
+    constants = numpy.array([float(fact.residual(at)) for fact in facts])
+    # Where one unknown is 1 and all else is 0, a residual is what is multiplied by that unknown, to the last bit.
+    scalars, amounts = dict.fromkeys(at.scalars, 0.0), dict.fromkeys(at.amounts, 0.0)
+    at = replace(at, scalars=scalars, amounts=amounts)
     matrix = numpy.zeros((len(facts), len(unknowns)))
     for row, fact in enumerate(facts):
         for name in place.keys() & {*fact.reads()}:
-            matrix[row, place[name]] = float(fact.residual(at_one[name])) - constants[row]
-    return AffineFacts(tuple(facts), unknowns, matrix, constants, _parts(matrix, constants))
+            scalars[name] = 1.0
+            matrix[row, place[name]] = float(fact.residual(at))
+            scalars[name] = 0.0
+    return AffineFacts(tuple(facts), unknowns, matrix, constants)
 
 
 def _parts(matrix: numpy.ndarray, constants: numpy.ndarray) -> tuple[Part, ...]:

@@ -4,7 +4,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from math import hypot, inf, pi
 from typing import Any
 
-from contoursolve.analysis import analyse
+from msgspec.structs import replace
+
+from contoursolve.analysis import analyse, circuits_of
 from contoursolve.geometry import (
     FIRST,
     INCREMENT_OF,
@@ -25,7 +27,7 @@ from contoursolve.geometry import (
     assemble,
 )
 from contoursolve.geometry.system import step
-from contoursolve.solving.affine import AffineFacts, Circuit
+from contoursolve.solving.affine import AffineFacts, Circuit, IndependentFacts
 from contoursolve.solving.numbers import lookup
 from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind
 from contoursolve.tolerance import AGREEMENT, RESIDUAL
@@ -163,24 +165,33 @@ def compare_affine(profile: Profile, affine: AffineFacts) -> Iterator[Refusal | 
     """How each fact that the facts before it make unnecessary compares with them, whether they determine everything or
     not: words that say the same, whatever their values, and lines that are parallel, or the same, at these values."""
     system = assemble(profile)
-    basis: list[Fact] = []
+    basis, independent = IndependentFacts(affine), dict[Fact, None]()
+    here = lookup(profile, {})
+    generic = circuits_of(system)
     for fact in profile.facts:
-        circuit = affine.circuit_with(fact, basis)
+        circuit = basis.add(fact)
         if circuit is None:
-            basis.append(fact)
+            independent[fact] = None
             continue
-        fixed = affine.fixed_by(basis)
+        unknowns = {name for each in circuit.facts for name in system.unknowns_of(each)}
+        fixed = basis.fixed(unknowns)
         off = circuit.off[-1]
-        is_tied = analyse(system.keep((*basis, fact))).rank == len(basis)
-        if is_tied and fixed.keys() >= {*system.unknowns_of(fact)}:
-            event = compare_fact(fact, off, profile, system, lookup(profile, fixed))
+        if fixed.keys() >= {*system.unknowns_of(fact)} and _is_tied(fact, independent, generic, system):
+            event = compare_fact(fact, off, profile, system, replace(here, scalars={**here.scalars, **fixed}))
             if event is not None:
                 yield event
             continue
-        unknowns = {name for each in circuit.facts for name in system.unknowns_of(each)}
         subject = ",".join(name for name in system.unknowns if name in unknowns and name not in fixed)
         givens = tuple(each.given for each in circuit.facts if each.given)
         if off <= RESIDUAL:
             yield Refusal(RefusalKind.NOT_FIXED, subject, givens)
         else:
             yield Refusal(RefusalKind.LINES_PARALLEL, subject, givens, {"off_by_mm": off})
+
+
+def _is_tied(fact: Fact, basis: Mapping[Fact, None], generic: Mapping[Fact, tuple[Fact, ...]], system: System) -> bool:
+    """Whether a fact follows from some independent ones before it whatever the values are; `generic` says it of the
+    first facts that are independent for most values."""
+    if fact not in generic:
+        return False
+    return basis.keys() >= {*generic[fact]} or analyse(system.keep((*basis, fact))).rank == len(basis)
