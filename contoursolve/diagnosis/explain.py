@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from math import asin, degrees
 from typing import TYPE_CHECKING, Any
 
@@ -99,7 +99,7 @@ class Able(Struct, frozen=True):
         return " or ".join(name for slot in spec.split() for name in slot.split("|") if name in self.names)
 
 
-class Context(Struct, frozen=True):
+class Context(Struct, frozen=True, dict=True):
     """What a message may mention: the stated words by name, the unit to show lengths in."""
 
     rules: Sequence[Rule]
@@ -107,6 +107,16 @@ class Context(Struct, frozen=True):
     words: Mapping[str, Word] = field(default_factory=dict)
     place: Span = _BEGINNING
     """Where to point if no word is to blame."""
+
+    @cached_property
+    def typed(self) -> Mapping[str, str]:
+        """The texts of the words by name."""
+        return {name: word.text for name, word in self.words.items()}
+
+    @cached_property
+    def names(self) -> Mapping[int, str]:
+        """The names of the words by their identity."""
+        return {id(word): name for name, word in self.words.items()}
 
     def row(self, about: Enum) -> Rule:
         """The row about an event. Raises LookupError if the control has none."""
@@ -143,11 +153,10 @@ def report(
     rule = about if isinstance(about, Rule) else context.row(about)
     blamed = sorted(filter(None, words), key=lambda word: word.span)
     spans = [word.span for word in blamed] or [context.place]
-    typed = {name: word.text for name, word in context.words.items()}
     stated = {
-        "words": Words(tuple(_named(blamed, context.words))),
-        "present": Present(typed),
-        "absent": Absent(typed),
+        "words": Words(tuple(_named(blamed, context))),
+        "present": Present(context.typed),
+        "absent": Absent(context.typed),
         "address": blamed[0].address if blamed else "",
         **{several: several if len(blamed) > 1 else one for several, one in VERBS.items()},
         **fields,
@@ -190,23 +199,25 @@ def facts_at(profile: Profile, place: Span) -> list[Fact]:
     return [fact for fact in profile.facts if fact.given in words and words[fact.given].span == place]
 
 
-def _named(words: Sequence[Word], names: Mapping[str, Word]) -> Iterable[tuple[str, str]]:
+def _named(words: Sequence[Word], context: Context) -> Iterable[tuple[str, str]]:
     """Words as (name, text): the name of the given, else the address."""
-    known = {id(word): name for name, word in names.items()}
-    return ((known.get(id(word), word.address), word.text) for word in words)
+    return ((context.names.get(id(word), word.address), word.text) for word in words)
 
 
 def explain_offence(context: Context, offence: Offence, claim: ParsedContour) -> Diagnostic:
     """A rule on combinations that holds."""
     givens = claim.givens
     words = [context.words[name] for name in offence.names if name in context.words]
-    block = [word.span for name, word in context.words.items() if name.startswith(offence.role.prefixes[-1])]
-    if not words and block and min(block).line != context.place.line:
+    prefix = offence.role.prefixes[-1]
+    if not words:
         # What is missing is missing in the last block that the rule is about.
-        context = replace(context, place=min(block))
+        block = [word.span for name, word in context.words.items() if name.startswith(prefix)]
+        if block and min(block).line != context.place.line:
+            context = replace(context, place=min(block))
     turned = (givens[name] for name in offence.names if name in givens and givens[name].unit is Unit.DEGREE)
     within = [spell(each.word.address, _pointed(each.value % _FULL_TURN)) for each in turned if each.word]
-    lacking = join(_lacking(claim, offence.role.prefixes[-1]))
+    is_asked = "{lacking" in offence.rule.message + offence.rule.help
+    lacking = join(_lacking(claim, prefix)) if is_asked else ""
     return report(context, offence.rule, Basis.RULE, words, comparison="", within=join(within), lacking=lacking)
 
 

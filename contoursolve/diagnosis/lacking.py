@@ -8,10 +8,8 @@ from msgspec import Struct
 from contoursolve.analysis.determinacy import survey
 from contoursolve.diagnosis.wording import NUMBERS, either, join
 from contoursolve.geometry import Fact, Profile, assemble
-from contoursolve.numeric.linear_algebra import svd
 from contoursolve.reading import ParsedContour, read, stating
-from contoursolve.solving.affine import affine_facts
-from contoursolve.tolerance import REGULAR
+from contoursolve.solving.affine import IndependentFacts, affine_facts
 
 MOST_WORDS = 10
 """Words among which those that complete a contour are looked for by all their sets."""
@@ -60,18 +58,19 @@ def _rank_with(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> 
     whole = read(stating(claim, names), own)
     affine = affine_facts(whole, whole.facts)
     stated = {*profile.facts}
+    if affine is not None:
+        basis = IndependentFacts(affine)
+        for fact in affine.facts:
+            if fact in stated:
+                basis.add(fact)
+        further = [fact for fact in affine.facts if fact not in stated]
+        return lambda added: basis.rank_with(fact for fact in further if fact.given in added)
+    system = assemble(whole)
 
-    def rank(added: Collection[str]) -> int:
-        def is_kept(fact: Fact) -> bool:
-            return fact in stated or fact.given in added
+    def is_kept(fact: Fact, added: Collection[str]) -> bool:
+        return fact in stated or fact.given in added
 
-        if affine is not None:
-            rows = affine.matrix[[is_kept(fact) for fact in affine.facts]]
-            return int((svd(rows)[1] > REGULAR).sum()) if rows.size else 0
-        system = assemble(whole)
-        return survey(system.keep(tuple(fact for fact in system.facts if is_kept(fact)))).rank
-
-    return rank
+    return lambda added: survey(system.keep(tuple(fact for fact in system.facts if is_kept(fact, added)))).rank
 
 
 def lack_text(lack: Lack, text: Callable[[str], str]) -> str:

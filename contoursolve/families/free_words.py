@@ -31,7 +31,7 @@ from contoursolve.families.spec import (
 )
 from contoursolve.families.traced_reading import Alike, Reading, place_of_contour, read_alone, trace_reading
 from contoursolve.gcode import FACT, Word
-from contoursolve.geometry import Given, Profile, Unit
+from contoursolve.geometry import Given, Profile, Unit, names_of_roles
 from contoursolve.numeric.columns import Array
 from contoursolve.numeric.formulas import Affine
 from contoursolve.reading import ParsedContour, ReadIssue
@@ -149,8 +149,7 @@ def _compared(template: Template, claim: ParsedContour) -> Iterator[tuple[str, s
     free = {
         name: own for name, word in claim.words.items() for own, each in template.words.items() if is_same(each, word)
     }
-    for role in claim.form.roles:
-        calls = role.names(stated)
+    for role, calls in names_of_roles(claim.form.roles, stated):
         seen = {call: stated[name] for call, name in calls.items()}
         for rule in template.asked.rules:
             for pair in rule.when.compared(seen) if role.name in rule.roles and rule.when is not None else ():
@@ -163,8 +162,7 @@ def limits_beside(rules: Sequence[Rule], claim: ParsedContour, word: Word) -> It
     """The limits of the rules that hold for some values of a word beside what else the block states."""
     stated = claim.stated()
     own = {name for name, typed in claim.words.items() if is_same(word, typed)}
-    for role in claim.form.roles:
-        calls = role.names(stated)
+    for role, calls in names_of_roles(claim.form.roles, stated):
         seen = {call: stated[name] for call, name in calls.items()}
         conditions = [rule.when for rule in rules if role.name in rule.roles and rule.when is not None]
         for call in (call for call, name in calls.items() if name in own):

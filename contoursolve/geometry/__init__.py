@@ -17,6 +17,7 @@ from contoursolve.geometry.figure import (
     Role,
     Turn,
     line_scalars,
+    names_of_roles,
     scalar,
 )
 from contoursolve.geometry.lines import (
@@ -149,5 +150,6 @@ __all__ = [
     "headed_lines",
     "least_increments",
     "line_scalars",
+    "names_of_roles",
     "scalar",
 ]

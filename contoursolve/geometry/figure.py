@@ -1,6 +1,6 @@
 """A drawing without its values: points, lines, arcs and corners, what a fact about it is, the roles of blocks."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from enum import Enum
 from math import sqrt
 from typing import Any, Protocol
@@ -230,12 +230,24 @@ class Role(Struct, frozen=True):
 
     def names(self, stated: Iterable[str]) -> dict[str, str]:
         """Of the names that a contour states, those of this role, by what its rules call them."""
-        if self.prefixes == ("",):
-            return {name: name for name in stated}
-        calls = ("",) if len(self.prefixes) == 1 else tuple(f"{number}:" for number in range(1, len(self.prefixes) + 1))
-        return {
-            call + name.removeprefix(prefix): name
-            for name in [name for name in stated if name.startswith(self.prefixes)]
-            for prefix, call in zip(self.prefixes, calls, strict=True)
-            if name.startswith(prefix)
-        }
+        return next(named for _, named in names_of_roles((self,), stated))
+
+
+def names_of_roles(roles: Iterable[Role], stated: Iterable[str]) -> Iterator[tuple[Role, dict[str, str]]]:
+    """Each role with the names of `Role.names`. A prefix ends with the first colon of a name."""
+    everything = list(stated)
+    starting: dict[str, list[tuple[int, str]]] = {}
+    for place, name in enumerate(everything):
+        prefix, colon, _ = name.partition(":")
+        starting.setdefault(prefix + colon, []).append((place, name))
+    for role in roles:
+        if role.prefixes == ("",):
+            yield role, {name: name for name in everything}
+            continue
+        is_alone = len(role.prefixes) == 1
+        found = [
+            (place, ("" if is_alone else f"{number}:") + name.removeprefix(prefix), name)
+            for number, prefix in enumerate(role.prefixes, 1)
+            for place, name in starting.get(prefix, ())
+        ]
+        yield role, {call: name for _, call, name in (found if is_alone else sorted(found))}

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from heapq import heapify, heappop, heappush
 
 Row = Mapping[int, float]
-"""What is not zero of a row, by column. `CONSTANT` is no column: it goes along, for a row that is zero as an equation."""
+"""What is not zero of a row, by column. `CONSTANT` is none: it goes along, for a row that is zero as an equation."""
 
 CONSTANT = -1
 
@@ -50,6 +50,15 @@ class Echelon:
         self._of_pivot[lead] = len(self._kept)
         self._kept.append(_Kept(number, lead, present, scale, taken))
         return None
+
+    @property
+    def rank(self) -> int:
+        """The number of rows that are kept."""
+        return len(self._kept)
+
+    def rest(self, entries: Row) -> Row:
+        """A row less multiples of kept rows, zero in all columns that these are solved for."""
+        return self._reduce(entries)[0]
 
     def _reduce(self, entries: Row) -> tuple[dict[int, float], list[tuple[int, float]]]:
         """A row less multiples of kept rows, and which of these and how often."""

@@ -23,6 +23,7 @@ from contoursolve.geometry import (
     Role,
     Through,
     UnitDirection,
+    names_of_roles,
 )
 from contoursolve.reading.rules import Condition, Stated
 
@@ -121,12 +122,11 @@ class Assumption:
 
     def carries(self, roles: Iterable[Role], stated: Stated) -> bool:
         """Whether a contour of these roles, which states this, rests on it."""
-        for role in roles:
-            if role.name in self.roles:
-                own = {call: stated[name] for call, name in role.names(stated).items()}
-                if self.when.holds(own):
-                    return True
-        return False
+        own = [role for role in roles if role.name in self.roles]
+        return any(
+            self.when.holds({call: stated[name] for call, name in names.items()})
+            for _, names in (names_of_roles(own, stated) if own else ())
+        )
 
 
 class Resting(Struct, frozen=True, eq=False):

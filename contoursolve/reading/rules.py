@@ -10,7 +10,7 @@ from functools import lru_cache
 from contoursolve.diagnostics.display import Shown
 from contoursolve.diagnostics.finding import Alarm, Severity
 from contoursolve.diagnostics.source import Source
-from contoursolve.geometry import Role
+from contoursolve.geometry import Role, names_of_roles
 
 Stated = Mapping[str, Decimal | None]
 """What a block states: the value of each given by name (None for a variable), and circumstances such
@@ -336,24 +336,23 @@ class Offence:
 
 def check(rules: tuple[Rule, ...], roles: Sequence[Role], stated: Stated) -> tuple[Offence, ...]:
     """All rules on combinations of words that refuse or ignore something in what the blocks of a contour state."""
-    return tuple(offence for role in roles for offence in _check_role(rules, role, stated))
+    named = names_of_roles(roles, stated)
+    return tuple(offence for role, names in named for offence in _check_role(rules, role, names, stated))
 
 
 def is_refused_by_values(rules: tuple[Rule, ...], roles: Sequence[Role], stated: Stated) -> bool:
     """Whether `check` finds something that depends on values and not on names alone."""
-    for role in roles:
-        by_values = _rules_of(rules, role.name)[1]
-        if by_values:
-            is_all = role.prefixes == ("",)
-            own = stated if is_all else {call: stated[name] for call, name in role.names(stated).items()}
-            if any(rule.holds(own) for rule in by_values):
-                return True
+    by_values_of = {role: _rules_of(rules, role.name)[1] for role in roles}
+    for role, names in names_of_roles((role for role, own in by_values_of.items() if own), stated):
+        by_values = by_values_of[role]
+        own = {call: stated[name] for call, name in names.items()}
+        if any(rule.holds(own) for rule in by_values):
+            return True
     return False
 
 
-def _check_role(rules: tuple[Rule, ...], role: Role, stated: Stated) -> tuple[Offence, ...]:
+def _check_role(rules: tuple[Rule, ...], role: Role, names: Mapping[str, str], stated: Stated) -> tuple[Offence, ...]:
     by_names, by_values = _rules_of(rules, role.name)
-    names = role.names(stated)
     offences = _offences_by_names(by_names, role, frozenset(names.values()))
     if by_values:
         own = {call: stated[name] for call, name in names.items()}

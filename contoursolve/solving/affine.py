@@ -163,6 +163,8 @@ class IndependentFacts:
     def __init__(self, affine: AffineFacts) -> None:
         self._affine = affine
         self._echelon = Echelon(REGULAR)
+        self._rests: dict[int, Mapping[int, float]] = {}
+        """What is left of further facts beside those that were added."""
 
     def add(self, fact: Fact) -> Circuit | None:
         """Add a fact, and give None; or else give the facts from which it follows, in order, and itself, which comes
@@ -179,11 +181,25 @@ class IndependentFacts:
 
     def add_row(self, row: int) -> dict[int, float] | None:
         """The same by the number of a fact: the multiples of facts that it is the sum of, and itself, once."""
-        affine = self._affine
-        columns = affine.matrix[row].nonzero()[0].tolist()
-        entries = dict(zip(columns, affine.matrix[row, columns].tolist(), strict=True))
-        weights = self._echelon.add(row, {**entries, CONSTANT: float(affine.constants[row])})
+        self._rests.clear()
+        weights = self._echelon.add(row, self._entries(row))
         return None if weights is None else {**weights, row: 1.0}
+
+    def _entries(self, row: int) -> dict[int, float]:
+        matrix = self._affine.matrix
+        columns = matrix[row].nonzero()[0].tolist()
+        entries = dict(zip(columns, matrix[row, columns].tolist(), strict=True))
+        return {**entries, CONSTANT: float(self._affine.constants[row])}
+
+    def rank_with(self, further: Iterable[Fact]) -> int:
+        """How many facts would be independent with further ones."""
+        rests = Echelon(REGULAR)
+        for fact in further:
+            row = self._affine.places[fact]
+            if row not in self._rests:
+                self._rests[row] = self._echelon.rest(self._entries(row))
+            rests.add(row, self._rests[row])
+        return self._echelon.rank + rests.rank
 
     def fixed(self, names: Iterable[str]) -> dict[str, float]:
         """Of some unknowns, those that the facts determine, with their values, mm, in the order of the unknowns."""

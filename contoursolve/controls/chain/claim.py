@@ -63,6 +63,7 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
     circumstances: set[str] = set()
     blocks: list[Block] = []
     resting: list[set[str]] = []
+    states = (before, *(each.here for each in members))
     for index, member in enumerate(members):
         called = _calls(language, member)
         prefix = f"{index + 1}:"
@@ -97,7 +98,7 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         words |= {prefix + name: word for name, word in own.items()}
         kept |= {prefix + name: word for name, word in (in_force | turned).items()}
         givens |= {prefix + name: replace(given, name=prefix + name) for name, given in own_givens.items()}
-        since = (before, *(each.here for each in members))[max(index - 1, 0) : index + 2]
+        since = states[max(index - 1, 0) : index + 2]
         holds = {
             *_circumstances(language, member, first, is_only=len(members) == 1, is_first=not index),
             *([BESIDE_ARC] if any(each.turn is not None for each in elements[index : index + 2]) else []),
