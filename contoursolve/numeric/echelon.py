@@ -102,26 +102,31 @@ class Echelon:
                 weights[other] = _less(weights.get(other, 0.0), weight * factor)
         return found
 
-    def fixed(self, columns: Iterable[int]) -> dict[int, float]:
-        """Of some columns, those that the kept rows, as equations, give one value, with it."""
-        pivots = [self._of_pivot[column] for column in columns if column in self._of_pivot]
-        met, ahead = {*pivots}, pivots.copy()
+    def solved(self, columns: Iterable[int]) -> dict[int, dict[int, float]]:
+        """Some columns by those that are free: the multiples of these, and the `CONSTANT`, that make the kept rows, as
+        equations, true; a free one by itself."""
+        wanted = [*columns]
+        met = {self._of_pivot[column] for column in wanted if column in self._of_pivot}
+        ahead = [*met]
         while ahead:
             for other in self._kept[ahead.pop()].row:
                 place = self._of_pivot.get(other)
                 if place is not None and place not in met:
                     met.add(place)
                     ahead.append(place)
-        solved: dict[int, dict[int, float]] = {}
+        found: dict[int, dict[int, float]] = {}
         for place in sorted(met, reverse=True):
-            value = solved[self._kept[place].pivot] = {}
+            value = found[self._kept[place].pivot] = {}
             for column, factor in self._kept[place].row.items():
-                for free, share in solved.get(column, {column: 1.0}).items():
+                for free, share in found.get(column, {column: 1.0}).items():
                     value[free] = _less(value.get(free, 0.0), factor * share)
-        found = {self._kept[place].pivot: solved[self._kept[place].pivot] for place in pivots}
+        return {column: found.get(column, {column: 1.0}) for column in wanted}
+
+    def fixed(self, columns: Iterable[int]) -> dict[int, float]:
+        """Of some columns, those that the kept rows, as equations, give one value, with it."""
         return {
             column: value.get(CONSTANT, 0.0)
-            for column, value in found.items()
+            for column, value in self.solved(columns).items()
             if all(abs(share) <= self._least for free, share in value.items() if free != CONSTANT)
         }
 

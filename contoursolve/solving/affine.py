@@ -8,7 +8,7 @@ facts that say the same.
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import combinations
-from math import comb
+from math import comb, copysign, hypot
 from typing import NamedTuple
 
 import numpy
@@ -67,11 +67,6 @@ class AffineFacts(Struct, frozen=True, dict=True):
     constants: numpy.ndarray
 
     @cached_property
-    def parts(self) -> tuple[Part, ...]:
-        """The parts of all facts."""
-        return _parts(self.matrix, self.constants)
-
-    @cached_property
     def places(self) -> Mapping[Fact, int]:
         """The row of each fact."""
         return {fact: row for row, fact in reversed([*enumerate(self.facts)])}
@@ -115,30 +110,24 @@ class AffineFacts(Struct, frozen=True, dict=True):
 
     def freedoms(self) -> tuple[Freedom, ...]:
         """What can still move, point by point, in the order of the unknowns."""
-        null = self._loose()
+        basis = IndependentFacts(self)
+        for row in range(len(self.facts)):
+            basis.add_row(row)
+        moves = basis.moves()
         points = dict.fromkeys(name.partition(".")[0] for name in self.unknowns)
         result = []
         for point in points:
-            columns = [self.unknowns.index(scalar(point, axis)) for axis in (FIRST, SECOND)]
-            moving = null[(abs(null[:, columns]) > REGULAR).any(axis=1)]
-            if len(moving):
-                _, values, right = svd(moving[:, columns], full_matrices=False)
-                along = right[0] if right[0][numpy.argmax(abs(right[0]))] > 0 else -right[0]
-                is_line = int((values > REGULAR).sum()) == 1
-                direction = (float(along[0]), float(along[1])) if is_line else None
-                result.append(Freedom(point, direction))
+            one, other = (moves[scalar(point, axis)] for axis in (FIRST, SECOND))
+            ways = [(one.get(free, 0.0), other.get(free, 0.0)) for free in {**one, **other}]
+            if ways:
+                first, second = max(ways, key=lambda way: hypot(*way))
+                size = hypot(first, second)
+                # Of two that differ by rounding, the first tells which way is forwards.
+                size = copysign(size, first if abs(first) > abs(second) * (1 - REGULAR) else second)
+                along = first / size + 0.0, second / size + 0.0
+                is_line = all(abs(along[FIRST] * way[SECOND] - along[SECOND] * way[FIRST]) <= REGULAR for way in ways)
+                result.append(Freedom(point, along if is_line else None))
         return tuple(result)
-
-    def _loose(self) -> numpy.ndarray:
-        """A basis of what can still move, shape (freedoms, unknowns)."""
-        held = {column for part in self.parts for column in part.columns}
-        free = [column for column in range(len(self.unknowns)) if column not in held]
-        rows = [numpy.eye(len(self.unknowns))[free]]
-        for part in self.parts:
-            moved = numpy.zeros((len(part.loose), len(self.unknowns)))
-            moved[:, list(part.columns)] = part.loose
-            rows.append(moved)
-        return numpy.concatenate(rows)
 
     def fixed_by(self, facts: Sequence[Fact]) -> dict[str, float]:
         """The unknowns that some of the facts determine, with their values, mm."""
@@ -147,7 +136,7 @@ class AffineFacts(Struct, frozen=True, dict=True):
         if all(basis.add_row(row) is None for row in rows):
             return basis.fixed(self.unknowns)
         # Where they disagree, what satisfies them best counts.
-        parts = self.parts if rows == list(range(len(self.facts))) else _parts(self.matrix[rows], self.constants[rows])
+        parts = _parts(self.matrix[rows], self.constants[rows])
         fixed = {
             column: value
             for part in parts
@@ -190,6 +179,17 @@ class IndependentFacts:
         columns = matrix[row].nonzero()[0].tolist()
         entries = dict(zip(columns, matrix[row, columns].tolist(), strict=True))
         return {**entries, CONSTANT: float(self._affine.constants[row])}
+
+    def moves(self) -> dict[str, dict[int, float]]:
+        """For each unknown, how far it moves with each of those that are free, as these are numbered, by one of its
+        own; nothing for one that the facts determine."""
+        solved = self._echelon.solved(self._affine.columns.values())
+        return {
+            self._affine.unknowns[column]: {
+                free: share for free, share in moves.items() if free != CONSTANT and abs(share) > REGULAR
+            }
+            for column, moves in solved.items()
+        }
 
     def rank_with(self, further: Iterable[Fact]) -> int:
         """How many facts would be independent with further ones."""

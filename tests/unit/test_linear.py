@@ -10,6 +10,7 @@ import sys
 import time
 from collections.abc import Callable
 
+import numpy
 import pytest
 from examples import some_of
 
@@ -200,3 +201,43 @@ def test_time_goes_by_the_number_of_lines_that_say_nothing(control, line, place)
     solve(1)
     few, many = (calls(lambda count=count: solve(count)) for count in (SHORT // 2, TIMES * SHORT // 2))
     assert many <= 1.2 * TIMES * few
+
+
+# Chains --------------------------------------------------------------------------------------------------------------
+
+
+def pairs(count: int, code: str) -> str:
+    """A line at an angle and one to a point, again and again, of which one corner in the middle is too large."""
+    heads = {
+        "siemens-840d": ("G17 G90 G0 X0 Y0\nG1 F500\n", "G1 ANG=30 RND={size}\nX{end} Y0 ANG=-30 RND=1\n"),
+        "nct-99m": ("G17 G90 G00 X0. Y0.\nG41 D1 G01 F500.\n", "G01 ,A30. ,R{size}.\nX{end} Y0. ,A-30. ,R1.\n"),
+        "fanuc-lathe": ("G00 X0. Z0.\nG01 F500.\n", "G01 ,A30. ,R{size}.\nX0. Z{end} ,A-30. ,R1.\n"),
+    }
+    head, pair = heads[code]
+    sizes = [20 if each == count // 2 else 1 for each in range(count)]
+    texts = [pair.format(size=size, end=f"{17.3205 * place:.4f}") for place, size in enumerate(sizes, 1)]
+    return head + "".join(texts) + f"{'Z' if code == 'fanuc-lathe' else 'X'}{17.3205 * count + 30:.4f}\n"
+
+
+@pytest.mark.parametrize("control", ["siemens-840d", "nct-99m", "fanuc-lathe"])
+def test_time_goes_by_the_number_of_angle_pairs(control, monkeypatch):
+    """What Python does goes by their number, and no matrix that is decomposed grows with it. Each spare fact was held
+    against all facts before it."""
+    sizes = []
+    for name in ("svd", "lstsq", "pinv"):
+
+        def sized(matrix, *rest, act=getattr(numpy.linalg, name), **settings):
+            sizes.append(max(matrix.shape))
+            return act(matrix, *rest, **settings)
+
+        monkeypatch.setattr(numpy.linalg, name, sized)
+
+    def steps(count: int) -> tuple[int, int]:
+        sizes.clear()
+        made = calls(lambda: check(pairs(count, control), control=control))
+        return made, max(sizes, default=0)
+
+    steps(2)
+    (few, small), (many, large) = steps(4), steps(16)
+    assert many <= 1.2 * 4 * few
+    assert large <= small
