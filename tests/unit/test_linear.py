@@ -225,8 +225,9 @@ def test_time_goes_by_the_number_of_angle_pairs(control, monkeypatch):
     against all facts before it."""
     sizes = []
     for name in ("svd", "lstsq", "pinv"):
+        act = getattr(numpy.linalg, name)
 
-        def sized(matrix, *rest, act=getattr(numpy.linalg, name), **settings):
+        def sized(matrix, *rest, act=act, **settings):
             sizes.append(max(matrix.shape))
             return act(matrix, *rest, **settings)
 
