@@ -378,7 +378,7 @@ def _examine_geometry(
     if structure and profile.start.is_known and not (is_refused and profile.is_extended):
         from contoursolve.solving.ambiguity import said_twice  # noqa: PLC0415 - few blocks lack something
 
-        compared = said_twice(profile)
+        compared = _each_word_once(said_twice(profile))
         for event in (each for each in compared if not is_refused or each.kind in _ABOUT_WORDS):
             finding = explain_result(context, event, profile)
             against += [finding] if isinstance(event, Refusal) else []
@@ -398,14 +398,31 @@ def _examine_geometry(
     if not is_solvable or is_long:
         return profile, Solution(Status.UNDERDETERMINED), None
     profile, solution, alternatives = _solve(profile, context, claim, notebook, depth)
-    events: list[Refusal | Note] = [*solution.refusals, *solution.remarks]
-    for event in events:
+    for event in _each_word_once([*solution.refusals, *solution.remarks]):
         # A rule about the angles of the block has said that it has no vertex.
         is_said = event.kind is RefusalKind.LINES_PARALLEL and Status.NO_SOLUTION in notebook.statuses
         if not is_refused or (event.kind in _ABOUT_WORDS and not is_said):
             notebook.add(explain_result(context, event, profile, alternatives))
             notebook.statuses.add(solution.status)
     return (profile, Solution(solution.status), None) if is_refused else (profile, solution, alternatives)
+
+
+def _each_word_once(events: Sequence[Refusal | Note]) -> list[Refusal | Note]:
+    """What is said of each word: where a word states several facts, such as both parts of a direction, what is most
+    wrong of them."""
+    said = [each for each in events if each.kind in _OF_A_WORD and each.subject]
+    worst: dict[str, Refusal | Note] = {}
+    for each in said:
+        known = worst.setdefault(each.subject, each)
+        if (isinstance(each, Refusal), each.values.get("off_by_mm", 0.0)) > (
+            isinstance(known, Refusal),
+            known.values.get("off_by_mm", 0.0),
+        ):
+            worst[each.subject] = each
+    return [each for each in events if each not in said or each is worst[each.subject]]
+
+
+_OF_A_WORD = (RefusalKind.WORDS_DISAGREE, NoteKind.WORDS_AGREE)
 
 
 def _behind(finding: Diagnostic, against: Sequence[Diagnostic], claim: ParsedContour) -> Diagnostic:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
 from functools import cached_property, lru_cache
@@ -305,6 +305,14 @@ def explain_missing(
         context = replace(context, place=next((block.span for block, names in blocks if first in names), context.place))
         usual_words = [claim.vocabulary[name] for name in absent[:_MOST_NAMED]]
         ways = [_adding_by_line(usual_words, open_count, claim)] if usual_words else []
+        from contoursolve.diagnosis.lacking import partners_of  # noqa: PLC0415 - few blocks lack words
+
+        partners, halves = partners_of(claim)
+        if partners:
+            asked = _adding_by_line([claim.vocabulary[name] for name in partners], 1, claim, join)
+            words = join([claim.words[name].text for name in halves if name in claim.words])
+            says = "say" if len(halves) > 1 else "says"
+            told, ways = told.partition(", so ")[2], [f"{asked}, without which {words} {says} nothing"]
     completions = "; or ".join(ways) or f"state a fact about {'them' if told.endswith('are still open') else 'it'}"
     return report(context, ReadIssue.UNDERDETERMINED, Basis.SYMBOLIC, [], open=told, completions=completions)
 
@@ -328,12 +336,14 @@ def _open_elements(free: set[str], number: int, profile: Profile) -> tuple[str, 
     return f"{missing}, so {told}", next(iter(open_), "")
 
 
-def _adding_by_line(words: Sequence[tuple[str, int]], number: int, claim: ParsedContour) -> str:
+def _adding_by_line(
+    words: Sequence[tuple[str, int]], number: int, claim: ParsedContour, joined: Callable[[list[str]], str] = either
+) -> str:
     """To add so many of these words, those of one line together."""
     lines: dict[int, list[str]] = {}
     for address, index in words:
         lines.setdefault(claim.blocks[index].line, []).append(address)
-    told = [f"{either(own)} in program line {line}" for line, own in lines.items()]
+    told = [f"{joined(own)} in program line {line}" for line, own in lines.items()]
     amount = "" if number == 1 else f"{NUMBERS.get(number, number)} of "
     return f"add {amount}{', or '.join(told) if number == 1 else ', '.join(told)}"
 

@@ -5,6 +5,7 @@ from itertools import combinations
 
 from msgspec import Struct
 
+from contoursolve.analysis import analyse
 from contoursolve.analysis.determinacy import survey
 from contoursolve.diagnosis.wording import NUMBERS, either, join
 from contoursolve.geometry import Fact, Profile, assemble
@@ -98,3 +99,20 @@ def still_able(lack: Lack, unable: Collection[str]) -> Lack | None:
         return None
     tied = (tuple(map(places.index, chosen)) for chosen in lack.tied if {*chosen} <= {*places})
     return Lack(lack.number, tuple(kept[place] for place in places), tuple(tied))
+
+
+def partners_of(claim: ParsedContour) -> tuple[list[str], list[str]]:
+    """Words that others need to say anything, where with them nothing is open, and these others; none where it is."""
+    partners, halves = dict[str, None](), dict[str, None]()
+    needs = {row.needs for row in claim.form.facts}
+    effective = {name for each in needs if claim.givens.keys() >= {*each} for name in each}
+    for names in dict.fromkeys(row.needs for row in claim.form.facts):
+        stated = [name for name in names if name in claim.givens]
+        # A pole says nothing without polar words, but it is no half of one.
+        if len(stated) < len(names) and not effective.intersection(names) and not {*names} & {*claim.form.usual}:
+            partners |= dict.fromkeys(name for name in names if stated and name not in claim.givens)
+            halves |= dict.fromkeys(stated)
+    if not partners or not partners.keys() <= claim.vocabulary.keys():
+        return [], []
+    is_enough = analyse(assemble(read(stating(claim, partners), frozenset()))).is_determined
+    return ([*partners], [*halves]) if is_enough else ([], [])

@@ -21,6 +21,7 @@ from contoursolve.geometry import (
     ParallelLines,
     Profile,
     Radius,
+    Spoke,
     System,
     Unit,
     Values,
@@ -154,7 +155,9 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
     gap = inf if is_word else abs(values.get("expected", inf) - values.get("actual", inf))
     # The equation alone is true of the opposite direction, too.
     is_opposite = any(float(sense) < -AGREEMENT for sense in fact.senses(at))
-    is_against = is_opposite or (is_directed(fact, system.figure) and opposes(values, Unit.DEGREE))
+    # So is one part of a radius along one of its axes.
+    has_direction = isinstance(fact, Spoke) or is_directed(fact, system.figure)
+    is_against = is_opposite or (has_direction and opposes(values, Unit.DEGREE))
     if not is_against and (off <= allowance(fact, at, increments_of(profile)) or gap <= AGREEMENT):
         return Note(NoteKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
     kind = RefusalKind.WORDS_DISAGREE if "expected" in values else RefusalKind.FACT_DISAGREES

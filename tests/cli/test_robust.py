@@ -29,15 +29,46 @@ def run(*arguments: str, status: int | None = None, says: str = "") -> Result:
     return result
 
 
-@pytest.mark.parametrize("command", ["check", "solve"])
-def test_nothing_but_the_document_is_on_standard_output(tmp_path, command):
-    """Seen from outside the process: libraries print past `sys.stdout`."""
-    text = "G17 G90 G00 X0. Y0.\nG02 I20. J0. R20. F500\nG03 X80. Y0. R25. H0\n"
-    (tmp_path / "arcs.nc").write_text(text)
-    words = [sys.executable, "-m", "contoursolve", command, "--format", "json", "--control", "mitsubishi", "arcs.nc"]
-    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (1, "")
-    assert "mitsubishi-two-radii" in {each["code"] for each in json.loads(done.stdout)["diagnostics"]}
+ARCS = "G17 G90 G00 X0. Y0.\nG02 I20. J0. R20. F500\nG03 X80. Y0. R25. H0\n"
+CHAIN = "--start|X0 Y0|--block|FL AN+0 LEN20|--block|FCT DR+ R10 CCA+0|--block|FLT LEN10|--control|heidenhain"
+
+
+@pytest.mark.parametrize(
+    ("words", "status"),
+    [
+        ("check|arcs.nc|--control|mitsubishi", 1),
+        ("solve|arcs.nc|--control|mitsubishi", 1),
+        ("diff|arcs.nc|other.nc|--control|mitsubishi", 1),
+        ("verify|arcs.nc|arcs.json", 0),
+        (f"sweep|{CHAIN}|--vary|2:R=0,10,-1", 0),
+        (f"range|{CHAIN}|--word|2:R", 0),
+        (f"find|{CHAIN}|--word|2:R|--bring|P3 Y20", 0),
+        (f"sensitivity|{CHAIN}", 0),
+    ],
+    ids=lambda value: value.partition("|")[0] if isinstance(value, str) else "",
+)
+def test_nothing_but_the_document_is_on_standard_output(tmp_path, monkeypatch, capfd, words, status):
+    """Every command that prints JSON, seen where the process writes: libraries print past `sys.stdout`."""
+    monkeypatch.chdir(tmp_path)
+    Path("arcs.nc").write_text(ARCS)
+    Path("other.nc").write_text(ARCS.replace("R25", "R26"))
+    if words.startswith("verify"):
+        Path("arcs.json").write_text(run("solve", "arcs.nc", "--control", "mitsubishi", "--format", "json").output)
+    with pytest.raises(SystemExit) as ended:
+        main([*words.split("|"), "--format", "json"])
+    done = capfd.readouterr()
+    assert (ended.value.code, done.err) == (status, "")
+    assert json.loads(done.out)["schema"].startswith("contoursolve/")
+
+
+def test_every_command_that_prints_json_is_tried():
+    tried = {
+        words.partition("|")[0]
+        for words, _ in test_nothing_but_the_document_is_on_standard_output.pytestmark[0].args[1]
+    }
+    for name in main.list_commands(None):
+        options = {option for each in main.get_command(None, name).params for option in each.opts}
+        assert ("--format" in options) == (name in tried), name
 
 
 @pytest.fixture

@@ -297,6 +297,30 @@ def test_a_contradiction_is_told_before_what_is_missing(blocks, code, off):
     assert first.values.get("off_by_mm") == (off and pytest.approx(off, abs=1e-3))
 
 
+@pytest.mark.parametrize(
+    ("block", "word"),
+    [
+        ("FC DR+ R10 CCX+10 CCY+0 CCA+180 X+20 Y+0", "CCA0"),
+        ("FC DR+ R10 CCX+10 CCY+0 CCA+90 X+10 Y-10", "CCA-90"),
+        ("FC DR+ R10 CCX+10 CCY+0 CCA-45 X+20 Y+0", "CCA0"),
+    ],
+)
+def test_a_direction_of_an_arc_that_others_contradict_is_one_conflict_and_never_agrees(block, word):
+    (finding,) = solved(chain(block)).diagnostics
+    assert (finding.code, finding.values["expected"]) == ("words-conflict", pytest.approx(float(word[3:])))
+    assert any(f"write {word} for" in fix.description for fix in finding.fixes)
+
+
+@pytest.mark.parametrize(
+    ("stated", "lacking"),
+    [("P1X+60", "add P1Y"), ("PDY+20", "add PDX and D"), ("PDY+20 D0", "add PDX"), ("PDX+60 PDY+35", "add D")],
+)
+def test_what_half_a_point_lacks_is_its_other_half(stated, lacking):
+    missing, error = solved(chain("FL AN+60", f"FL X+80 Y+20 {stated}")).diagnostics
+    assert (error.is_error, missing.code, missing.is_error) == (True, "words-missing", False)
+    assert missing.message.partition(": ")[2].startswith(f"{lacking} in program line 4, without which {stated[:3]}")
+
+
 def test_a_closing_line_in_the_wrong_direction_is_told_with_the_right_one():
     text = chain("FL AN+0 LEN60 CLSD+", "FL AN+90 LEN40", "FL AN+180 LEN60", "FL AN+240 CLSD-")
     (finding,) = solved(text).diagnostics
