@@ -149,7 +149,7 @@ GEOMETRY_RULES = (
     ),
     _row(
         RefusalKind.BEVEL_OUTSIDE,
-        "{words}: the virtual intersection lies {off} outside the rectangle that its line spans",
+        "{words}: the virtual intersection lies {off} in {axis} outside the rectangle that its line spans",
         "use a rounding, or a sharp corner",
         _LATHE,
         _LATHE.replace("B120.", "B60."),

@@ -412,7 +412,7 @@ def explain_result(
         fields["off"] = _off(event, turned, context.unit, profile, is_diameter=is_word and givens[0].is_diameter)
     if is_word and "expected" in values:
         fields["meant"] = statement_text(givens[0], values["expected"], profile)
-    fields |= _counted(event)
+    fields |= {**_counted(event), **_outside(event, context.unit, profile)}
     notes: tuple[str, ...] = ()
     if event.kind in SAID_AGAIN:
         fields |= _others(event, profile)
@@ -450,6 +450,16 @@ def _off(event: Refusal | Note, turned: float | None, unit: Length, profile: Pro
     if any(isinstance(fact, ParallelLines) and event.subject in (fact.given, fact.part_of) for fact in profile.facts):
         turned = degrees(asin(min(1.0, off)))
     return length_text(off * (1 + is_diameter), unit) if turned is None else angle_text(turned)
+
+
+def _outside(event: Refusal | Note, unit: Length, profile: Profile) -> dict[str, str]:
+    """By how much a corner is outside its lines, and along which axis: as a diameter where that is one."""
+    if event.kind is not RefusalKind.BEVEL_OUTSIDE or not isinstance(event, Refusal):
+        return {}
+    (axis,) = event.elements
+    is_diameter = profile.plane.diameters[profile.plane.axes.index(axis)]
+    off = length_text(event.values["off_by_mm"] * (1 + is_diameter), unit)
+    return {"off": off, "axis": f"{axis} (diameter)" if is_diameter else axis}
 
 
 def _counted(event: Refusal | Note) -> dict[str, str]:

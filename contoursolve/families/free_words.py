@@ -173,13 +173,13 @@ def limits_beside(rules: Sequence[Rule], claim: ParsedContour, word: Word) -> It
 class Example(Struct, frozen=True):
     """A row of a class that the rules or the reading may tell apart: its key, its values, and how many rows are in the
     class. With `is_by_row`, every row of this key is read by itself, and those that are read alike are a class.
-    `others` are the values of another row of the key, the last one."""
+    `others` are the values of other rows of the key: the last one, and some between."""
 
     key: int
     values: tuple[float, ...]
     count: int
     is_by_row: bool = False
-    others: tuple[float, ...] = ()
+    others: tuple[tuple[float, ...], ...] = ()
 
 
 class Examples(Struct, frozen=True):
@@ -215,15 +215,38 @@ def examples_of(template: Template, ranges: Ranges) -> Examples:
         if more == limits:
             break
         limits = more
+    found = replace(found, rows=tuple(_with_others(found, ranges)))
     rest = {
         row.key: row
         for row in found.rows
         if known[row.values].is_by_row
-        or not known[row.values].holds(template, dict(zip(names, row.others, strict=True)))
+        or not all(known[row.values].holds(template, dict(zip(names, each, strict=True))) for each in row.others)
     }
     rows = [row for row in found.rows if row.key not in rest]
     rows += _kinds_of(template, ranges, found, rest) if rest else ()
     return replace(found, rows=tuple(sorted(rows, key=lambda row: row.key)))
+
+
+MOST_COMPARED = 64
+"""Rows of a family that are read by themselves, to compare what each states with what follows from its example: about a
+hundredth of a second."""
+
+_GOLDEN = 0.6180339887498949
+"""Steps of this part of a family meet the values of every word, whatever other words vary beside it."""
+
+
+def _with_others(found: Examples, ranges: Ranges) -> Iterator[Example]:
+    """The examples with further rows of their keys: all rows of a small family, some of a large one."""
+    count = ranges.count
+    is_small = count <= MOST_COMPARED
+    rows = range(count) if is_small else sorted({int(each * _GOLDEN % 1 * count) for each in range(MOST_COMPARED)})
+    others: dict[int, dict[tuple[float, ...], None]] = {row.key: {row.others[0]: None} for row in found.rows}
+    for row in rows:
+        part = ranges.rows(row, row + 1)
+        key = int(found.key(list(part.values.values()), [numpy.zeros(1, numpy.int64)] * len(part.values))[0])
+        others[key][tuple(float(each[0]) for each in part.values.values())] = None
+    for row in found.rows:
+        yield replace(row, others=tuple(each for each in others[row.key] if each != row.values))
 
 
 def _kinds_of(template: Template, ranges: Ranges, found: Examples, rest: Mapping[int, Example]) -> Iterator[Example]:
@@ -272,7 +295,7 @@ def _examples_between(limits: tuple[WordLimits, ...], ranges: Ranges) -> Example
             tuple(float(each[at]) for each, at in zip(words, places * repeats, strict=True))
             for places, repeats in ((firsts, len(words) // len(firsts)), (ends, len(words) // len(ends)))
         )
-        rows.append(Example(key, values, prod(counts), others=others))
+        rows.append(Example(key, values, prod(counts), others=(others,)))
     return Examples(limits, tuple(rows))
 
 

@@ -101,9 +101,12 @@ def _check_corner(
     if turn <= max(REGULAR, least) and not (straight and corner.guard):
         return refuse(RefusalKind.CORNER_STRAIGHT if straight else RefusalKind.CORNER_REVERSES)
     if corner.shape.share:
-        outside = [excess for excess, give in _outside_rectangle(corner, profile, points) if excess > give + LENGTH]
+        sides = _outside_rectangle(corner, profile, points)
+        outside = [(excess, axis) for excess, give, axis in sides if excess > give + LENGTH]
         if outside:
-            return refuse(RefusalKind.BEVEL_OUTSIDE, off_by_mm=max(outside))
+            off, axis = max(outside)
+            values = {"off_by_mm": off}
+            return [Refusal(RefusalKind.BEVEL_OUTSIDE, corner.name, (corner.size,), values, (), (axis,))]
         # Not a number is a bevel that is too large for its arc.
         negative = [each for way in ("in", "out") if (each := out[f"setback-{way}:{corner.name}"]) < -LENGTH]
         if negative:
@@ -111,9 +114,11 @@ def _check_corner(
     return []
 
 
-def _outside_rectangle(corner: Corner, profile: Profile, points: Mapping[str, Point]) -> Iterator[tuple[float, float]]:
-    """How far the corner lies outside the rectangle spanned by the ends of its two lines, mm, on each side, and how far
-    it may: both coordinates that are compared are exact to half their increment."""
+def _outside_rectangle(
+    corner: Corner, profile: Profile, points: Mapping[str, Point]
+) -> Iterator[tuple[float, float, str]]:
+    """How far the corner lies outside the rectangle spanned by the ends of its two lines, mm, on each side, how far it
+    may, as both coordinates that are compared are exact to half their increment, and along which axis."""
     path = {element.name: element for element in profile.figure.path}
     before, after = path[corner.before], path.get(corner.after or "")
     if not isinstance(before, Line) or not isinstance(after, Line):
@@ -121,8 +126,9 @@ def _outside_rectangle(corner: Corner, profile: Profile, points: Mapping[str, Po
     increment, ends = increments_of(profile), (points[before.tail], points[after.head])
     for axis in (FIRST, SECOND):
         low, high = sorted((ends[0][axis], ends[1][axis]))
-        yield low - points[corner.at][axis], increment(str(axis))
-        yield points[corner.at][axis] - high, increment(str(axis))
+        give, letter = increment(str(axis)), profile.plane.axes[axis]
+        yield low - points[corner.at][axis], give, letter
+        yield points[corner.at][axis] - high, give, letter
 
 
 def _check_room(

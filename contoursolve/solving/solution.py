@@ -173,7 +173,8 @@ class Refusal(Struct, frozen=True):
     beside: tuple[str, ...] = ()
     """Givens that are not to blame, but leave no more room than the limit."""
     elements: tuple[str, ...] = ()
-    """For a corner that is too large: the element that is too short for it, and the one that limits what fits."""
+    """For a corner that is too large: the element that is too short for it, and the one that limits what fits. For a
+    bevel outside its lines: the axis along which it is farthest."""
 
 
 class Note(Struct, frozen=True):

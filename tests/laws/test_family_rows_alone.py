@@ -1,6 +1,7 @@
 """Every row of a family is what a single solve says of its block, whatever row stands first."""
 
 from collections import Counter
+from decimal import Decimal
 from random import Random
 
 import numpy as np
@@ -11,6 +12,7 @@ from generate_families import BLOCKS, ROWS, draw
 from contoursolve import FamilyError, family, find_word, sensitivity, solve, tolerances
 from contoursolve.families import Code, feasible, region
 from contoursolve.families.spec import name_of, spec_of
+from contoursolve.families.traced_reading import Traced
 from contoursolve.output.families import rest_lines
 
 NEAR = 1e-7  # mm, or of the coordinate
@@ -69,6 +71,16 @@ def test_the_direction_that_an_arc_hands_to_a_line_is_that_of_its_row(order):
     found = family(HANDED_ON, vary={"2:CCA": order}, **KLARTEXT)
     (at,) = np.flatnonzero(np.array(order) == 90)
     assert (found["P3.X"][at], found["P3.Y"][at]) == pytest.approx((10, 20))
+
+
+@pytest.mark.parametrize("order", [[30, 90, 30], [30, 45, 90, 30], [30, *range(31, 100), 30]])
+def test_what_a_number_forgets_stays_in_no_row(monkeypatch, order):
+    """A sum that does not remember its words, so that a line would have the direction of the first row."""
+    monkeypatch.setattr(Traced, "__add__", Decimal.__add__)
+    found = family(HANDED_ON, vary={"2:CCA": order}, **KLARTEXT)
+    for row, value in enumerate(order):
+        answer = alone(HANDED_ON, {"2:CCA": value}, **KLARTEXT)
+        assert not difference({name: found[name][row] for name in found.columns}, answer)
 
 
 def test_tangent_arcs_turn_to_the_side_of_their_row():

@@ -109,3 +109,16 @@ def test_an_increment_in_brackets_is_offered_too():
     (finding, *_) = check("G17 G90 G0 X10 Y0\nG1 ANG=30\nM30", control="siemens-840d")
     fixes = {each.description: each.example for each in finding.fixes}
     assert fixes["add X=IC(?) (such as X=IC(10))"] == "G1 ANG=30 X=IC(10)"
+
+
+@pytest.mark.parametrize(
+    ("block", "told"),
+    [
+        ("G111 Z-60. A90. I20. B200. C5.", "lies 40.000 mm in X (diameter) outside"),
+        ("G111 X100. A180. K-30. B60. C5.", "lies 17.321 mm in Z outside"),
+    ],
+)
+def test_how_far_a_bevel_is_outside_is_told_as_its_axis_is_programmed(block, told):
+    finding = findings(block)["g111-bevel-outside"]
+    assert told in finding.message
+    assert finding.values["off_by_mm"] == pytest.approx(20.0 if "X (" in told else 17.3205, abs=1e-4)

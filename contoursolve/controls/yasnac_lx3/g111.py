@@ -343,7 +343,8 @@ _GEOMETRY_RULES = (
     ),
     Rule(
         code="g111-bevel-outside",
-        message="{words}: the virtual intersection lies {off} outside the rectangle between start and end of line 2",
+        message="{words}: the virtual intersection lies {off} in {axis} outside the rectangle between start and end "
+        "of line 2",
         help="use a rounding P, or a sharp corner",
         source=BOOK.printed("2.8.30, p. 140 Note 3"),
         alarm=_GEOMETRY,
