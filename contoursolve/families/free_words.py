@@ -241,8 +241,8 @@ def _with_others(found: Examples, ranges: Ranges) -> Iterator[Example]:
     is_small = count <= MOST_COMPARED
     rows = range(count) if is_small else sorted({int(each * _GOLDEN % 1 * count) for each in range(MOST_COMPARED)})
     others: dict[int, dict[tuple[float, ...], None]] = {row.key: {row.others[0]: None} for row in found.rows}
-    for row in rows:
-        part = ranges.rows(row, row + 1)
+    for number in rows:
+        part = ranges.rows(number, number + 1)
         key = int(found.key(list(part.values.values()), [numpy.zeros(1, numpy.int64)] * len(part.values))[0])
         others[key][tuple(float(each[0]) for each in part.values.values())] = None
     for row in found.rows:
