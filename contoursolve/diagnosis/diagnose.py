@@ -146,8 +146,14 @@ def _main(findings: list[Diagnostic], *, is_extended: bool) -> int | None:
     return None
 
 
-_NOT_MENDED = (ReadIssue.START_IN_INCREMENTS, ReadIssue.AXIS_CROSSED)
-"""What no repair of the contour is about: its start point, and a path that may be meant."""
+_NOT_MENDED = (
+    ReadIssue.START_IN_INCREMENTS,
+    ReadIssue.AXIS_CROSSED,
+    ReadIssue.MODE_UNKNOWN,
+    ReadIssue.VARIABLE,
+)
+"""What no repair of the contour is about: its start point, a path that may be meant, and what is right but not known:
+without a corner, it would be another contour that is as little known."""
 
 _FROM_START = (ReadIssue.WORD_IGNORED, RefusalKind.WORDS_DISAGREE, RefusalKind.LINE_REVERSED)
 

@@ -291,7 +291,8 @@ class Library:
         if found is None or not len(found):
             files = self.language.files(name)
             where = f"; neither is {files[0]} beside it: name its folder with --path" if files else ""
-            if files and self.language.with_names is not None:
+            is_command = name.replace("_", "A").isalpha() and "CALL" not in text.upper()
+            if files and is_command and self.language.with_names is not None:
                 where += f", or state with --set CONTROL.words={name} that it moves nothing"
             return Unknown(f"{text} calls {name}, which is not in this file{where}")
         first = found.sections.get(name, 0)

@@ -153,6 +153,13 @@ def test_a_machine_builder_s_commands_are_the_same_setting(command):
     assert contoursolve.expand(text, control=SINUMERIK, settings=settings).text.count(command) == 2
 
 
+@pytest.mark.parametrize("call", ["CYCLE83(1,2,3)", "HOLES1(1,2)", "L10", 'EXTCALL "DRILL"'])
+def test_a_cycle_is_no_command_that_moves_nothing(call):
+    found = findings(SINUMERIK, f"{MILL}G1 X5 Y5\n{call}\nG1 Y60 RND=3\nX20")
+    assert {each.code for each in found} == {"position-unknown"}
+    assert "CONTROL.words" not in found[0].message
+
+
 def test_a_declared_variable_is_no_word():
     text = CHAIN[SINUMERIK].format("RN=8")
     assert not findings(SINUMERIK, f"DEF REAL RN\n{text}")

@@ -137,6 +137,8 @@ def test_a_mode_on_which_ways_do_not_agree_is_not_known(name):
     (answer, *_) = solve(lines.format(""), control=control).answers
     assert any(told in each.message for each in answer.diagnostics), [each.message for each in answer.diagnostics]
     assert answer.contour is None
+    # The corner is right: no fix deletes it.
+    assert not any(each.fixes for each in answer.diagnostics)
     # Said again, it is known.
     known = solve(lines.format(f"{'G01' if name == 'motion' else other}\n"), control=control)
     assert {each.status for each in known.answers} <= {Status.SOLVED}
