@@ -62,7 +62,7 @@ _NAMES: tuple[tuple[Effect, str, tuple[str, ...]], ...] = (
         "CFC CFTCP CFIN FNORM FLIN FCUB FPO FPRAON FPRAOF FGROUP",
     )),
     (Effect.NONE, "spindle", (
-        "SETMS SPCON SPCOF SPI SPN SPOSON DIAMCHANA COUPDEF COUPDEL COUPON COUPONC COUPOF COUPOFS COUPRES",
+        "SETMS SCC SPCON SPCOF SPI SPN SPOSON DIAMCHANA COUPDEF COUPDEL COUPON COUPONC COUPOF COUPOFS COUPRES",
     )),
     (Effect.NONE, "channels and axes", (
         "WAITM WAITMC WAITE WAITP WAITS WAITENC SETM CLEARM START INIT GET GETD RELEASE AXTOCHAN TANG",
@@ -142,7 +142,7 @@ SYNTAX = Syntax(
   | (?P<malformed>(?:(?:{_OWN})[ \t]*+(?>(?:=[ \t]*+)?)|[A-Za-z_]\w*+[ \t]*+=[ \t]*+|[A-Za-z][ \t]*+)
       (?=[\d.,+-])[\d.,+-]++
      |[A-Za-z_]\w*+[ \t]*+=[ \t]*+[AaIi][Cc][ \t]*+\([\d.,+-]++\))
-  | (?P<name>(?>[A-Za-z_]{{2}}\w*+))[ \t]*+(?>(?:{IN_PARENTHESES})?)
+  | (?P<name>(?>[A-Za-z_]{{2}}\w*+))[ \t]*+(?>(?:{IN_PARENTHESES}|{IN_BRACKETS})?)
   | (?P<bare>[A-Za-z])
   | (?P<stray>\"[^\"]*+\"?+|[^ \tA-Za-z;]++)
     """,
