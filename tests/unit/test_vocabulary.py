@@ -175,6 +175,13 @@ def test_a_decimal_comma_is_no_point_on_sinumerik(typed, meant):
     assert (finding.severity, meant in finding.message) == (Severity.ERROR, True)
 
 
+@pytest.mark.parametrize(("typed", "meant"), [("#RND=5,5", "#RND=5.5"), ("#RND = 5,25", "#RND=5.25")])
+def test_a_decimal_comma_is_no_point_on_isg(typed, meant):
+    (finding,) = findings(ISG, ALONE[ISG].format(typed))
+    assert (finding.code, finding.severity) == ("number-malformed", Severity.ERROR)
+    assert [each.description.split(" for ")[0] for each in finding.fixes] == [f"write {meant}"]
+
+
 @pytest.mark.parametrize(
     ("control", "typed", "meant"), [("fanuc-lathe", ",C1. 5", ",C1.5"), (SINUMERIK, "CHR=1. 5", "CHR=1.5")]
 )
@@ -318,7 +325,8 @@ def test_curves_of_a_special_kind_are_no_arcs(code):
 
 QUIET = """
 WAITS(2)|WAITM(1,1,2)|CYCLE832(0.01,1)|FGROUP(X,Y)|GET(C)|RELEASE(C)|GROUP_BEGIN(0,"A",0,0)|GROUP_END(0,0)
-WRITE(ERR,"LOG","A")|SETMS(1)|SOFT|STOPRE|SPOS[2]=0|G01 G53 F=0.15|G4 F1|GETSELT(T1)|BRISKA(X)|MCALL
+G96 S100 LIMS=2000 SCC[X]|WRITE(ERR,"LOG","A")|SETMS(1)|SOFT|STOPRE|SPOS[2]=0|G01 G53 F=0.15|G4 F1
+GETSELT(T1)|BRISKA(X)|MCALL
 """
 
 

@@ -70,7 +70,8 @@ SYNTAX = Syntax(
         rf"""
     (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff]++|%.*+)
   | (?P<comment>{COMMENT}|;.*+)
-  | (?P<mistyped>\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)(?=[-+.\d])[-+.,\d]++)
+  | (?P<mistyped>\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)(?:(?=[-+.\d])[-+.,\d]++
+      |[ \t]*+=[ \t]*+[+-]?+[\d.]++,[\d.,]*+))
   | (?P<word>
         (?P<long>{_OWN}|{_FOREIGN})[ \t]*+(?>(?:=[ \t]*+)?)(?:(?P<plain>{_NUMBER})(?![\w.+*/\[-])|(?P<wanted>\?)
           |(?P<formula>[^ \t;()]++))
