@@ -254,7 +254,7 @@ class RangeSearch(FreeWords):
             return read_alone(self.template, self.at([value]), like).kind
 
         found = list[float]()
-        places = numpy.linspace(low, high, READ + 2)[1:-1].tolist()
+        places = self._read_at(low, high)
         for each in (change for ends in pairwise(places) for change in _changes(kind, *ends)):
             if found and each - found[-1] <= LEAST_GAP:
                 found[-1] = (found[-1] + each) / 2
@@ -266,7 +266,17 @@ class RangeSearch(FreeWords):
             if not all(own_reading.holds(self.template, each) for each in ends):
                 return []
         self.is_sampled = True
-        self.doubt(low, high, f"each value decides how the block is read, and it was read at {READ} of them")
+        self.doubt(low, high, f"each value decides how the block is read, and it was read at {len(places)} of them")
+        return found
+
+    def _read_at(self, low: float, high: float) -> list[float]:
+        """The values of a range at which the block is read: all over it up to its ends, where a rule may change, and
+        closer the nearer to the stated value, where the other words put what changes."""
+        edge = (high - low) * TOGETHER
+        even = numpy.linspace(low + edge, high - edge, READ)
+        steps = numpy.geomspace(1e-3, 1.0, READ // 2) * (high - low)
+        near = numpy.concatenate([self.stated - steps, self.stated + steps])
+        found: list[float] = numpy.unique(numpy.concatenate([even, near[(low < near) & (near < high)]])).tolist()
         return found
 
     def _value(self, value: float) -> RangePiece:

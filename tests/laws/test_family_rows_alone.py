@@ -222,3 +222,13 @@ def test_what_contours_rest_on_is_told_of_all_of_them():
 def test_rows_that_are_read_one_by_one_are_told():
     found = family(TURNED, vary={"2:Y": [24, 30]}, **SINUMERIK)
     assert found.remark == "each value of Y of block 2 decides how its row is read"
+
+
+def test_a_range_over_all_that_is_searched_is_what_single_solves_say():
+    """An arc turns over between the stated value and the limit of a rule at 0, far from both."""
+    block = TURNED.rpartition("\n")[0]
+    found = feasible(block, "2:Y", **SINUMERIK)
+    assert not found.is_complete
+    for value in (-500, -1.8, -1.7707, -1.7, 0, 20, 28.2658, 28.5, 29.95, 60, 900):
+        is_inside = any(each.low.value <= value <= each.high.value for each in found.intervals)
+        assert is_inside is (alone(block, {"2:Y": value}, **SINUMERIK).contour is not None), value
