@@ -309,7 +309,7 @@ READING_RULES = (
     Rule(
         code="value-variable",
         message="{words} {depend} on a variable, whose value is not known here",
-        help='write the number, or state the value: --let "#100=95."',
+        help="write the number, or state the value: --let {stated}",
         source=_READING,
         about=ReadIssue.VARIABLE,
         accepted=(_GOOD,),

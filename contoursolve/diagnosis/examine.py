@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
@@ -361,7 +362,16 @@ def _examine_words(context: Context, claim: ParsedContour, notebook: _Notebook) 
     stated = (*claim.words.values(), *in_force.values())
     variables = [word for word in stated if word.number is None and not word.is_asked]
     if variables:
-        notebook.add(report(context, ReadIssue.VARIABLE, Basis.RULE, variables), Status.UNDERDETERMINED)
+        named = next(filter(None, (_NAMED.search(word.text[len(word.address) :]) for word in variables)), None)
+        stated = f'"{named[0].upper()}=95."' if named is not None else "NAME=NUMBER"
+        notebook.add(report(context, ReadIssue.VARIABLE, Basis.RULE, variables, stated=stated), Status.UNDERDETERMINED)
+
+
+_NAMED = re.compile(
+    r"#(?:\d++|<[^<>]++>)|(?<![A-Z0-9_.#])(?:[RP]\d++|V\.[A-Z]++\.[A-Z_]\w*+|\$?+[A-Z_]{2}\w*+)(?![\w(\[])",
+    re.IGNORECASE | re.ASCII,
+)
+"""The name of a variable in a word: a function has an argument behind it."""
 
 
 def _examine_geometry(

@@ -273,8 +273,8 @@ def explain_call(context: Context, name: str, modes: Modes) -> Iterator[Diagnost
     if near:
         named = either([each for _, each in near[:_MOST]])
         advice = (
-            f"write {named} if that is meant; else name the folder of the subprogram with --path, or state a command "
-            f"of the machine builder that moves nothing with --set CONTROL.words={name}"
+            f"write {named} if that is meant; else name the folder of the subprogram with --path. A command of the "
+            f"machine builder that moves nothing is stated with --set CONTROL.words={name}"
         )
         yield report(context, ReadIssue.CODE_UNKNOWN, Basis.RULE, [], name=name, advice=advice)
 

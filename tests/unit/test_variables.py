@@ -265,3 +265,21 @@ def test_a_variable_that_the_program_declares_has_any_name(head):
         assert any(each.contour.end == (end, 26.0) for each in result.answers)
     with pytest.raises(ValueError, match="no variable H"):
         contoursolve.solve(text, control="siemens-840d", variables={"H": 1.0})
+
+
+@pytest.mark.parametrize(
+    ("control", "typed", "stated"),
+    [
+        ("siemens-840d", "Y=R17 RND=2", "R17"),
+        ("siemens-840d", "Y=40*SIN(_ANG) RND=2", "_ANG"),
+        ("isg", "Y=P100 #RND=2", "P100"),
+        ("isg", "Y=V.L.WIDE #RND=2", "V.L.WIDE"),
+        ("fanuc-mill", "Y-[ABS[SQRT[#101]]] ,R2.", "#101"),
+        ("fanuc-mill", "Y[#<wide>] ,R2.", "#<WIDE>"),
+    ],
+)
+def test_the_variable_whose_value_is_to_be_stated_is_named_as_it_is(control, typed, stated):
+    text = f"G17 G90 G0 X0 Y0\nG1 X60. F9\n{typed}\nX5."
+    (finding,) = contoursolve.check(text, control=control)
+    assert finding.help.endswith(f'--let "{stated}=95."')
+    assert not contoursolve.check(text, control=control, variables={stated: 30.0})
