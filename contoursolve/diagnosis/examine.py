@@ -363,8 +363,8 @@ def _examine_words(context: Context, claim: ParsedContour, notebook: _Notebook) 
     variables = [word for word in stated if word.number is None and not word.is_asked]
     if variables:
         named = next(filter(None, (_NAMED.search(word.text[len(word.address) :]) for word in variables)), None)
-        stated = f'"{named[0].upper()}=95."' if named is not None else "NAME=NUMBER"
-        notebook.add(report(context, ReadIssue.VARIABLE, Basis.RULE, variables, stated=stated), Status.UNDERDETERMINED)
+        value = f'"{named[0].upper()}=95."' if named is not None else "NAME=NUMBER"
+        notebook.add(report(context, ReadIssue.VARIABLE, Basis.RULE, variables, stated=value), Status.UNDERDETERMINED)
 
 
 _NAMED = re.compile(
