@@ -4,7 +4,8 @@ from collections.abc import Iterable, Mapping
 from heapq import heapify, heappop, heappush
 
 Row = Mapping[int, float]
-"""What is not zero of a row, by column. `CONSTANT` is none: it goes along, for a row that is zero as an equation."""
+"""What is not zero of a row, by column. What has a number below zero is no column: it goes along, as `CONSTANT` does in
+a row that is zero as an equation, and no row is solved for it."""
 
 CONSTANT = -1
 
@@ -36,17 +37,20 @@ class Echelon:
         self._least = least
         self._kept: list[_Kept] = []
         self._of_pivot: dict[int, int] = {}
+        self.size = 0
+        """How many numbers the kept rows hold beside their pivots."""
 
     def add(self, number: int, entries: Row) -> dict[int, float] | None:
         """Keep a row by a number, and give None; or else give the multiples of kept rows, by their numbers, that it is
         the sum of."""
         row, taken = self._reduce(entries)
-        lead = max((column for column in row if column != CONSTANT), key=lambda each: (abs(row[each]), each), default=0)
+        lead = max((column for column in row if column >= 0), key=lambda each: (abs(row[each]), each), default=0)
         if abs(row.get(lead, 0.0)) <= self._least:
             return self._made_of(taken)
         scale = 1 / row.pop(lead)
         rest = {column: value * scale for column, value in row.items()}
-        present = {column: value for column, value in rest.items() if column == CONSTANT or abs(value) > _ROUNDING}
+        present = {column: value for column, value in rest.items() if column < 0 or abs(value) > _ROUNDING}
+        self.size += len(present)
         self._of_pivot[lead] = len(self._kept)
         self._kept.append(_Kept(number, lead, present, scale, taken))
         return None
@@ -127,7 +131,7 @@ class Echelon:
         return {
             column: value.get(CONSTANT, 0.0)
             for column, value in self.solved(columns).items()
-            if all(abs(share) <= self._least for free, share in value.items() if free != CONSTANT)
+            if all(abs(share) <= self._least for free, share in value.items() if free >= 0)
         }
 
 

@@ -4,12 +4,14 @@ import threading
 from array import array
 from collections.abc import Collection, Iterable, KeysView, Mapping, Sequence
 from functools import reduce
-from math import inf
+from math import inf, isfinite
 from typing import Any
 
 import casadi
 import numpy
 from numpy.typing import NDArray
+
+from contoursolve.numeric.echelon import Echelon
 
 
 class Expression:
@@ -354,8 +356,17 @@ class Compiled:
         return local
 
 
+_DENSE = 100
+"""Rows up to which a matrix is inverted as a whole, and entries of a row, on average, up to which its inverse is taken
+row by row: from there on, it is as good as full."""
+
+
 def inverse_norm(entries: Mapping[tuple[int, int], float], size: int) -> float:
     """Largest row sum of the absolute inverse of a square matrix; infinite if it is singular."""
+    if size > _DENSE:
+        found = _sparse_inverse_norm(entries, size)
+        if found is not None:
+            return found
     matrix = numpy.zeros((size, size))
     for (row, column), value in entries.items():
         matrix[row, column] = value
@@ -364,6 +375,24 @@ def inverse_norm(entries: Mapping[tuple[int, int], float], size: int) -> float:
         return float(numpy.maximum.reduce(numpy.add.reduce(numpy.abs(numpy.linalg.inv(matrix)), axis=1)))
     except numpy.linalg.LinAlgError:
         return float("inf")
+
+
+def _sparse_inverse_norm(entries: Mapping[tuple[int, int], float], size: int) -> float | None:
+    """The same for a matrix whose inverse is mostly zero, as that of a chain with points that are known; None for
+    another one, and for what is no number."""
+    rows: list[dict[int, float]] = [{-1 - row: -1.0} for row in range(size)]
+    for (row, column), value in entries.items():
+        if not isfinite(value):
+            return None
+        if value:
+            rows[row][column] = value
+    echelon = Echelon(0.0)
+    for number, each in enumerate(rows):
+        if echelon.add(number, each) is not None:
+            return float("inf")
+        if echelon.size > _DENSE * size:
+            return None
+    return max(sum(map(abs, row.values())) for row in echelon.solved(range(size)).values())
 
 
 def inverse_norms(

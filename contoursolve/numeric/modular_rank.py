@@ -143,6 +143,8 @@ def exact_rank(matrix: Sequence[Row], columns: int) -> ExactRank:
     """Rank and null spaces of a matrix of residues."""
     kept: dict[int, tuple[Row, Row]] = {}
     """By its pivot, each reduced row, and of which rows it is made."""
+    holding: dict[int, set[int]] = {}
+    """By column, the pivots of all rows that hold it, and of some that did."""
     circuits: dict[int, tuple[int, ...]] = {}
     independent: list[int] = []
     for number, entries in enumerate(matrix):
@@ -157,10 +159,15 @@ def exact_rank(matrix: Sequence[Row], columns: int) -> ExactRank:
         lead = min(row)
         scale = pow(row[lead], -1, PRIME)
         row, made_of = _times(row, scale), _times(made_of, scale)
-        for pivot, (other, others) in kept.items():
+        for pivot in holding.pop(lead, ()):
+            other, others = kept[pivot]
             if lead in other:
                 kept[pivot] = _less(other, other[lead], row), _less(others, other[lead], made_of)
+                for column in row:
+                    holding.setdefault(column, set()).add(pivot)
         kept[lead] = row, made_of
+        for column in row:
+            holding.setdefault(column, set()).add(lead)
         independent.append(number)
     free = set(range(columns)) - kept.keys()
     # An unknown with a pivot is determined unless its row holds a free one as well.

@@ -186,7 +186,7 @@ class IndependentFacts:
         solved = self._echelon.solved(self._affine.columns.values())
         return {
             self._affine.unknowns[column]: {
-                free: share for free, share in moves.items() if free != CONSTANT and abs(share) > REGULAR
+                free: share for free, share in moves.items() if free >= 0 and abs(share) > REGULAR
             }
             for column, moves in solved.items()
         }
