@@ -42,6 +42,10 @@ _NEAR = 2**-6
 """mm. How far behind the point before it a cut is tried, where what is behind it is known through it alone."""
 
 
+MOST_ON_CIRCLES = 8
+"""Points between arcs of one sense up to which cuts are looked for: each takes searches over the whole chain."""
+
+
 class _Element(Struct, frozen=True):
     """An element of the path that a joint cuts; `known` are the scalars of its ends, and of the circle of an arc."""
 
@@ -133,6 +137,10 @@ def _cuts(profile: Profile, open_: Sequence[str]) -> tuple[list[str], Mapping[st
     if len(system.unknowns) - len(analyse(system).basis) > len(joints_among(figure, open_)):
         return None
     elements = {each.head: each for each in figure.path}
+    is_arc = [isinstance(elements[each], Arc) for each in joints_among(figure, open_)]
+    arcs = [each for each in joints_among(figure, system.unknowns) if isinstance(elements[each], Arc)]
+    if any(is_arc) and len(arcs) > MOST_ON_CIRCLES:
+        return None
     while open_:
         point = next((each for each in joints_among(figure, open_) if each not in cuts), None)
         known = _known(placed, open_)

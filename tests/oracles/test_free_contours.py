@@ -16,6 +16,8 @@ from free_chains import random_chain
 import contoursolve
 from contoursolve import ArcSegment
 from contoursolve.diagnosis.solutions import list_solutions
+from contoursolve.solving import free_cuts
+from contoursolve.solving.alternatives import find_alternatives
 
 # Programs of the manuals: printed there, results derived by hand. -------------------------------------------------
 
@@ -295,6 +297,15 @@ def test_a_contradiction_is_told_before_what_is_missing(blocks, code, off):
     first, second = solved(chain(*blocks)).diagnostics[:2]
     assert (first.code, second.code) == (code, "words-missing")
     assert first.values.get("off_by_mm") == (off and pytest.approx(off, abs=1e-3))
+
+
+def test_many_arcs_on_one_circle_are_told_and_not_searched(monkeypatch):
+    calls = []
+    monkeypatch.setattr(
+        free_cuts, "find_alternatives", lambda profile: calls.append(profile) or find_alternatives(profile)
+    )
+    answer = solved(chain(*[TOP] * 11, f"{TOP} X+40 Y+0"))
+    assert (answer.status.value, calls) == ("underdetermined", [])
 
 
 @pytest.mark.parametrize(
