@@ -134,8 +134,8 @@ def expand(
     translates contours alone. It names every word of the rest that the target does not know. It writes nothing where a
     contour fails, or where the target would run another path: a turning cycle as a rapid, for example.
 
-    Of a Klartext program, free contours and corners become L, CC and C. For another target, such as --post linuxcnc, expand writes
-    the other blocks in G codes, too.
+    Of a Klartext program, free contours and corners become L, CC and C. For another target, such as --post linuxcnc,
+    expand writes the other blocks in G codes, too.
 
     Calls stay. A contour of a subprogram is written once, and must be the same in every call. With --inline, it may
     differ: expand writes out each call.
