@@ -338,7 +338,7 @@ def _fix(fix: Fix, lines: Sequence[int], blocks: Sequence[Block], here: _Substit
     texts = fix.replacement.split("\n")
     if len(texts) != len(lines) and len(lines) > 1:
         return fix
-    first = blocks[0].line
+    first, description = blocks[0].line, fix.description
     for place, line in enumerate(lines):
         typed = blocks[line - first].text
         for each in here.get(line, ()):
@@ -347,5 +347,11 @@ def _fix(fix: Fix, lines: Sequence[int], blocks: Sequence[Block], here: _Substit
                 before = re.escape(address[0] if address else "")
                 pattern = rf"(?<![A-Za-z_,]){before}{re.escape(each.number)}(?![\d.])"
                 kept = (address[0] if address else "") + each.typed
-                texts[place] = re.sub(pattern, kept.replace("\\", r"\\"), texts[place], count=1)
-    return replace(fix, replacement="\n".join(texts))
+                texts[place], count = re.subn(pattern, kept.replace("\\", r"\\"), texts[place], count=1)
+                if not count and typed[: each.begin].endswith("="):
+                    # Another address has the same value.
+                    told = re.compile(rf"={re.escape(each.number)}(?!\d)")
+                    if len(told.findall(texts[place])) == 1:
+                        meant = f"={each.typed}".replace("\\", r"\\")
+                        texts[place], description = told.sub(meant, texts[place]), told.sub(meant, description)
+    return replace(fix, description=description, replacement="\n".join(texts))

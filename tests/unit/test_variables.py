@@ -283,3 +283,10 @@ def test_the_variable_whose_value_is_to_be_stated_is_named_as_it_is(control, typ
     (finding,) = contoursolve.check(text, control=control)
     assert finding.help.endswith(f'--let "{stated}=95."')
     assert not contoursolve.check(text, control=control, variables={stated: 30.0})
+
+
+def test_a_fix_keeps_the_variable_of_a_word_whose_address_it_changes():
+    text = "G17 G90 G94\nR10=18\nG0 X0 Y0\nG1 X60 Y-10 F500 RND=3\nG3 X78 Y8 R=R10\nG1 X78 Y50\nM30"
+    found = next(each for each in contoursolve.check(text, control="siemens-840d") if each.fixes)
+    assert found.fixes[0].description.startswith("write CR=R10 for R=R10")
+    assert found.fixes[0].replacement.splitlines()[1] == "G3 X78 Y8 CR=R10"
