@@ -396,7 +396,7 @@ READING_RULES = (
         about=ReadIssue.NOT_CHECKED,
         severity=Severity.INFO,
         accepted=(_GOOD,),
-        rejected=("PROC A(REAL C)\nG17 G90 G0 X0 Y0\nG1 X60\nY40 RND=C\nX20",),
+        rejected=("PROC SLOT(REAL RAD)\nG17 G90 G0 X0 Y0\nG1 X60\nY40 RND=RAD\nX20",),
     ),
     Rule(
         code="calls-differ",

@@ -205,9 +205,8 @@ class Recogniser:
         if dialect.name in self._own:
             return True
         is_lathe = any(dialect.plane.diameters)
-        # An angle in a program that moves X and Z alone is that of a lathe.
-        is_angle_turned = PLANE not in self._shown and _ANGLE in shared and self._shown >= {*_TURNED.values()}
-        is_turned = self._is_turned or is_angle_turned
+        # A program that moves X and Z alone is that of a lathe.
+        is_turned = self._is_turned or (PLANE not in self._shown and self._shown >= {*_TURNED.values()})
         is_milled = _MILLED in self._shown
         return not is_milled if is_lathe else is_milled or not is_turned
 
@@ -215,7 +214,7 @@ class Recogniser:
 _PLAIN = plain_lines("UVWXYZ")
 _SHARED = frozenset({",A", ",C", ",R"})
 _MILLED, PLANE, _CORNER_ON_Z = "milled", "plane", "corner on Z"
-_ANGLE, _TURNED = ",A", {"X": "X", "U": "X", "Z": "Z", "W": "Z"}
+_TURNED = {"X": "X", "U": "X", "Z": "Z", "W": "Z"}
 _PLANES, _OF_A_MILL = frozenset({17, 18, 19}), frozenset({17, 19, 91})
 _BEGIN = "PGM"
 _ABSOLUTE, _BESIDE_ABSOLUTE = 90, frozenset({0, 1, 18})

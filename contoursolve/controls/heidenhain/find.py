@@ -66,8 +66,8 @@ NO_SENSE, NO_POLE, NO_BEFORE = "@no-sense", "@no-pole", "@no-before"
 NO_BLOCK, TWO_BLOCKS, NO_LINE = "@no-block ", "@two-blocks ", "@no-line "
 """Before the name of a word that refers to a block: that block is not there; there are two; it is an arc, where the
 word refers to a line."""
-NO_CENTER, NO_RADIUS, NO_SIZE = "@no-center", "@no-radius", "@no-size"
-"""C without a CC in force; CR without R; RND or CHF without a number."""
+NO_CENTER, NO_RADIUS = "@no-center", "@no-radius"
+"""C without a CC in force; CR without R."""
 NO_TURN = "@no-turn"
 """CT behind what is still to be found: to which side it turns is not known before."""
 TURNS_BACK, CONTINUED, NEVER_CLOSED = "@turns-back", "@continued", "@never-closed"
@@ -639,7 +639,6 @@ def _corner_circumstances(members: Sequence[_Member], number: int) -> Iterator[s
     pair = members[number - 1 : number + 1]
     has_corner = bool(pair[0].corners)
     holds = {
-        NO_SIZE: any(block.find(_CORNERS[function_of(block)]) is None for _, block in pair[0].corners),
         FIRST_CORNER: has_corner and pair[0].corners[0][1] is pair[0].block,
         LAST_CORNER: has_corner and len(pair) == 1,
         CORNERED: has_corner or (number > 1 and bool(members[number - 2].corners)),

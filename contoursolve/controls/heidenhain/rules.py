@@ -26,7 +26,6 @@ from contoursolve.controls.heidenhain.find import (
     NO_POLE,
     NO_RADIUS,
     NO_SENSE,
-    NO_SIZE,
     NO_TURN,
     TOOL,
     TURNS_BACK,
@@ -59,7 +58,7 @@ _ROUND = START + "2 FC DR- R25 CCX+25 CCY+0 X+25 Y+25\n3 FCT DR- CCX+25 CCY+0 X+
 _TURNING = START + "2 FL AN+0\n3 FCT DR+ R10 CCA+0\n4 FLT X+40 Y+30"
 _NUMBERED = START + "2 FL X+30 Y+0\n3 FL IX+5 IY+20 RX 2\n4 END PGM A MM"
 _CORNER = START + "2 L X+40 Y+0\n3 RND R5\n4 L X+40 Y+30\n5 END PGM A MM"
-_BOW = _CORNER.replace("4 L X+40 Y+30", "4 CR X+40 Y+30 R15 DR+")
+_BOW = _CORNER.replace("4 L X+40 Y+30", "4 CR X+40 Y+30 R20 DR+")
 _CIRCLE = START + "\n".join(
     ("2 CC X+20 Y+0", "3 L X+40 Y+0", "4 RND R2", "5 CP IPA+360 DR-", "6 RND R2", "7 L X+60 Y+20")
 )
@@ -156,11 +155,9 @@ _ROWS = (
          _CLOSED, (" CLSD+", "")),
     _row("centre-missing", "the arc turns about CC, and no CC is in force", "write CC X Y before it",
          BOOK.assumed("path functions"), some(NO_CENTER), (PLAIN,),
-         _CORNER.replace("4 L X+40 Y+30", "4 CC X+40 Y+20\n5 C X+60 Y+20 DR+"), ("4 CC X+40 Y+20\n", "")),
+         _CORNER.replace("4 L X+40 Y+30", "4 CC X+60 Y+0\n5 C X+60 Y+20 DR-"), ("4 CC X+60 Y+0\n", "")),
     _row("radius-missing", "CR is an arc by its radius, and R is missing", "add R",
-         BOOK.printed("path functions"), some(NO_RADIUS), (PLAIN,), _BOW, (" R15", "")),
-    _row("corner-size-missing", "RND or CHF behind this block has no size", "write it: RND R5, CHF 5",
-         BOOK.printed("path functions"), some(NO_SIZE), _ANY, _CORNER, ("RND R5", "RND")),
+         BOOK.printed("path functions"), some(NO_RADIUS), (PLAIN,), _BOW, (" R20", "")),
     _row("corner-without-next", "{words}: a corner needs an element behind it, and none follows",
          "put the next line or arc right behind it, or delete it", _CORNERS,
          some(*CORNERS) & some(LAST_CORNER) & ~some(FIRST_CORNER), _ANY, _CORNER, ("4 L X+40 Y+30\n", "")),
@@ -181,7 +178,7 @@ _ROWS = (
     _row("chamfer-beside-arc", "{words}: the manual has CHF between two lines, and here is an arc beside it",
          "check it on the control, or write RND", BOOK.printed("path functions: chamfer between two lines"),
          some(CHAMFER) & some(AT_ARC), _ANY, _CORNER.replace("RND R5", "CHF 5"),
-         ("4 L X+40 Y+30", "4 CR X+40 Y+30 R15 DR+"), severity=Severity.WARNING),
+         ("4 L X+40 Y+30", "4 CR X+40 Y+30 R20 DR+"), severity=Severity.WARNING),
     _row("turns", "{words}: the arc turns more than once, and contoursolve makes one turn of it at most",
          "write each turn as a block of its own", BOOK.assumed("path functions"),
          Value(("IPA",), least=Decimal(-360), most=Decimal(360)) & some("DR"), (PLAIN,), _CIRCLE,
