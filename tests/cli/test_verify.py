@@ -190,7 +190,9 @@ def failures(receipt: dict[str, Any]) -> list[str]:
         ("G111 A180.0005 I0 K-30. B120. X100. C5. Q5.", "overdetermined"),
         ("G111 A180. K-30. B120. X100. Z-47.3205", "overdetermined"),
         # Says too much, and cannot be made either: without a path.
-        ("G111 A0 I0 K-30. B120. X100. U60.", "overdetermined"),
+        ("G111 A180. I0 K-30. B120. X100. U60. P500.", "overdetermined"),
+        # Line 1 runs at 180 degrees: an angle that is half a turn off conflicts.
+        ("G111 A0 I0 K-30. B120. X100. U60.", "conflicting"),
     ],
     one_in=3,
 )

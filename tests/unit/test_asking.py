@@ -1085,7 +1085,7 @@ TWICE = [
     ("G111 A180. B120. X100.", "direction of line 1 = 180", "words-redundant", "A180.", "", "V1"),
     ("G111 A180. K-30. B120.", "length of line 1 = 31", "words-conflict", "K-30. and A180.", "1.000 mm", "V2"),
     ("G111 A180. K-30. B120.", "angle from line 1 to line 2 = -60", "words-redundant", "A180. and B120.", "", "V2"),
-    ("G111 A180. B120. X100.", "X of V2 = 102", "words-conflict", "X100.", "1.000 mm", "V1"),
+    ("G111 A180. B120. X100.", "X of V2 = 102", "words-conflict", "X100.", "2.000 mm", "V1"),
     ("G111 A180. I0 B120. X100.", "length of line 1 = 30", "words-redundant", "I0 and length of line 1", "", ""),
 ]
 
