@@ -98,8 +98,9 @@ def is_directed(fact: Fact, figure: Figure) -> bool:
 
 def opposes(values: Mapping[str, float], unit: Unit) -> bool:
     """Whether an angle, compared as by `compare`, states the direction against the one that it would need to state. Its
-    equation is true of both."""
-    return unit is Unit.DEGREE and abs(values.get("expected", 0.0) - values.get("actual", 0.0)) > QUARTER_TURN
+    equation is true of both; a line without a length needs no direction."""
+    expected = values.get("expected")
+    return unit is Unit.DEGREE and expected is not None and abs(expected - values.get("actual", 0.0)) > QUARTER_TURN
 
 
 def runs_against(facts: Iterable[Fact], profile: Profile, at: Values) -> bool:

@@ -48,6 +48,7 @@ def respell(rng: Random, control: str, program: Sequence[str], plane: int | None
 
 def judge(lines: Sequence[Line], program: Sequence[str], control: str, machine: Machine) -> str:
     """`right`, `refused` or `near`; fails where a contour is wrong, or is solved and the oracle refuses it."""
+    program = [_without_turning(line) for line in program]
     expected = run([_rounded(line) for line in program] if control == SINUMERIK else program, machine)
     if expected.is_near:
         return "near"
@@ -61,6 +62,11 @@ def judge(lines: Sequence[Line], program: Sequence[str], control: str, machine: 
     last = expected.refused or inf
     assert not any(rest for line, rest in found.items() if line <= last), (text, found)
     return "refused" if expected.refused else "right"
+
+
+def _without_turning(line: str) -> str:
+    """On both controls, A and C without a comma are axes that turn, which are beside the contour."""
+    return re.sub(r"(?<![,A-Z])[AC][-+]?[\d.]+", "", line)
 
 
 def _rounded(line: str) -> str:

@@ -120,6 +120,14 @@ def test_no_fix_leaves_a_direction_that_is_opposite():
     assert [each.replacement for each in finding.fixes] == [G111.format(A="A135."), G111.replace("{A} ", "")]
 
 
+def test_an_angle_of_a_line_without_length_says_nothing_against_it():
+    block = "X2. Z-1. ,A341."
+    result = solve(f"G00 X1. Z-5.\nG01 X2. Z-1. ,R0\n{block}\nX5. Z-9.", control="fanuc-lathe")
+    codes = [each.code for each in result.diagnostics]
+    assert "line-vanishes" in codes
+    assert "angle-opposite" not in codes
+
+
 def test_what_agrees_to_rounding_alone_is_told_from_what_agrees():
     texts = {
         angle: solve(f"G17 G90 G01 X40. Y20. A{angle}", control="mitsubishi", start="X0 Y0").diagnostics[0].message

@@ -342,7 +342,7 @@ def test_predefined_words_neither_move_nor_shift(command):
 def test_r_behind_an_arc_of_sinumerik_is_its_radius():
     text = MILL + "R10=18\nG1 X60 Y-10 F500 RND=3\nG3 X78 Y8 R=R10\nG1 X78 Y50 CHR=2\nG2 X60 Y68 R=R10"
     found = findings(SINUMERIK, text)
-    assert [each.fixes[0].description.split(" for ")[0] for each in found if each.fixes] == ["write CR=18."] * 2
+    assert [each.fixes[0].description.split(" for ")[0] for each in found if each.fixes] == ["write CR=R10"] * 2
     assert any("the radius of an arc is CR" in each.message for each in found)
 
 

@@ -180,8 +180,8 @@ _WORDS = (
     ("LEAD TILT THETA ORIRESET", "direction of the tool", Bearing.NONE),
     ("P", "argument of a call", Bearing.ARGUMENT),
     ("A B C E O Q U V W AX POS POSA POSP", "further axis", Bearing.AXIS),
-    ("I J K AR TURN MEAS MEAW PO PL PW SD DITS DITE", "part of the path", Bearing.UNREAD),
-    (f"AP RP X Y Z {_POSITIONED}", "end of the block", Bearing.END),
+    ("I J K TURN MEAS MEAW PL PW SD DITS DITE", "part of the path", Bearing.UNREAD),
+    (f"AP AR RP PO X Y Z {_POSITIONED}", "end of the block", Bearing.END),
 )  # fmt: skip
 """The words beside contours, by the names of all of which there are some with a number or an index behind."""
 _MACHINES = (("DRESS", "word of a machine builder", Bearing.NONE),)
