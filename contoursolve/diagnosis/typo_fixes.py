@@ -324,11 +324,13 @@ _LEADING = re.compile(r"[A-Za-z][ \t]*+[=(]?+[ \t]*+[+-]?0\d")
 def slips(answer: Answer, kinds: Iterable[Slip], words: Iterable[Word]) -> Iterator[tuple[Edit, ...]]:
     """One word as it may have been meant, by each kind of slip; what cannot be read besides is taken out."""
     claim, words = answer.claim, list(words)
-    forced = next(unreadable(claim), ())
+    forced = tuple(next(unreadable(claim), ()))
+    taken_out = {(edit.address, edit.span.line) for edit in forced if edit.span is not None}
     for kind in kinds:
         for word in words:
-            same = (word.address, word.span.line)
-            rest = tuple(edit for edit in forced if edit.span is None or (edit.address, edit.span.line) != same)
+            same, rest = (word.address, word.span.line), forced
+            if same in taken_out:
+                rest = tuple(edit for edit in forced if edit.span is None or (edit.address, edit.span.line) != same)
             for text in texts_of(kind, word, claim):
                 yield (*rest, change(word, text))
 

@@ -1,8 +1,10 @@
 """Whether the control has the words of a block, and which of its words one that it has not was meant to be."""
 
 import re
+from bisect import bisect_right
 from collections.abc import Collection, Iterator, Sequence
 from enum import Enum
+from functools import lru_cache
 
 from msgspec.structs import replace
 
@@ -116,12 +118,19 @@ _STRETCH = re.compile(
 """What is typed like a word of a contour, however it is spelled."""
 
 
+@lru_cache(maxsize=16)
+def _stretches(text: str) -> list[re.Match[str]]:
+    """What in a line is typed like words; a line may have many faults, and each is looked up in it."""
+    return [*_STRETCH.finditer(text)]
+
+
 def corner_at(text: str, span: Span, lexicon: Lexicon) -> tuple[Word, list[str]] | None:
     """The stretch of a line at some columns that is typed like a word of a corner or an angle and is none, and the
     words that may have been meant, none where the control has no such words; None if it is like no such word."""
-    for found in _STRETCH.finditer(text):
-        if found.start() >= span.end_column - 1 or found.end() <= span.column - 1:
-            continue
+    stretches = _stretches(text)
+    for found in stretches[bisect_right(stretches, span.column - 1, key=re.Match.end) :][:1]:
+        if found.start() >= span.end_column - 1:
+            break
         name, number = " ".join(found["name"].upper().split()), found["number"]
         number = number.replace(",", ".") if number.count(",") == 1 and "." not in number else number.strip(",")
         is_signed = bool(found["sign"] or "," in found["between"] or ("=" in found["between"] and len(name) == 1))

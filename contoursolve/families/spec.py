@@ -45,6 +45,10 @@ class NotMovedError(FamilyError):
     """A word that does not move a point in the direction that is asked about."""
 
 
+_FEW = 64
+"""Rows whose places are computed one by one where they lie far apart."""
+
+
 class Ranges(Struct, frozen=True, eq=False):
     """The values of each free word, by its name: as columns side by side (`is_paired`), or as the axes of a grid whose
     last word varies fastest."""
@@ -74,6 +78,9 @@ class Ranges(Struct, frozen=True, eq=False):
         size, stride = self.shape[number], 1
         for other in self.shape[number + 1 :]:
             stride *= other
+        if stride > last - first and last - first <= _FEW:
+            # A stride, and the number of a row, may be beyond all that fits into memory.
+            return numpy.array([row // stride % size for row in range(first, last)], numpy.intp)
         # Repeating what is there takes a tenth of the time of dividing row numbers.
         if stride == 1:
             skipped = first % size
