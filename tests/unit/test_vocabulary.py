@@ -385,3 +385,9 @@ def test_a_beside_comma_a_is_an_axis_on_mitsubishi():
 def test_two_codes_of_one_group_stop_isg():
     (finding,) = findings(ISG, MILL + "G1 X40\nG301 G302 I5\nY50")
     assert (finding.code, finding.alarm.number.split()[0]) == ("isg-corner-both", "20130")
+
+
+def test_a_function_of_klartext_without_a_blank_before_its_number_is_no_misspelt_word():
+    lines = ("FN15: PRINT Q1/Q2", "FN0: Q1 = 5", "LBL10", "CYCL DEF7.0", "L X+60 R0")
+    text = "\n".join(["0 BEGIN PGM A MM", *(f"{at} {each}" for at, each in enumerate(lines, 1)), "9 END PGM A MM"])
+    assert {each.code for each in contoursolve.check(text, control="heidenhain")} == {"no-contour"}

@@ -67,8 +67,9 @@ _MOVING = (
 
 
 _MISSPELT = (
-    r"F(?!N\b|UNCTION\b)[A-Z]|L(?!BL\b|N\b)[A-Z]"
-    r"|(?:R|C(?!YCL\b|ALL\b))[A-Z]{1,6}+(?:(?<=R)|[ \t]*+=?[ \t]*+R?+)[ \t]*+=?[ \t]*+[\d.,]"
+    # FN15: has no blank before its number.
+    r"F(?!N(?![A-Z])|UNCTION\b)[A-Z]|L(?!BL(?![A-Z])|N(?![A-Z]))[A-Z]"
+    r"|(?:R|C(?!YCL(?![A-Z])|ALL(?![A-Z])))[A-Z]{1,6}+(?:(?<=R)|[ \t]*+=?[ \t]*+R?+)[ \t]*+=?[ \t]*+[\d.,]"
 )
 """What begins like a function and is none: it is read into words, and told."""
 
