@@ -36,6 +36,8 @@ class Machine(NamedTuple):
     strict: bool = False
     signed: str = ""
     """The words of a corner between two axes; their sign tells which way the next line runs."""
+    beside: str = ""
+    """The axes that turn: they leave the path in the plane as it is."""
 
 
 class Run(NamedTuple):
@@ -199,7 +201,7 @@ def _end(walk: _Walk, block: _Block) -> complex:
 def _line(walk: _Walk, block: _Block, before: _Block | None) -> None:
     machine, words = walk.machine, block.words
     signed = {"R", *PLANES[walk.plane][2:]} & {*machine.signed}
-    allowed = {*_names(walk), *_CORNERS, *signed, *([machine.angle] if machine.is_lathe else [])}
+    allowed = {*_names(walk), *_CORNERS, *signed, *machine.beside, *([machine.angle] if machine.is_lathe else [])}
     block.fault = block.fault or ("stray" if words.keys() - allowed else "")
     stated, start = _stated(walk, block), walk.at
     block.axes = frozenset(stated) | ({"angle"} if machine.angle in words else set())
@@ -269,7 +271,7 @@ def _close(
 def _arc(walk: _Walk, block: _Block, before: _Block | None) -> None:
     words, start = block.words, walk.at
     centers = [address for address in PLANES[walk.plane][2:] if address in words]
-    allowed = {*_names(walk), *_CORNERS, *PLANES[walk.plane][2:], "R"}
+    allowed = {*_names(walk), *_CORNERS, *PLANES[walk.plane][2:], "R", *walk.machine.beside}
     walk.is_near |= bool(words.keys() & ({"I", "J", "K"} - allowed))  # outside the plane, it means nothing
     if before is not None or words.keys() - allowed - {"I", "J", "K"} or not walk.machine.arcs:
         block.fault = block.fault or "arc"

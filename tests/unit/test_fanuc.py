@@ -261,7 +261,7 @@ MACHINES = {
     LATHE: Machine(is_lathe=True, signed="IKR"),
     MILL: Machine(is_lathe=False, signed="IJK"),
     HAAS_LATHE: Machine(is_lathe=True, angle="A", meets=False, signed="IKR"),
-    HAAS_MILL: Machine(is_lathe=False, arcs=False),
+    HAAS_MILL: Machine(is_lathe=False, arcs=False, beside="AB"),
 }
 TYPED = {
     LATHE: (",A", ",C", ",R", "X", "Z", "U", "W", "R", "I", "K", "A"),
