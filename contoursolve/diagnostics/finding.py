@@ -1,6 +1,6 @@
 """One finding about a program, complete enough for a terminal, JSON and an editor."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from enum import Enum
 from math import atan2, degrees
 
@@ -51,10 +51,23 @@ class Fix(Struct, frozen=True):
     example: str = ""
     """The replacement with numbers that make a contour, where it leaves gaps and such numbers are known."""
 
-    def by_line(self, lines: Sequence[int]) -> dict[int, str]:
-        """What to write for each of the lines that it replaces."""
+    def by_line(self, old: Mapping[int, str]) -> dict[int, str]:
+        """What to write for each of the lines that it replaces (`old`, their texts); nothing for one it drops."""
+        lines, before = [*old], [*old.values()]
         texts = [self.replacement] if len(lines) == 1 else self.replacement.split("\n")
-        return dict(zip(lines, texts, strict=False))
+        if len(texts) == len(lines):
+            return dict(zip(lines, texts, strict=True))
+        # What stays as it is on both sides tells which lines the others replace.
+        most = min(len(texts), len(lines) - 1)
+        head = next((at for at in range(most) if texts[at] != before[at]), most)
+        most = min(len(texts), len(lines) - 1) - head
+        tail = next((at for at in range(most) if texts[-1 - at] != before[-1 - at]), most)
+        changed, new = lines[head : len(lines) - tail], texts[head : len(texts) - tail]
+        if len(new) <= len(changed):
+            new += [""] * (len(changed) - len(new))
+        else:
+            new[len(changed) - 1 :] = ["\n".join(new[len(changed) - 1 :])]
+        return dict(zip(lines, [*before[:head], *new, *before[len(lines) - tail :]], strict=True))
 
 
 class Label(Struct, frozen=True):

@@ -168,8 +168,9 @@ def apply_fix(exploration: Exploration, finding: int, number: int, *, is_example
     fix = findings[finding].fixes[number]
     if is_example:
         fix = replace(fix, replacement=fix.example or fix.replacement)
-    new = fix.by_line(result.lines_of(findings[finding]))
-    return write(exploration, "\n".join(new.get(block.line, block.text) for block in result.program.blocks))
+    old = {block.line: block.text for block in result.program.blocks}
+    new = old | fix.by_line({line: old[line] for line in result.lines_of(findings[finding])})
+    return write(exploration, "\n".join(text for line, text in new.items() if text or not old[line]))
 
 
 def select(exploration: Exploration, number: int) -> Exploration:

@@ -130,7 +130,7 @@ def _kept_right(step: Step, shared: Set[int]) -> Step:
     is_once = len(texts) == len(answer.lines)
 
     def is_right(fix: Fix) -> bool:
-        new = fix.by_line(answer.lines)
+        new = fix.by_line(texts)
         return is_once and all(new.get(line) == texts[line] for line in shared & texts.keys())
 
     told = (replace(each, fixes=tuple(filter(is_right, each.fixes))) for each in answer.diagnostics)

@@ -125,7 +125,8 @@ def check_fix(text: str, action: types.CodeAction, control: str) -> None:
     promised = re.search(r"ends at (.*?)(?: mm| in)? ", f"{action.title} ")
     if promised is not None and not action.title.endswith("..."):
         first = min(edit.range.start.line for edit in edits_of(action)) + 1
-        told = re.findall(r"([XYZ])(-?\d+\.\d+)", action.title.rpartition("ends at ")[2])
+        # What tells it apart from other fixes follows the end.
+        told = re.findall(r"([XYZ])(-?\d+\.\d+)", action.title.rpartition("ends at ")[2].partition(", ")[0])
         ends = [
             re.findall(r"([XYZ])(-?\d+\.\d+)", end_text(each)) for each in result.answers if each.lines[-1] >= first
         ]

@@ -11,7 +11,7 @@ from test_limits import KINDS
 from contoursolve import solve
 from contoursolve.cli import main
 from contoursolve.diagnosis.edits import ERRANDS, Side
-from contoursolve.diagnostics.finding import Applicability
+from contoursolve.diagnostics.finding import Applicability, Fix
 from contoursolve.diagnostics.source import Evidence
 from contoursolve.notebook.exploration import apply_fix, begin
 from contoursolve.solving.contour import ArcSegment
@@ -106,6 +106,23 @@ def test_a_fix_of_a_chain_is_in_sarif_line_by_line(tmp_path):
     first = sarif["runs"][0]["results"][0]["fixes"][0]
     (change,) = first["artifactChanges"][0]["replacements"]
     assert (change["deletedRegion"]["startLine"], change["insertedContent"]["text"]) == (3, "X80 ,R45")
+
+
+@pytest.mark.parametrize(
+    ("new", "wanted"),
+    [
+        ("a\nc", ["a", "", "c"]),
+        ("b\nc", ["", "b", "c"]),
+        ("a\nb", ["a", "b", ""]),
+        ("a\nB", ["a", "B", ""]),
+        ("a\nb\nn\nc", ["a", "b", "n\nc"]),
+        ("n\na\nb\nc", ["n\na", "b", "c"]),
+        ("a\nB\nc", ["a", "B", "c"]),
+    ],
+)
+def test_lines_that_a_fix_drops_or_adds_leave_the_others_where_they_are(new, wanted):
+    fix = Fix("", new, Applicability.CHANGES_CONTOUR)
+    assert fix.by_line({3: "a", 4: "b", 6: "c"}) == dict(zip((3, 4, 6), wanted, strict=True))
 
 
 def test_contours_are_the_same_if_every_element_is_not_if_the_named_points_and_the_end_are():
