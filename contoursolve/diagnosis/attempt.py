@@ -13,6 +13,7 @@ from contoursolve.analysis import analyse, groups_of
 from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts, edited
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
 from contoursolve.diagnosis.examples import ends, propose, sampled
+from contoursolve.diagnosis.reach import Reach
 from contoursolve.diagnosis.spelling import shapes_of
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnosis.typo_fixes import (
@@ -121,9 +122,13 @@ class Trial(Struct, frozen=True):
     """What is before it, and the state before that: with its commas in place, it may be the end of it."""
     is_redundant: bool = False
     """Whether its words say something twice, and agree."""
+    reach: Reach | None = None
+    """What edits leave as it is."""
 
     def repair(self, edits: tuple[Edit, ...]) -> Repair | None:
         """The repair with the reasons for it, if it is one."""
+        if self.reach is not None and self.reach.leaves_a_problem(edits):
+            return None
         repair = self._solve(edits)
         if repair is None:
             return None

@@ -25,6 +25,7 @@ from contoursolve.diagnosis.drafts import (
 from contoursolve.diagnosis.edits import AT_LEAST, Edit, EditKind, Why, add, change, drop, write_word
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine, problems
 from contoursolve.diagnosis.explain import SINGULAR, spans_of
+from contoursolve.diagnosis.reach import Reach
 from contoursolve.diagnosis.spelling import shapes_of, torn_codes
 from contoursolve.diagnosis.subsets import (
     blamed_spans,
@@ -87,7 +88,7 @@ def find_repairs(
         # Few blocks state more than their words.
         from contoursolve.diagnosis.drafts_beside_facts import further_drafts, next_place_of  # noqa: PLC0415
 
-        trial = Trial(claim, dialect, codes, answer.contour, next_place_of(answer.profile))
+        trial = Trial(claim, dialect, codes, answer.contour, next_place_of(answer.profile), reach=Reach(answer))
         repairs = choose_repairs(trial, further_drafts(answer, trial))
         return replace(repairs, is_complete=False)
     whole = _Geometry.of(claim)
@@ -109,7 +110,7 @@ def find_repairs(
     spelled = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
     moved = (moving(claim, stage) for stage in changes)
     is_redundant = answer.status is Status.OVERDETERMINED
-    trial = Trial(claim, dialect, codes, reference, None, following, blamed, previous, is_redundant)
+    trial = Trial(claim, dialect, codes, reference, None, following, blamed, previous, is_redundant, Reach(answer))
     stages = (*spelled, *moved)
     repairs = choose_repairs(trial, stages, *_slips_of(answer, whole, trial))
     is_complete = repairs.is_complete and drop_sets.is_complete and not has_faults(claim)
