@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterable, Iterator
 from decimal import Decimal
-from itertools import combinations, product
+from itertools import combinations, islice, product
 
 from contoursolve.analysis import analyse
 from contoursolve.diagnosis.attempt import Trial
@@ -178,10 +178,11 @@ def _completing(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
         system = assemble(read(found, frozenset())) if found else None
         return len(system.unknowns) - analyse(system).rank if system else len(claim.vocabulary)
 
-    absent = [name for name in claim.form.usual if name not in claim.words and name in claim.vocabulary]
-    edits = [add(claim, name) for name in absent]
     open_ = freedom(())
-    helping = [edit for edit in edits if freedom((edit,)) < open_][:MOST_HELPING]
+    if open_ > MOST_ADDED:
+        return
+    absent = [name for name in claim.form.usual if name not in claim.words and name in claim.vocabulary]
+    helping = list(islice((edit for name in absent if freedom((edit := add(claim, name),)) < open_), MOST_HELPING))
     for size in range(1, MOST_ADDED + 1):
         sets = [each for each in combinations(helping, size) if open_ <= size and not freedom(each)]
         yield from sets[:MOST_SHOWN]

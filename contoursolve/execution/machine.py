@@ -684,8 +684,11 @@ class Machine:
             return
         values = self.variables.join(head.values, self.variables.values, told)
         own = None if frame.own is None else self.variables.join(head.own or {}, frame.own, told)
-        # The deeper a loop is in others, the less often it runs each time.
-        within = sum(bool(each.reason) and each.lines.first != first for each in frame.loops)
+        # The deeper a loop is in others, the less often it runs each time: in those that are open, and in those that
+        # only their ends tell, which are run again.
+        around = {each.lines.first for each in frame.loops if each.reason}
+        around |= {at for at, each in frame.heads.items() if at < first and each.passes}
+        within = len(around - {first})
         is_last = self._is_alone or head.passes >= max(MOST_PASSES - within, 1)
         yield ProgramEvent(EventKind.AGAIN, line, told, head.mark, is_last=is_last)
         if is_last:

@@ -18,6 +18,7 @@ from contoursolve.geometry import (
     Fact,
     Figure,
     Given,
+    Heading,
     Layout,
     Line,
     Profile,
@@ -141,10 +142,13 @@ def _cuts(profile: Profile, open_: Sequence[str]) -> tuple[list[str], Mapping[st
     arcs = [each for each in joints_among(figure, system.unknowns) if isinstance(elements[each], Arc)]
     if any(is_arc) and len(arcs) > MOST_ON_CIRCLES:
         return None
+    bent = _bent(profile)
     while open_:
         point = next((each for each in joints_among(figure, open_) if each not in cuts), None)
+        if point is None or point in bent:
+            return None
         known = _known(placed, open_)
-        if point is None or not _has(known, elements[point].tail):
+        if not _has(known, elements[point].tail):
             return None
         element = _Element(elements[point], known)
         for place, axis in element.near():
@@ -157,6 +161,21 @@ def _cuts(profile: Profile, open_: Sequence[str]) -> tuple[list[str], Mapping[st
         cuts, placed, open_ = [*cuts, point], tried, left
     known = _known(placed, ())
     return cuts, {name: value for name, value in known.items() if name.rpartition(".")[0] not in cuts}
+
+
+def _bent(profile: Profile) -> frozenset[str]:
+    """The points between lines whose stated directions differ: what moves such a point moves the next one, too."""
+    headings = {
+        (fact.tail, fact.head): profile.givens[fact.given].value
+        for fact in profile.facts
+        if isinstance(fact, Heading) and fact.given in profile.givens
+    }
+    ways = [(each.head, headings.get((each.tail, each.head))) for each in profile.figure.path]
+    return frozenset(
+        point
+        for (point, before), (_, behind) in pairwise(ways)
+        if before is not None and behind is not None and (before - behind) % 180
+    )
 
 
 def _singular(found: Alternatives) -> list[str]:
