@@ -238,6 +238,8 @@ class Machine:
         self._marks, self._here, self._is_marking = 0, 0, False
         """How many marks there are, the one under which it is kept what is known here, and whether the next block has
         it."""
+        self.settled: int | None = None
+        """The mark to which what runs came back last, where whoever follows says that nothing new follows there."""
         self.passed_over: set[int] = set()
         """The lines of the main file that do not run, because of what was decided."""
         self._is_alone, self._is_reached, self._is_passing_over = False, True, False
@@ -684,14 +686,13 @@ class Machine:
             return
         values = self.variables.join(head.values, self.variables.values, told)
         own = None if frame.own is None else self.variables.join(head.own or {}, frame.own, told)
-        # The deeper a loop is in others, the less often it runs each time: in those that are open, and in those that
-        # only their ends tell, which are run again.
-        around = {each.lines.first for each in frame.loops if each.reason}
-        around |= {at for at, each in frame.heads.items() if at < first and each.passes}
-        within = len(around - {first})
+        # The deeper a loop is in others, the less often it runs each time.
+        within = sum(bool(each.reason) and each.lines.first != first for each in frame.loops)
         is_last = self._is_alone or head.passes >= max(MOST_PASSES - within, 1)
+        self.settled = None
         yield ProgramEvent(EventKind.AGAIN, line, told, head.mark, is_last=is_last)
-        if is_last:
+        is_settled = self.settled == head.mark and (values, own) == (head.values, head.own)
+        if is_last or is_settled:
             changed = [name for name, value in {**values, **(own or {})}.items() if isinstance(value, Unknown)]
             self.variables.lose([*changed, *self._assigned_in(frame, first, frame.here)], reason)
             return

@@ -391,7 +391,7 @@ class Examiner:
         self.marks.is_done, self.faulty = True, Counter()
         marks = Marks(self.marks.context)
         told = [*(finding for block in blocks for finding in marks.look(block)), *marks.finish()]
-        steps = self._told(self._run(machine.run()))
+        steps = self._told(self._run(machine))
         outside = told if self.outside.is_strict else []
         first = cast("Dialect", self.dialect).initial_state(self.asked.unit)
         yield from in_text_order(
@@ -435,7 +435,7 @@ class Examiner:
         """What is known before a program, behind the block that states its start point apart."""
         return self.checkpoint(self._begin(cast("Dialect", self.dialect)))
 
-    def _run(self, lines: Iterable[Block | ProgramEvent]) -> list[Step | Pending]:
+    def _run(self, machine: Machine) -> list[Step | Pending]:
         """Every block and every contour of a program that runs, on each of its ways."""
         dialect, found = cast("Dialect", self.dialect), list[Step | Pending]()
         ways, heads, last = self._ways(dialect), dict[int, int](), list[tuple[Sequence[Block], int]]()
@@ -458,7 +458,7 @@ class Examiner:
             return after, leave
 
         blocks = list[Block]()
-        for line in chain(lines, (None,)):
+        for line in chain(machine.run(), (None,)):
             if isinstance(line, Block):
                 blocks.append(line)
                 continue
@@ -473,6 +473,7 @@ class Examiner:
                 heads[line.mark] = len(found)
             if self._happen(line, ways):
                 del found[heads[line.mark] :]
+            machine.settled = ways.settled
         found += self._end(dialect.initial_state(self.asked.unit))
         return found
 

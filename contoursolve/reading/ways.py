@@ -75,6 +75,8 @@ class Ways:
         """What decides between those that met last, and whether what follows has been read."""
         self._heads: dict[int, tuple[list[Way], bool]] = {}
         """Where something may run again: on which ways that was reached, and whether others have come into it."""
+        self.settled: int | None = None
+        """The mark of the last of these of which nothing new followed."""
 
     def read_on(self, blocks: Sequence[Block], read: Read, *, is_open: bool) -> None:
         """Follow each way through some blocks, as far as it is known what they are; ways that have come equally far
@@ -139,6 +141,7 @@ class Ways:
         kept, is_aside = self._heads.get(event.mark, ([], True))
         both = _meet_all([*kept, *self.now], event.reason, self.modes)
         is_settled = not self.now or _are_same(both, kept)
+        self.settled = event.mark if is_settled else None
         if event.is_last and not is_settled:
             told = "the contour goes on" if any(each.unread for each in self.now) else "it is another place"
             told, span = f"{told} from pass to pass; {event.reason}", Span(event.line, 1, 2)

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
 from contoursolve.execution.events import EventKind, ProgramEvent
-from contoursolve.execution.machine import Limit, machine_of
+from contoursolve.execution.machine import Limit, Machine, machine_of
 from contoursolve.execution.subprograms import ALONE, Surroundings, surroundings_of
 from contoursolve.gcode import Block, Directive, Program
 from contoursolve.geometry import Length
@@ -177,13 +177,16 @@ def follow(
         first = advance(first, block, dialect.modes)
     walk, heads = _Walk(dialect, rules, _Matching(claims), apart), dict[int, int]()
     ways = Ways(lambda: first, dialect.modes)
-    for run, event in _runs(replace(program, blocks=blocks), dialect.modes, around):
+    machine = _machine(replace(program, blocks=blocks), dialect.modes, around)
+    for run, event in _runs(blocks, machine):
         ways.read_on(run, partial(walk.read, ways.marked), is_open=event is not None and event.kind.is_open)
         walk.reached |= {each.line for each in run if not each.file and all(one.is_reached for one in each.callers)}
         if event is not None and event.kind is EventKind.HEAD:
             heads[event.mark] = len(walk.found)
         if event is not None and ways.happen(event):
             del walk.found[heads[event.mark] :]
+        if machine is not None:
+            machine.settled = ways.settled
     visits = dict[int, list[Found]]()
     for each in walk.found:
         visits.setdefault(each.claim.blocks[0].line, []).append(each)
@@ -271,13 +274,15 @@ def _distance(claimed: ClaimedContour, claim: ParsedContour) -> float:
     return sum(abs(a - b) if a is not None and b is not None else FARTHEST * (a is not b) for a, b in pairs)
 
 
-def _runs(
-    program: Program, modes: Modes, around: Surroundings
-) -> Iterator[tuple[Sequence[Block], ProgramEvent | None]]:
+def _machine(program: Program, modes: Modes, around: Surroundings) -> Machine | None:
+    """What runs a program; None for one that neither calls, jumps nor computes."""
+    return machine_of(program, modes.language, modes.syntax, around, Limit(modes.most_blocks))
+
+
+def _runs(blocks: Sequence[Block], machine: Machine | None) -> Iterator[tuple[Sequence[Block], ProgramEvent | None]]:
     """The blocks of a program between its events, each time with the event behind them."""
-    limit, run = Limit(modes.most_blocks), list[Block]()
-    machine = machine_of(program, modes.language, modes.syntax, around, limit)
-    for each in machine.run() if machine is not None else program.blocks:
+    run = list[Block]()
+    for each in machine.run() if machine is not None else blocks:
         if isinstance(each, Block):
             run.append(each)
         else:
