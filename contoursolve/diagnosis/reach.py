@@ -33,7 +33,7 @@ from contoursolve.reading import ParsedContour, ReadIssue
 from contoursolve.solving import RefusalKind
 
 MOST_HELD = 8
-"""Problems of one contour that edits are held against; more of them refuse no more edits of few words."""
+"""Problems of one contour, about, that edits are held against; more of them refuse no more edits of few words."""
 
 MOST_GROUPS = 24
 """Groups of facts that are followed from one problem; what rests on more of them is left to the trial."""
@@ -81,19 +81,16 @@ class Reach(Struct, frozen=True, dict=True):
 
     @cached_property
     def held(self) -> tuple[Held, ...]:
-        """What the first problems rest on of which no two rest on the same blocks."""
-        found: list[Held] = []
-        if len(self._claim.blocks) <= 2 * _BESIDE + 1 or self._claim.directives:
+        """What some of the problems rest on, all over the contour."""
+        count = len(self._claim.blocks)
+        if count <= 2 * _BESIDE + 1 or self._claim.directives:
             return ()
+        found, next_place = list[Held](), 0
         places = ((self._places.get(each.span.line), each) for each in problems(self.answer))
         for place, finding in sorted(((at, each) for at, each in places if at is not None), key=lambda each: each[0]):
-            if len(found) == MOST_HELD:
-                break
-            if found and place <= found[-1].last:
-                continue
-            held = self._held(finding)
-            if held is not None and not (found and held.first <= found[-1].last):
+            if place >= next_place and (held := self._held(finding)) is not None:
                 found.append(held)
+                next_place = place + max(count // MOST_HELD, 1)
         return tuple(found)
 
     @property

@@ -6,6 +6,7 @@ which the shortest of several runs counts.
 """
 
 import random
+import re
 import sys
 import time
 from collections.abc import Callable
@@ -16,7 +17,9 @@ from examples import some_of
 
 from contoursolve import check, expand, parse
 from contoursolve.controls import DIALECTS
+from contoursolve.numeric import modular_rank
 from contoursolve.reading import plain_lines
+from contoursolve.solving import compile as compile_module
 
 TIMES = 8
 """How much longer the long line is than the short one."""
@@ -242,3 +245,116 @@ def test_time_goes_by_the_number_of_angle_pairs(control, monkeypatch):
     (few, small), (many, large) = steps(4), steps(16)
     assert many <= 1.2 * 4 * few
     assert large <= small
+
+
+ROWS = {
+    "fanuc-mill": ("G17 G90 G00 X0. Y0.\nG01 F500.\n", "X{at}. ,R0.001\n"),
+    "fanuc-lathe": ("G00 X40. Z0.\nG01 F500.\n", "Z-{at}. ,R0.001\n"),
+    "siemens-840d": ("G17 G90 G0 X0 Y0\nG1 F500\n", "X{at} RND=0.001\n"),
+    "heidenhain": ("L X+0 Y+0 R0 F500\n", "L X+{at}\nRND R0.001\n"),
+    "nct-99m": ("G17 G90 G00 X0. Y0.\nG41 D1 G01 F500.\n", "X{at}. ,R0.001\n"),
+}
+"""Lines that go on straight ahead, each with a corner behind it that is none."""
+
+
+@pytest.mark.parametrize("control", ROWS)
+def test_time_goes_by_the_number_of_corners_that_are_none(control, monkeypatch):
+    """Every repair of one corner was solved as a whole, although all others were there still."""
+    head, line = ROWS[control]
+    compiled = []
+    real = compile_module._compile
+
+    def counted(builder):
+        compiled.append(len(builder.system.figure.path))
+        return real(builder)
+
+    monkeypatch.setattr(compile_module, "_compile", counted)
+
+    def steps(count: int) -> int:
+        lines = [line.format(at=at) for at in range(1, count + 2)]
+        text = head + "".join(lines)[: -len(lines[-1])] + re.split(r" ,R| RND|\nRND", lines[-1])[0] + "\n"
+        told = []
+        compiled.clear()
+        made = calls(lambda: told.extend(check(text, control=control)))
+        assert len(told) == count
+        assert {each.about.value for each in told} <= {"corner-dropped", "corner-straight"}
+        assert len([size for size in compiled if size > count / 2]) <= (2 if count > 12 else 12)
+        return made
+
+    steps(12)
+    few, many = steps(20), steps(80)
+    assert many <= 1.2 * 4 * few
+
+
+def increments(count: int, code: str) -> str:
+    """Angle pairs in increments, each of which the control refuses, and one corner that is too large."""
+    heads = {
+        "nct-99m": ("G17 G90 G00 X0. Y0.\nG91 G01 F500.\n", "G01 ,A30. ,R{size}.\nX17.3205 Y0. ,A-30. ,R1.\n"),
+        "fanuc-lathe": ("G00 X0. Z0.\nG01 F500.\n", "G01 ,A30. ,R{size}.\nU0. W17.3205 ,A-30. ,R1.\n"),
+    }
+    head, pair = heads[code]
+    return head + "".join(pair.format(size=20 if each == count // 2 else 1) for each in range(count))
+
+
+@pytest.mark.parametrize("control", ["nct-99m", "fanuc-lathe"])
+def test_time_goes_by_the_number_of_pairs_that_are_refused(control):
+    def steps(count: int) -> int:
+        told = []
+        made = calls(lambda: told.extend(check(increments(count, control), control=control)))
+        assert len([each for each in told if each.is_error]) >= count
+        return made
+
+    steps(2)
+    few, many = steps(12), steps(48)
+    assert many <= 1.5 * 4 * few
+
+
+def test_what_lacks_many_words_is_not_asked_word_by_word(monkeypatch):
+    """Of a chain in which every second line lacks its length, each word that could be added was held against all."""
+    ranks = []
+    real = modular_rank.exact_rank
+    monkeypatch.setattr(modular_rank, "exact_rank", lambda *given: ranks.append(given) or real(*given))
+
+    def asked(count: int) -> int:
+        lines = [f"FL AN{30 * (-1) ** at:+d}{' LEN20' if at % 2 else ''}\n" for at in range(count)]
+        ranks.clear()
+        (finding,) = [
+            each for each in check("L X+0 Y+0 R0 F500\n" + "".join(lines), control="heidenhain") if each.is_error
+        ]
+        assert finding.code == "words-missing"
+        return len(ranks)
+
+    asked(4)
+    assert asked(40) <= asked(20) <= 8
+
+
+LOOPS = {
+    "WHILE": ("WHILE R{n}<R{m}\n", "R{n}=R{n}+1\nENDWHILE\n"),
+    "FOR": ("FOR R{n}=1 TO R{m}\n", "ENDFOR\n"),
+    "REPEAT": ("REPEAT\n", "UNTIL R{n}>R{m}\n"),
+    "LOOP": ("LOOP\nIF R{n}>R{m} GOTOF OUT{n}\n", "ENDLOOP\nOUT{n}:\n"),
+    "GOTOB": ("BACK{n}:\n", "IF R{n}<R{m} GOTOB BACK{n}\n"),
+}
+"""What begins a loop of which nobody knows how often it runs, and what ends it."""
+
+
+@pytest.mark.parametrize("kind", LOOPS)
+def test_loops_in_one_another_end_as_soon_as_nothing_new_follows(kind):
+    """Each ran four times in each pass of the one around it; with long ones in them, they were followed no further."""
+    head, tail = LOOPS[kind]
+    corners = "".join(f"G1 X{20 * at} RND=1\nY{10 * (at % 2)} RND=1\n" for at in range(1, 9)) + "X0\nY0\n"
+
+    def steps(depth: int) -> int:
+        numbers = range(1, depth + 1)
+        text = "G17 G90 G0 X0 Y0\nG1 F500\n"
+        text += "".join(head.format(n=n, m=20 + n) + "X5 RND=1\nY5\nX0\nY0\n" for n in numbers) + corners
+        text += "".join("X7 RND=1\nY7\nX0\nY0\n" + tail.format(n=n, m=20 + n) for n in reversed(numbers))
+        told = []
+        made = calls(lambda: told.extend(check(text + "X50 RND=1\nY60\nM30\n", control="siemens-840d")))
+        assert told == []
+        return made
+
+    steps(1)
+    few, many = steps(2), steps(5)
+    # Where a pass ends elsewhere than it began, the loops in it are followed anew.
+    assert many <= 1.2 * 2**3 * few
