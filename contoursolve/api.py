@@ -11,23 +11,27 @@ from typing import TYPE_CHECKING, Any
 from msgspec.structs import replace
 
 from contoursolve import gcode
-from contoursolve.diagnosis.examine import Depth
-from contoursolve.diagnostics.choices import choice_of
-from contoursolve.diagnostics.finding import Diagnostic
-from contoursolve.gcode import STANDARD_INPUT, Program, UnreadableProgramError
-from contoursolve.gcode.contents import decode
-from contoursolve.gcode.files import ANY_TEXT, tape_in_memory
-from contoursolve.program.pipeline import Result, Run, run
-from contoursolve.program.project import configure, find_settings, restate_control, stated_settings
-from contoursolve.program.readers import choose_alike
-from contoursolve.program.recognise import find_dialect, for_kind
-from contoursolve.program.request import request_for
-from contoursolve.reading.dialect import Dialect
+from contoursolve.diagnosis import Depth
+from contoursolve.diagnostics import Diagnostic, choice_of
+from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, UnreadableProgramError, decode, tape_in_memory
+from contoursolve.program import (
+    Result,
+    Run,
+    choose_alike,
+    configure,
+    find_dialect,
+    find_settings,
+    for_kind,
+    request_for,
+    restate_control,
+    run,
+    stated_settings,
+)
+from contoursolve.reading import Dialect
 
 if TYPE_CHECKING:
-    from contoursolve.postprocess.expansion_report import Conversion, Expansion
-    from contoursolve.postprocess.post_processors import Post
-    from contoursolve.statements import Statement
+    from contoursolve.geometry import Statement
+    from contoursolve.postprocess import Conversion, Expansion, Post
 
 __all__ = [
     "UnreadableProgramError",
@@ -298,7 +302,7 @@ def follow_program(
     asked = asked if dialect is None else asked.of(dialect, lambda: (block.text for block in program.blocks))
     together = None
     if asked.dialect is not None and len(program.blocks) >= _MANY:
-        from contoursolve.program.batch import Batch  # noqa: PLC0415 - a few blocks are solved before it is imported
+        from contoursolve.program import Batch  # noqa: PLC0415 - a few blocks are solved before it is imported
 
         together = Batch(asked.dialect, asked.policy, is_proven=asked.depth is not Depth.PATH)
     return Run(program, asked, together)
@@ -360,16 +364,21 @@ def expand(
     G01 X100. Z-47.321
     """
     # Only this function needs them.
-    from contoursolve.postprocess.expansion_report import Expansion, Options  # noqa: PLC0415
-    from contoursolve.postprocess.post_processors import Arcs, Numbering, find_post  # noqa: PLC0415
-    from contoursolve.postprocess.rewrite import rewrite  # noqa: PLC0415
+    from contoursolve.postprocess import (  # noqa: PLC0415  # noqa: PLC0415
+        Arcs,
+        Expansion,
+        Numbering,
+        Options,
+        find_post,
+        rewrite,
+    )
 
     if decimals is not None and (isinstance(decimals, bool) or decimals not in range(1, MOST_DECIMALS + 1)):
         raise ValueError(f"decimals cannot be {decimals!r}; choose 1 to {MOST_DECIMALS}, or None for the target's own")
     asked = request_for(name, start=start, units=units, rules=rules, facts=facts, variables=variables, folders=folders)
     writer = None
     if formulas:
-        from contoursolve.formulas.rewriting import formulas_for, post_of_formulas  # noqa: PLC0415
+        from contoursolve.postprocess import formulas_for, post_of_formulas  # noqa: PLC0415
 
         post = post_of_formulas(post)
         writer = formulas_for(text, post, scratch, variables or {}, asked.policy)
@@ -418,9 +427,13 @@ def convert(
     """
     # Only this function needs them.
     from contoursolve.comparison import compare, follow  # noqa: PLC0415
-    from contoursolve.postprocess.expansion_report import Conversion, ConversionError  # noqa: PLC0415
-    from contoursolve.postprocess.post_processors import machine_of, post_of  # noqa: PLC0415
-    from contoursolve.postprocess.translate import language_of  # noqa: PLC0415
+    from contoursolve.postprocess import (  # noqa: PLC0415  # noqa: PLC0415
+        Conversion,
+        ConversionError,
+        language_of,
+        machine_of,
+        post_of,
+    )
 
     target = to if isinstance(to, Dialect) else configure(find_dialect(to), settings)
     if language_of(target) is None:

@@ -6,13 +6,11 @@ from msgspec import Struct
 
 from contoursolve import gcode
 from contoursolve.api import solve
-from contoursolve.diagnosis.edits import Edit, EditKind, change, drop, edited
-from contoursolve.diagnosis.repairs import find_repairs
+from contoursolve.diagnosis import Edit, EditKind, change, drop, edited, find_repairs
 from contoursolve.gcode import Program
-from contoursolve.program.pipeline import Result
-from contoursolve.program.recognise import choose
-from contoursolve.reading.dialect import Dialect
-from contoursolve.solving.contour import Contour
+from contoursolve.program import Result, choose
+from contoursolve.reading import Dialect
+from contoursolve.solving import Contour
 
 
 class Completion(Struct, frozen=True):

@@ -27,8 +27,7 @@ from contoursolve.cli.options import (
     units_option,
 )
 from contoursolve.cli.printing import say
-from contoursolve.diagnostics.extras import need
-from contoursolve.diagnostics.json_text import json_text
+from contoursolve.diagnostics import json_text, need
 from contoursolve.families import FamilyError, RefusedError, name_of
 from contoursolve.gcode import parse
 from contoursolve.reading import ReadIssue

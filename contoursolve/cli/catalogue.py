@@ -7,8 +7,7 @@ import click
 from contoursolve.cli.options import CouldNotRunError, control_option
 from contoursolve.cli.printing import print_lines, say
 from contoursolve.controls import DIALECTS
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import Rule
+from contoursolve.reading import Dialect, Rule
 
 
 @click.command(short_help="List the whole catalogue of rules.")
@@ -21,10 +20,10 @@ from contoursolve.reading.rules import Rule
 )
 def rules(control: str | Dialect | None, is_table: bool) -> None:
     """List the whole catalogue of rules and findings, with their evidence and the control's alarms."""
-    from contoursolve.output.catalogue import catalogue_lines, table_lines  # noqa: PLC0415 - only here
+    from contoursolve.output import catalogue_lines, word_set_lines  # noqa: PLC0415 - only here
 
     chosen = _chosen(control)
-    print_lines(table_lines(chosen) if is_table else catalogue_lines(chosen))
+    print_lines(word_set_lines(chosen) if is_table else catalogue_lines(chosen))
 
 
 def _chosen(control: str | Dialect | None) -> list[Dialect]:
@@ -37,7 +36,7 @@ def _chosen(control: str | Dialect | None) -> list[Dialect]:
 @click.command(short_help="List the further facts that can be stated about a contour.")
 def facts() -> None:
     """List the further facts that can be stated about a contour, with --fact or in a comment (contoursolve: ...)."""
-    from contoursolve.output.catalogue import vocabulary_lines  # noqa: PLC0415 - only here
+    from contoursolve.output import vocabulary_lines  # noqa: PLC0415 - only here
 
     print_lines(vocabulary_lines())
 
@@ -65,7 +64,7 @@ def explain(code: str, control: str | Dialect | None) -> None:
     contoursolve explain g111-line-1
     contoursolve explain 146
     """
-    from contoursolve.output.catalogue import rule_lines  # noqa: PLC0415 - only here
+    from contoursolve.output import rule_lines  # noqa: PLC0415 - only here
 
     wanted = code.strip().lower()
     found: dict[str, tuple[Rule, list[str]]] = {}

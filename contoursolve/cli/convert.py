@@ -14,13 +14,11 @@ from contoursolve.cli.options import (
     units_option,
 )
 from contoursolve.cli.printing import say, style_of_output
-from contoursolve.controls import DIALECTS
-from contoursolve.controls.chain import ChainFinder
-from contoursolve.diagnosis.wording import count, join
-from contoursolve.gcode.files import open_tape, write_whole
-from contoursolve.postprocess.expansion_report import Conversion
-from contoursolve.postprocess.post_processors import Post, post_of
-from contoursolve.reading.dialect import Dialect
+from contoursolve.controls import DIALECTS, ChainFinder
+from contoursolve.diagnosis import count, join
+from contoursolve.gcode import open_tape, write_whole
+from contoursolve.postprocess import Conversion, Post, post_of
+from contoursolve.reading import Dialect
 
 _TARGETS = tuple(name for name, dialect in DIALECTS.items() if isinstance(dialect.find, ChainFinder))
 

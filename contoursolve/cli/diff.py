@@ -22,12 +22,8 @@ from contoursolve.cli.printing import print_lines, say
 from contoursolve.controls import DIALECTS, PLAIN
 from contoursolve.gcode import Program
 from contoursolve.geometry import Length
-from contoursolve.program.pipeline import Result, run
-from contoursolve.program.project import CONTROL, configure
-from contoursolve.program.readers import choose_alike
-from contoursolve.program.request import request_for
-from contoursolve.reading import ReadIssue
-from contoursolve.reading.dialect import Dialect
+from contoursolve.program import CONTROL, Result, choose_alike, configure, request_for, run
+from contoursolve.reading import Dialect, ReadIssue
 
 _ANY_CONTROL = (*DIALECTS, *PLAIN)
 

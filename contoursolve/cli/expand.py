@@ -24,15 +24,11 @@ from contoursolve.cli.options import (
     units_option,
 )
 from contoursolve.cli.printing import say, style_of_output
-from contoursolve.diagnosis.examine import Policy
-from contoursolve.diagnosis.wording import count
-from contoursolve.gcode.files import Tape, check_target, check_unprotected, open_tape, tape_of, write_whole
-from contoursolve.output.findings import Style, finding_lines, plain
-from contoursolve.output.listing import without_repeated
-from contoursolve.postprocess.expansion_report import Options, Summary
-from contoursolve.postprocess.post_processors import POSTS, Arcs, Numbering, Post, Risk
-from contoursolve.postprocess.rewrite import Rewritten, Writer, rewrite
-from contoursolve.program.request import request_for
+from contoursolve.diagnosis import Policy, count
+from contoursolve.gcode import Tape, check_target, check_unprotected, open_tape, tape_of, write_whole
+from contoursolve.output import Style, finding_lines, plain, without_repeated
+from contoursolve.postprocess import POSTS, Arcs, Numbering, Options, Post, Rewritten, Risk, Summary, Writer, rewrite
+from contoursolve.program import request_for
 
 _BY_HAND = "write by hand what is meant there"
 
@@ -240,7 +236,7 @@ def _post_of(post: str, options: Mapping[str, Any]) -> Post:
         return POSTS[post]
     if options["arcs"] != Arcs.CENTER.value or options["is_inline"]:
         raise click.UsageError("--formulas goes without --arcs radius and --inline")
-    from contoursolve.formulas.rewriting import post_of_formulas  # noqa: PLC0415 - few programs need it
+    from contoursolve.postprocess import post_of_formulas  # noqa: PLC0415 - few programs need it
 
     return post_of_formulas(post)
 
@@ -280,7 +276,7 @@ def _rewrite(
 
 def _formulas(tape: Tape, wish: Options, options: Mapping[str, Any]) -> Writer:
     """What writes contours as formulas."""
-    from contoursolve.formulas.rewriting import formulas_for  # noqa: PLC0415 - few programs need it
+    from contoursolve.postprocess import formulas_for  # noqa: PLC0415 - few programs need it
 
     return formulas_for(
         tape.read(), wish.post, options["scratch"], options["variables"] or {}, Policy(options["rules"])

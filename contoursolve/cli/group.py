@@ -7,7 +7,7 @@ from importlib import import_module
 import click
 
 from contoursolve import __version__
-from contoursolve.diagnostics.errors import UserError
+from contoursolve.diagnostics import UserError
 
 _COMMANDS = {
     "check": "solve:check",
@@ -43,7 +43,7 @@ class _Commands(click.Group):
         try:
             return super().invoke(ctx)
         except click.ClickException as error:
-            from contoursolve.output.plain_text import harmless  # noqa: PLC0415 - only here
+            from contoursolve.output import harmless  # noqa: PLC0415 - only here
 
             vars(error)["message"] = harmless(error.message)
             raise

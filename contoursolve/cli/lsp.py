@@ -2,7 +2,7 @@
 
 import click
 
-from contoursolve.diagnostics.extras import importing
+from contoursolve.diagnostics import importing
 
 
 @click.command()
@@ -17,5 +17,5 @@ def lsp() -> None:
     contoursolve lsp
     """
     with importing("lsp", "the language server"):
-        from contoursolve.lsp.server import server  # noqa: PLC0415 - needs an extra
+        from contoursolve.lsp import server  # noqa: PLC0415 - needs an extra
     server.start_io()

@@ -20,18 +20,13 @@ from contoursolve import gcode
 from contoursolve.api import follow_program, read_program
 from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.examine import Policy
-from contoursolve.diagnostics.errors import ProgramError, UserError
-from contoursolve.gcode import STANDARD_INPUT, Program
-from contoursolve.gcode.files import Tape
+from contoursolve.diagnosis import Policy
+from contoursolve.diagnostics import ProgramError, UserError
+from contoursolve.gcode import STANDARD_INPUT, Program, Tape
 from contoursolve.geometry import Length
-from contoursolve.output.findings import EXPLAINING
-from contoursolve.output.listing import lines_of_findings, short_findings
-from contoursolve.output.plain_text import harmless
-from contoursolve.program.pipeline import Result, Run
-from contoursolve.program.project import find_settings, read_setting, stated_settings
-from contoursolve.program.recognise import UnknownControlError
-from contoursolve.reading.dialect import Dialect
+from contoursolve.output import EXPLAINING, harmless, lines_of_findings, short_findings
+from contoursolve.program import Result, Run, UnknownControlError, find_settings, read_setting, stated_settings
+from contoursolve.reading import Dialect
 
 _OWN = "MODULE:NAME"
 

@@ -18,13 +18,12 @@ from contoursolve.cli.options import (
     print_findings,
 )
 from contoursolve.cli.printing import say
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.wording import count
-from contoursolve.diagnostics.extras import importing
-from contoursolve.gcode.files import check_target, write_whole
-from contoursolve.output.listing import summary_line
+from contoursolve.diagnosis import Answer, count
+from contoursolve.diagnostics import importing
+from contoursolve.gcode import check_target, write_whole
+from contoursolve.output import summary_line
 from contoursolve.pictures import Picture, Theme, draw_answer, draw_result
-from contoursolve.program.pipeline import Result
+from contoursolve.program import Result
 
 SVG, PNG = ".svg", ".png"
 
@@ -191,7 +190,7 @@ def _at(answers: Sequence[Answer], line: int) -> Answer:
 def _drawings_for_cad(result: Result, target: Path) -> list[Written]:
     """The DXF drawing, if anything is solved."""
     with importing("dxf", "a DXF drawing"):
-        from contoursolve.output.dxf import to_dxf  # noqa: PLC0415 - needs an extra
+        from contoursolve.output import to_dxf  # noqa: PLC0415 - needs an extra
     contours = [answer.contour for answer in result.answers if answer.contour]
     if not contours:
         return []
@@ -239,7 +238,7 @@ def report(
     if target.suffix.lower() not in (".html", ".htm"):
         raise CouldNotRunError(f"{target}: pages end in .html")
     with importing("report", "a report"):
-        from contoursolve.output.report import report_page  # noqa: PLC0415 - needs an extra
+        from contoursolve.output import report_page  # noqa: PLC0415 - needs an extra
     may_replace = _may_replace(target, output, is_forced=is_forced)
     check_target(target, Path(program) if program else None, is_forced=may_replace)
     result = examine(loader(), start, assignments, options)

@@ -8,8 +8,7 @@ from typing import Any
 
 import click
 
-from contoursolve.output.findings import Style, plain
-from contoursolve.output.plain_text import harmless
+from contoursolve.output import Style, harmless, plain
 
 _COLORS: dict[str, dict[str, Any]] = {
     "error": {"fg": "red", "bold": True},

@@ -17,7 +17,7 @@ from contoursolve.cli.blocks import (
 from contoursolve.cli.options import FOUND_ERRORS
 from contoursolve.cli.printing import print_lines
 from contoursolve.families import feasible, find_word, region, tolerances
-from contoursolve.output.families import (
+from contoursolve.output import (
     found_data,
     found_lines,
     range_data,

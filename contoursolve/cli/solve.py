@@ -17,19 +17,20 @@ from contoursolve.cli.options import (
     load,
 )
 from contoursolve.cli.printing import print_lines, print_pieces, say, style_of_output
-from contoursolve.diagnostics.errors import UserError
-from contoursolve.diagnostics.finding import Severity
-from contoursolve.output.document import Findings, Shelf, stream_json
-from contoursolve.output.listing import (
+from contoursolve.diagnostics import Severity, UserError
+from contoursolve.output import (
     MOST_ALIKE,
+    Findings,
+    Shelf,
     Totals,
     closing_lines,
     stream_findings,
+    stream_json,
     stream_listing,
     table_lines,
 )
-from contoursolve.program.pipeline import Result
-from contoursolve.reading.dialect import Dialect
+from contoursolve.program import Result
+from contoursolve.reading import Dialect
 
 
 @click.command(short_help="Solve every contour block of a program.")
@@ -167,12 +168,12 @@ def check(
         case "json":
             print_pieces(document.pieces())
         case "sarif":
-            from contoursolve.output.exchange import to_sarif  # noqa: PLC0415 - only here
+            from contoursolve.output import to_sarif  # noqa: PLC0415 - only here
 
             control = options["control"]
             click.echo(to_sarif(results, __version__, control if isinstance(control, Dialect) else None))
         case "github":
-            from contoursolve.output.exchange import to_github  # noqa: PLC0415 - only here
+            from contoursolve.output import to_github  # noqa: PLC0415 - only here
 
             click.echo(to_github(results))
         case _ if not is_alone:

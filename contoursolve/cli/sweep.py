@@ -25,7 +25,7 @@ from contoursolve.cli.options import CouldNotRunError
 from contoursolve.cli.pictures import bytes_of, check_picture, theme_option
 from contoursolve.cli.printing import say
 from contoursolve.cli.progress import STOPPED, duration, leave_threads, progress, stoppable
-from contoursolve.diagnostics.extras import need
+from contoursolve.diagnostics import need
 from contoursolve.families import (
     MOST_ROWS,
     CompiledSweep,
@@ -43,13 +43,10 @@ from contoursolve.families import (
     sweep,
     write_parquet,
 )
-from contoursolve.gcode.files import CannotWriteError, check_target, open_whole, write_whole
-from contoursolve.output.families import rest_lines
-from contoursolve.output.plain_text import columns
-from contoursolve.output.resting import resting_data
-from contoursolve.pictures import Theme, draw_sweep
-from contoursolve.pictures.sweeps import sweep_title
-from contoursolve.solving.row_outcome import REASONS, Code
+from contoursolve.gcode import CannotWriteError, check_target, open_whole, write_whole
+from contoursolve.output import columns, rest_lines, resting_data
+from contoursolve.pictures import Theme, draw_sweep, sweep_title
+from contoursolve.solving import REASONS, Code
 
 PATIENCE = 1.0
 """Seconds between two looks at whether the scheduler is still there."""

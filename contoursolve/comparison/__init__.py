@@ -3,19 +3,6 @@
 Two programs come in, their first difference goes out. Begin with `compare`.
 """
 
-from contoursolve.comparison.compare import Comparison, Difference, compare
-from contoursolve.comparison.follow import Path, follow
-from contoursolve.comparison.travel import Motion, Place, Step, Travel, Unfollowed
+from lazy_loader import attach_stub
 
-__all__ = [
-    "Comparison",
-    "Difference",
-    "Motion",
-    "Path",
-    "Place",
-    "Step",
-    "Travel",
-    "Unfollowed",
-    "compare",
-    "follow",
-]
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

@@ -10,31 +10,32 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.comparison.travel import Bend, Motion, Place, Step, Travel, Unfollowed
-from contoursolve.controls.plain import CENTERS, Centers
-from contoursolve.diagnosis.examine import Answer, Depth
+from contoursolve.controls import CENTERS, Centers
+from contoursolve.diagnosis import Answer, Depth
 from contoursolve.gcode import Block, Macro, Program, Word
 from contoursolve.geometry import Length, Plane, Turn
-from contoursolve.program.calls import machine_for
-from contoursolve.program.pipeline import Examiner, Result
-from contoursolve.program.request import Request
-from contoursolve.program.solve_queue import Step as Passed
+from contoursolve.program import Examiner, Request, Result, Step as Passed, machine_for
 from contoursolve.reading import (
+    MOTIONS,
+    Around,
     Bearing,
     Code,
+    ContourBlock,
+    Dialect,
     Effect,
     Lexicon,
+    Plain,
+    Reliance,
     State,
     WithoutPoint,
     advance,
     apply_modes,
+    blocks_of,
     codes_of,
     leave,
+    reliance,
 )
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import ContourBlock, blocks_of
-from contoursolve.reading.modal_dependence import MOTIONS, Reliance, reliance
-from contoursolve.reading.writer import Around, Plain
-from contoursolve.solving.contour import ArcSegment, Segment, center_by_radius
+from contoursolve.solving import ArcSegment, Segment, center_by_radius
 from contoursolve.tolerance import LENGTH, REGULAR
 
 _TURNS = {2: Turn.CW, 3: Turn.CCW}

@@ -6,13 +6,10 @@ from decimal import Decimal
 from typing import Any
 
 from contoursolve.controls.further import WORDS
-from contoursolve.diagnostics.finding import Severity
-from contoursolve.diagnostics.source import OWN, Evidence, Source
-from contoursolve.execution.machine import MOST_BLOCKS, Limit
+from contoursolve.diagnostics import OWN, Evidence, Severity, Source
+from contoursolve.execution import MOST_BLOCKS, Limit
 from contoursolve.gcode import FaultKind
-from contoursolve.reading import ReadIssue, Setting, WithoutPoint
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import Rule
+from contoursolve.reading import Dialect, ReadIssue, Rule, Setting, WithoutPoint
 from contoursolve.solving import NoteKind, RefusalKind
 from contoursolve.tolerance import LARGEST, TRAVEL
 

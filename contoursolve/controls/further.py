@@ -7,9 +7,8 @@ from decimal import Decimal
 from itertools import count
 from typing import cast
 
-from contoursolve.diagnostics.source import OWN, Evidence, Source
-from contoursolve.reading import Bearing, Beside, Code, Effect, Modes, Setting
-from contoursolve.reading.dialect import Dialect
+from contoursolve.diagnostics import OWN, Evidence, Source
+from contoursolve.reading import Bearing, Beside, Code, Dialect, Effect, Modes, Setting
 
 _LETTERS: tuple[tuple[str, str, Bearing], ...] = (
     ("N O", "number of a block or a program", Bearing.NONE),

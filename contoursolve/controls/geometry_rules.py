@@ -8,10 +8,8 @@ from enum import Enum
 from typing import TypedDict, Unpack
 
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.diagnostics.finding import Alarm, Severity
-from contoursolve.diagnostics.source import OWN, Evidence, Source
-from contoursolve.reading import ReadIssue
-from contoursolve.reading.rules import Rule
+from contoursolve.diagnostics import OWN, Alarm, Evidence, Severity, Source
+from contoursolve.reading import ReadIssue, Rule
 from contoursolve.solving import NoteKind, RefusalKind
 
 _SOURCE = Source(OWN, "the geometry of lines, arcs and corners", Evidence.ASSUMED)

@@ -7,11 +7,21 @@ from enum import Enum
 
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.further import letters
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics import Evidence, Source
 from contoursolve.gcode import Block
 from contoursolve.geometry import Length, Plane, Unit
-from contoursolve.reading import Address, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, State, WithoutPoint
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import (
+    Address,
+    Code,
+    Dialect,
+    Diameter,
+    Effect,
+    Lexicon,
+    Modes,
+    NumberFormat,
+    State,
+    WithoutPoint,
+)
 
 LINUXCNC_MANUAL = Source("LinuxCNC User Manual", "G-codes; lathe user information", Evidence.PRINTED)
 

@@ -6,12 +6,11 @@ from pathlib import Path
 
 from msgspec.structs import asdict
 
-from contoursolve import analysis
-from contoursolve.analysis import Determinacy, derive
-from contoursolve.analysis.identities import derive_circle_identity, derive_identity, is_affine, tied_sets
-from contoursolve.controls import DIALECTS
+from contoursolve import solving
+from contoursolve.controls.all_controls import DIALECTS
 from contoursolve.geometry import Contact, Fact, Foot, System, build_system
 from contoursolve.reading import ContourForm, lay_out, stated_sets
+from contoursolve.solving import Determinacy, derive, derive_circle_identity, derive_identity, is_affine, tied_sets
 
 
 def systems() -> dict[str, System]:
@@ -75,6 +74,6 @@ def _write(rows: dict[str, str]) -> str:
 
 
 if __name__ == "__main__":
-    folder = Path(analysis.__file__).parent
+    folder = Path(solving.__file__).parent
     (folder / "verdicts.json").write_text(table(), encoding="utf-8", newline="\n")
     (folder / "identities.json").write_text(identity_table(), encoding="utf-8", newline="\n")

@@ -6,7 +6,6 @@ from itertools import islice
 
 from msgspec import Struct
 
-from contoursolve.analysis import analyse
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.repairs import find_repairs
@@ -14,10 +13,8 @@ from contoursolve.diagnosis.subsets import smallest_sets
 from contoursolve.diagnosis.table import legal_samples
 from contoursolve.gcode import spell
 from contoursolve.geometry import assemble
-from contoursolve.reading import ParsedContour, read, stating
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import check
-from contoursolve.solving.contour import Contour
+from contoursolve.reading import Dialect, ParsedContour, check, read, stating
+from contoursolve.solving import Contour, analyse
 
 MOST_ADDED = 3
 """Words that complete a block; of a block that lacks more, all is still open."""

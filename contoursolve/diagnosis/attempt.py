@@ -9,7 +9,6 @@ from itertools import chain, islice
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse, groups_of
 from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts, edited
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
 from contoursolve.diagnosis.examples import ends, propose, sampled
@@ -27,17 +26,23 @@ from contoursolve.diagnosis.typo_fixes import (
     Slip,
     recognise,
 )
-from contoursolve.diagnostics.finding import Applicability, Diagnostic, Severity
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Applicability, Diagnostic, Severity, Span
 from contoursolve.gcode import Block, parse_block
 from contoursolve.geometry import Heading, Profile, Unit, assemble
-from contoursolve.reading import ParsedContour, ReadIssue, State, advance, leave, read
-from contoursolve.reading.dialect import Dialect
-from contoursolve.solving import NoteKind, Point, Status
-from contoursolve.solving.affine import affine_facts
-from contoursolve.solving.compare import opposes
-from contoursolve.solving.contour import Contour, LineSegment, Segment
-from contoursolve.solving.plan import is_closed
+from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, advance, leave, read
+from contoursolve.solving import (
+    Contour,
+    LineSegment,
+    NoteKind,
+    Point,
+    Segment,
+    Status,
+    affine_facts,
+    analyse,
+    groups_of,
+    is_closed,
+    opposes,
+)
 from contoursolve.tolerance import AGREEMENT
 
 MOST_TRIED = 60
@@ -316,7 +321,7 @@ class Trial(Struct, frozen=True):
         profile = read(claim, frozenset())
         if not profile.is_extended:
             return profile
-        from contoursolve.statements import apply_statements  # noqa: PLC0415 - few blocks state more than their words
+        from contoursolve.geometry import apply_statements  # noqa: PLC0415 - few blocks state more than their words
 
         profile, faults = apply_statements(profile, claim.directives, lambda: self.next_place)
         return None if faults else profile

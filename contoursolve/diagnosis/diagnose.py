@@ -4,7 +4,6 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse, decompose, spare_of
 from contoursolve.diagnosis.attempt import Repairs
 from contoursolve.diagnosis.edits import EditKind
 from contoursolve.diagnosis.examine import Answer, Policy, problems
@@ -21,15 +20,27 @@ from contoursolve.diagnosis.fix_text import fixes_of
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.wording import SHOWN, count, length_text
-from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Label, Layer, Severity, Tie, Verdict
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, Label, Layer, Severity, Span, Tie, Verdict
 from contoursolve.gcode import FACT, Block, FaultKind, Word
 from contoursolve.geometry import OnCircle, Profile, System, Unit, assemble
-from contoursolve.reading import ReadIssue, State, read
-from contoursolve.reading.dialect import Dialect
-from contoursolve.solving import NoteKind, RefusalKind, lookup, scalars_of
-from contoursolve.solving.affine import NO_CIRCUITS, AffineFacts, Circuit, affine_facts
-from contoursolve.solving.compare import compare_affine, is_conflict, opposes, runs_against
+from contoursolve.reading import Dialect, ReadIssue, State, read
+from contoursolve.solving import (
+    NO_CIRCUITS,
+    AffineFacts,
+    Circuit,
+    NoteKind,
+    RefusalKind,
+    affine_facts,
+    analyse,
+    compare_affine,
+    decompose,
+    is_conflict,
+    lookup,
+    opposes,
+    runs_against,
+    scalars_of,
+    spare_of,
+)
 
 
 def diagnose(
@@ -196,7 +207,7 @@ def _address(word: Word) -> str:
 
 def _further_ties(answer: Answer) -> Iterator[Tie]:
     """For each word or fact that says again what others say, those others and itself."""
-    from contoursolve.solving.ambiguity import tied_with  # noqa: PLC0415 - few blocks state more than their words
+    from contoursolve.solving import tied_with  # noqa: PLC0415 - few blocks state more than their words
 
     profile = answer.profile
     system = assemble(profile)

@@ -10,8 +10,7 @@ from contoursolve.diagnosis.edits import AT_MOST, Edit, EditKind, Why, change, d
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.spelling import meant_in, meant_words, respelled, unanswerable, with_comma
-from contoursolve.diagnostics.finding import Diagnostic
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, FaultKind, Word, lookalike_at, number_of
 from contoursolve.geometry import Given, Length, Unit
 from contoursolve.reading import Lexicon, ParsedContour, ReadIssue

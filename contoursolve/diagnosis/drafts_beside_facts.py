@@ -5,7 +5,6 @@ from collections.abc import Iterable, Iterator
 from decimal import Decimal
 from itertools import combinations, islice, product
 
-from contoursolve.analysis import analyse
 from contoursolve.diagnosis.attempt import Trial
 from contoursolve.diagnosis.drafts import (
     OF_CORNERS,
@@ -22,17 +21,11 @@ from contoursolve.diagnosis.examples import sampled
 from contoursolve.diagnosis.explain import SAID_AGAIN, SINGULAR, facts_at, spans_of
 from contoursolve.diagnosis.spelling import shapes_of
 from contoursolve.diagnosis.subsets import lines_near
-from contoursolve.diagnostics.finding import Diagnostic
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, Word, number_of, spell
-from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Offset, Profile, Unit, assemble, scalar
-from contoursolve.reading import ReadIssue, read
-from contoursolve.reading.rules import check
-from contoursolve.solving import RefusalKind, Status
-from contoursolve.solving.alternatives import choose
-from contoursolve.solving.ambiguity import tied_with
-from contoursolve.solving.picks import numbers_of, pick
-from contoursolve.statements.apply import word_of
+from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Offset, Profile, Unit, assemble, scalar, word_of
+from contoursolve.reading import ReadIssue, check, read
+from contoursolve.solving import RefusalKind, Status, analyse, choose, numbers_of, pick, tied_with
 
 MOST_ADDED = 2
 """Words that a repair adds to such a block."""

@@ -9,7 +9,7 @@ from enum import Enum, IntEnum
 from msgspec import Struct
 
 from contoursolve.diagnosis.wording import shorten
-from contoursolve.diagnostics.source import Evidence, Source, Span
+from contoursolve.diagnostics import Evidence, Source, Span
 from contoursolve.gcode import (
     FACT,
     Block,
@@ -23,8 +23,7 @@ from contoursolve.gcode import (
     spell,
 )
 from contoursolve.geometry import Length, Unit
-from contoursolve.reading import Lexicon, ParsedContour, WithoutPoint
-from contoursolve.reading.modal_dependence import restate
+from contoursolve.reading import Lexicon, ParsedContour, WithoutPoint, restate
 
 PLACEHOLDER = "?"
 """Stands for a number that the block does not give."""

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse
 from contoursolve.diagnosis.explain import (
     SAID_AGAIN,
     Context,
@@ -38,31 +37,41 @@ from contoursolve.diagnosis.spelling import (
     tell_points,
     without_point,
 )
-from contoursolve.diagnostics.display import Shown
-from contoursolve.diagnostics.finding import Basis, Diagnosis, Diagnostic, Severity
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, Severity, Shown, Span
 from contoursolve.geometry import Length, Line, Plane, Profile, Question, Side, Start, System, assemble
-from contoursolve.reading import AT_ITS_LIMIT, Assumption, ParsedContour, ReadIssue, Resting, read, unused_words
-from contoursolve.reading.rules import Offence, Rule, check
+from contoursolve.reading import (
+    AT_ITS_LIMIT,
+    Assumption,
+    Offence,
+    ParsedContour,
+    ReadIssue,
+    Resting,
+    Rule,
+    check,
+    read,
+    unused_words,
+)
 from contoursolve.solving import (
+    Certificate,
+    Contour,
     Note,
     NoteKind,
     Refusal,
     RefusalKind,
     Solution,
     Status,
+    analyse,
     is_closed,
     lookup,
     points_with_two_solutions,
     scalars_of,
     solve,
+    trace,
 )
-from contoursolve.solving.contour import Contour, trace
-from contoursolve.solving.solution import Certificate
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
-    from contoursolve.solving.alternatives import Alternatives
+    from contoursolve.solving import Alternatives
 
 
 class Policy(Enum):
@@ -296,7 +305,7 @@ def list_alternatives(answer: Answer) -> Alternatives | None:
         or not 0 < count_choices(answer.profile) <= MOST_CHOICES
     ):
         return answer.alternatives
-    from contoursolve.solving.alternatives import find_alternatives  # noqa: PLC0415 - see _solve
+    from contoursolve.solving import find_alternatives  # noqa: PLC0415 - see _solve
 
     return find_alternatives(answer.profile)
 
@@ -330,7 +339,7 @@ def _state_more(
     if not profile.is_extended:
         return profile, True
     # Few blocks state more than their words.
-    from contoursolve.statements import apply_statements  # noqa: PLC0415
+    from contoursolve.geometry import apply_statements  # noqa: PLC0415
 
     extended, faults = apply_statements(profile, claim.directives, next_place)
     for fault in faults:
@@ -386,7 +395,7 @@ def _examine_geometry(
     structure = list(_examine_system(context, claim, profile, is_brief=depth is Depth.TRIAL))
     against: list[Diagnostic] = []
     if structure and profile.start.is_known and not (is_refused and profile.is_extended):
-        from contoursolve.solving.ambiguity import said_twice  # noqa: PLC0415 - few blocks lack something
+        from contoursolve.solving import said_twice  # noqa: PLC0415 - few blocks lack something
 
         compared = _each_word_once(said_twice(profile))
         for event in (each for each in compared if not is_refused or each.kind in _ABOUT_WORDS):
@@ -449,7 +458,7 @@ def _without_cuts(
     """The profile with the points in place that only cut a line or an arc in two, each of them told."""
     if not open_ or not profile.start.is_known:
         return profile
-    from contoursolve.solving.free_cuts import place_cuts  # noqa: PLC0415 - few blocks leave something open
+    from contoursolve.solving import place_cuts  # noqa: PLC0415 - few blocks leave something open
 
     profile, cuts = place_cuts(profile, open_)
     lines = {name: block for block, names in zip(claim.blocks, claim.makes, strict=True) for name in names}
@@ -471,7 +480,7 @@ def _solve(
     if solution is not None and not (touches and count_choices(profile) <= MOST_CHOICES):
         return profile, solution, None
     # Unusual combinations, open choices, and lines that touch as far as floats can tell.
-    from contoursolve.solving.ambiguity import settle  # noqa: PLC0415
+    from contoursolve.solving import settle  # noqa: PLC0415
 
     settlement = settle(profile, is_blaming=depth is not Depth.TRIAL)
     open_ = [

@@ -10,9 +10,9 @@ import numpy
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, write_word
 from contoursolve.gcode import spell
 from contoursolve.geometry import Coordinate, Profile, Radius, Unit
-from contoursolve.numeric.columns import Array
+from contoursolve.numeric import Array
 from contoursolve.reading import ParsedContour
-from contoursolve.solving.checks import agreement_rows, passed_rows
+from contoursolve.solving import agreement_rows, passed_rows
 
 MOST_PROPOSED = 8
 """Numbers that are proposed for a repair; a few, because a rule may refuse what the equations accept."""

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from contoursolve.analysis import Determinacy
 from contoursolve.diagnosis.wording import (
     NUMBERS,
     angle_text,
@@ -30,29 +29,32 @@ from contoursolve.diagnosis.wording import (
     unknowns_text,
     value_text,
 )
-from contoursolve.diagnostics.finding import Basis, Diagnostic, Label
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Basis, Diagnostic, Label, Span
 from contoursolve.gcode import FACT, Word, spell
 from contoursolve.geometry import Arc, Fact, Heading, Length, ParallelLines, Profile, Radius, Role, Unit, assemble
-from contoursolve.reading import ParsedContour, ReadIssue
-from contoursolve.reading.rules import VERBS, Offence, Rule
+from contoursolve.reading import VERBS, Offence, ParsedContour, ReadIssue, Rule
 from contoursolve.solving import (
     BESIDE,
+    Contour,
+    Determinacy,
     Note,
     NoteKind,
     Refusal,
     RefusalKind,
     Solution,
+    against_angles,
+    allowance,
     compare,
+    dropped_corners,
+    increments_of,
     lookup,
+    opposes,
     scalars_of,
 )
-from contoursolve.solving.compare import allowance, increments_of, opposes
-from contoursolve.solving.contour import Contour, against_angles, dropped_corners
 from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING
 
 if TYPE_CHECKING:
-    from contoursolve.solving.alternatives import Alternatives
+    from contoursolve.solving import Alternatives
 
 _BEGINNING = Span(1, 1, 2)
 
@@ -559,7 +561,7 @@ def _rooms(
 
 def _causes(asked: Word, profile: Profile) -> Iterator[str]:
     """The words and facts that determine the size of a corner that is asked for."""
-    from contoursolve.solving.ambiguity import settled_by  # noqa: PLC0415 - few blocks ask for anything
+    from contoursolve.solving import settled_by  # noqa: PLC0415 - few blocks ask for anything
 
     for question in profile.questions:
         if question.word is asked and isinstance(question.fact, Radius):
@@ -571,7 +573,7 @@ def _causes(asked: Word, profile: Profile) -> Iterator[str]:
 
 def _others(event: Refusal | Note, profile: Profile) -> dict[str, str]:
     """The words and facts from which a word or a fact follows, or else all others, and their verbs."""
-    from contoursolve.solving.ambiguity import tied_with  # noqa: PLC0415 - few blocks say anything twice
+    from contoursolve.solving import tied_with  # noqa: PLC0415 - few blocks say anything twice
 
     system = assemble(profile)
     facts = [fact for fact in profile.facts if fact.given == event.subject]

@@ -7,9 +7,8 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.edits import apply_edits, change, write_word
 from contoursolve.diagnosis.examine import Answer, Filled, Policy, examine
 from contoursolve.gcode import FACT, parse_block
-from contoursolve.reading import ParsedContour, State
-from contoursolve.reading.dialect import Dialect
-from contoursolve.solving.contour import Contour
+from contoursolve.reading import Dialect, ParsedContour, State
+from contoursolve.solving import Contour
 
 FARTHEST = 0.01
 """mm. A block with rounded values whose contour is farther from the exact one is not offered."""

@@ -6,10 +6,9 @@ from contoursolve.diagnosis.attempt import Repair
 from contoursolve.diagnosis.edits import EditKind, edited
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import join, length_text, place_text
-from contoursolve.diagnostics.finding import Fix
+from contoursolve.diagnostics import Fix
 from contoursolve.geometry import Profile
-from contoursolve.solving import Point, scalars_of
-from contoursolve.solving.contour import ArcSegment, Contour
+from contoursolve.solving import ArcSegment, Contour, Point, scalars_of
 
 
 def fixes_of(answer: Answer, repairs: Sequence[Repair]) -> tuple[Fix, ...]:

@@ -5,12 +5,10 @@ from itertools import combinations
 
 from msgspec import Struct
 
-from contoursolve.analysis import analyse
-from contoursolve.analysis.determinacy import survey
 from contoursolve.diagnosis.wording import NUMBERS, either, join
 from contoursolve.geometry import Fact, Profile, assemble
 from contoursolve.reading import ParsedContour, read, stating
-from contoursolve.solving.affine import IndependentFacts, affine_facts
+from contoursolve.solving import IndependentFacts, affine_facts, analyse, survey
 
 MOST_WORDS = 10
 """Words among which those that complete a contour are looked for by all their sets."""

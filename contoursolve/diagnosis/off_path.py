@@ -5,7 +5,7 @@ from math import atan2, hypot, tau
 
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import place_text
-from contoursolve.diagnostics.finding import Basis, Diagnostic
+from contoursolve.diagnostics import Basis, Diagnostic
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -20,8 +20,7 @@ from contoursolve.geometry import (
     Values,
 )
 from contoursolve.reading import ReadIssue
-from contoursolve.solving import Point, Solution, lookup, scalars_of
-from contoursolve.solving.contour import Contour, LineSegment, Segment
+from contoursolve.solving import Contour, LineSegment, Point, Segment, Solution, lookup, scalars_of
 from contoursolve.tolerance import AGREEMENT
 
 

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
-from contoursolve.analysis import analyse, groups_of
 from contoursolve.diagnosis.wording import (
     angle_text,
     by_line,
@@ -19,11 +18,18 @@ from contoursolve.diagnosis.wording import (
     place_text,
     statement_text,
 )
-from contoursolve.diagnostics.finding import Diagnostic, Freedom
+from contoursolve.diagnostics import Diagnostic, Freedom
 from contoursolve.geometry import FIRST, SECOND, Arc, Fact, Heading, Line, Profile, assemble, scalar
-from contoursolve.solving import RefusalKind, lookup
-from contoursolve.solving.affine import AffineFacts, Circuit
-from contoursolve.solving.compare import is_conflict, runs_against
+from contoursolve.solving import (
+    AffineFacts,
+    Circuit,
+    RefusalKind,
+    analyse,
+    groups_of,
+    is_conflict,
+    lookup,
+    runs_against,
+)
 from contoursolve.tolerance import REGULAR
 
 
@@ -46,7 +52,7 @@ _STARTS = re.compile(r"\b(\w)start\b")
 
 @lru_cache(maxsize=1)
 def _shipped() -> dict[str, str]:
-    data = pkgutil.get_data("contoursolve.analysis", "identities.json")
+    data = pkgutil.get_data("contoursolve.solving", "identities.json")
     table: dict[str, str] = json.loads(data) if data else {}
     return table
 

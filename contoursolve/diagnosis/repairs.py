@@ -47,15 +47,11 @@ from contoursolve.diagnosis.typo_fixes import (
     slips,
     suspects,
 )
-from contoursolve.diagnostics.finding import Diagnostic
+from contoursolve.diagnostics import Diagnostic
 from contoursolve.gcode import Block, FaultKind, Word, number_of
 from contoursolve.geometry import Given, Profile, Radius, Unit
-from contoursolve.reading import ParsedContour, ReadIssue, State, read
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import check
-from contoursolve.solving import RefusalKind, Status, lookup
-from contoursolve.solving.affine import AffineFacts, Circuit, affine_facts
-from contoursolve.solving.compare import is_conflict
+from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, check, read
+from contoursolve.solving import AffineFacts, Circuit, RefusalKind, Status, affine_facts, is_conflict, lookup
 
 MOST_BLOCKS = 6
 """Of a contour in which wrong digits are looked for."""

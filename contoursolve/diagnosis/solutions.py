@@ -18,12 +18,11 @@ from contoursolve.diagnosis.examine import (
 )
 from contoursolve.gcode import FACT, spell
 from contoursolve.geometry import Length, Pick
-from contoursolve.solving.contour import Contour, trace
-from contoursolve.solving.solution import Certificate, Proof, up_to_one_digit
+from contoursolve.solving import Certificate, Contour, Proof, trace, up_to_one_digit
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
-    from contoursolve.solving.alternatives import Alternative, Alternatives
+    from contoursolve.solving import Alternative, Alternatives
 
 DECIMALS = 12
 """Decimals of coordinates in mm: below the rounding of the arithmetic, so that nothing is lost."""
@@ -92,8 +91,7 @@ def list_solutions(answer: Answer) -> Listing | None:
         why = "a half circle is one within the least increments" if is_rounded(answer) else "too many to list"
         doubts = (f"the other sides of {choices} points: {why}",) if choices else ()
         return Listing((only,), is_complete=not doubts, method="closed form", doubts=doubts, chosen_by="")
-    from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
-    from contoursolve.solving.picks import pick  # noqa: PLC0415
+    from contoursolve.solving import choose, pick  # noqa: PLC0415 - most contours need no choice
 
     eligible = choose(alternatives, answer.profile.choices)
     paths, _ = pick([item for item in eligible if item.is_path], answer.profile)
@@ -103,7 +101,7 @@ def list_solutions(answer: Answer) -> Listing | None:
     ]
     method = "closed form"
     if alternatives.reach is not None:
-        from contoursolve.solving.exact_inputs import SMALLEST  # noqa: PLC0415 - most contours need no search
+        from contoursolve.solving import SMALLEST  # noqa: PLC0415 - most contours need no search
 
         method = f"search within {alternatives.reach:.0f} mm of the start point, for elements of at least {SMALLEST} mm"
     return Listing(
@@ -173,7 +171,7 @@ def _picks_of(item: Alternative, alternatives: Alternatives, answer: Answer) -> 
     """The numbers that choose a solution, each with its element; none where the control has no word for them."""
     if not answer.claim.form.picking or not item.is_path:
         return []
-    from contoursolve.solving.picks import numbers_of  # noqa: PLC0415 - few controls have such words
+    from contoursolve.solving import numbers_of  # noqa: PLC0415 - few controls have such words
 
     return numbers_of(item, alternatives.paths, answer.profile)
 

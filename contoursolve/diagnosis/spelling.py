@@ -11,8 +11,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.explain import Context, report, spans_of
 from contoursolve.diagnosis.vocabulary import corner_at, meant_by, not_read_yet
 from contoursolve.diagnosis.wording import angle_text, either, join, length_text
-from contoursolve.diagnostics.finding import Basis, Diagnostic, Label, Severity
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Basis, Diagnostic, Label, Severity, Span
 from contoursolve.gcode import (
     Block,
     Fault,

@@ -12,12 +12,10 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.examine import Answer, problems
 from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.spelling import answerable, shapes_of
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Span
 from contoursolve.gcode import Word
 from contoursolve.geometry import Role
-from contoursolve.reading import ContourForm, ParsedContour
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import Rule, check, is_refused_by_values
+from contoursolve.reading import ContourForm, Dialect, ParsedContour, Rule, check, is_refused_by_values
 
 MOST_CHECKED = 2_000
 """Sets of words of one contour that the rules are asked about."""

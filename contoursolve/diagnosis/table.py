@@ -6,15 +6,12 @@ from itertools import combinations, islice
 
 from msgspec import Struct
 
-from contoursolve.analysis import analyse
 from contoursolve.diagnosis.wording import unknowns_text
-from contoursolve.diagnostics.finding import Severity
+from contoursolve.diagnostics import Severity
 from contoursolve.gcode import parse, parse_block
 from contoursolve.geometry import Length, Profile, assemble
-from contoursolve.reading import ContourForm, ParsedContour, Sample, advance, read
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import check
-from contoursolve.solving import is_closed, points_with_two_solutions
+from contoursolve.reading import ContourForm, Dialect, ParsedContour, Sample, advance, check, read
+from contoursolve.solving import analyse, is_closed, points_with_two_solutions
 
 _OPTIONAL = re.compile(r"\{([^}]*)\}")
 

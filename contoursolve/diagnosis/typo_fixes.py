@@ -16,11 +16,10 @@ from contoursolve.diagnosis.explain import Context, report, spans_of
 from contoursolve.diagnosis.spelling import meant_in, meant_words, respelled, shapes_of
 from contoursolve.diagnosis.subsets import blamed_spans, lines_near
 from contoursolve.diagnosis.wording import join
-from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic, Fix
+from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix
 from contoursolve.gcode import FACT, Block, Word, lookalike_at, mended, parse_block, spell
 from contoursolve.geometry import CornerShape, Unit
-from contoursolve.reading import Effect, Modes, ParsedContour, ReadIssue, State, WithoutPoint, codes_of
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Dialect, Effect, Modes, ParsedContour, ReadIssue, State, WithoutPoint, codes_of
 
 _WORD = re.compile(
     r"(?P<address>,?[ \t]*[A-Za-z](?![A-Za-z_#])|[A-Za-z]\w*=[A-Za-z]+(?=\()|#?[A-Za-z]\w*(?=[ \t=]))"

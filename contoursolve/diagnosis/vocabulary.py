@@ -10,8 +10,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import either
-from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Basis, Diagnostic, Severity, Span
 from contoursolve.gcode import Block, FaultKind, Word, number_of, spell
 from contoursolve.reading import Bearing, Code, Effect, Lexicon, Modes, ReadIssue, State, codes_of, not_read
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
 
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Span
 from contoursolve.gcode import FACT, Word, call, spell
 from contoursolve.geometry import Arc, CornerShape, Given, Length, Plane, Profile, Unit
 from contoursolve.solving import Status

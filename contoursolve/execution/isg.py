@@ -27,7 +27,7 @@ from contoursolve.execution.language import (
 )
 from contoursolve.execution.lines import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, number_of, strange
 from contoursolve.execution.notation import ISG, UnreadableTermError
-from contoursolve.gcode.syntax import IN_BRACKETS, nested
+from contoursolve.gcode import IN_BRACKETS, nested
 
 COMMENT = nested(r"\(", r"(?:\)|$)", "[^()]++", 4)
 """A comment in which others may be nested; each may stay open to the end of the line."""

@@ -34,7 +34,7 @@ from contoursolve.execution.language import (
 )
 from contoursolve.execution.lines import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, strange
 from contoursolve.execution.notation import SINUMERIK, UnreadableTermError
-from contoursolve.gcode.syntax import IN_BRACKETS, IN_PARENTHESES
+from contoursolve.gcode import IN_BRACKETS, IN_PARENTHESES
 
 _WAYS = {"": JumpWay.ANYWHERE, "C": JumpWay.ANYWHERE, "F": JumpWay.FORWARD, "B": JumpWay.BACKWARD}
 _MOST_ELEMENTS = 200

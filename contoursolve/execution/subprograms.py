@@ -29,9 +29,7 @@ from contoursolve.execution.language import (
     Unknown,
     When,
 )
-from contoursolve.gcode import Block, Program, UnreadableProgramError, parse, read_bytes
-from contoursolve.gcode.contents import decode
-from contoursolve.gcode.syntax import Syntax
+from contoursolve.gcode import Block, Program, Syntax, UnreadableProgramError, decode, parse, read_bytes
 
 
 class Surroundings(Struct, frozen=True):

@@ -4,7 +4,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from contoursolve.diagnostics.errors import UserError
+from contoursolve.diagnostics import UserError
 from contoursolve.execution.evaluate import evaluate, is_true, name_of_indexed
 from contoursolve.execution.language import (
     ARGUMENT,

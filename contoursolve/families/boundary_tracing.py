@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from contoursolve.families.branches import LEVEL, Branch
 from contoursolve.families.subdivision import bisect
-from contoursolve.numeric.intervals import Array, Intervals
-from contoursolve.solving import RefusalKind
-from contoursolve.solving.checks import Test
+from contoursolve.numeric import Array, Intervals
+from contoursolve.solving import RefusalKind, Test
 
 NODES = 65
 """Nodes of the grid along each word."""

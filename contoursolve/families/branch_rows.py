@@ -7,28 +7,44 @@ import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from contoursolve.analysis import basis_of, spare_of
 from contoursolve.families.case_classes import CaseClass, asked_of
 from contoursolve.families.row_boxes import Place, RowBoxes
 from contoursolve.families.spec import Places, stretches
 from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Radius, System, Unit, Values, scalar
-from contoursolve.numeric.columns import ROWS, Array, Columns, columns_of, compile_columns, directions
-from contoursolve.numeric.expressions import Tape, largest
-from contoursolve.numeric.inputs import COSINE, SIDE, SINE, lookup
-from contoursolve.solving import RefusalKind
-from contoursolve.solving.checks import (
+from contoursolve.numeric import (
+    COSINE,
+    ROWS,
+    SIDE,
+    SINE,
+    Array,
+    Columns,
+    Tape,
+    columns_of,
+    compile_columns,
+    directions,
+    largest,
+    lookup,
+)
+from contoursolve.solving import (
     Check,
+    Code,
+    Kernel,
+    RefusalKind,
+    RowOutcome,
     Source,
     add_checks,
     at_origin,
+    basis_of,
     check_facts,
     check_path,
     check_range,
     check_residuals,
+    code_of,
+    compile_path,
+    make_kernel,
+    reason_of,
+    spare_of,
 )
-from contoursolve.solving.compile import compile_path
-from contoursolve.solving.row_outcome import Code, RowOutcome, code_of, reason_of
-from contoursolve.solving.step_equations import Kernel, make_kernel
 from contoursolve.tolerance import LENGTH
 
 BLOCK = 8_192

@@ -11,18 +11,19 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from contoursolve.diagnosis.wording import join
+from contoursolve.diagnosis import join
 from contoursolve.families.case_classes import INSTEAD, ORIGIN, CaseClass, Follows
 from contoursolve.families.spec import NotClosedError
 from contoursolve.geometry import Choice, Fact, System
-from contoursolve.numeric.charts import Bounds, Chart, Following
-from contoursolve.numeric.inputs import lookup
-from contoursolve.numeric.intervals import Array, Intervals
-from contoursolve.solving import RefusalKind
-from contoursolve.solving.ambiguity import orders_of, settled_by
-from contoursolve.solving.checks import (
+from contoursolve.numeric import Array, Bounds, Chart, Following, Intervals, lookup
+from contoursolve.solving import (
+    ROOT,
     Check,
     Checks,
+    ClosedForm,
+    Need,
+    NoFormulaError,
+    RefusalKind,
     Role,
     Source,
     Test,
@@ -30,10 +31,12 @@ from contoursolve.solving.checks import (
     check_facts,
     check_path,
     check_range,
+    close,
     compile_checks,
+    compile_system,
+    orders_of,
+    settled_by,
 )
-from contoursolve.solving.closed_form_branches import ROOT, ClosedForm, Need, NoFormulaError, close
-from contoursolve.solving.compile import compile_system
 from contoursolve.tolerance import REGULAR
 
 Bits = NDArray[numpy.bool_]

@@ -13,10 +13,8 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from contoursolve.analysis import analyse
-from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, count_choices
-from contoursolve.diagnosis.wording import join
-from contoursolve.diagnostics.finding import Basis
+from contoursolve.diagnosis import MOST_CHOICES, Answer, count_choices, join
+from contoursolve.diagnostics import Basis
 from contoursolve.families.free_words import bordered, factor_of, kind_of, limits_of, stated_by, value_of
 from contoursolve.families.spec import (
     FamilyError,
@@ -31,18 +29,26 @@ from contoursolve.families.spec import (
 from contoursolve.families.traced_reading import OWN, Alike, Reading, placed_of, trace_reading
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import FIRST, SECOND, CornerShape, Profile, Question, Start, System, Unit, assemble, scalar
-from contoursolve.numeric.charts import Following
-from contoursolve.numeric.columns import Array, difference, directions
-from contoursolve.numeric.formulas import Affine
-from contoursolve.numeric.inputs import COSINE, SINE
+from contoursolve.numeric import COSINE, SINE, Affine, Array, Following, difference, directions
 from contoursolve.reading import ParsedContour, ReadIssue, Resting, all_resting
-from contoursolve.solving import NoteKind, Solution, Status, is_closed, points_with_two_solutions
-from contoursolve.solving.checks import Check, compile_checks
-from contoursolve.solving.compile import Machine, compile_system
-from contoursolve.solving.numbers import axes_of, inputs_of
-from contoursolve.solving.plan import TwoCirclesStep
-from contoursolve.solving.row_outcome import code_of, reason_of
-from contoursolve.solving.solve import solve
+from contoursolve.solving import (
+    Check,
+    Machine,
+    NoteKind,
+    Solution,
+    Status,
+    TwoCirclesStep,
+    analyse,
+    axes_of,
+    code_of,
+    compile_checks,
+    compile_system,
+    inputs_of,
+    is_closed,
+    points_with_two_solutions,
+    reason_of,
+    solve,
+)
 from contoursolve.tolerance import LARGEST, TOUCHING
 
 ORIGIN = "origin:"
@@ -202,8 +208,7 @@ class CaseClass(Struct, frozen=True, eq=False):
 
     def solve(self, values: Mapping[str, float]) -> Solution:
         """A single solve of one row, as `examine` does it, without a proof."""
-        from contoursolve.solving.ambiguity import settle  # noqa: PLC0415 - few rows touch
-        from contoursolve.solving.free_cuts import place_cuts  # noqa: PLC0415 - nor are cut
+        from contoursolve.solving import place_cuts, settle  # noqa: PLC0415 - not every class solves a row alone
 
         profile = self.at(values)
         if not self.is_closed:

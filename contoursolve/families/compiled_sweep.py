@@ -11,7 +11,7 @@ import numpy
 from msgspec import Struct, field
 from numpy.typing import NDArray
 
-from contoursolve.diagnosis.wording import join
+from contoursolve.diagnosis import join
 from contoursolve.families.branch_rows import BLOCK, BranchRows
 from contoursolve.families.case_classes import (
     ORIGIN,
@@ -36,12 +36,9 @@ from contoursolve.families.free_words import Examples
 from contoursolve.families.spec import Places, Ranges, SweepSpec, Template, called, stretches
 from contoursolve.families.traced_reading import place_of_contour, read_alone
 from contoursolve.geometry import System
-from contoursolve.numeric.columns import ROWS, Array, ColumnFunction, Columns, compile_columns
-from contoursolve.numeric.expressions import where
+from contoursolve.numeric import ROWS, Array, ColumnFunction, Columns, compile_columns, where
 from contoursolve.reading import Resting
-from contoursolve.solving import RefusalKind
-from contoursolve.solving.checks import NO_PLACE, compile_checks
-from contoursolve.solving.row_outcome import Code, RowOutcome, code_of, reason_of
+from contoursolve.solving import NO_PLACE, Code, RefusalKind, RowOutcome, code_of, compile_checks, reason_of
 
 Table = dict[str, NDArray[Any]]
 Target = slice | Places

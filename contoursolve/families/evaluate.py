@@ -27,10 +27,9 @@ from contoursolve.families.spec import (
     spec_of,
     stretches,
 )
-from contoursolve.numeric.columns import Array
-from contoursolve.reading.dialect import Dialect
-from contoursolve.solving import Status
-from contoursolve.solving.row_outcome import REASONS, Code
+from contoursolve.numeric import Array
+from contoursolve.reading import Dialect
+from contoursolve.solving import REASONS, Code, Status
 
 STRETCH = 65_536
 """Rows that are evaluated, or written to a file, at once."""

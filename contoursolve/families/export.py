@@ -11,17 +11,15 @@ import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnostics.display import Shown
-from contoursolve.diagnostics.extras import need
+from contoursolve.diagnosis import Answer
+from contoursolve.diagnostics import Shown, need
 from contoursolve.families.case_classes import asked_of
 from contoursolve.families.free_words import kind_of
 from contoursolve.families.spec import FamilyError, Ranges, SweepSpec, Template
 from contoursolve.gcode import Word
 from contoursolve.geometry import Unit
 from contoursolve.reading import Resting
-from contoursolve.solving import Status
-from contoursolve.solving.row_outcome import REASONS, Code
+from contoursolve.solving import REASONS, Code, Status
 
 
 class Measure(Struct, frozen=True):

@@ -8,17 +8,15 @@ from typing import Unpack
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.wording import element_text, join, limit_text, unknowns_text, value_text
-from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnosis import Answer, element_text, join, limit_text, unknowns_text, value_text
+from contoursolve.diagnostics import Shown
 from contoursolve.families.case_classes import CaseClass
 from contoursolve.families.free_words import check_block
 from contoursolve.families.range_pieces import Onset, RangePiece, RangeSearch
 from contoursolve.families.spec import BlockOptions, called, errors_of, first_error, spec_of
 from contoursolve.geometry import Line
 from contoursolve.reading import Resting
-from contoursolve.solving import NoteKind, RefusalKind
-from contoursolve.solving.checks import Check
+from contoursolve.solving import Check, NoteKind, RefusalKind
 
 ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
 """Share of an end (at least of 1). How far beside it single solves are tried, until they tell its two sides apart."""

@@ -13,9 +13,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.wording import join
-from contoursolve.diagnostics.finding import Basis
+from contoursolve.diagnosis import Answer, join
+from contoursolve.diagnostics import Basis
 from contoursolve.families.spec import (
     LONGEST,
     FamilyError,
@@ -32,10 +31,8 @@ from contoursolve.families.spec import (
 from contoursolve.families.traced_reading import Alike, Reading, place_of_contour, read_alone, trace_reading
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Given, Profile, Unit, names_of_roles
-from contoursolve.numeric.columns import Array
-from contoursolve.numeric.formulas import Affine
-from contoursolve.reading import ParsedContour, ReadIssue
-from contoursolve.reading.rules import Rule
+from contoursolve.numeric import Affine, Array
+from contoursolve.reading import ParsedContour, ReadIssue, Rule
 from contoursolve.solving import Status
 from contoursolve.tolerance import LARGEST
 

@@ -8,11 +8,8 @@ from typing import Unpack
 import numpy
 from msgspec import Struct
 
-from contoursolve.analysis import analyse
-from contoursolve.diagnosis.edits import write_word
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.wording import join, value_text
-from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnosis import Answer, join, value_text, write_word
+from contoursolve.diagnostics import Shown
 from contoursolve.families.branches import Branch
 from contoursolve.families.case_classes import results_of
 from contoursolve.families.free_words import check_block
@@ -42,11 +39,9 @@ from contoursolve.families.targets import (
 )
 from contoursolve.gcode import FACT
 from contoursolve.geometry import FIRST, SECOND, Length, Plane, Unit, assemble
-from contoursolve.numeric.intervals import Intervals
+from contoursolve.numeric import Intervals
 from contoursolve.reading import Resting
-from contoursolve.solving import Point, Status
-from contoursolve.solving.contour import Contour
-from contoursolve.solving.solution import Certificate
+from contoursolve.solving import Certificate, Contour, Point, Status, analyse
 
 ARRIVED = 1e-9
 """mm. A point this close to the place where it is wanted is there."""

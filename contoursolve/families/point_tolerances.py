@@ -9,8 +9,8 @@ import numpy
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnosis import Answer
+from contoursolve.diagnostics import Shown
 from contoursolve.families.case_classes import resting_of
 from contoursolve.families.evaluate import Tally, compile_sweep, solve_sweep
 from contoursolve.families.export import Family
@@ -29,10 +29,9 @@ from contoursolve.families.spec import (
 from contoursolve.families.targets import end_name, place_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Length, Plane, Unit
-from contoursolve.numeric.intervals import Array
+from contoursolve.numeric import Array
 from contoursolve.reading import Resting
-from contoursolve.solving import Point
-from contoursolve.solving.row_outcome import Code
+from contoursolve.solving import Code, Point
 
 MOST_WORDS = 10
 """Words with a tolerance of which all combinations of limits are solved; each doubles them."""

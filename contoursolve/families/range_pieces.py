@@ -11,15 +11,15 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from contoursolve.diagnosis.wording import value_text
+from contoursolve.diagnosis import value_text
 from contoursolve.families.branches import Branch, branches_of
 from contoursolve.families.case_classes import INSTEAD, CaseClass, FreeWords
 from contoursolve.families.spec import FamilyError, NotClosedError, Template
 from contoursolve.families.subdivision import FEW, SAMPLES, STRETCHES, STRETCHES_FIRST, section, subdivide
 from contoursolve.families.traced_reading import Alike, place_of_contour, read_alone, trace_reading
 from contoursolve.geometry import Unit
-from contoursolve.numeric.intervals import Array, Intervals
-from contoursolve.solving.checks import Check
+from contoursolve.numeric import Array, Intervals
+from contoursolve.solving import Check
 from contoursolve.tolerance import LENGTH
 
 LEAST_GAP = 1e-4

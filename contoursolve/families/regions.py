@@ -9,8 +9,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from contoursolve.diagnosis.wording import value_text
-from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnosis import value_text
+from contoursolve.diagnostics import Shown
 from contoursolve.families.boundary_tracing import BISECTIONS, NODES, BoundaryTrace, Field, edge_of, gaps_of
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords
@@ -19,7 +19,7 @@ from contoursolve.families.free_words import check_block
 from contoursolve.families.spec import BlockOptions, FamilyError, Ranges, SweepSpec, Template, called, spec_of
 from contoursolve.families.subdivision import bisect
 from contoursolve.geometry import Unit
-from contoursolve.numeric.intervals import Array
+from contoursolve.numeric import Array
 from contoursolve.reading import Resting
 from contoursolve.solving import NoteKind, Point, RefusalKind
 from contoursolve.tolerance import LENGTH

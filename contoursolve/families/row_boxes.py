@@ -12,18 +12,23 @@ import numpy
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import groups_of
 from contoursolve.families.case_classes import CaseClass
 from contoursolve.families.spec import Places
 from contoursolve.geometry import FIRST, SECOND, System, Unit, Values, scalar
-from contoursolve.numeric import ball
-from contoursolve.numeric.ball import Number
-from contoursolve.numeric.columns import Array
-from contoursolve.numeric.inputs import COSINE
-from contoursolve.solving.alternatives import BOTH, sides_of
-from contoursolve.solving.elimination import Close
-from contoursolve.solving.enumerate import DRAWING, Effort, Enumeration, enumerate_many
-from contoursolve.solving.exact_inputs import BALLS, Ground, ground_of
+from contoursolve.numeric import COSINE, Array, Number, ball
+from contoursolve.solving import (
+    BALLS,
+    BOTH,
+    DRAWING,
+    Close,
+    Effort,
+    Enumeration,
+    Ground,
+    enumerate_many,
+    ground_of,
+    groups_of,
+    sides_of,
+)
 
 BOX, SMALL_BOX = Effort(4_000, 1_500), Effort(0, 0)
 """For a box of values before it is divided; what has a closed form for one row needs a smaller box, not a search."""

@@ -13,20 +13,16 @@ import numpy
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse, basis_of
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnosis import Answer
+from contoursolve.diagnostics import Shown
 from contoursolve.families.branch_rows import add_path
 from contoursolve.families.case_classes import CaseClass, case_in, half_circles, results_of
 from contoursolve.families.free_words import check_block, factor_of
 from contoursolve.families.spec import BlockOptions, FamilyError, first_error, spec_of, subject_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble, scalar
-from contoursolve.numeric.angle import direction
-from contoursolve.numeric.expressions import Compiled, Tape
-from contoursolve.numeric.inputs import COSINE, SIDE, SINE, lookup
-from contoursolve.numeric.linear_algebra import condition
-from contoursolve.solving import NoteKind, Solution, Status
+from contoursolve.numeric import COSINE, SIDE, SINE, Compiled, Tape, condition, direction, lookup
+from contoursolve.solving import NoteKind, Solution, Status, analyse, basis_of
 from contoursolve.tolerance import RESIDUAL
 
 SINGULAR = 1e-9
@@ -183,7 +179,7 @@ def stated_words(answer: Answer) -> dict[str, Word]:
 
 def _implicit(answer: Answer, words: Mapping[str, Word], *, is_twice_fine: bool) -> dict[str, dict[str, float]]:
     """The derivatives where there is no closed form, or more is stated than words."""
-    from contoursolve.solving.ambiguity import settle  # noqa: PLC0415 - few blocks need it
+    from contoursolve.solving import settle  # noqa: PLC0415 - few blocks need it
 
     solution = settle(answer.profile).solution if answer.contour is not None else None
     is_twice = is_twice_fine and solution is not None and solution.status is Status.OVERDETERMINED
@@ -208,7 +204,7 @@ def _implicit(answer: Answer, words: Mapping[str, Word], *, is_twice_fine: bool)
 
 def _tied(system: System) -> frozenset[str]:
     """The givens of facts of which each follows from others."""
-    from contoursolve.solving.ambiguity import headings_of  # noqa: PLC0415 - few blocks need it
+    from contoursolve.solving import headings_of  # noqa: PLC0415 - few blocks need it
 
     facts = [system.facts[index] for index in analyse(system).tied]
     return frozenset(name for fact in facts for name in (fact.given, *headings_of(fact, system)) if name)

@@ -15,16 +15,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.examine import Answer, Depth
-from contoursolve.diagnostics.errors import UserError
-from contoursolve.diagnostics.finding import Diagnostic
+from contoursolve.diagnosis import Answer, Depth
+from contoursolve.diagnostics import Diagnostic, UserError
 from contoursolve.gcode import FACT, Directive, Program, Word, call, spell
-from contoursolve.numeric.columns import Array
-from contoursolve.program.pipeline import Result, run
-from contoursolve.program.recognise import UnknownControlError, choose
-from contoursolve.program.request import Request, request_for
-from contoursolve.reading import ReadIssue
-from contoursolve.reading.dialect import Dialect
+from contoursolve.numeric import Array
+from contoursolve.program import Request, Result, UnknownControlError, choose, request_for, run
+from contoursolve.reading import Dialect, ReadIssue
 from contoursolve.tolerance import LARGEST
 
 Places = NDArray[numpy.int64]

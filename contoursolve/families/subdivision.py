@@ -6,7 +6,7 @@ import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from contoursolve.numeric.intervals import Array, Intervals
+from contoursolve.numeric import Array, Intervals
 
 Bits = NDArray[numpy.bool_]
 

@@ -12,19 +12,25 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from contoursolve.diagnosis.examine import Answer, Depth, answer_question, count_choices, list_alternatives
-from contoursolve.diagnosis.spelling import counts_few, readings
-from contoursolve.diagnosis.wording import unknowns_text
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnosis import (
+    Answer,
+    Depth,
+    answer_question,
+    count_choices,
+    counts_few,
+    list_alternatives,
+    readings,
+    unknowns_text,
+)
+from contoursolve.diagnostics import Span
 from contoursolve.families.branches import PLACES, Branch
 from contoursolve.families.spec import FamilyError, NotMovedError, Template, first_error, is_same, with_value, write
 from contoursolve.families.subdivision import SAMPLES, SECTIONS, Fineness, bisect, subdivide
 from contoursolve.gcode import Word, read_directive
 from contoursolve.geometry import Figure, Length, Plane, Unit
-from contoursolve.numeric.intervals import Array, Intervals
+from contoursolve.numeric import Array, Intervals
 from contoursolve.reading import Lexicon, ReadIssue, WithoutPoint
-from contoursolve.solving import Point, Status
-from contoursolve.solving.contour import Contour
+from contoursolve.solving import Contour, Point, Status
 
 CONSTANT = 1e-10
 """mm for each unit of the word. A coordinate whose rate is less at places drawn at random never changes."""

@@ -13,16 +13,14 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse
-from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis import Answer
 from contoursolve.families.spec import Template, is_same
 from contoursolve.gcode import FACT, Block, Word
 from contoursolve.geometry import assemble
-from contoursolve.numeric.formulas import Affine
-from contoursolve.program.pipeline import attach
-from contoursolve.reading import ParsedContour, advance, read
-from contoursolve.reading.dialect import Dialect
-from contoursolve.solving.free_cuts import joints_among
+from contoursolve.numeric import Affine
+from contoursolve.program import attach
+from contoursolve.reading import Dialect, ParsedContour, advance, read
+from contoursolve.solving import analyse, joints_among
 
 
 class Notes:

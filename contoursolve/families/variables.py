@@ -3,12 +3,20 @@
 from collections.abc import Mapping, Sequence
 
 from contoursolve import gcode
-from contoursolve.execution.evaluate import evaluate, variables_of, written
-from contoursolve.execution.language import MacroLanguage, Unknown, Vacant, Variable, WordFormula
+from contoursolve.execution import (
+    MacroLanguage,
+    Unknown,
+    Vacant,
+    Variable,
+    WordFormula,
+    evaluate,
+    variables_of,
+    written,
+)
 from contoursolve.families.spec import FamilyError
 from contoursolve.gcode import Program
-from contoursolve.program.recognise import choose
-from contoursolve.reading.dialect import Dialect
+from contoursolve.program import choose
+from contoursolve.reading import Dialect
 
 Places = Mapping[str, tuple[int, int]]
 """By the name of a variable, the line and the column of the value that it is."""

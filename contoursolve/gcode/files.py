@@ -12,7 +12,7 @@ from typing import BinaryIO
 
 from msgspec import Struct
 
-from contoursolve.diagnostics.errors import UserError
+from contoursolve.diagnostics import UserError
 from contoursolve.gcode.contents import encoding_of
 from contoursolve.gcode.text import STANDARD_INPUT, UnreadableProgramError, opening, standard_input
 

@@ -6,7 +6,7 @@ from collections.abc import Container, Iterator, Sequence
 from decimal import Decimal
 from typing import overload
 
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Span
 from contoursolve.gcode.syntax import ISO, Syntax
 from contoursolve.gcode.word import Block, Directive, Fault, FaultKind, Macro, Program, Word
 

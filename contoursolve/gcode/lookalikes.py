@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 from msgspec import Struct
 
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Span
 from contoursolve.gcode.syntax import ISO
 from contoursolve.gcode.word import Block, Fault, FaultKind, spell
 

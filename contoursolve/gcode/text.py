@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
-from contoursolve.diagnostics.errors import UserError
+from contoursolve.diagnostics import UserError
 
 STANDARD_INPUT = "-"
 

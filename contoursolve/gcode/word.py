@@ -7,8 +7,7 @@ from enum import Enum
 
 from msgspec import Struct
 
-from contoursolve.diagnostics.display import Shown
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Shown, Span
 from contoursolve.gcode.syntax import ISO, Syntax
 
 

@@ -10,15 +10,20 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.api import solve
-from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, write_word
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.fill import FARTHEST
-from contoursolve.diagnosis.solutions import Listed, list_solutions
-from contoursolve.diagnosis.wording import word_keys
+from contoursolve.diagnosis import (
+    FARTHEST,
+    Answer,
+    Edit,
+    EditKind,
+    Listed,
+    apply_edits,
+    list_solutions,
+    word_keys,
+    write_word,
+)
 from contoursolve.gcode import FACT, Program, Word, number_of, parse, spell
 from contoursolve.geometry import Pick, Unit
-from contoursolve.program.pipeline import Result
-from contoursolve.program.recognise import UnknownControlError
+from contoursolve.program import Result, UnknownControlError
 from contoursolve.solving import Status
 
 SAME = 1e-3

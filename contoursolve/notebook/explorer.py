@@ -10,8 +10,8 @@ import traitlets
 from contoursolve.notebook.conversation import Conversation
 from contoursolve.notebook.exploration import Exploration
 from contoursolve.notebook.records import bundle
-from contoursolve.output.html import notebook_style
-from contoursolve.program.pipeline import Result
+from contoursolve.output import notebook_style
+from contoursolve.program import Result
 
 _HOUSE = files("contoursolve.notebook")
 

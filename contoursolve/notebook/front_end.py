@@ -8,25 +8,39 @@ from typing import Any
 from msgspec import to_builtins
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer, AskedValue
-from contoursolve.diagnosis.solutions import list_solutions
-from contoursolve.diagnosis.wording import inward, join, written
-from contoursolve.diagnostics.finding import Applicability
+from contoursolve.diagnosis import Answer, AskedValue, inward, join, list_solutions, written
+from contoursolve.diagnostics import Applicability
 from contoursolve.families import End, FamilyError, Feasible, Interval, Way, feasible
 from contoursolve.gcode import Word
 from contoursolve.geometry import Coordinate, Heading, Offset, Question, Unit
 from contoursolve.notebook.exploration import Exploration, free, is_movable, words_of
 from contoursolve.notebook.handles import Handle, HandleKind, handles_of, motion_of, moving_of
-from contoursolve.output.contours import count_text, path_table, solution_rows
-from contoursolve.output.findings import effect_of, finding_pieces
-from contoursolve.output.html import bounded, short, worst_of
-from contoursolve.output.listing import sources_of
-from contoursolve.output.words import form_text, found_value, meaning_of, stated_value
-from contoursolve.pictures import Picture, Theme, draw_answer
-from contoursolve.pictures.layout import path_data
-from contoursolve.pictures.overview import plain_trail
-from contoursolve.pictures.subject import find_known, list_trails, named_words
-from contoursolve.pictures.vectors import minus
+from contoursolve.output import (
+    bounded,
+    count_text,
+    effect_of,
+    finding_pieces,
+    form_text,
+    found_value,
+    meaning_of,
+    path_table,
+    short,
+    solution_rows,
+    sources_of,
+    stated_value,
+    worst_of,
+)
+from contoursolve.pictures import (
+    Picture,
+    Theme,
+    draw_answer,
+    find_known,
+    list_trails,
+    minus,
+    named_words,
+    path_data,
+    plain_trail,
+)
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import Point
 

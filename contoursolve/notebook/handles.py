@@ -10,18 +10,23 @@ from math import hypot
 
 from msgspec import Struct
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.families import FamilyError
-from contoursolve.families.sensitivities import slopes_of
+from contoursolve.diagnosis import Answer
+from contoursolve.families import FamilyError, slopes_of
 from contoursolve.geometry import Arc, Corner, Line
-from contoursolve.output.words import StatedWord, stated_words
-from contoursolve.pictures import Picture
-from contoursolve.pictures.known import Known
-from contoursolve.pictures.scene import Viewport
-from contoursolve.pictures.subject import corner_segment, find_known
-from contoursolve.pictures.vectors import SAME, along, direction, distance, middle
-from contoursolve.solving import Point
-from contoursolve.solving.contour import ArcSegment, LineSegment, Segment
+from contoursolve.output import StatedWord, stated_words
+from contoursolve.pictures import (
+    SAME,
+    Known,
+    Picture,
+    Viewport,
+    along,
+    corner_segment,
+    direction,
+    distance,
+    find_known,
+    middle,
+)
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 
 LEAST = 1e-6
 """mm for each unit of a word. What a word moves by less it does not move."""

@@ -7,24 +7,29 @@ from itertools import islice
 from math import isnan
 from typing import Any
 
-from contoursolve.controls import DIALECTS, Dialect
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.wording import axis_labels, count
-from contoursolve.diagnostics.display import Shown
-from contoursolve.diagnostics.finding import Diagnosis, Diagnostic, Tie
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis import Answer, axis_labels, count
+from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown, Tie
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
 from contoursolve.gcode import Block, Program, Word
-from contoursolve.output.catalogue import rule_lines
-from contoursolve.output.contours import check_table, path_table
-from contoursolve.output.families import found_lines, range_lines, region_lines, tolerances_lines
-from contoursolve.output.findings import finding_lines, plain
-from contoursolve.output.listing import closing_lines, listing_lines
-from contoursolve.output.plain_text import Table, printable
-from contoursolve.program.pipeline import Result
-from contoursolve.reading import Lexicon
-from contoursolve.reading.rules import Rule
-from contoursolve.sketch import Drawings, Drawn, Sketch
-from contoursolve.solving.contour import Contour
+from contoursolve.output import (
+    Table,
+    check_table,
+    closing_lines,
+    finding_lines,
+    found_lines,
+    listing_lines,
+    path_table,
+    plain,
+    printable,
+    range_lines,
+    region_lines,
+    rule_lines,
+    tolerances_lines,
+)
+from contoursolve.program import Result
+from contoursolve.reading import Dialect, Lexicon, Rule
+from contoursolve.solving import Contour, Drawings, Drawn, Sketch
 from contoursolve.tolerance import AGREEMENT
 
 MOST_ROWS = 200

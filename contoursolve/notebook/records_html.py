@@ -7,10 +7,8 @@ import htpy as h
 from markupsafe import Markup
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.wording import count
-from contoursolve.diagnostics.display import Shown
-from contoursolve.diagnostics.finding import Diagnosis, Diagnostic
+from contoursolve.diagnosis import Answer, count
+from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
 from contoursolve.gcode import Block
 from contoursolve.notebook.records import (
@@ -23,40 +21,40 @@ from contoursolve.notebook.records import (
     text_of,
     word_table,
 )
-from contoursolve.output.contours import check_table, path_table
-from contoursolve.output.families import (
+from contoursolve.output import (
+    check_table,
+    checks_table,
     effect_table,
+    figure,
+    finding_element,
+    form_text,
     found_table,
     found_title,
+    listed,
+    notebook_style,
+    path_element,
+    path_table,
     range_notes,
     range_table,
     range_title,
     region_notes,
     region_table,
     region_title,
-    rest_lines,
-    spread_lines,
-    tolerances_title,
-)
-from contoursolve.output.html import (
-    checks_table,
-    figure,
-    finding_element,
-    notebook_style,
-    path_element,
     remarks,
+    rest_lines,
     short,
     solutions_table,
+    sources_of,
+    spread_lines,
+    summary_line,
     table,
     table_of,
+    tolerances_title,
     words_table,
 )
-from contoursolve.output.listing import listed, sources_of, summary_line
-from contoursolve.output.words import form_text
-from contoursolve.program.pipeline import Result
-from contoursolve.reading.rules import Rule
-from contoursolve.sketch import Drawings, Drawn, Sketch
-from contoursolve.solving.contour import Contour
+from contoursolve.program import Result
+from contoursolve.reading import Rule
+from contoursolve.solving import Contour, Drawings, Drawn, Sketch
 
 MOST_ITEMS = 20
 """Contours and findings that one output shows."""

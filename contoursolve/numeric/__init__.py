@@ -2,3 +2,7 @@
 
 Expressions come in; functions of floats, columns, boxes and balls go out. Begin with `expressions`.
 """
+
+from lazy_loader import attach_stub
+
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

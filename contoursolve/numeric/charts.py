@@ -17,7 +17,8 @@ from contoursolve.numeric.columns import Rows
 from contoursolve.numeric.expressions import Tape, cosine, sine, symbol
 from contoursolve.numeric.inputs import COSINE, SINE
 from contoursolve.numeric.interpreter import Replay, run_steps
-from contoursolve.numeric.intervals import Array, Intervals, constant, down, up
+from contoursolve.numeric.intervals import Intervals, constant, down, up
+from contoursolve.numeric.linear_algebra import Array
 
 NO_ROOT = -1e-10
 """mm squared. A root's operand above this has a root: what touches by construction is off by rounding."""

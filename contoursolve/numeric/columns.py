@@ -7,12 +7,10 @@ from typing import Any
 import casadi
 import numpy
 from msgspec import Struct
-from numpy.typing import NDArray
 
 from contoursolve.numeric.expressions import Tape
 from contoursolve.numeric.interpreter import Replay
-
-Array = NDArray[numpy.float64]
+from contoursolve.numeric.linear_algebra import Array
 
 ROWS = 32_768
 """Rows of one call: so many that threads seldom wait for the interpreter's lock."""

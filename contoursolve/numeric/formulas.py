@@ -8,7 +8,7 @@ from typing import Any
 import sympy
 from msgspec import Struct
 
-from contoursolve.execution.language import Apply, Constant, Term, Variable
+from contoursolve.execution import Apply, Constant, Term, Variable
 from contoursolve.numeric.angle import direction
 from contoursolve.numeric.expressions import Tape
 from contoursolve.numeric.inputs import COSINE, SINE

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from contoursolve.numeric import intervals
 from contoursolve.numeric.interpreter import Replay
-from contoursolve.numeric.intervals import Array, Intervals, constant, down, up
+from contoursolve.numeric.intervals import Intervals, constant, down, up
+from contoursolve.numeric.linear_algebra import Array
 
 
 class Narrower(Replay):

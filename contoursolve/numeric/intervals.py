@@ -9,7 +9,7 @@ import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
-Array = NDArray[numpy.float64]
+from contoursolve.numeric.linear_algebra import Array
 
 LARGEST_ANGLE = 1e6
 """Radians. The sine of an angle that may be larger is anything from -1 to 1."""

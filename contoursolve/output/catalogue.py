@@ -2,10 +2,9 @@
 
 from collections.abc import Iterable, Iterator
 
-from contoursolve.diagnosis.table import tabulate
+from contoursolve.diagnosis import tabulate
 from contoursolve.output.plain_text import columns
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import Rule
+from contoursolve.reading import Dialect, Rule
 
 
 def catalogue_lines(dialects: Iterable[Dialect]) -> list[str]:
@@ -41,7 +40,7 @@ def _setting_lines(dialect: Dialect) -> Iterator[str]:
         yield ""
 
 
-def table_lines(dialects: Iterable[Dialect]) -> Iterator[str]:
+def word_set_lines(dialects: Iterable[Dialect]) -> Iterator[str]:
     """Legality and determinacy of every set of words of every form."""
     for dialect in dialects:
         sampled = [form for form in dialect.forms if form.sample is not None]

@@ -2,9 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from contoursolve.analysis import Group, analyse, groups_of, spare_of
-from contoursolve.diagnosis.examine import Answer, list_alternatives
-from contoursolve.diagnosis.wording import angle_text, join, length_text, unknowns_text
+from contoursolve.diagnosis import Answer, angle_text, join, length_text, list_alternatives, unknowns_text
 from contoursolve.gcode import FACT
 from contoursolve.geometry import (
     Coordinate,
@@ -23,10 +21,19 @@ from contoursolve.geometry import (
     assemble,
 )
 from contoursolve.output.plain_text import printable
-from contoursolve.solving import scalars_of, solve
-from contoursolve.solving.alternatives import ARCS, Alternatives, choose
-from contoursolve.solving.elimination import has_closed_form
-from contoursolve.solving.step_equations import make_kernel
+from contoursolve.solving import (
+    ARCS,
+    Alternatives,
+    Group,
+    analyse,
+    choose,
+    groups_of,
+    has_closed_form,
+    make_kernel,
+    scalars_of,
+    solve,
+    spare_of,
+)
 
 
 def construction_lines(answer: Answer) -> list[str]:

@@ -4,27 +4,31 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer, AskedValue, list_alternatives
-from contoursolve.diagnosis.solutions import Listed, Listing, list_solutions, printed_certificate
-from contoursolve.diagnosis.wording import (
+from contoursolve.diagnosis import (
+    Answer,
+    AskedValue,
+    Listed,
+    Listing,
     axis_labels,
     coordinate_texts,
     coordinates,
     count,
     join,
     length_of,
+    list_alternatives,
+    list_solutions,
+    printed_certificate,
     short_name,
     word_keys,
 )
-from contoursolve.diagnostics.finding import Diagnosis, Verdict
+from contoursolve.diagnostics import Diagnosis, Verdict
 from contoursolve.gcode import FACT
 from contoursolve.geometry import Length, Turn
 from contoursolve.output.plain_text import NAMELESS, Name, Table, columns, printable
 from contoursolve.output.resting import resting_texts
 from contoursolve.output.words import form_text, found_value, meaning_of, stated_words
-from contoursolve.program.pipeline import Result
-from contoursolve.solving.contour import ArcSegment, Contour
-from contoursolve.solving.picks import resolved_later
+from contoursolve.program import Result
+from contoursolve.solving import ArcSegment, Contour, resolved_later
 
 _VERDICT = {Verdict.PASSED: "passed", Verdict.FOUND: "see finding", Verdict.NOT_RUN: "not run"}
 

@@ -7,12 +7,12 @@ from math import degrees, isfinite
 from typing import Any
 
 from contoursolve.comparison import Comparison, Path, Place, Step, Travel, Unfollowed
-from contoursolve.diagnosis.wording import count, length_of
-from contoursolve.diagnostics.json_text import json_text, members
+from contoursolve.diagnosis import count, length_of
+from contoursolve.diagnostics import json_text, members
 from contoursolve.geometry import Length
 from contoursolve.output.document import finding_data
 from contoursolve.output.plain_text import printable
-from contoursolve.program.pipeline import Result
+from contoursolve.program import Result
 
 SCHEMA = "contoursolve/diff/1"
 

@@ -4,17 +4,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from tempfile import SpooledTemporaryFile
 from typing import Any
 
-from contoursolve.diagnosis.examine import Answer, AskedValue, rank
-from contoursolve.diagnosis.solutions import DECIMALS, decimals_of, list_solutions, printed_certificate
-from contoursolve.diagnostics.finding import Diagnosis, Diagnostic
-from contoursolve.diagnostics.json_text import json_text, members, plain
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnosis import DECIMALS, Answer, AskedValue, decimals_of, list_solutions, printed_certificate, rank
+from contoursolve.diagnostics import Diagnosis, Diagnostic, Span, json_text, members, plain
 from contoursolve.output.listing import Totals, findings_of
 from contoursolve.output.resting import resting_data
-from contoursolve.program.pipeline import Result, Run
-from contoursolve.solving import Point
-from contoursolve.solving.contour import ArcSegment, Contour, Segment
-from contoursolve.solving.solution import Certificate, Proof
+from contoursolve.program import Result, Run
+from contoursolve.solving import ArcSegment, Certificate, Contour, Point, Proof, Segment
 
 
 def to_json(result: Result) -> str:

@@ -16,10 +16,9 @@ from ezdxf.enums import TextEntityAlignment
 from ezdxf.filemanagement import new
 from ezdxf.layouts.layout import Modelspace
 
-from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis import Answer
 from contoursolve.geometry import Length, Plane, Turn
-from contoursolve.solving import Point
-from contoursolve.solving.contour import ArcSegment, Contour, Segment
+from contoursolve.solving import ArcSegment, Contour, Point, Segment
 from contoursolve.tolerance import LENGTH
 
 CONSTRUCTION = "construction"

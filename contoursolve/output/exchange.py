@@ -7,11 +7,9 @@ from typing import Any
 from urllib.parse import quote
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnostics.finding import Applicability, Diagnostic, Fix, Severity
-from contoursolve.diagnostics.json_text import json_text
-from contoursolve.program.pipeline import Result
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import Rule
+from contoursolve.diagnostics import Applicability, Diagnostic, Fix, Severity, json_text
+from contoursolve.program import Result
+from contoursolve.reading import Dialect, Rule
 
 _LEVEL = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 _COMMAND = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}

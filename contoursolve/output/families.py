@@ -4,11 +4,21 @@ from collections.abc import Iterator
 from math import isnan
 from typing import Any
 
-from contoursolve.diagnosis.solutions import printed_certificate
-from contoursolve.diagnosis.wording import axis_labels, count, length_in, measured, short_name, written
-from contoursolve.diagnostics.json_text import members
-from contoursolve.families import CompiledSweep, Effect, End, Family, Feasible, Found, Hit, Reason, Region, Tolerances
-from contoursolve.families.range_pieces import LEAST_GAP
+from contoursolve.diagnosis import axis_labels, count, length_in, measured, printed_certificate, short_name, written
+from contoursolve.diagnostics import members
+from contoursolve.families import (
+    LEAST_GAP,
+    CompiledSweep,
+    Effect,
+    End,
+    Family,
+    Feasible,
+    Found,
+    Hit,
+    Reason,
+    Region,
+    Tolerances,
+)
 from contoursolve.geometry import Length
 from contoursolve.output.plain_text import Table
 from contoursolve.output.resting import resting_data, resting_texts

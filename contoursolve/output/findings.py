@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Mapping
 
-from contoursolve.diagnosis.wording import count
-from contoursolve.diagnostics.finding import Applicability, Diagnostic, Fix, Label
+from contoursolve.diagnosis import count
+from contoursolve.diagnostics import Applicability, Diagnostic, Fix, Label
 from contoursolve.gcode import FaultKind
 from contoursolve.output.plain_text import cells, printable
 from contoursolve.reading import ReadIssue

@@ -8,9 +8,8 @@ from importlib.resources import files
 import htpy as h
 from markupsafe import Markup
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.solutions import list_solutions, printed_certificate
-from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.diagnosis import Answer, list_solutions, printed_certificate
+from contoursolve.diagnostics import Diagnostic, Severity
 from contoursolve.output.contours import (
     check_table,
     count_text,
@@ -22,8 +21,7 @@ from contoursolve.output.contours import (
 from contoursolve.output.findings import Piece, finding_pieces
 from contoursolve.output.plain_text import NAMELESS, Name, Table, printable
 from contoursolve.output.resting import resting_texts
-from contoursolve.pictures import Drawable, Theme, draw
-from contoursolve.pictures.theme import CHAINS, DARK_COLORS, LIGHT_COLORS, Role
+from contoursolve.pictures import CHAINS, DARK_COLORS, LIGHT_COLORS, Drawable, Role, Theme, draw
 
 WIDEST, LONGEST = 200, 400
 """Characters of a cell, and of a line."""

@@ -9,14 +9,12 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.examine import Answer, rank
-from contoursolve.diagnosis.wording import count, statuses_text
-from contoursolve.diagnostics.finding import Diagnostic, Fix, Severity
+from contoursolve.diagnosis import Answer, count, rank, statuses_text
+from contoursolve.diagnostics import Diagnostic, Fix, Severity
 from contoursolve.output.contours import contour_lines
 from contoursolve.output.findings import EXPLAINING, Style, finding_lines
 from contoursolve.output.plain_text import columns, printable
-from contoursolve.program.pipeline import ELSEWHERE, Result, Run
-from contoursolve.program.recognise import what_shows
+from contoursolve.program import ELSEWHERE, Result, Run, what_shows
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import NoteKind, Status
 

@@ -10,10 +10,8 @@ from markupsafe import Markup
 from msgspec import Struct
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.examine import Answer, Policy
-from contoursolve.diagnosis.wording import coordinates, count
-from contoursolve.diagnostics.finding import Diagnostic, Label, Severity
-from contoursolve.diagnostics.source import Evidence, Span
+from contoursolve.diagnosis import Answer, Policy, coordinates, count
+from contoursolve.diagnostics import Diagnostic, Evidence, Label, Severity, Span
 from contoursolve.gcode import Block
 from contoursolve.output.contours import given_table, path_table
 from contoursolve.output.html import (
@@ -34,9 +32,8 @@ from contoursolve.output.html import (
 from contoursolve.output.listing import sources_of, summary_line
 from contoursolve.output.plain_text import Name, printable
 from contoursolve.output.words import form_text
-from contoursolve.pictures.page import About
-from contoursolve.pictures.subject import named_words
-from contoursolve.program.pipeline import Result
+from contoursolve.pictures import About, named_words
+from contoursolve.program import Result
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 """Tells the browser to load and to run nothing."""

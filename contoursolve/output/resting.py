@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from contoursolve.diagnostics.json_text import members
+from contoursolve.diagnostics import members
 from contoursolve.reading import Convention, Resting
 
 

@@ -6,9 +6,7 @@ from itertools import islice
 
 from msgspec import Struct
 
-from contoursolve.diagnosis.edits import write_word
-from contoursolve.diagnosis.examine import Answer, AskedValue
-from contoursolve.diagnosis.wording import coordinates, short_name, word_keys
+from contoursolve.diagnosis import Answer, AskedValue, coordinates, short_name, word_keys, write_word
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Length, Line, Unit
 

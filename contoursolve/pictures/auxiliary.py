@@ -24,9 +24,7 @@ from contoursolve.pictures.scene import Aligned, Leader, Mark, MarkKind, Part, R
 from contoursolve.pictures.subject import Subject
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import ALONG_AXIS, SAME, along, direction, distance, foot, toward, with_coordinate
-from contoursolve.solving import Point, Refusal, RefusalKind, Status
-from contoursolve.solving.affine import affine_facts
-from contoursolve.solving.contour import LineSegment
+from contoursolve.solving import LineSegment, Point, Refusal, RefusalKind, Status, affine_facts
 
 Ray = tuple[Point, Point]
 """A place on a line and its unit direction."""

@@ -20,7 +20,7 @@ from contoursolve.pictures.scene import (
 )
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import along, direction, distance, minus, unit
-from contoursolve.solving.contour import ArcSegment
+from contoursolve.solving import ArcSegment
 
 _RADIUS, _STEP = 34.0, 13.0
 """Pixels. Radius of the arc of an angle, and how much more each further one at the same place has."""

@@ -29,7 +29,7 @@ from contoursolve.pictures.page import (
 from contoursolve.pictures.scene import Closeup, Leader, Mark, Scene, Trail, Viewport, Weight
 from contoursolve.pictures.theme import DASHES, Role
 from contoursolve.pictures.vectors import distance, extent, sweep_of
-from contoursolve.solving.contour import ArcSegment, Segment
+from contoursolve.solving import ArcSegment, Segment
 
 MOST_DETAILS = 4
 """Details below one drawing, in one row."""

@@ -4,9 +4,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.solutions import list_solutions
-from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.diagnosis import Answer, list_solutions
+from contoursolve.diagnostics import Diagnostic, Severity
 from contoursolve.gcode import FACT, spell
 from contoursolve.geometry import SECOND, Turn
 from contoursolve.pictures.auxiliary import list_auxiliary
@@ -17,8 +16,7 @@ from contoursolve.pictures.subject import Subject, fitting, subject_of, trace_kn
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance
 from contoursolve.reading import ReadIssue
-from contoursolve.solving import Point
-from contoursolve.solving.contour import ArcSegment, Contour, trace
+from contoursolve.solving import ArcSegment, Contour, Point, trace
 
 MOST_LINES, MOST_OF_CHAIN = 6, 24
 """Lines of a program in a picture's head: of any, and of a chain, whose elements are named by their blocks."""
@@ -119,7 +117,7 @@ def _other_ways(subject: Subject) -> tuple[list[Trail], Others]:
     trails, places = list[Trail](), dict[str, list[tuple[Point, str]]]()
     if answer.alternatives is None:
         return trails, places
-    from contoursolve.solving.picks import numbers_of  # noqa: PLC0415 - few controls have such words
+    from contoursolve.solving import numbers_of  # noqa: PLC0415 - few controls have such words
 
     paths, left = answer.alternatives.paths, fitting(answer)
     is_solved, stated = answer.contour is not None, {each.element for each in profile.picks}

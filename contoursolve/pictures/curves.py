@@ -7,7 +7,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.families import Boundary, Region
-from contoursolve.numeric.columns import Array
+from contoursolve.numeric import Array
 from contoursolve.pictures.page import Spot, Stroke
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.value_axes import HIGH, LEFT, TOP, WIDE, ValuePlane

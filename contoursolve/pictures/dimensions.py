@@ -5,8 +5,8 @@ from math import atan2, degrees, inf
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.wording import length_limit
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnosis import length_limit
+from contoursolve.diagnostics import Span
 from contoursolve.geometry import (
     Along,
     Arc,
@@ -60,8 +60,7 @@ from contoursolve.pictures.vectors import (
     toward,
     with_coordinate,
 )
-from contoursolve.solving import Point
-from contoursolve.solving.contour import ArcSegment, Segment
+from contoursolve.solving import ArcSegment, Point, Segment
 
 _BESIDE_ARROW = (0.36, 0.64, 0.2, 0.8)
 """Of an arc, from its start: where its radius may be written, off the arrow in its middle."""

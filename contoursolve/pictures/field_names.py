@@ -5,7 +5,7 @@ from itertools import product
 
 import numpy
 
-from contoursolve.numeric.columns import Array
+from contoursolve.numeric import Array
 from contoursolve.pictures.curves import Curve, near, spots_of
 from contoursolve.pictures.fields import Mask, Outcomes, cell_at, cell_size, holds, role_of, words_of
 from contoursolve.pictures.page import SIZE, Anchor, Box, Spot, Text, TextRun, visible, width_of, wrap

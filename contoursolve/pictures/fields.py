@@ -12,7 +12,7 @@ from contoursolve.pictures.curves import Curve, near
 from contoursolve.pictures.page import Box, Item, Spot, Stroke
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.value_axes import HIGH, LEFT, TOP, WIDE
-from contoursolve.solving.row_outcome import REASONS, Code
+from contoursolve.solving import REASONS, Code
 
 Outcomes = NDArray[numpy.int64]
 """What became of each cell of a plane, the uppermost row first: its status and the reason against it, as one number."""

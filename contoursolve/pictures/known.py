@@ -12,8 +12,6 @@ from typing import TYPE_CHECKING
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse, basis_of
-from contoursolve.analysis.identities import is_affine
 from contoursolve.gcode import Word
 from contoursolve.geometry import (
     FIRST,
@@ -35,13 +33,24 @@ from contoursolve.geometry import (
     scalar,
 )
 from contoursolve.pictures.vectors import SAME, distance
-from contoursolve.solving import Point, Refusal, Solution, Status, is_closed, points_with_two_solutions, solve
-from contoursolve.solving.affine import affine_facts
-from contoursolve.solving.solution import CornerSolution
+from contoursolve.solving import (
+    CornerSolution,
+    Point,
+    Refusal,
+    Solution,
+    Status,
+    affine_facts,
+    analyse,
+    basis_of,
+    is_affine,
+    is_closed,
+    points_with_two_solutions,
+    solve,
+)
 from contoursolve.tolerance import LARGEST
 
 if TYPE_CHECKING:
-    from contoursolve.solving.alternatives import Alternative
+    from contoursolve.solving import Alternative
 
 MOST_FREE = 6
 """Free coordinates that are put somewhere; of a contour with more, only what is known is drawn."""
@@ -191,8 +200,11 @@ def in_chain(profile: Profile, items: Sequence["Alternative"] = (), blamed: Set[
     """What is determined of a chain without a contour: `items` are the solutions that it has. Of one that lacks data,
     those of the part that its data fix are worked out; of one without a solution, what comes before the words that
     are `blamed`."""
-    from contoursolve.solving.alternatives import find_alternatives  # noqa: PLC0415 - few contours are such chains
-    from contoursolve.solving.ambiguity import before, restrict  # noqa: PLC0415 - as above
+    from contoursolve.solving import (  # noqa: PLC0415 - as above
+        before,
+        find_alternatives,
+        restrict,
+    )
 
     system = assemble(profile)
     fixed = frozenset(system.unknowns).difference(analyse(system).free)

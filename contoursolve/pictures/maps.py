@@ -6,10 +6,8 @@ from collections.abc import Mapping, Sequence
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.families import Family, FamilyError, Region, region_of
-from contoursolve.families.evaluate import compile_sweep, solve_sweep
-from contoursolve.families.spec import Ranges
-from contoursolve.numeric.columns import Array
+from contoursolve.families import Family, FamilyError, Ranges, Region, compile_sweep, region_of, solve_sweep
+from contoursolve.numeric import Array
 from contoursolve.pictures.curves import Curve, curves_of, spots_of, strokes
 from contoursolve.pictures.field_names import is_free, name_all
 from contoursolve.pictures.fields import Outcomes, boundaries, outcomes_of, paint

@@ -9,8 +9,7 @@ from msgspec.structs import replace
 
 from contoursolve.comparison import Motion, Travel, follow
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.wording import statuses_text
+from contoursolve.diagnosis import Answer, statuses_text
 from contoursolve.geometry import SECOND, Length, Plane, Turn
 from contoursolve.pictures.compose import MOST_ELEMENTS, remarks_of
 from contoursolve.pictures.page import TextRun, visible
@@ -19,10 +18,8 @@ from contoursolve.pictures.subject import find_known, list_trails
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.turned import crosses_axis, cylinders_of, turn_part
 from contoursolve.pictures.vectors import distance
-from contoursolve.program.pipeline import Result
-from contoursolve.program.profiles import CycleProfile
-from contoursolve.solving import Point
-from contoursolve.solving.contour import ArcSegment, LineSegment, Segment
+from contoursolve.program import CycleProfile, Result
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import LENGTH
 
 MOST_CONTOURS = 400

@@ -14,8 +14,7 @@ from contoursolve.geometry import FIRST, SECOND, Length, Plane
 from contoursolve.pictures.page import ANYTHING, About, Spot, TextRun, visible
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import ALONG_AXIS, along, extent
-from contoursolve.solving import Point
-from contoursolve.solving.contour import Segment
+from contoursolve.solving import Point, Segment
 
 
 class Weight(Enum):

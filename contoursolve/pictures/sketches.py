@@ -25,8 +25,7 @@ from contoursolve.pictures.scene import (
 from contoursolve.pictures.subject import Traced
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import DIAGONAL, SAME, along, distance, foot
-from contoursolve.sketch import Drawings, Drawn, Stated
-from contoursolve.solving import Point
+from contoursolve.solving import Drawings, Drawn, Point, Stated
 
 MOST_DRAWN = 12
 """Drawings in one picture; of more, their number is told."""

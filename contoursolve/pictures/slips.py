@@ -4,15 +4,13 @@ from collections.abc import Iterator, Mapping
 
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse
-from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, count_choices
-from contoursolve.diagnosis.wording import angle_text, length_text
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnosis import MOST_CHOICES, Answer, angle_text, count_choices, length_text
+from contoursolve.diagnostics import Span
 from contoursolve.gcode import FaultKind, Word
 from contoursolve.geometry import Given, Unit, assemble
 from contoursolve.pictures.known import is_chosen
 from contoursolve.reading import ReadIssue
-from contoursolve.solving import Status, is_closed, solve
+from contoursolve.solving import Status, analyse, is_closed, solve
 
 
 def counted(answer: Answer) -> dict[Span, str]:

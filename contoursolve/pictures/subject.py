@@ -11,11 +11,8 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse
-from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, count_choices
-from contoursolve.diagnosis.wording import word_keys
-from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnosis import MOST_CHOICES, Answer, count_choices, word_keys
+from contoursolve.diagnostics import Basis, Diagnostic, Severity, Span
 from contoursolve.gcode import FACT
 from contoursolve.geometry import (
     FIRST,
@@ -51,24 +48,28 @@ from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, direction, distance
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import (
+    ArcSegment,
+    CornerSolution,
+    LineSegment,
     NoteKind,
     Point,
     Refusal,
     RefusalKind,
+    Segment,
     Status,
+    analyse,
+    compile_system,
+    corner_of,
+    inputs_of,
     is_closed,
     points_with_two_solutions,
+    said_twice,
     solve,
 )
-from contoursolve.solving.ambiguity import said_twice
-from contoursolve.solving.compile import compile_system
-from contoursolve.solving.contour import ArcSegment, LineSegment, Segment
-from contoursolve.solving.numbers import corner_of, inputs_of
-from contoursolve.solving.solution import CornerSolution
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
-    from contoursolve.solving.alternatives import Alternative
+    from contoursolve.solving import Alternative
 
 _CORNERS = (
     RefusalKind.CORNER_TOO_LARGE,
@@ -132,8 +133,11 @@ def fitting(answer: Answer) -> list["Alternative"]:
     """The solutions of a contour that were listed and that its words leave."""
     if answer.alternatives is None:
         return []
-    from contoursolve.solving.alternatives import choose  # noqa: PLC0415 - most contours need no choice
-    from contoursolve.solving.picks import numbers_of, pick  # noqa: PLC0415 - as above
+    from contoursolve.solving import (  # noqa: PLC0415 - as above
+        choose,
+        numbers_of,
+        pick,
+    )
 
     paths = [each for each in choose(answer.alternatives, answer.profile.choices) if each.is_path]
     left = pick(paths, answer.profile)[0]

@@ -14,7 +14,7 @@ from math import pi, tau
 from xml.sax.saxutils import escape, quoteattr
 from zlib import crc32
 
-from contoursolve.diagnostics.extras import MissingExtraError, importing
+from contoursolve.diagnostics import MissingExtraError, importing
 from contoursolve.pictures.page import (
     ANYTHING,
     WIDTH,

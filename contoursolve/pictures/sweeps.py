@@ -4,12 +4,19 @@ from collections.abc import Mapping, Sequence
 
 import numpy
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.wording import statuses_text
-from contoursolve.families import CompiledSweep, Family, FamilyError, Tally, pieces, summary_of
-from contoursolve.families.evaluate import compile_sweep, solve_sweep
-from contoursolve.families.spec import Ranges
-from contoursolve.numeric.columns import Array
+from contoursolve.diagnosis import Answer, statuses_text
+from contoursolve.families import (
+    CompiledSweep,
+    Family,
+    FamilyError,
+    Ranges,
+    Tally,
+    compile_sweep,
+    pieces,
+    solve_sweep,
+    summary_of,
+)
+from contoursolve.numeric import Array
 from contoursolve.pictures.maps import COLUMNS, ROWS, map_title, picks
 from contoursolve.solving import Status
 

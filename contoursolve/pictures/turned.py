@@ -9,8 +9,7 @@ from contoursolve.geometry import FIRST, SECOND, Length, Turn
 from contoursolve.pictures.scene import Leader, Part, Rectangle, Scene, Thin, Trail, Weight, number
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import extent
-from contoursolve.solving import Point
-from contoursolve.solving.contour import ArcSegment, Segment
+from contoursolve.solving import ArcSegment, Point, Segment
 from contoursolve.tolerance import LENGTH
 
 MOST_DIAMETERS = 8

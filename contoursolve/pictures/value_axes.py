@@ -6,9 +6,9 @@ from math import floor, log10
 import numpy
 from msgspec import Struct
 
-from contoursolve.diagnosis.wording import written
+from contoursolve.diagnosis import written
 from contoursolve.families import End, Feasible, Way
-from contoursolve.numeric.columns import Array
+from contoursolve.numeric import Array
 from contoursolve.pictures.page import (
     PAD,
     SIZE,

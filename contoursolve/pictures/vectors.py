@@ -2,8 +2,7 @@
 
 from math import atan2, cos, hypot, pi, sin, tau
 
-from contoursolve.solving import Point
-from contoursolve.solving.contour import ArcSegment, Segment
+from contoursolve.solving import ArcSegment, Point, Segment
 from contoursolve.tolerance import LENGTH
 
 SAME = 1e-6

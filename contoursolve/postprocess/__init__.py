@@ -2,3 +2,7 @@
 
 Steps come in from `program`, lines of text go out. Begin with `expansion`.
 """
+
+from lazy_loader import attach_stub
+
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

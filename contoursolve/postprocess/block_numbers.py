@@ -10,13 +10,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.wording import SHOWN, join
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnosis import SHOWN, join
+from contoursolve.diagnostics import Span
 from contoursolve.gcode import ISO, Block, FaultKind, Word, parse, parse_block, split_lines
-from contoursolve.program.project import configure
-from contoursolve.program.recognise import UnknownControlError, choose, named_control
-from contoursolve.reading import COMMENTED
-from contoursolve.reading.dialect import Dialect
+from contoursolve.program import UnknownControlError, choose, configure, named_control
+from contoursolve.reading import COMMENTED, Dialect
 
 SHORT, LONG = 9_999, 99_999
 """The highest block number: four digits, unless the program itself uses five."""

@@ -10,8 +10,7 @@ from msgspec.structs import replace
 from contoursolve.gcode import spell
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.postprocess.post_processors import Arcs
-from contoursolve.solving import Point
-from contoursolve.solving.contour import ArcSegment, LineSegment, Segment
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 
 LONGEST_BY_CENTER = 300.0
 """Degrees. A longer arc is written as two: where its ends come close, they no longer tell where its centre is, and

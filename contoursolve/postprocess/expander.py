@@ -8,9 +8,20 @@ from itertools import chain
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.gcode import Block, Passage, Syntax, Word, parse_block, spell
-from contoursolve.gcode.comments import comment_out, is_remark, own_comments, remark, with_comments_of
+from contoursolve.diagnosis import Answer
+from contoursolve.gcode import (
+    Block,
+    Passage,
+    Syntax,
+    Word,
+    comment_out,
+    is_remark,
+    own_comments,
+    parse_block,
+    remark,
+    spell,
+    with_comments_of,
+)
 from contoursolve.geometry import Length
 from contoursolve.postprocess.emit import Format, Move, emit
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
@@ -18,31 +29,27 @@ from contoursolve.postprocess.numbering import Numberer, Numbers, Offsets
 from contoursolve.postprocess.post_processors import SAME, Machine, machine_of
 from contoursolve.postprocess.translate import Moves, translate
 from contoursolve.postprocess.untranslatable import Watch
-from contoursolve.program.calls import path_of
-from contoursolve.program.lines import Lines
-from contoursolve.program.pipeline import ELSEWHERE
-from contoursolve.program.solve_queue import Step
+from contoursolve.program import ELSEWHERE, Lines, Step, path_of
 from contoursolve.reading import (
+    STANDING_ALONE,
     Code,
+    ContourBlock,
+    Dialect,
     Diameter,
     ParsedContour,
     ReadIssue,
+    Reliance,
     State,
     apply_modes,
-    codes_of,
-    motion_of,
-    words_of,
-)
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import ContourBlock, blocks_of
-from contoursolve.reading.modal_dependence import (
-    STANDING_ALONE,
-    Reliance,
+    blocks_of,
     carried,
+    codes_of,
     frame_of,
+    motion_of,
     reliance,
     restate,
     why_unmet,
+    words_of,
 )
 from contoursolve.solving import Point
 

@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterable, Iterator
 
 from msgspec.structs import replace as replace_fields
 
-from contoursolve.diagnosis.examine import Depth
-from contoursolve.execution.events import ProgramEvent
+from contoursolve.diagnosis import Depth
+from contoursolve.execution import ProgramEvent
 from contoursolve.gcode import Directive, Program
 from contoursolve.geometry import Length
 from contoursolve.postprocess.expander import OPENING, Expander
@@ -13,13 +13,8 @@ from contoursolve.postprocess.expansion_report import Left, Options, Summary
 from contoursolve.postprocess.numbering import Numbers
 from contoursolve.postprocess.post_processors import SAME, machine_of
 from contoursolve.postprocess.restating import UNITS, InGCodes, InOwnWords
-from contoursolve.program.batch import Batch
-from contoursolve.program.calls import machine_for
-from contoursolve.program.lines import Lines
-from contoursolve.program.pipeline import attach, walk
-from contoursolve.program.request import Request
-from contoursolve.program.stream import Line, each_block
-from contoursolve.reading.dialect import Dialect
+from contoursolve.program import Batch, Line, Lines, Request, attach, each_block, machine_for, walk
+from contoursolve.reading import Dialect
 
 __all__ = ["OPENING", "expand_lines", "lines_of_facts", "opening_of"]
 

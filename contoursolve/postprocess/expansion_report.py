@@ -5,8 +5,7 @@ from typing import Any
 
 from msgspec import Struct, field
 
-from contoursolve.diagnostics.errors import ProgramError
-from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.diagnostics import Diagnostic, ProgramError, Severity
 from contoursolve.gcode import Block, FaultKind
 from contoursolve.geometry import Length
 from contoursolve.postprocess.post_processors import SAME, Arcs, Numbering, Post, Risk

@@ -7,11 +7,11 @@ from collections.abc import Container, Mapping
 from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.spelling import Meanings
+from contoursolve.diagnosis import Meanings
 from contoursolve.gcode import Block, Syntax, parse_block
 from contoursolve.postprocess.block_numbers import LONG, Directory, Line, Replacement, dialect_of, read_lines
 from contoursolve.postprocess.numbering import Numbers
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Dialect
 
 LARGEST_STEP = 1_000
 """From one block number to the next."""

@@ -9,8 +9,7 @@ from math import hypot, sqrt
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
 from contoursolve.postprocess.block_numbers import LONG, PROFILE_CYCLES, SHORT
-from contoursolve.reading import Code, Effect, Modes, State, apply_modes, codes_of
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Code, Dialect, Effect, Modes, State, apply_modes, codes_of
 from contoursolve.tolerance import ARC_START
 
 _NUMBER = re.compile(r"(?:[NPQ]|GOTO)[ \t]*([0-9]{1,5})(?![0-9])", re.IGNORECASE)

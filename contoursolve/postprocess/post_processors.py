@@ -4,11 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
-from contoursolve.controls import FANUC_MILL as FANUC_CONTROL
-from contoursolve.controls.plain import PLAIN
+from contoursolve.controls import FANUC_MILL as FANUC_CONTROL, PLAIN
 from contoursolve.geometry import Length
-from contoursolve.reading import Code, Effect, Modes, NumberFormat, WithoutPoint
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Code, Dialect, Effect, Modes, NumberFormat, WithoutPoint
 
 
 class Arcs(Enum):

@@ -6,22 +6,28 @@ from typing import cast
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.gcode import Block
-from contoursolve.gcode.comments import comment_out, own_comments, remark
+from contoursolve.diagnosis import Answer
+from contoursolve.gcode import Block, comment_out, own_comments, remark
 from contoursolve.geometry import Length, Turn
 from contoursolve.postprocess.emit import Move, emit, longest
 from contoursolve.postprocess.expander import NAMES, Expander
 from contoursolve.postprocess.expansion_report import Left, Options, Summary
 from contoursolve.postprocess.numbering import Numbers
-from contoursolve.program.lines import Lines
-from contoursolve.program.solve_queue import Step
-from contoursolve.reading import ParsedContour, State, advance
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import ContourBlock
-from contoursolve.reading.modal_dependence import Carried, frame_of
-from contoursolve.reading.writer import NOTHING, Around, Restated, Writing
-from contoursolve.solving.contour import ArcSegment
+from contoursolve.program import Lines, Step
+from contoursolve.reading import (
+    NOTHING,
+    Around,
+    Carried,
+    ContourBlock,
+    Dialect,
+    ParsedContour,
+    Restated,
+    State,
+    Writing,
+    advance,
+    frame_of,
+)
+from contoursolve.solving import ArcSegment
 
 UNITS = {Length.INCH: "G20", Length.MM: "G21"}
 """The codes of units."""

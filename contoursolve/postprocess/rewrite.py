@@ -8,22 +8,28 @@ from typing import IO, Any, Protocol
 
 from msgspec import Struct
 
-from contoursolve.execution.machine import needs_running
-from contoursolve.gcode import Block, parse, parse_block
-from contoursolve.gcode.files import Tape
+from contoursolve.execution import needs_running
+from contoursolve.gcode import Block, Tape, parse, parse_block
 from contoursolve.postprocess.expander import Expander
 from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_facts, opening_of
 from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
 from contoursolve.postprocess.numbering import numbers_of
 from contoursolve.postprocess.post_processors import Numbering
-from contoursolve.program.called_files import blocks_of_called_files
-from contoursolve.program.lines import Lines
-from contoursolve.program.pipeline import Examiner, check_start
-from contoursolve.program.project import check_settings, configure
-from contoursolve.program.readers import choose_alike
-from contoursolve.program.recognise import Recogniser, SeveralControlsError, for_machine, named_control
-from contoursolve.program.request import Request
-from contoursolve.reading.dialect import Dialect
+from contoursolve.program import (
+    Examiner,
+    Lines,
+    Recogniser,
+    Request,
+    SeveralControlsError,
+    blocks_of_called_files,
+    check_settings,
+    check_start,
+    choose_alike,
+    configure,
+    for_machine,
+    named_control,
+)
+from contoursolve.reading import Dialect
 
 _BATCH = 1 << 16
 """Characters that are encoded at once."""

@@ -8,17 +8,14 @@ from collections.abc import Mapping
 from decimal import Decimal
 from math import cos, radians, sin
 
-from contoursolve.controls.chain import ChainFinder, Joining, Language
-from contoursolve.diagnosis.examine import Answer, Depth
+from contoursolve.controls import ChainFinder, Joining, Language
+from contoursolve.diagnosis import Answer, Depth
 from contoursolve.gcode import parse, spell
 from contoursolve.geometry import Arc, Corner, CornerShape, Heading, Line, Profile, Unit
 from contoursolve.postprocess.emit import Format, Move, emit
-from contoursolve.program.pipeline import run
-from contoursolve.program.request import Request
-from contoursolve.reading import Diameter, WithoutPoint
-from contoursolve.reading.dialect import Dialect
-from contoursolve.solving import Point
-from contoursolve.solving.contour import ArcSegment, Contour, LineSegment, Segment
+from contoursolve.program import Request, run
+from contoursolve.reading import Dialect, Diameter, WithoutPoint
+from contoursolve.solving import ArcSegment, Contour, LineSegment, Point, Segment
 
 EXACT = 5e-9
 """mm. A coordinate that is off a number with the target's decimals by no more is that number."""

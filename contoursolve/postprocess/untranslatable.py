@@ -8,12 +8,11 @@ from functools import lru_cache
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.wording import join
+from contoursolve.diagnosis import join
 from contoursolve.gcode import Block, Macro, Word, spell
 from contoursolve.geometry import Length
 from contoursolve.postprocess.post_processors import Other, Post, Reading, Risk
-from contoursolve.reading import Code, Effect, State, WithoutPoint, codes_of
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Code, Dialect, Effect, State, WithoutPoint, codes_of
 
 _NO_COMPENSATION = 40
 

@@ -2,3 +2,7 @@
 
 Blocks come in from `gcode`, steps with answers and findings go out. Begin with `pipeline`.
 """
+
+from lazy_loader import attach_stub
+
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

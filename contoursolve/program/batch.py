@@ -8,25 +8,32 @@ import numpy
 from msgspec import Struct, field
 from numpy.typing import NDArray
 
-from contoursolve.diagnosis.examine import Answer, Policy
-from contoursolve.diagnosis.explain import context_of
-from contoursolve.diagnosis.spelling import is_counted_start, without_point
+from contoursolve.diagnosis import Answer, Policy, context_of, is_counted_start, without_point
 from contoursolve.gcode import Word
 from contoursolve.geometry import Length, Line, Profile, System, assemble
-from contoursolve.numeric.expressions import Compiled, inverse_norms
-from contoursolve.reading import ContourForm, ParsedContour, WithoutPoint
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import Rule, is_refused_by_values
-from contoursolve.solving import Status
-from contoursolve.solving.certify import certify
-from contoursolve.solving.checks import Check, compile_checks
-from contoursolve.solving.compile import Machine, compile_system
-from contoursolve.solving.contour import against_angles, dropped_corners, trace
-from contoursolve.solving.numbers import inputs_of, sizes_of, solution_at
-from contoursolve.solving.plan import LineCircleStep, TwoCirclesStep
-from contoursolve.solving.row_outcome import Code, RowOutcome
-from contoursolve.solving.solution import Proof, up_to_one_digit
-from contoursolve.solving.solve import ROUNDING
+from contoursolve.numeric import Compiled, inverse_norms
+from contoursolve.reading import ContourForm, Dialect, ParsedContour, Rule, WithoutPoint, is_refused_by_values
+from contoursolve.solving import (
+    ROUNDING,
+    Check,
+    Code,
+    LineCircleStep,
+    Machine,
+    Proof,
+    RowOutcome,
+    Status,
+    TwoCirclesStep,
+    against_angles,
+    certify,
+    compile_checks,
+    compile_system,
+    dropped_corners,
+    inputs_of,
+    sizes_of,
+    solution_at,
+    trace,
+    up_to_one_digit,
+)
 from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENGTH, TOUCHING
 
 Columns = Mapping[str, NDArray[numpy.float64]]

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
-from contoursolve.execution.language import Call, CallKind, MacroLanguage, When
-from contoursolve.execution.subprograms import Library, Surroundings
+from contoursolve.execution import Call, CallKind, Library, MacroLanguage, Surroundings, When
 from contoursolve.gcode import Block, Syntax, parse_block
 
 MOST_FILES = 500

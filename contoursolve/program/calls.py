@@ -6,21 +6,14 @@ from itertools import pairwise
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.explain import Context, context_of, report
-from contoursolve.diagnosis.wording import join, measured
-from contoursolve.diagnostics.finding import Basis, Diagnostic, Fix, Label, Severity
-from contoursolve.diagnostics.source import Span
-from contoursolve.execution.language import ARGUMENT, MACHINES
-from contoursolve.execution.machine import Limit, Machine, machine_of
-from contoursolve.execution.subprograms import Surroundings
+from contoursolve.diagnosis import Answer, Context, context_of, join, measured, report
+from contoursolve.diagnostics import Basis, Diagnostic, Fix, Label, Severity, Span
+from contoursolve.execution import ARGUMENT, MACHINES, Limit, Machine, Surroundings, machine_of
 from contoursolve.gcode import Block, Caller, Program, Substitution
 from contoursolve.program.profiles import CycleProfile, profiles_of, turns_back
 from contoursolve.program.solve_queue import Step
-from contoursolve.reading import ReadIssue, State
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import Rule
-from contoursolve.solving.contour import ArcSegment
+from contoursolve.reading import Dialect, ReadIssue, Rule, State
+from contoursolve.solving import ArcSegment
 
 MOST_TOLD = 10
 """Results of one contour that are told; of more, their number."""

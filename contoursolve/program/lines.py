@@ -8,8 +8,7 @@ from contoursolve.controls import DIALECTS
 from contoursolve.gcode import LONGEST_BLOCK, Block, Directive, Passage, parse_block
 from contoursolve.program.recognise import several_controls, sign_against, sign_of
 from contoursolve.program.stream import Line
-from contoursolve.reading import plain_lines
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Dialect, plain_lines
 
 _USUAL = "\n"
 """How a line ends of which nothing else is noted."""

@@ -10,8 +10,7 @@ from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, fields, is_dataclass
-from dataclasses import replace as with_fields
+from dataclasses import dataclass, fields, is_dataclass, replace as with_fields
 from enum import Enum
 from functools import partial
 from itertools import accumulate, islice
@@ -21,14 +20,10 @@ from typing import Any, overload
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer, Policy, rank
-from contoursolve.diagnostics.choices import choice_of
-from contoursolve.diagnostics.finding import Diagnostic, Fix
-from contoursolve.diagnostics.source import Span
-from contoursolve.execution.machine import needs_running
-from contoursolve.execution.subprograms import surroundings_of
-from contoursolve.gcode import ISO, Block, Program, Syntax, parse, parse_block, split_lines
-from contoursolve.gcode.lexer import Blocks
+from contoursolve.diagnosis import Answer, Policy, rank
+from contoursolve.diagnostics import Diagnostic, Fix, Span, choice_of
+from contoursolve.execution import needs_running, surroundings_of
+from contoursolve.gcode import ISO, Block, Blocks, Program, Syntax, parse, parse_block, split_lines
 from contoursolve.geometry import Length, Plane
 from contoursolve.program.outside import Outside
 from contoursolve.program.pipeline import Checkpoint, Examiner, Result, run
@@ -46,8 +41,7 @@ from contoursolve.program.recognise import (
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Step
 from contoursolve.program.tape_markers import Marks
-from contoursolve.reading import ReadIssue
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Dialect, ReadIssue
 
 Place = tuple[int, int]
 """A line and a column, both from 1."""

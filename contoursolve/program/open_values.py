@@ -6,13 +6,10 @@ from itertools import groupby
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
-from contoursolve.diagnosis.wording import join
-from contoursolve.execution.evaluate import evaluate, variables_of, written
-from contoursolve.execution.language import MacroLanguage, Unknown, Variable
+from contoursolve.diagnosis import Answer, Depth, Policy, examine, join
+from contoursolve.execution import MacroLanguage, Unknown, Variable, evaluate, variables_of, written
 from contoursolve.gcode import Block, parse_block
-from contoursolve.reading import ParsedContour, ReadIssue
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Dialect, ParsedContour, ReadIssue
 
 _STEPS, _GROWTH, _SMALLEST = 48, 1.25, 0.05
 """Values that are tried: from the smallest one on, each so much larger than the one before; and as many below 0."""

@@ -19,13 +19,10 @@ What waits in vain is passed over; `check --strict` tells all.
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
 
-from contoursolve.diagnosis.examine import Answer
-from contoursolve.diagnosis.vocabulary import moves
-from contoursolve.diagnostics.finding import Diagnostic
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnosis import Answer, moves
+from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import Block, FaultKind, Word, spell
-from contoursolve.reading import ReadIssue, State, apply_modes, words_of
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Dialect, ReadIssue, State, apply_modes, words_of
 
 _BESIDE_CONTOURS: frozenset[Enum | None] = frozenset(
     {ReadIssue.COMMA_MISSING, ReadIssue.COMMA_WORD_UNKNOWN, ReadIssue.ASKED_NOTHING, ReadIssue.FACT_UNMARKED}

@@ -11,36 +11,35 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, rank
-from contoursolve.diagnosis.explain import Context, report
-from contoursolve.diagnosis.spelling import (
+from contoursolve.diagnosis import (
+    Answer,
+    Context,
+    Depth,
+    Policy,
+    corner_words,
+    either,
+    examine,
     explain_asked_outside,
+    explain_call,
+    explain_codes_by_name,
+    explain_corners,
     explain_faults,
     explain_start_diameter,
     explain_start_units,
     explain_unmarked,
-    explain_words,
-)
-from contoursolve.diagnosis.vocabulary import (
-    corner_words,
-    explain_call,
-    explain_codes_by_name,
-    explain_corners,
     explain_vocabulary,
+    explain_words,
     has_corners,
     is_known,
+    join,
     moves,
     name_of,
     not_read_yet,
+    rank,
+    report,
 )
-from contoursolve.diagnosis.wording import either, join
-from contoursolve.diagnostics.display import Shown
-from contoursolve.diagnostics.errors import ProgramError, UserError
-from contoursolve.diagnostics.finding import Basis, Diagnostic, Severity
-from contoursolve.diagnostics.source import Span
-from contoursolve.execution.events import EventKind, ProgramEvent
-from contoursolve.execution.machine import Machine
-from contoursolve.execution.subprograms import ALONE, Surroundings
+from contoursolve.diagnostics import Basis, Diagnostic, ProgramError, Severity, Shown, Span, UserError
+from contoursolve.execution import ALONE, EventKind, Machine, ProgramEvent, Surroundings
 from contoursolve.gcode import (
     Block,
     Directive,
@@ -64,25 +63,27 @@ from contoursolve.program.stream import Line, View, each_block, go_on, pass_plai
 from contoursolve.program.tape_markers import Marks
 from contoursolve.reading import (
     COMMENTED,
+    TURNED,
+    Dialect,
     Effect,
     Modes,
     ParsedContour,
     ReadIssue,
     State,
+    Ways,
     advance,
     advance_plainly,
     apply_modes,
     codes_of,
+    contours_of,
     is_plain,
     next_place,
+    reach_of,
+    state_facts,
 )
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import contours_of, reach_of, state_facts
-from contoursolve.reading.lexicon import TURNED
-from contoursolve.reading.ways import Ways
 
 if TYPE_CHECKING:
-    from contoursolve.statements import Statement
+    from contoursolve.geometry import Statement
 
 
 class Result(Shown, Struct, frozen=True):
@@ -155,7 +156,7 @@ def _in_words(fact: Directive, plane: Plane, unit: Length) -> Directive:
     """A fact with the text that states it."""
     if fact.statement is None:
         return fact
-    from contoursolve.statements import write_statement  # noqa: PLC0415 - few programs need it
+    from contoursolve.geometry import write_statement  # noqa: PLC0415 - few programs need it
 
     text = write_statement(cast("Statement", fact.statement), plane, unit)
     return replace(fact, text=text, span=Span(fact.span.line, 1, len(text) + 1))
@@ -643,13 +644,13 @@ class Examiner:
         if dialect is None or self.asked.depth is Depth.VERDICT:
             return
         if any(f",{word.address}" in dialect.modes.lexicon.addresses for word in block.words):
-            from contoursolve.diagnosis.typo_fixes import explain_commas  # noqa: PLC0415 - few programs need it
+            from contoursolve.diagnosis import explain_commas  # noqa: PLC0415 - few programs need it
 
             context = Context(self.rules, self.asked.unit, place=block.span)
             self.diagnostics += explain_commas(context, dialect, blocks[:_NEAR], states, self.previous)
         codes = dialect.modes.codes
         if any(word.address == "G" and word.number is not None and word.number not in codes for word in block.words):
-            from contoursolve.diagnosis.typo_fixes import explain_codes  # noqa: PLC0415 - few programs need it
+            from contoursolve.diagnosis import explain_codes  # noqa: PLC0415 - few programs need it
 
             context = Context(self.rules, self.asked.unit, place=block.span)
             self.diagnostics = [*explain_codes(context, dialect, blocks[:_NEAR], states[0], self.diagnostics)]
@@ -658,7 +659,7 @@ class Examiner:
 
     def _check_letters(self, dialect: Dialect, blocks: Sequence[Block], before: State) -> None:
         """Whether the first of some lines would be a contour with digits for letters, as the control would read it."""
-        from contoursolve.diagnosis.typo_fixes import explain_letters  # noqa: PLC0415 - few programs need it
+        from contoursolve.diagnosis import explain_letters  # noqa: PLC0415 - few programs need it
 
         block = blocks[0]
         own = [each for each in self.diagnostics if each.span.line == block.line]
@@ -705,7 +706,7 @@ class Examiner:
             found, self.rules, self.asked.policy, lambda: next_place(behind, found, dialect.modes), self.asked.depth
         )
         if answer.contour is not None and any(value.value is not None for value in answer.answers):
-            from contoursolve.diagnosis.fill import fill_in  # noqa: PLC0415 - few blocks ask for a value
+            from contoursolve.diagnosis import fill_in  # noqa: PLC0415 - few blocks ask for a value
 
             answer = replace(answer, filled=fill_in(answer, state, dialect))
         # A path across the spindle axis is as the words say it.
@@ -717,7 +718,7 @@ class Examiner:
             answer = replace(answer, diagnostics=tuple(diagnostics))
         elif has_findings and self.asked.depth is not Depth.VERDICT:
             # Most programs need no diagnosis, and none should wait for its import.
-            from contoursolve.diagnosis.diagnose import diagnose  # noqa: PLC0415
+            from contoursolve.diagnosis import diagnose  # noqa: PLC0415
 
             answer = diagnose(answer, dialect, self.asked.policy, blocks[after : after + _BEHIND], pending.previous)
             if self.asked.depth is Depth.FULL and any(each.about is ReadIssue.VARIABLE for each in answer.diagnostics):
@@ -727,7 +728,7 @@ class Examiner:
         elif self.asked.depth is not Depth.VERDICT and any(
             each.about is ReadIssue.POINT_MISSING for each in answer.diagnostics
         ):
-            from contoursolve.diagnosis.diagnose import mend_points  # noqa: PLC0415
+            from contoursolve.diagnosis import mend_points  # noqa: PLC0415
 
             answer = mend_points(answer, dialect)
         return answer
@@ -814,7 +815,7 @@ class Examiner:
 
     def _slips_as(self, dialect: Dialect, blocks: Sequence[Block]) -> Iterator[Diagnostic]:
         """The words that make a contour for a control with their comma, in the first lines of a program."""
-        from contoursolve.diagnosis.typo_fixes import explain_commas  # noqa: PLC0415 - few programs need it
+        from contoursolve.diagnosis import explain_commas  # noqa: PLC0415 - few programs need it
 
         state, tries = dialect.initial_state(self.asked.unit), _TRIES
         lacking = {each[1:] for each in dialect.modes.lexicon.addresses if each.startswith(",")}

@@ -6,17 +6,13 @@ from math import cos, dist, radians, sin
 
 from msgspec import Struct
 
-from contoursolve.diagnosis.explain import Context, report
-from contoursolve.diagnosis.wording import measured
-from contoursolve.diagnostics.finding import Basis, Diagnostic
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnosis import Context, measured, report
+from contoursolve.diagnostics import Basis, Diagnostic, Span
 from contoursolve.gcode import Caller
 from contoursolve.geometry import Length, Plane
 from contoursolve.program.solve_queue import Step
-from contoursolve.reading import ReadIssue, State
-from contoursolve.reading.rules import Rule
-from contoursolve.solving import Point
-from contoursolve.solving.contour import ArcSegment, Segment
+from contoursolve.reading import ReadIssue, Rule, State
+from contoursolve.solving import ArcSegment, Point, Segment
 
 ONE_WAY: Mapping[str, tuple[int, ...]] = {"G71": (0, 1), "G72": (1, 0)}
 """Along which axes of the plane (0: Z, 1: X) the profile of a cycle goes one way: always along the first, and along

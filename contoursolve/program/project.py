@@ -20,9 +20,9 @@ from pathlib import Path
 from typing import Any
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnostics.errors import UserError
+from contoursolve.diagnostics import UserError
 from contoursolve.gcode import split_lines
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Dialect
 
 OWN, SHARED = "contoursolve.toml", "pyproject.toml"
 

@@ -8,8 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace as replace_fields
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.examine import Answer, Depth
-from contoursolve.diagnosis.wording import coordinates, either, join
+from contoursolve.diagnosis import Answer, Depth, coordinates, either, join
 from contoursolve.gcode import Block, Program
 from contoursolve.program.called_files import blocks_of_called_files
 from contoursolve.program.pipeline import Run
@@ -23,8 +22,7 @@ from contoursolve.program.recognise import (
     what_shows,
 )
 from contoursolve.program.request import Request
-from contoursolve.reading import ReadIssue
-from contoursolve.reading.dialect import Dialect, Taken
+from contoursolve.reading import Dialect, ReadIssue, Taken
 from contoursolve.tolerance import ERROR_BOUND_WARNING
 
 

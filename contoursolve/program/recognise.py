@@ -6,12 +6,11 @@ from dataclasses import replace
 from itertools import islice
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.wording import either, join
-from contoursolve.diagnostics.errors import ProgramError
+from contoursolve.diagnosis import either, join
+from contoursolve.diagnostics import ProgramError
 from contoursolve.gcode import Block, Program, Syntax, Word
 from contoursolve.program.project import CONTROL, FIRST_LINES, check_settings, configure, stated_settings
-from contoursolve.reading import ReadIssue, plain_lines, words_of
-from contoursolve.reading.dialect import Dialect, Taken
+from contoursolve.reading import Dialect, ReadIssue, Taken, plain_lines, words_of
 
 
 class UnknownControlError(ProgramError, ValueError):

@@ -8,18 +8,16 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis.examine import Depth, Policy
-from contoursolve.diagnostics.choices import choice_of
-from contoursolve.execution.subprograms import ALONE, Surroundings, surroundings_of
-from contoursolve.execution.variables import check_names
+from contoursolve.diagnosis import Depth, Policy
+from contoursolve.diagnostics import choice_of
+from contoursolve.execution import ALONE, Surroundings, check_names, surroundings_of
 from contoursolve.gcode import Directive, Program, parse, read_directive, spelled
 from contoursolve.geometry import Length
 from contoursolve.program.called_files import blocks_of_called_files
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import Rule
+from contoursolve.reading import Dialect, Rule
 
 if TYPE_CHECKING:
-    from contoursolve.statements import Statement
+    from contoursolve.geometry import Statement
 
 
 class Request(Struct, frozen=True):

@@ -8,16 +8,23 @@ from typing import Any, Protocol, cast
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
-from contoursolve.diagnosis.explain import Context, context_of, report
-from contoursolve.diagnosis.wording import join, measured
-from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic
+from contoursolve.diagnosis import Answer, Context, Depth, Policy, context_of, examine, join, measured, report
+from contoursolve.diagnostics import Applicability, Basis, Diagnostic
 from contoursolve.gcode import Block, Passage, parse_block
 from contoursolve.program.stream import View
-from contoursolve.reading import Awaited, Modes, ParsedContour, Position, ReadIssue, State, leave
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import End, contours_of
-from contoursolve.solving.contour import Contour
+from contoursolve.reading import (
+    Awaited,
+    Dialect,
+    End,
+    Modes,
+    ParsedContour,
+    Position,
+    ReadIssue,
+    State,
+    contours_of,
+    leave,
+)
+from contoursolve.solving import Contour
 
 
 class Step(Struct, frozen=True):

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from itertools import islice
 from typing import overload
 
-from contoursolve.execution.events import ProgramEvent
+from contoursolve.execution import ProgramEvent
 from contoursolve.gcode import Block, Passage, parse_block
 from contoursolve.reading import words_of
 

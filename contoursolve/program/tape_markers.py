@@ -5,9 +5,8 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.explain import Context, report
-from contoursolve.diagnostics.finding import Basis, Diagnostic
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnosis import Context, report
+from contoursolve.diagnostics import Basis, Diagnostic, Span
 from contoursolve.gcode import ISO, Block, Passage
 from contoursolve.reading import ReadIssue, words_of
 

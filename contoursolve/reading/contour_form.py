@@ -11,7 +11,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics import Evidence, Source
 from contoursolve.geometry import (
     Arc,
     Corner,

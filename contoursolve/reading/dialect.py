@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from msgspec import Struct
 
-from contoursolve.diagnostics.finding import Diagnostic
+from contoursolve.diagnostics import Diagnostic
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane
 from contoursolve.reading.contour_form import Assumption, ContourForm, Setting

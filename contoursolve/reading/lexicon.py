@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from enum import Enum
 
-from contoursolve.diagnostics.source import Source
+from contoursolve.diagnostics import Source
 from contoursolve.gcode import Word
 from contoursolve.geometry import Given, Length, Plane, Unit
 

@@ -10,9 +10,8 @@ from functools import partial
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnostics.source import Span
-from contoursolve.execution.language import MacroLanguage
-from contoursolve.execution.machine import MOST_BLOCKS, Limit
+from contoursolve.diagnostics import Span
+from contoursolve.execution import MOST_BLOCKS, Limit, MacroLanguage
 from contoursolve.gcode import (
     ISO,
     Block,

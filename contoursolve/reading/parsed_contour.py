@@ -1,15 +1,14 @@
 """A contour found in a program: its form, blocks and words, and where it leaves the tool."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
-from dataclasses import replace as replace_fields
+from dataclasses import dataclass, field, replace as replace_fields
 from decimal import Decimal
 from enum import Enum
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Span
 from contoursolve.gcode import Block, Directive, Word
 from contoursolve.geometry import Choice, Fact, Given, Layout, Line, Pick, Plane, Profile, Question, Radius, Side
 from contoursolve.reading.contour_form import Assumption, ContourForm, Convention, lay_out

@@ -7,9 +7,7 @@ from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
 
-from contoursolve.diagnostics.display import Shown
-from contoursolve.diagnostics.finding import Alarm, Severity
-from contoursolve.diagnostics.source import Source
+from contoursolve.diagnostics import Alarm, Severity, Shown, Source
 from contoursolve.geometry import Role, names_of_roles
 
 Stated = Mapping[str, Decimal | None]

@@ -9,8 +9,8 @@ from typing import Any, overload
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnostics.source import Span
-from contoursolve.execution.events import EventKind, ProgramEvent
+from contoursolve.diagnostics import Span
+from contoursolve.execution import EventKind, ProgramEvent
 from contoursolve.gcode import Block
 from contoursolve.reading.lexicon import Effect
 from contoursolve.reading.modal_state import Mode, Modes, Position, State, with_diameters

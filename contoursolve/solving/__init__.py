@@ -4,39 +4,6 @@ A profile comes in, a solution or refusals go out. Begin with `solve`; what has 
 in `ambiguity`, `alternatives` and `enumerate`.
 """
 
-from contoursolve.solving.compare import compare
-from contoursolve.solving.numbers import lookup, scalars_of
-from contoursolve.solving.plan import NoClosedFormError, Plan, is_closed, make_plan, points_with_two_solutions
-from contoursolve.solving.solution import (
-    BESIDE,
-    CornerSolution,
-    Note,
-    NoteKind,
-    Point,
-    Refusal,
-    RefusalKind,
-    Solution,
-    Status,
-)
-from contoursolve.solving.solve import solve
+from lazy_loader import attach_stub
 
-__all__ = [
-    "BESIDE",
-    "CornerSolution",
-    "NoClosedFormError",
-    "Note",
-    "NoteKind",
-    "Plan",
-    "Point",
-    "Refusal",
-    "RefusalKind",
-    "Solution",
-    "Status",
-    "compare",
-    "is_closed",
-    "lookup",
-    "make_plan",
-    "points_with_two_solutions",
-    "scalars_of",
-    "solve",
-]
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

@@ -15,11 +15,10 @@ import numpy
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis.identities import is_affine
-from contoursolve.diagnostics.finding import Freedom
+from contoursolve.diagnostics import Freedom
 from contoursolve.geometry import FIRST, SECOND, Fact, Profile, assemble, scalar
-from contoursolve.numeric.echelon import CONSTANT, Echelon
-from contoursolve.numeric.linear_algebra import pinv, svd
+from contoursolve.numeric import CONSTANT, Echelon, pinv, svd
+from contoursolve.solving.identities import is_affine
 from contoursolve.solving.numbers import lookup
 from contoursolve.tolerance import REGULAR
 

@@ -9,7 +9,6 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse, groups_of, spare_of
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -32,12 +31,10 @@ from contoursolve.geometry import (
     assemble,
     scalar,
 )
-from contoursolve.numeric import ball
-from contoursolve.numeric.angle import direction
-from contoursolve.numeric.ball import Number
-from contoursolve.numeric.inputs import COSINE, SINE
+from contoursolve.numeric import COSINE, SINE, Number, ball, direction
 from contoursolve.solving.compare import compare_fact
 from contoursolve.solving.compile import compile_path
+from contoursolve.solving.determinacy import analyse, groups_of, spare_of
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import Doubt, Found, enumerate_solutions
 from contoursolve.solving.exact_inputs import ground_of

@@ -8,8 +8,6 @@ from functools import lru_cache
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import Group, analyse, circuits_of, groups_of
-from contoursolve.analysis.identities import is_affine
 from contoursolve.gcode import Word
 from contoursolve.geometry import (
     FIRST,
@@ -31,8 +29,11 @@ from contoursolve.geometry import (
 from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.alternatives import Alternative, Alternatives, decide, find_alternatives
 from contoursolve.solving.compare import compare_affine
+from contoursolve.solving.determinacy import analyse, circuits_of, groups_of
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import enumerate_solutions
+from contoursolve.solving.identities import is_affine
+from contoursolve.solving.partition import Group
 from contoursolve.solving.plan import is_closed
 from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind, Solution, Status
 from contoursolve.solving.solve import solve

@@ -8,19 +8,32 @@ from typing import Any
 import numpy
 from msgspec import Struct
 
-from contoursolve.analysis import Group, basis_of
 from contoursolve.geometry import System
-from contoursolve.numeric import ball, expressions, intervals
-from contoursolve.numeric.ball import Number
-from contoursolve.numeric.expressions import Tape
-from contoursolve.numeric.hc4 import Boxes, Narrower, approach, contract, joined, stacked
-from contoursolve.numeric.inputs import lookup
-from contoursolve.numeric.interpreter import Replay
-from contoursolve.numeric.intervals import Intervals, constant
-from contoursolve.numeric.newton import Finder, finder_of
+from contoursolve.numeric import (
+    Array,
+    Boxes,
+    Finder,
+    Intervals,
+    Narrower,
+    Number,
+    Replay,
+    Tape,
+    approach,
+    ball,
+    constant,
+    contract,
+    expressions,
+    finder_of,
+    intervals,
+    joined,
+    lookup,
+    stacked,
+)
+from contoursolve.solving.determinacy import basis_of
 from contoursolve.solving.elimination import Root
 from contoursolve.solving.implied_constraints import consequences, necessities
 from contoursolve.solving.krawczyk import keep, prove, refine
+from contoursolve.solving.partition import Group
 from contoursolve.solving.step_equations import Kernel
 
 BATCH = 1024
@@ -224,25 +237,25 @@ def _narrowed(narrower: Narrower, boxes: Boxes, known: list[Intervals]) -> Boxes
     return boxes
 
 
-def _is_narrow(boxes: Boxes, sizes: intervals.Array) -> Any:
+def _is_narrow(boxes: Boxes, sizes: Array) -> Any:
     """In which directions boxes are too small to be divided."""
     middle, size = sizes[boxes.case, :, 0], sizes[boxes.case, :, 1]
     far = numpy.maximum(numpy.abs(boxes.low - middle), numpy.abs(boxes.high - middle))
     return boxes.high - boxes.low <= NARROWEST * numpy.maximum(size, far)
 
 
-def _where(slopes: intervals.Array, boxes: Boxes, sizes: intervals.Array) -> intervals.Array:
+def _where(slopes: Array, boxes: Boxes, sizes: Array) -> Array:
     """The unknown to divide of each box: the one whose width moves the equations most, each by its share.
 
     The smear of Kearfott (1987), relative and summed as by Trombettoni, Araya and others (2011), AAAI.
     """
     smear = numpy.minimum(slopes, 1e100) * (boxes.high - boxes.low)[:, None, :]
     share = smear / numpy.maximum(smear.sum(axis=2, keepdims=True), 1e-300)
-    found: intervals.Array = numpy.where(_is_narrow(boxes, sizes), 0.0, share.sum(axis=1)).argmax(axis=1)
+    found: Array = numpy.where(_is_narrow(boxes, sizes), 0.0, share.sum(axis=1)).argmax(axis=1)
     return found
 
 
-def _divided(boxes: Boxes, slopes: intervals.Array, sizes: intervals.Array) -> Boxes:
+def _divided(boxes: Boxes, slopes: Array, sizes: Array) -> Boxes:
     """Two parts of each box, or more where there are few boxes: a batch of a few takes as long as one of many."""
     parts = boxes
     while True:

@@ -7,8 +7,7 @@ from functools import lru_cache
 from msgspec import Struct
 
 from contoursolve.geometry import INCREMENT_OF, Profile, System
-from contoursolve.numeric import ball
-from contoursolve.numeric.ball import Number
+from contoursolve.numeric import Number, ball
 from contoursolve.solving.compile import ProofMachine, compile_decision, compile_proof
 from contoursolve.solving.numbers import inputs_as
 from contoursolve.solving.solution import Certificate, Proof, up_to_one_digit

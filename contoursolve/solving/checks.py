@@ -8,7 +8,6 @@ from typing import Any
 import numpy
 from msgspec import Struct
 
-from contoursolve.analysis import analyse
 from contoursolve.geometry import (
     FIRST,
     INCREMENT_OF,
@@ -31,13 +30,29 @@ from contoursolve.geometry import (
     assemble,
     scalar,
 )
-from contoursolve.numeric.columns import Array, difference, directions, replay_rows
-from contoursolve.numeric.expressions import Tape, at_most, below, larger, largest, magnitude, opposite, sqrt, true
-from contoursolve.numeric.inputs import COSINE, SINE, lookup
-from contoursolve.numeric.interpreter import Replay
+from contoursolve.numeric import (
+    COSINE,
+    SINE,
+    Array,
+    Replay,
+    Tape,
+    at_most,
+    below,
+    difference,
+    directions,
+    larger,
+    largest,
+    lookup,
+    magnitude,
+    opposite,
+    replay_rows,
+    sqrt,
+    true,
+)
 from contoursolve.solving.compare import allowance, is_directed
 from contoursolve.solving.compile import Machine, compile_plainly, compile_system
 from contoursolve.solving.corners import Pair
+from contoursolve.solving.determinacy import analyse
 from contoursolve.solving.numbers import axes_of, inputs_of
 from contoursolve.solving.plan import AffineStep, DistanceStep, Step, TwoCirclesStep, is_closed, lines_through
 from contoursolve.solving.solution import RefusalKind

@@ -7,23 +7,36 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.analysis import Group, basis_of, groups_of, spare_of
-from contoursolve.geometry import FIRST, SECOND, ChamferLeg, Fact, Line, Parallel, Radius, System, Values, scalar
-from contoursolve.geometry.lines import moves_of
-from contoursolve.numeric.expressions import (
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    ChamferLeg,
+    Fact,
+    Line,
+    Parallel,
+    Radius,
+    System,
+    Values,
+    moves_of,
+    scalar,
+)
+from contoursolve.numeric import (
+    SIDE,
     Expression,
     Tape,
     is_number,
     is_zero,
     larger,
+    lookup,
     quadratic_parts,
     sqrt,
     symbol,
     where,
 )
-from contoursolve.numeric.inputs import SIDE, lookup
 from contoursolve.solving.alternatives import side_values
 from contoursolve.solving.compile import Machine, compile_path
+from contoursolve.solving.determinacy import basis_of, groups_of, spare_of
+from contoursolve.solving.partition import Group
 from contoursolve.solving.plan import NoClosedFormError, Plan
 
 ROOT = "root:"

@@ -6,7 +6,6 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse, circuits_of
 from contoursolve.geometry import (
     FIRST,
     INCREMENT_OF,
@@ -26,9 +25,10 @@ from contoursolve.geometry import (
     Unit,
     Values,
     assemble,
+    step,
 )
-from contoursolve.geometry.system import step
 from contoursolve.solving.affine import AffineFacts, Circuit, IndependentFacts
+from contoursolve.solving.determinacy import analyse, circuits_of
 from contoursolve.solving.numbers import lookup
 from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind
 from contoursolve.tolerance import AGREEMENT, RESIDUAL

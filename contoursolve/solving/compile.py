@@ -7,7 +7,6 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.analysis import spare_of
 from contoursolve.geometry import (
     FIRST,
     INCREMENT_OF,
@@ -25,27 +24,29 @@ from contoursolve.geometry import (
     Values,
     scalar,
 )
-from contoursolve.numeric import ball
-from contoursolve.numeric.expressions import (
+from contoursolve.numeric import (
     Compiled,
+    Replay,
     Tape,
     affine_parts,
     angle,
     at_most,
+    ball,
+    cosine as cosine_of,
+    given_directions,
     is_zero,
     jacobian_parts,
     magnitude,
+    named_inputs,
     sign,
+    sine as sine_of,
     sqrt,
     symbol,
     where,
 )
-from contoursolve.numeric.expressions import cosine as cosine_of
-from contoursolve.numeric.expressions import sine as sine_of
-from contoursolve.numeric.inputs import given_directions, named_inputs
-from contoursolve.numeric.interpreter import Replay
 from contoursolve.solving.compare import half_circle_allowance
 from contoursolve.solving.corners import Edge, Pair, build_corner, drop_straight, unit
+from contoursolve.solving.determinacy import spare_of
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep, make_plan
 from contoursolve.tolerance import LENGTH, REGULAR, TOUCHING
 

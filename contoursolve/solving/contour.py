@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from msgspec import Struct
 
-from contoursolve.diagnostics.display import Shown
+from contoursolve.diagnostics import Shown
 from contoursolve.geometry import Corner, Heading, Line, Plane, Profile, Turn
 from contoursolve.solving.solution import Point, Solution
 from contoursolve.tolerance import AGREEMENT, LENGTH

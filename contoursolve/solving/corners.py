@@ -12,7 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.geometry import CornerShape
-from contoursolve.numeric.expressions import angle, is_zero, magnitude, sign, sqrt, where
+from contoursolve.numeric import angle, is_zero, magnitude, sign, sqrt, where
 
 Pair = tuple[Any, Any]
 

@@ -6,10 +6,8 @@ from itertools import combinations
 
 from msgspec import Struct
 
-from contoursolve.analysis.determinacy import witness_of
-from contoursolve.numeric import ball
-from contoursolve.numeric.ball import Number
-from contoursolve.numeric.modular_rank import PRIME
+from contoursolve.numeric import PRIME, Number, ball
+from contoursolve.solving.determinacy import witness_of
 from contoursolve.solving.step_equations import Coefficient, Kernel, Monomial, Polynomial, known, polynomial, rational
 
 SHEAR = 0.4140625

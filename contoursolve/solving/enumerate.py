@@ -7,14 +7,13 @@ from typing import TypeVar
 
 from msgspec import Struct
 
-from contoursolve.analysis import Group, groups_of
-from contoursolve.analysis.determinacy import witness_of
 from contoursolve.geometry import Fact, Line, Profile, System, scalar
-from contoursolve.numeric import ball
-from contoursolve.numeric.ball import Number
+from contoursolve.numeric import Number, ball
 from contoursolve.solving.branch_and_prune import Division, Task, conditions_of, divide, settle
+from contoursolve.solving.determinacy import groups_of, witness_of
 from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Root, solve_step
 from contoursolve.solving.exact_inputs import Ground, ground_of
+from contoursolve.solving.partition import Group
 from contoursolve.solving.step_equations import Coefficient, Kernel, make_kernel
 
 

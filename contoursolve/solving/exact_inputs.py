@@ -4,9 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from contoursolve.geometry import FIRST, SECOND, Functions, Given, Profile, System, Unit, Values, scalar
-from contoursolve.numeric import ball
-from contoursolve.numeric.ball import Number
-from contoursolve.numeric.inputs import COSINE, SIDE
+from contoursolve.numeric import COSINE, SIDE, Number, ball
 from contoursolve.solving.numbers import axes_of
 
 REACH = 4.0

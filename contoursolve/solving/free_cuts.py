@@ -9,7 +9,6 @@ from math import atan2, cos, degrees, dist, sin, tau
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -30,6 +29,7 @@ from contoursolve.geometry import (
 )
 from contoursolve.solving.alternatives import Alternatives, find_alternatives
 from contoursolve.solving.ambiguity import restrict, settle
+from contoursolve.solving.determinacy import analyse
 from contoursolve.solving.solution import Point, Status
 from contoursolve.tolerance import LENGTH
 

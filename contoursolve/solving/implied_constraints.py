@@ -25,10 +25,14 @@ from contoursolve.geometry import (
     TangentLine,
     Through,
     TurnBetween,
+    both,
+    cross,
+    dot,
     line_scalars,
+    rotate,
+    side_of,
+    step,
 )
-from contoursolve.geometry.system import both, cross, dot, rotate, step
-from contoursolve.geometry.touching import side_of
 from contoursolve.solving.exact_inputs import SMALLEST
 
 

@@ -3,11 +3,10 @@
 from collections.abc import Mapping, Sequence
 from enum import Enum
 
-from contoursolve.analysis import Group
 from contoursolve.geometry import System
-from contoursolve.numeric import ball, expressions
-from contoursolve.numeric.ball import Number
+from contoursolve.numeric import Number, ball, expressions
 from contoursolve.solving.exact_inputs import Ground
+from contoursolve.solving.partition import Group
 from contoursolve.solving.solution import Proof, up_to_one_digit
 from contoursolve.solving.step_equations import Kernel, make_kernel
 

@@ -18,8 +18,7 @@ from contoursolve.geometry import (
     headed_lines,
     scalar,
 )
-from contoursolve.numeric.angle import direction
-from contoursolve.numeric.inputs import COSINE, SINE
+from contoursolve.numeric import COSINE, SINE, direction
 from contoursolve.solving.solution import CornerSolution, Point, Solution, Status
 
 Kind = TypeVar("Kind")

@@ -8,8 +8,8 @@ from itertools import pairwise
 from math import atan2, cos, dist, pi, remainder, sin, tau
 from typing import TYPE_CHECKING
 
-from contoursolve.analysis import analyse, groups_of
 from contoursolve.geometry import Arc, Line, Pick, Profile, System, assemble
+from contoursolve.solving.determinacy import analyse, groups_of
 from contoursolve.solving.solution import Note, NoteKind, Point, Refusal, RefusalKind
 from contoursolve.tolerance import LENGTH
 

@@ -6,7 +6,6 @@ from itertools import pairwise
 
 from msgspec import Struct
 
-from contoursolve.analysis import Group, analyse, basis_of, groups_of, spare_of
 from contoursolve.geometry import (
     Arc,
     Collinear,
@@ -19,8 +18,9 @@ from contoursolve.geometry import (
     System,
     both,
 )
-from contoursolve.numeric.expressions import Tape, is_affine
-from contoursolve.numeric.inputs import lookup
+from contoursolve.numeric import Tape, is_affine, lookup
+from contoursolve.solving.determinacy import analyse, basis_of, groups_of, spare_of
+from contoursolve.solving.partition import Group
 
 
 class AffineStep(Struct, frozen=True):

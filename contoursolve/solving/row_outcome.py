@@ -6,7 +6,7 @@ from enum import IntEnum
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.numeric.columns import Array
+from contoursolve.numeric import Array
 from contoursolve.solving.checks import Check, Role
 from contoursolve.solving.solution import RefusalKind, Status
 

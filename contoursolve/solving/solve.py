@@ -7,7 +7,6 @@ from math import asin, atan2, degrees, dist, hypot, inf, isfinite
 
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -22,12 +21,12 @@ from contoursolve.geometry import (
     assemble,
     scalar,
 )
-from contoursolve.numeric.angle import direction
-from contoursolve.numeric.expressions import inverse_norm
+from contoursolve.numeric import direction, inverse_norm
 from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.certify import certify, decide_meeting
 from contoursolve.solving.compare import compare_affine, compare_fact, givens_of
 from contoursolve.solving.compile import compile_system
+from contoursolve.solving.determinacy import analyse
 from contoursolve.solving.numbers import inputs_of, lookup, scalars_of, sizes_of, solution_at
 from contoursolve.solving.path import check_path, check_range
 from contoursolve.solving.plan import (

@@ -6,14 +6,20 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.analysis import Group
 from contoursolve.geometry import Fact, Functions, System
-from contoursolve.numeric import ball, expressions, modular_rank
-from contoursolve.numeric.ball import Number
-from contoursolve.numeric.expressions import Tape
-from contoursolve.numeric.inputs import lookup
-from contoursolve.numeric.interpreter import Replay
-from contoursolve.numeric.modular_rank import PRIME, draw, draw_direction
+from contoursolve.numeric import (
+    PRIME,
+    Number,
+    Replay,
+    Tape,
+    ball,
+    draw,
+    draw_direction,
+    expressions,
+    lookup,
+    modular_rank,
+)
+from contoursolve.solving.partition import Group
 
 
 class Coefficient:

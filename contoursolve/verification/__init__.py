@@ -4,19 +4,6 @@ It reads programs with the same tables as the solver, and shares none of its equ
 each kind of constraint means, for every form of every control.
 """
 
-from contoursolve.verification.decode import CannotVerifyError, Document, document_of_blocks, read_document
-from contoursolve.verification.receipt import ContourReceipt, Receipt, Verdict, report_lines, to_json
-from contoursolve.verification.walk import verify
+from lazy_loader import attach_stub
 
-__all__ = [
-    "CannotVerifyError",
-    "ContourReceipt",
-    "Document",
-    "Receipt",
-    "Verdict",
-    "document_of_blocks",
-    "read_document",
-    "report_lines",
-    "to_json",
-    "verify",
-]
+__getattr__, __dir__, __all__ = attach_stub(__name__, __file__)

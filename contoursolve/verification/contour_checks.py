@@ -10,9 +10,8 @@ from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.gcode import Word
-from contoursolve.geometry import Choice, Coordinate, Fact, Heading
+from contoursolve.geometry import Choice, Coordinate, Fact, Heading, apply_statements
 from contoursolve.reading import ParsedContour, unused_words
-from contoursolve.statements import apply_statements
 from contoursolve.tolerance import AGREEMENT, RESIDUAL
 from contoursolve.verification import rank
 from contoursolve.verification.decode import (

@@ -9,9 +9,8 @@ import msgspec
 from msgspec import Meta, Struct
 
 from contoursolve import gcode
-from contoursolve.diagnostics.errors import UserError
-from contoursolve.gcode import STANDARD_INPUT, Program, UnreadableProgramError
-from contoursolve.gcode.contents import decode
+from contoursolve.diagnostics import UserError
+from contoursolve.gcode import STANDARD_INPUT, Program, UnreadableProgramError, decode
 
 FARTHEST = 1e12
 """mm. The largest number read: words end at 1e6 mm, and intersections of lines 0.001 deg apart at 1e11 mm."""

@@ -14,7 +14,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Heading, Level, Offset, Radius, scalar
-from contoursolve.numeric.linear_algebra import pinv, shortest_solution, svd
+from contoursolve.numeric import pinv, shortest_solution, svd
 from contoursolve.tolerance import REGULAR
 from contoursolve.verification.residuals import Array, ResidualSystem, direction
 

@@ -7,8 +7,8 @@ from math import isfinite
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.wording import count
-from contoursolve.diagnostics.json_text import json_text, members
+from contoursolve.diagnosis import count
+from contoursolve.diagnostics import json_text, members
 from contoursolve.geometry import Length
 from contoursolve.tolerance import AGREEMENT, RESIDUAL
 from contoursolve.verification.decode import Document

@@ -16,8 +16,21 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve import geometry as kinds
-from contoursolve.geometry import FIRST, SECOND, Fact, Figure, Profile, Unit, headed_lines, line_scalars, scalar
-from contoursolve.geometry.system import both, cross, dot, rotate
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Fact,
+    Figure,
+    Profile,
+    Unit,
+    both,
+    cross,
+    dot,
+    headed_lines,
+    line_scalars,
+    rotate,
+    scalar,
+)
 
 Vector = tuple[Any, Any]
 Array = NDArray[Any]

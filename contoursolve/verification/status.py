@@ -12,7 +12,7 @@ import numpy
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnostics.finding import Severity
+from contoursolve.diagnostics import Severity
 from contoursolve.gcode import FaultKind, Word
 from contoursolve.geometry import (
     FIRST,
@@ -34,14 +34,11 @@ from contoursolve.geometry import (
     Ray,
     TurnBetween,
     Unit,
+    apply_statements,
     line_scalars,
     scalar,
 )
-from contoursolve.reading import ParsedContour, read
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import Offence
-from contoursolve.reading.rules import check as check_rules
-from contoursolve.statements import apply_statements
+from contoursolve.reading import Dialect, Offence, ParsedContour, check as check_rules, read
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH, REGULAR, RESIDUAL
 from contoursolve.verification import rank
 from contoursolve.verification.decode import PRINTED, ClaimedArc, ClaimedContour, ClaimedLine, Point, Status

@@ -10,15 +10,22 @@ from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
-from contoursolve.execution.events import EventKind, ProgramEvent
-from contoursolve.execution.machine import Limit, Machine, machine_of
-from contoursolve.execution.subprograms import ALONE, Surroundings, surroundings_of
+from contoursolve.execution import ALONE, EventKind, Limit, Machine, ProgramEvent, Surroundings, machine_of, surroundings_of
 from contoursolve.gcode import Block, Directive, Program
 from contoursolve.geometry import Length
-from contoursolve.reading import Modes, ParsedContour, State, advance, leave, next_place
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.follow import reach_of, state_facts
-from contoursolve.reading.ways import Ahead, Ways
+from contoursolve.reading import (
+    Ahead,
+    Dialect,
+    Modes,
+    ParsedContour,
+    State,
+    Ways,
+    advance,
+    leave,
+    next_place,
+    reach_of,
+    state_facts,
+)
 from contoursolve.verification.contour_checks import check_contour
 from contoursolve.verification.decode import (
     FARTHEST,

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from contoursolve.families import REASONS
-from contoursolve.solving import RefusalKind as Kind
+from contoursolve.solving import REASONS, RefusalKind as Kind
 
 CHUNK = 8_192
 LENGTH, RESIDUAL, REGULAR, TOUCHING = 1e-9, 1e-9, 1e-12, 16 * 2.0**-52

@@ -13,15 +13,13 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 from examples import control_of, law, some_of
-from hypothesis import assume
-from hypothesis import strategies as st
+from hypothesis import assume, strategies as st
 from interpreter import RefusedError, assert_path, interpret
 
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.comparison import compare, follow
-from contoursolve.controls import DIALECTS, YASNAC_LX3
-from contoursolve.controls import PLAIN as TARGET_CONTROLS
+from contoursolve.controls import DIALECTS, PLAIN as TARGET_CONTROLS, YASNAC_LX3
 from contoursolve.diagnosis.examine import Depth
 from contoursolve.diagnostics.finding import Severity
 from contoursolve.execution.machine import needs_running
@@ -30,8 +28,7 @@ from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.postprocess.emit import Format, emit
 from contoursolve.postprocess.post_processors import LINUXCNC, POSTS, Arcs, Machine
 from contoursolve.program.lines import Lines
-from contoursolve.program.pipeline import run as solved
-from contoursolve.program.pipeline import walk
+from contoursolve.program.pipeline import run as solved, walk
 from contoursolve.program.request import Request
 from contoursolve.reading import Effect
 from contoursolve.solving.contour import ArcSegment, LineSegment

@@ -17,8 +17,7 @@ import generate_nct
 import pytest
 from click.testing import CliRunner
 from examples import some_of
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 import contoursolve
 from contoursolve import geometry

@@ -11,14 +11,12 @@ from examples import few_and_many, some_of
 from examples_fanuc import EXAMPLES, drawn
 from fanuc import read
 from generate_fanuc import random_lathe, random_mill
-from generate_lx3 import FORMS as ARC_FORMS
-from generate_lx3 import random_g11, random_g112
+from generate_lx3 import FORMS as ARC_FORMS, random_g11, random_g112
 from generate_nct import FORMS, Drawn, random_chain, random_cornered, random_pair
 from interpreter import assert_path, interpret, interpret_all
 from oracle import Element, g111
 from oracle_fanuc import Machine, whole
-from oracle_mitsubishi import FORMS as PAIRS
-from oracle_mitsubishi import RIGHT, random_block
+from oracle_mitsubishi import FORMS as PAIRS, RIGHT, random_block
 
 import contoursolve
 from contoursolve.comparison import Path, compare, follow

@@ -36,76 +36,72 @@ from records import replace
 from sketches import chain_of, sketch_of
 
 from contoursolve import Sketch, solve
-from contoursolve.analysis import analyse
 from contoursolve.geometry import (
     Along,
     ArcContact,
     ArcLength,
     ChamferLeg,
+    ChordIs,
     ChordSetback,
+    CircleAt,
     Collinear,
     Contact,
     Coordinate,
     Directed,
+    DirectionIs,
     Distance,
     EqualDistances,
+    EqualLengths,
     EqualRadii,
+    EqualSizes,
     Extent,
     Foot,
     Functions,
     Heading,
     Leaving,
     Length,
+    LengthIs,
     Level,
+    LineAt,
+    Meeting,
+    MeetsLine,
     Offset,
     OnCircle,
     Parallel,
     ParallelLines,
+    ParallelTo,
+    PassesBeside,
+    PassesThrough,
     Plane,
     PointBeside,
+    PointIs,
+    PolarAngleIs,
     Radius,
+    RadiusIs,
     RadiusStep,
     Ray,
     Setback,
     Spoke,
+    StraightIs,
     Tangent,
     TangentArc,
     TangentCircles,
     TangentLine,
     Through,
+    Touches,
     Turn,
     TurnBetween,
+    TurnIs,
     UnitDirection,
     Values,
-    assemble,
-)
-from contoursolve.output.document import to_json
-from contoursolve.solving import NoClosedFormError, is_closed
-from contoursolve.solving import solve as solve_in_closed_form
-from contoursolve.statements import (
-    ChordIs,
-    CircleAt,
-    DirectionIs,
-    EqualLengths,
-    EqualSizes,
-    LengthIs,
-    LineAt,
-    Meeting,
-    MeetsLine,
-    ParallelTo,
-    PassesBeside,
-    PassesThrough,
-    PointIs,
-    PolarAngleIs,
-    RadiusIs,
-    StraightIs,
-    Touches,
-    TurnIs,
     Vocabulary,
+    assemble,
     read_statement,
     write_statement,
 )
-from contoursolve.statements.apply import vocabulary_of
+from contoursolve.geometry.statements.apply import vocabulary_of
+from contoursolve.output.document import to_json
+from contoursolve.solving import NoClosedFormError, analyse, is_closed, solve as solve_in_closed_form
 
 # Laws of equations ----------------------------------------------------------------------------------------
 

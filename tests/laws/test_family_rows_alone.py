@@ -10,10 +10,11 @@ from examples import few_and_many
 from generate_families import BLOCKS, ROWS, draw
 
 from contoursolve import FamilyError, family, find_word, sensitivity, solve, tolerances
-from contoursolve.families import Code, feasible, region
+from contoursolve.families import feasible, region
 from contoursolve.families.spec import name_of, spec_of
 from contoursolve.families.traced_reading import Traced
 from contoursolve.output.families import rest_lines
+from contoursolve.solving import Code
 
 NEAR = 1e-7  # mm, or of the coordinate
 

@@ -9,8 +9,9 @@ import pytest
 from examples import few_and_many
 
 import contoursolve
-from contoursolve.families import Code, family
+from contoursolve.families import family
 from contoursolve.output.document import to_json
+from contoursolve.solving import Code
 from contoursolve.verification import Document, Verdict, verify
 
 

@@ -14,8 +14,7 @@ from typing import Any
 
 import pytest
 from examples import law, some_of
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 from oracle import PLANES
 from records import replace
 

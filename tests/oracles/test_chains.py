@@ -36,6 +36,7 @@ from oracle_apollonius import (
     KNOWN,
     Circle,
     EndlessError,
+    Line as Endless,
     Point,
     Thing,
     circles_of_radius,
@@ -47,7 +48,6 @@ from oracle_apollonius import (
     tangent_lines,
     touching_things,
 )
-from oracle_apollonius import Line as Endless
 
 BRACKET = Chain(
     (0j, 10 + 0j, 15 + 5j, 15 + 15j, 11 + 13j),

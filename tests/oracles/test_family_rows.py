@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from oracle_columns import JUDGED, circle_line, g111
 
-from contoursolve.families import Code, family
+from contoursolve.families import family
+from contoursolve.solving import Code
 
 ROWS, PART = 200_000, 500_000
 """Of a form, and of it at once."""

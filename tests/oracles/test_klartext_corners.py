@@ -8,8 +8,9 @@ from examples import some_of
 
 import contoursolve
 from contoursolve import ArcSegment
-from contoursolve.families import Code, family
+from contoursolve.families import family
 from contoursolve.output.document import to_json
+from contoursolve.solving import Code
 from contoursolve.verification import Document, Verdict, verify
 
 BEGIN, END = "0 BEGIN PGM A MM\n", "99 END PGM A MM\n"

@@ -9,11 +9,9 @@ from random import Random
 import numpy
 import pytest
 from examples import few_and_many, some_of
-from generate_lx3 import FORMS as LATHE_FORMS
-from generate_lx3 import random_g11, random_g112
+from generate_lx3 import FORMS as LATHE_FORMS, random_g11, random_g112
 from generate_nct import FORMS, disturbed, draw_path, random_chain, random_cornered, random_pair
-from oracle import PLANES, Element, Outcome, circle_line, cross, dot
-from oracle import _RefusedError as Refused
+from oracle import PLANES, Element, Outcome, _RefusedError as Refused, circle_line, cross, dot
 from oracle_corners import Corner, ahead, connect, gap, length, miss, stretch
 from oracle_lx3 import contours, g11, g12, g112
 from oracle_nct import runs

@@ -24,13 +24,12 @@ from sketches import chain_case, chain_of, is_among, is_drawing, sketch_of
 
 import contoursolve
 from contoursolve import Answer, Sketch
-from contoursolve.analysis import analyse, order
 from contoursolve.cli import main
 from contoursolve.diagnosis.examine import list_alternatives
 from contoursolve.diagnosis.solutions import DECIMALS, printed_certificate
 from contoursolve.geometry import assemble
 from contoursolve.numeric import ball
-from contoursolve.sketch import Drawings, Drawn
+from contoursolve.solving import Drawings, Drawn, analyse, order
 from contoursolve.solving.branch_and_prune import search
 from contoursolve.solving.enumerate import enumerate_solutions
 from contoursolve.solving.exact_inputs import ground_of

@@ -11,12 +11,12 @@ import pytest
 from msgspec.structs import asdict
 
 from contoursolve import geometry
-from contoursolve.analysis import derive
 from contoursolve.controls import DIALECTS, write_tables
 from contoursolve.geometry import build_system
 from contoursolve.reading import lay_out, stated_sets
+from contoursolve.solving import derive
 
-TEXT = pkgutil.get_data("contoursolve.analysis", "verdicts.json").decode()
+TEXT = pkgutil.get_data("contoursolve.solving", "verdicts.json").decode()
 TABLE = json.loads(TEXT)
 FACTS = {name: getattr(geometry, name) for name in geometry.__all__}
 STEP = 1e-6

@@ -7,8 +7,7 @@ from typing import Any
 
 import pytest
 from _pytest.mark import ParameterSet
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
+from hypothesis import example, given, settings, strategies as st
 
 THINNED = 8
 """One of so many of the sampled cases is run, so that the command of the README ends in two minutes, and all of CI in

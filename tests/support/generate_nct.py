@@ -13,8 +13,7 @@ from math import degrees, radians, tau
 from random import Random
 from typing import NamedTuple
 
-from oracle import PLANES, Element, Outcome, cross, dot, heading
-from oracle import _RefusedError as Refused
+from oracle import PLANES, Element, Outcome, _RefusedError as Refused, cross, dot, heading
 from oracle_corners import Corner, ahead, bend, connect, length, stretch
 
 FORMS = ("line-line", "line-circle", "circle-line", "circle-circle")

@@ -11,8 +11,7 @@ from itertools import pairwise
 from math import radians, sin, sqrt
 from typing import NamedTuple
 
-from oracle import PLANES, Element, Outcome, cross, dot, heading, sign
-from oracle import _RefusedError as Refused
+from oracle import PLANES, Element, Outcome, _RefusedError as Refused, cross, dot, heading, sign
 from oracle_corners import Corner, ahead, connect
 
 _WORD = re.compile(r"(,?[A-Z])([+-]?\d*\.?\d+|[+-]?\d+\.)")

@@ -48,8 +48,7 @@ from collections.abc import Sequence
 from decimal import Decimal
 from math import sqrt
 
-from oracle import Element, Outcome, Words, sign
-from oracle import _RefusedError as Refused
+from oracle import Element, Outcome, Words, _RefusedError as Refused, sign
 from oracle_corners import Corner, connect
 
 FAR = 1e6

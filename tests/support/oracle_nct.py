@@ -21,8 +21,7 @@ from decimal import Decimal
 from math import acos, copysign, sqrt, tau
 from typing import NamedTuple
 
-from oracle import PLANES, Element, Outcome, Words, cross, dot, heading, meet, sign
-from oracle import _RefusedError as Refused
+from oracle import PLANES, Element, Outcome, Words, _RefusedError as Refused, cross, dot, heading, meet, sign
 from oracle_corners import Corner, connect
 
 

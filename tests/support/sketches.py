@@ -6,7 +6,7 @@ from random import Random
 from chains import Arc, Chain, Fact, distance_between, form_residuals, measure, random_chain, random_facts
 
 from contoursolve import Sketch
-from contoursolve.sketch import Drawn
+from contoursolve.solving import Drawn
 
 
 def sketch_of(chain: Chain, facts: Sequence[Fact]) -> Sketch:

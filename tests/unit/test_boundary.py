@@ -12,8 +12,9 @@ from test_family import CASES, text_of
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.families import Code, FamilyError, RefusedError, Way, family, feasible, region, regions
+from contoursolve.families import FamilyError, RefusedError, Way, family, feasible, region, regions
 from contoursolve.families.spec import NotClosedError
+from contoursolve.solving import Code
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
 WORDS = [(name, word) for name, (_, _, ranges) in CASES.items() for word in ranges if not word.endswith("Q")]

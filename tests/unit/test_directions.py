@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from contoursolve import Diagnostic, Result, family, solve
 from contoursolve.cli import main
 from contoursolve.diagnostics.finding import Tie
-from contoursolve.families import Code
+from contoursolve.solving import Code
 from contoursolve.verification import Document, Verdict, verify
 
 G111 = "G111 {A} I12. K-12. B180. Z-40."

@@ -15,8 +15,8 @@ from examples import few_and_many, some_of
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.cli.blocks import read_range
-from contoursolve.families import REASONS, Code, FamilyError, family, sensitivity
-from contoursolve.solving import RefusalKind
+from contoursolve.families import FamilyError, family, sensitivity
+from contoursolve.solving import REASONS, Code, RefusalKind
 
 LATHE, MILL = {"start": "X40. Z0."}, {}
 _NCT = "G17 G90 {comp} G0 X{x} Y{y}\n"

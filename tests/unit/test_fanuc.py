@@ -32,8 +32,9 @@ from oracle_fanuc import Machine, run
 from contoursolve import Result, UnknownControlError, check, expand, solve
 from contoursolve.cli import main
 from contoursolve.diagnostics.finding import Diagnostic
-from contoursolve.families import Code, FamilyError, family
+from contoursolve.families import FamilyError, family
 from contoursolve.output.document import to_json
+from contoursolve.solving import Code
 from contoursolve.verification import Document, Verdict, verify
 
 

@@ -12,9 +12,8 @@ from hypothesis import strategies as st
 
 from contoursolve import solve
 from contoursolve.cli import main
-from contoursolve.geometry import Length, Plane
+from contoursolve.geometry import GrammarError, Length, Plane, Vocabulary, read_statement
 from contoursolve.output.catalogue import vocabulary_lines
-from contoursolve.statements import GrammarError, Vocabulary, read_statement
 
 LATHE = Vocabulary(
     ("line 1", "line 2", "line 3", "corner 1", "corner 2", "arc", "line"),

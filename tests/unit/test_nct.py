@@ -17,9 +17,10 @@ from contoursolve import Result, check, expand, solve
 from contoursolve.cli import main
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics.finding import Diagnostic
-from contoursolve.families import Code, family
+from contoursolve.families import family
 from contoursolve.output.document import to_json
 from contoursolve.program.project import SettingError
+from contoursolve.solving import Code
 from contoursolve.verification import Document, Verdict, verify
 
 FROM_CIRCLE = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"

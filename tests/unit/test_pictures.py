@@ -22,7 +22,6 @@ import contoursolve
 from contoursolve.cli import main
 from contoursolve.diagnosis.wording import statuses_text
 from contoursolve.diagnostics.finding import Severity
-from contoursolve.families import Code
 from contoursolve.pictures import (
     Picture,
     Theme,
@@ -42,6 +41,7 @@ from contoursolve.pictures.scene import Leader, Mark, MarkKind
 from contoursolve.pictures.subject import subject_of
 from contoursolve.pictures.svg import PIXELS
 from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
+from contoursolve.solving import Code
 from contoursolve.solving.contour import ArcSegment
 
 PROGRAMS = sorted((Path(__file__).parents[2] / "notebooks" / "programs").glob("*.nc"))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from contoursolve import Drawings, Sketch, Status
-from contoursolve.statements import LengthIs, RadiusIs
+from contoursolve.geometry import LengthIs, RadiusIs
 
 
 def stated(sketch: Sketch, *facts: Any) -> Drawings:

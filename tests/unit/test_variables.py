@@ -5,8 +5,7 @@ from math import cos, radians, tan
 import numpy
 import pytest
 from click.testing import CliRunner
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 import contoursolve
 from contoursolve.cli import main

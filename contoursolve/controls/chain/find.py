@@ -11,13 +11,13 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse
 from contoursolve.controls.chain.claim import claim_of
 from contoursolve.controls.chain.language import Element, Joining, Language, Member
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Turn, assemble
 from contoursolve.reading import (
     COMMENTED,
+    Dialect,
     Effect,
     Modes,
     ParsedContour,
@@ -30,9 +30,7 @@ from contoursolve.reading import (
     positions,
     read,
 )
-from contoursolve.reading.dialect import Dialect
-from contoursolve.solving import Status, is_closed, solve
-from contoursolve.solving.contour import ArcSegment, Segment, trace
+from contoursolve.solving import ArcSegment, Segment, Status, analyse, is_closed, solve, trace
 
 STRAIGHT = 1e-6
 """How far beside the direction before it an arc may end that becomes a line, mm."""

@@ -8,8 +8,7 @@ from msgspec import Struct
 
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import CornerShape, Heading, Plane, Side, Turn
-from contoursolve.reading import Assumption, ContourForm, Convention, Lexicon, Modes, Sample, Setting, State
-from contoursolve.reading.rules import Condition
+from contoursolve.reading import Assumption, Condition, ContourForm, Convention, Lexicon, Modes, Sample, Setting, State
 
 LINE, ARC = "line", "arc"
 OVER_LINE, OVER_CIRCLE = "over-defined line", "over-defined circle"

@@ -21,10 +21,9 @@ from contoursolve.controls.chain.language import (
 )
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
-from contoursolve.diagnostics.finding import Alarm, Severity
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
 from contoursolve.gcode import FaultKind
-from contoursolve.reading.rules import Condition, Parallel, Rule, Value, all_of, some
+from contoursolve.reading import Condition, Parallel, Rule, Value, all_of, some
 from contoursolve.solving import RefusalKind
 
 ANY, LINES = (LINE, OVER_LINE, ARC), (LINE, OVER_LINE)

@@ -26,9 +26,7 @@ from contoursolve.controls.fanuc.rules import (
 )
 from contoursolve.controls.plain import LATHE, PLANES
 from contoursolve.gcode import Block, Word
-from contoursolve.reading import Modes, Setting
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import Rule
+from contoursolve.reading import Dialect, Modes, Rule, Setting
 
 
 def _signs(own: frozenset[str], block: Block) -> tuple[Word, ...]:

@@ -18,10 +18,9 @@ from contoursolve.controls.fanuc.lexicon import (
     MILL_WORDS,
 )
 from contoursolve.controls.plain import LATHE
-from contoursolve.diagnostics.source import Book
+from contoursolve.diagnostics import Book
 from contoursolve.geometry import CornerShape
-from contoursolve.reading import Modes, Sample, Setting, State
-from contoursolve.reading.rules import all_of, some
+from contoursolve.reading import Modes, Sample, Setting, State, all_of, some
 
 GUARD = Decimal(1)
 """Degrees: the angles within which a control computes no vertex and makes no corner."""

@@ -15,8 +15,8 @@ from contoursolve.controls.plain import (
     lexicon,
     merge,
 )
-from contoursolve.diagnostics.source import Book, Evidence, Source
-from contoursolve.execution.fanuc import fanuc, haas
+from contoursolve.diagnostics import Book, Evidence, Source
+from contoursolve.execution import fanuc, haas
 from contoursolve.geometry import Unit
 from contoursolve.reading import Address, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 

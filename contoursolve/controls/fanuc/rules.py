@@ -31,10 +31,8 @@ from contoursolve.controls.fanuc.language import (
 )
 from contoursolve.controls.fanuc.lexicon import CORNERS, DRAWING, HAAS
 from contoursolve.controls.geometry_rules import COMMA_MISSING, GEOMETRY_RULES
-from contoursolve.diagnostics.finding import Alarm
-from contoursolve.diagnostics.source import Book, Evidence, Source
-from contoursolve.reading import ReadIssue
-from contoursolve.reading.rules import Along, Parallel, Rule, all_of, at_least, some
+from contoursolve.diagnostics import Alarm, Book, Evidence, Source
+from contoursolve.reading import Along, Parallel, ReadIssue, Rule, all_of, at_least, some
 from contoursolve.solving import RefusalKind
 
 _ANY = (LINE, OVER_LINE, ARC)

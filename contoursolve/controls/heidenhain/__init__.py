@@ -10,9 +10,8 @@ from contoursolve.controls.heidenhain.lexicon import CODES, LEXICON, SETTINGS, S
 from contoursolve.controls.heidenhain.rules import RULES
 from contoursolve.controls.heidenhain.writer import WRITING
 from contoursolve.controls.plain import PLANES
-from contoursolve.execution.klartext import klartext
-from contoursolve.reading import Modes
-from contoursolve.reading.dialect import Dialect
+from contoursolve.execution import klartext
+from contoursolve.reading import Dialect, Modes
 
 HEIDENHAIN = Dialect(
     name="heidenhain",

@@ -50,8 +50,7 @@ from contoursolve.geometry import (
     Turn,
     TurnBetween,
 )
-from contoursolve.reading import Assumption, ContourForm, CornerRow, FactRow
-from contoursolve.reading.rules import some
+from contoursolve.reading import Assumption, ContourForm, CornerRow, FactRow, some
 
 START = "S"
 TANGENCY = "tangent"

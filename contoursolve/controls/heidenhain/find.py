@@ -12,7 +12,6 @@ from itertools import count
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.analysis import analyse
 from contoursolve.controls.heidenhain.elements import (
     ALONG,
     BESIDE,
@@ -59,7 +58,7 @@ from contoursolve.controls.heidenhain.lexicon import (
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Choice, Given, Pick, Profile, Side, Turn, Unit, assemble
 from contoursolve.reading import Convention, Modes, ParsedContour, State, apply_modes, read
-from contoursolve.solving.free_cuts import place_cuts
+from contoursolve.solving import analyse, place_cuts
 
 NO_SENSE, NO_POLE, NO_BEFORE = "@no-sense", "@no-pole", "@no-before"
 """An arc without DR; polar data without a pole; a tangent element behind none."""

@@ -17,11 +17,10 @@ from contoursolve.controls.heidenhain.lexicon import (
     STRAIGHT,
     function_of,
 )
-from contoursolve.diagnostics.source import Span
+from contoursolve.diagnostics import Span
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
-from contoursolve.reading import Modes, Position, State, apply_modes
-from contoursolve.reading.modal_state import axis_words, positions
+from contoursolve.reading import Modes, Position, State, apply_modes, axis_words, positions
 from contoursolve.tolerance import LENGTH
 
 PLANE = ("X", "Y")

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 from contoursolve.controls.common import setting
 from contoursolve.controls.further import rows as rows_beside
-from contoursolve.diagnostics.source import Book, Source
+from contoursolve.diagnostics import Book, Source
 from contoursolve.gcode import Block, Syntax, Word, words_as
 from contoursolve.geometry import Unit
 from contoursolve.reading import Address, Bearing, Code, Effect, Lexicon, NumberFormat, WithoutPoint

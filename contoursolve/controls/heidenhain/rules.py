@@ -32,11 +32,9 @@ from contoursolve.controls.heidenhain.find import (
     TWO_BLOCKS,
 )
 from contoursolve.controls.heidenhain.lexicon import BOOK, CHAMFER, REFERRED, REFERRING, REFERRING_TO_LINES, ROUNDING
-from contoursolve.diagnostics.finding import Alarm, Severity
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
 from contoursolve.gcode import FaultKind
-from contoursolve.reading import ReadIssue
-from contoursolve.reading.rules import Condition, Rule, Value, all_of, some
+from contoursolve.reading import Condition, ReadIssue, Rule, Value, all_of, some
 from contoursolve.solving import NoteKind, RefusalKind
 
 _INCOMPLETE = Alarm("402-0008 (incomplete input in the FK block)", Evidence.PRINTED)

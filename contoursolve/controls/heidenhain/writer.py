@@ -10,11 +10,8 @@ from contoursolve.controls.heidenhain.follow import CENTER, PLANE, begins_chain,
 from contoursolve.controls.heidenhain.lexicon import BLOCK_NUMBER, CODES, LEXICON, MOVES, SYNTAX, function_of
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Turn
-from contoursolve.reading import Modes, State, axis_words
-from contoursolve.reading.modal_dependence import Carried, carried
-from contoursolve.reading.writer import Around, Restated, Writing
-from contoursolve.solving.contour import center_by_radius
-from contoursolve.solving.solution import Point
+from contoursolve.reading import Around, Carried, Modes, Restated, State, Writing, axis_words, carried
+from contoursolve.solving import Point, center_by_radius
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 
 _MODES = Modes(LEXICON, CODES, ("X", "Y", "Z"), frozenset(), syntax=SYNTAX)

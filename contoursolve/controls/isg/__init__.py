@@ -12,8 +12,7 @@ from contoursolve.controls.isg.lexicon import CHAMFER, MODES, ROUNDING, SYNTAX
 from contoursolve.controls.isg.rules import RULES
 from contoursolve.controls.plain import PLANES
 from contoursolve.gcode import Block, Word, words_as
-from contoursolve.reading import Diameter
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Dialect, Diameter
 
 _CORNER = re.compile(r"G[ \t]*+(?:=[ \t]*+)?30[12]", re.IGNORECASE)
 """Most blocks have none of it, and need not be read again."""

@@ -9,8 +9,7 @@ from contoursolve.controls.common import angle_sense_setting, first_motion_setti
 from contoursolve.controls.isg.lexicon import BOOK, CHAMFER, MODES, ROUNDING
 from contoursolve.controls.plain import PLANES
 from contoursolve.geometry import CornerShape
-from contoursolve.reading import Modes, Sample, State
-from contoursolve.reading.rules import some
+from contoursolve.reading import Modes, Sample, State, some
 
 NO_SIZE = "@no-size"
 """A corner block without a size, before any."""

@@ -6,10 +6,9 @@ from dataclasses import replace
 
 from contoursolve.controls.further import rows as rows_beside
 from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, lexicon
-from contoursolve.diagnostics.source import Book
-from contoursolve.execution.isg import COMMENT, isg
-from contoursolve.gcode import Block, Syntax, Word
-from contoursolve.gcode.syntax import IN_BRACKETS
+from contoursolve.diagnostics import Book
+from contoursolve.execution import COMMENT, isg
+from contoursolve.gcode import IN_BRACKETS, Block, Syntax, Word
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import (
     COMMENTED,

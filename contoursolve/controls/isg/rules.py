@@ -13,9 +13,8 @@ from contoursolve.controls.chain.language import (
 from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, rules_of
 from contoursolve.controls.isg.language import NO_SIZE
 from contoursolve.controls.isg.lexicon import BOOK
-from contoursolve.diagnostics.finding import Alarm
-from contoursolve.diagnostics.source import Evidence
-from contoursolve.reading.rules import Count, all_of, some
+from contoursolve.diagnostics import Alarm, Evidence
+from contoursolve.reading import Count, all_of, some
 from contoursolve.solving import RefusalKind
 
 _IDS = {

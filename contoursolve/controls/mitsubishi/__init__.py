@@ -10,7 +10,7 @@ from contoursolve.controls.mitsubishi.lexicon import MODES
 from contoursolve.controls.mitsubishi.rules import RULES
 from contoursolve.controls.plain import PLANES
 from contoursolve.gcode import Block, Word
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Dialect
 
 
 def _signs(block: Block) -> tuple[Word, ...]:

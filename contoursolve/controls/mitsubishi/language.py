@@ -24,9 +24,7 @@ from contoursolve.controls.chain.language import (
 )
 from contoursolve.controls.common import arc_chamfer_setting, length_setting, number_setting, setting
 from contoursolve.controls.mitsubishi.lexicon import BOOK, MODES, TURNED_PLANES, turned
-from contoursolve.reading import Assumption, ContourForm, Convention, Modes, Sample, State
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import some
+from contoursolve.reading import Assumption, ContourForm, Convention, Dialect, Modes, Sample, State, some
 
 PICK_REQUIRED, STRAIGHT_ONLY = "@pick-required", "@straight-only"
 UNGUARDED, ALONG_ARC, PICKS_NOTHING = "@unguarded", "@along-arc", "@picks-nothing"

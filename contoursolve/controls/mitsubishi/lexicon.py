@@ -7,8 +7,8 @@ from msgspec.structs import replace as replace_fields
 
 from contoursolve.controls.further import MILLS, UNREAD_CALLS, known_by_name
 from contoursolve.controls.plain import CALLS, LATHE, MILL_CODES, PLANES, code_rows, lexicon, merge
-from contoursolve.diagnostics.source import Book, Evidence, Source
-from contoursolve.execution.fanuc import fanuc
+from contoursolve.diagnostics import Book, Evidence, Source
+from contoursolve.execution import fanuc
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Plane, Unit
 from contoursolve.reading import Address, Effect, Lexicon, Modes, NumberFormat, WithoutPoint

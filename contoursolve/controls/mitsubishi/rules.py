@@ -34,9 +34,8 @@ from contoursolve.controls.mitsubishi.language import (
     UNGUARDED,
 )
 from contoursolve.controls.mitsubishi.lexicon import BOOK
-from contoursolve.diagnostics.finding import Alarm, Severity
-from contoursolve.diagnostics.source import Evidence, Source
-from contoursolve.reading.rules import Condition, Parallel, Rule, Value, all_of, some
+from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
+from contoursolve.reading import Condition, Parallel, Rule, Value, all_of, some
 from contoursolve.solving import RefusalKind
 
 _BESIDE = tuple(f"beside-{axis}" for axis in "XYZ")

@@ -6,8 +6,7 @@ from contoursolve.controls.nct_99m.language import LANGUAGE, SETTINGS
 from contoursolve.controls.nct_99m.lexicon import CODES, MODES, XY, YZ, ZX
 from contoursolve.controls.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES
 from contoursolve.gcode import Block, Word
-from contoursolve.reading import Effect
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Dialect, Effect
 
 
 def _signs(block: Block) -> tuple[Word, ...]:

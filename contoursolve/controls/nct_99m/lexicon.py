@@ -16,11 +16,21 @@ from contoursolve.controls.chain.language import (
 )
 from contoursolve.controls.further import MILLS, UNREAD_CALLS, known_by_name, letters
 from contoursolve.controls.plain import CALLS, MILL_CODES, PLANES, code_rows, merge
-from contoursolve.diagnostics.source import Book
-from contoursolve.execution.fanuc import fanuc
+from contoursolve.diagnostics import Book
+from contoursolve.execution import fanuc
 from contoursolve.geometry import Unit
-from contoursolve.reading import Address, Assumption, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
-from contoursolve.reading.rules import Condition, Value, some
+from contoursolve.reading import (
+    Address,
+    Assumption,
+    Condition,
+    Effect,
+    Lexicon,
+    Modes,
+    NumberFormat,
+    Value,
+    WithoutPoint,
+    some,
+)
 
 BOOK = Book("NCT 99M/2000M Programmer's Manual")
 CHAPTER = BOOK.printed("16.3.3, p. 129")

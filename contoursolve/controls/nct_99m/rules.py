@@ -24,9 +24,8 @@ from contoursolve.controls.chain.language import (
 )
 from contoursolve.controls.geometry_rules import COMMA_MISSING, told
 from contoursolve.controls.nct_99m.lexicon import BESIDE, BOOK, SINGLE_BLOCK, UNCOMPENSATED
-from contoursolve.diagnostics.finding import Alarm, Severity
-from contoursolve.diagnostics.source import Evidence, Source
-from contoursolve.reading.rules import Rule, Value, all_of, at_most, some
+from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
+from contoursolve.reading import Rule, Value, all_of, at_most, some
 from contoursolve.solving import NoteKind, RefusalKind
 
 _ANY = (LINE, ARC, OVER_LINE, OVER_CIRCLE)

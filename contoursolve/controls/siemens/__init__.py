@@ -13,8 +13,7 @@ from contoursolve.controls.siemens.language import LANGUAGE, SETTINGS
 from contoursolve.controls.siemens.lexicon import BOOK, MODES, SYNTAX
 from contoursolve.controls.siemens.rules import RULES, RULES_REDUCING
 from contoursolve.gcode import Block, Word, words_as
-from contoursolve.reading import Diameter, Setting
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Dialect, Diameter, Setting
 
 
 def _signs(block: Block) -> tuple[Word, ...]:

@@ -9,9 +9,7 @@ from contoursolve.controls.common import angle_sense_setting, arc_chamfer_settin
 from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.lexicon import BOOK, MODES, TANGENT_ARC
 from contoursolve.geometry import CornerShape
-from contoursolve.reading import ContourForm, Convention, Diameter, Modes, Sample, State
-from contoursolve.reading.dialect import Dialect
-from contoursolve.reading.rules import all_of, some
+from contoursolve.reading import ContourForm, Convention, Dialect, Diameter, Modes, Sample, State, all_of, some
 
 STRICT_ANGLE, NO_STEPS, ALONG_ARC = "@strict-angle", "@no-steps", "@along-arc"
 

@@ -8,11 +8,9 @@ from msgspec import structs
 
 from contoursolve.controls.further import rows as rows_beside
 from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, coming_back, lexicon
-from contoursolve.diagnostics.source import Book
-from contoursolve.execution.language import MacroLanguage
-from contoursolve.execution.sinumerik import sinumerik
-from contoursolve.gcode import Block, Syntax, Word, long_parts
-from contoursolve.gcode.syntax import IN_BRACKETS, IN_PARENTHESES
+from contoursolve.diagnostics import Book
+from contoursolve.execution import MacroLanguage, sinumerik
+from contoursolve.gcode import IN_BRACKETS, IN_PARENTHESES, Block, Syntax, Word, long_parts
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import Address, Bearing, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 

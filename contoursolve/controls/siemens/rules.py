@@ -17,10 +17,9 @@ from contoursolve.controls.chain.language import (
 from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, rules_of
 from contoursolve.controls.siemens.language import ALONG_ARC, NO_STEPS, STRICT_ANGLE
 from contoursolve.controls.siemens.lexicon import BOOK
-from contoursolve.diagnostics.finding import Alarm, Severity
-from contoursolve.diagnostics.source import Evidence
+from contoursolve.diagnostics import Alarm, Evidence, Severity
 from contoursolve.gcode import FaultKind
-from contoursolve.reading.rules import Value, all_of, some
+from contoursolve.reading import Value, all_of, some
 from contoursolve.solving import RefusalKind
 
 _ALARMS = {

@@ -9,7 +9,7 @@ from contoursolve.controls.yasnac_lx3.g112 import G112_FORMS, G112_RULES
 from contoursolve.controls.yasnac_lx3.leaving import LEAVING_FORMS, LEAVING_RULES
 from contoursolve.controls.yasnac_lx3.lexicon import BEVEL, MODES, MOTION_AFTER
 from contoursolve.gcode import Block, Word
-from contoursolve.reading.dialect import Dialect
+from contoursolve.reading import Dialect
 
 _OF_A_POCKET = frozenset("DJLQY")
 """Words of a circular pocket, which G12 is on Haas mills, and of no bevel or quarter circle."""

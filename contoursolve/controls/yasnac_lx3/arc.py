@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from contoursolve.controls.yasnac_lx3.claim import claim_of
 from contoursolve.controls.yasnac_lx3.g111 import START
 from contoursolve.controls.yasnac_lx3.lexicon import BOOK
-from contoursolve.diagnostics.finding import Severity
+from contoursolve.diagnostics import Severity
 from contoursolve.gcode import Block
 from contoursolve.geometry import (
     FIRST,
@@ -30,8 +30,7 @@ from contoursolve.geometry import (
     Turn,
     Unit,
 )
-from contoursolve.reading import ContourForm, FactRow, Modes, ParsedContour, State, apply_modes
-from contoursolve.reading.rules import Rule, at_most, some
+from contoursolve.reading import ContourForm, FactRow, Modes, ParsedContour, Rule, State, apply_modes, at_most, some
 from contoursolve.solving import NoteKind, RefusalKind
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 

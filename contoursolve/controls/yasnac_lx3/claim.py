@@ -16,8 +16,7 @@ from contoursolve.controls.yasnac_lx3.lexicon import (
 )
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import CornerShape, Given
-from contoursolve.reading import Code, ContourForm, Effect, Modes, ParsedContour, State, apply_modes, codes_of
-from contoursolve.reading.modal_state import Mode
+from contoursolve.reading import Code, ContourForm, Effect, Mode, Modes, ParsedContour, State, apply_modes, codes_of
 
 OTHER_G = "other G"
 """States that the block has a G code that uses the axis words itself."""

@@ -11,16 +11,23 @@ from contoursolve.controls.yasnac_lx3.claim import AXIS_EFFECTS
 from contoursolve.controls.yasnac_lx3.g111 import claim_g111
 from contoursolve.controls.yasnac_lx3.g112 import WAY, claim_g112
 from contoursolve.controls.yasnac_lx3.leaving import claim_leaving
-from contoursolve.diagnosis.examine import Policy, examine
-from contoursolve.diagnosis.explain import Context, report
-from contoursolve.diagnosis.wording import angle_text, length_text, place_text
-from contoursolve.diagnostics.finding import Applicability, Basis, Diagnostic, Fix
+from contoursolve.diagnosis import Context, Policy, angle_text, examine, length_text, place_text, report
+from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix
 from contoursolve.gcode import Block, Macro, Word, parse_block
 from contoursolve.geometry import FIRST, SECOND
-from contoursolve.reading import Code, Effect, Modes, ParsedContour, ReadIssue, State, apply_modes, codes_of, positions
-from contoursolve.reading.modal_dependence import restate
-from contoursolve.solving import Point
-from contoursolve.solving.contour import Contour
+from contoursolve.reading import (
+    Code,
+    Effect,
+    Modes,
+    ParsedContour,
+    ReadIssue,
+    State,
+    apply_modes,
+    codes_of,
+    positions,
+    restate,
+)
+from contoursolve.solving import Contour, Point
 from contoursolve.tolerance import AGREEMENT, LENGTH
 
 AXIS_WORDS = frozenset("XUZW")

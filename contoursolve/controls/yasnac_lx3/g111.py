@@ -6,12 +6,25 @@ from functools import cache
 from contoursolve.controls.geometry_rules import told
 from contoursolve.controls.yasnac_lx3.claim import OTHER_G, after_cornering, bevel_of, claim_of
 from contoursolve.controls.yasnac_lx3.lexicon import ASSUMPTIONS, BOOK, MOTION_AFTER, alarms
-from contoursolve.diagnostics.finding import Severity
-from contoursolve.diagnostics.source import Evidence, Source
+from contoursolve.diagnostics import Evidence, Severity, Source
 from contoursolve.gcode import Block
 from contoursolve.geometry import FIRST, SECOND, Coordinate, CornerShape, Heading, Line, Offset, Role
-from contoursolve.reading import ContourForm, CornerRow, FactRow, Modes, ParsedContour, ReadIssue, Sample, State
-from contoursolve.reading.rules import Rule, Value, all_of, at_least, at_most, some
+from contoursolve.reading import (
+    ContourForm,
+    CornerRow,
+    FactRow,
+    Modes,
+    ParsedContour,
+    ReadIssue,
+    Rule,
+    Sample,
+    State,
+    Value,
+    all_of,
+    at_least,
+    at_most,
+    some,
+)
 from contoursolve.solving import NoteKind, RefusalKind
 
 START, V1, V2 = "S", "V1", "V2"

@@ -9,8 +9,7 @@ from contoursolve.controls.geometry_rules import told
 from contoursolve.controls.yasnac_lx3.claim import OTHER_G, after_cornering, bevel_of, claim_of
 from contoursolve.controls.yasnac_lx3.g111 import PASSING, REFUSED, START, V1, V2
 from contoursolve.controls.yasnac_lx3.lexicon import ASSUMPTIONS, BOOK, alarms
-from contoursolve.diagnostics.finding import Severity
-from contoursolve.diagnostics.source import Evidence
+from contoursolve.diagnostics import Evidence, Severity
 from contoursolve.gcode import Block
 from contoursolve.geometry import (
     FIRST,
@@ -31,8 +30,21 @@ from contoursolve.geometry import (
     Turn,
     Unit,
 )
-from contoursolve.reading import ContourForm, CornerRow, FactRow, Modes, ParsedContour, Sample, State
-from contoursolve.reading.rules import Rule, Value, all_of, at_least, at_most, some
+from contoursolve.reading import (
+    ContourForm,
+    CornerRow,
+    FactRow,
+    Modes,
+    ParsedContour,
+    Rule,
+    Sample,
+    State,
+    Value,
+    all_of,
+    at_least,
+    at_most,
+    some,
+)
 from contoursolve.solving import NoteKind, RefusalKind
 
 CENTER, LANDING, RADIUS, WAY = "C", "landing line", "r", "way"

@@ -6,12 +6,24 @@ from functools import cache
 from contoursolve.controls.yasnac_lx3.claim import OTHER_G, claim_of
 from contoursolve.controls.yasnac_lx3.g111 import START, V1
 from contoursolve.controls.yasnac_lx3.lexicon import BOOK
-from contoursolve.diagnostics.finding import Alarm
-from contoursolve.diagnostics.source import Evidence
+from contoursolve.diagnostics import Alarm, Evidence
 from contoursolve.gcode import Block
 from contoursolve.geometry import FIRST, SECOND, Coordinate, CornerShape, Given, Level, Line, Offset, Role, Unit
-from contoursolve.reading import ContourForm, CornerRow, FactRow, Modes, ParsedContour, Sample, State, apply_modes
-from contoursolve.reading.rules import Rule, Value, all_of, at_most, some
+from contoursolve.reading import (
+    ContourForm,
+    CornerRow,
+    FactRow,
+    Modes,
+    ParsedContour,
+    Rule,
+    Sample,
+    State,
+    Value,
+    all_of,
+    apply_modes,
+    at_most,
+    some,
+)
 from contoursolve.solving import RefusalKind
 
 ALONG_Z, ALONG_X = "leaving Z", "leaving X"

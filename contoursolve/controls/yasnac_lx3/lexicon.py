@@ -5,9 +5,8 @@ from decimal import Decimal
 from contoursolve.controls.common import setting
 from contoursolve.controls.further import LATHES, UNREAD_CALLS, known_by_name, letters
 from contoursolve.controls.plain import LATHE_CODES, code_rows, merge
-from contoursolve.diagnostics.finding import Alarm
-from contoursolve.diagnostics.source import Book, Evidence
-from contoursolve.execution.fanuc import fanuc
+from contoursolve.diagnostics import Alarm, Book, Evidence
+from contoursolve.execution import fanuc
 from contoursolve.geometry import Unit
 from contoursolve.reading import (
     AT_ITS_LIMIT,
@@ -18,9 +17,12 @@ from contoursolve.reading import (
     Lexicon,
     Modes,
     NumberFormat,
+    Value,
     WithoutPoint,
+    all_of,
+    at_most,
+    some,
 )
-from contoursolve.reading.rules import Value, all_of, at_most, some
 
 BOOK = Book("YASNAC LX3 Instruction Manual")
 

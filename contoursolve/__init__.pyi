@@ -1,0 +1,105 @@
+from . import families as families, pictures as pictures
+from .api import (
+    UnreadableProgramError as UnreadableProgramError,
+    check as check,
+    check_file as check_file,
+    convert as convert,
+    expand as expand,
+    parse as parse,
+    read_program as read_program,
+    solve as solve,
+    solve_file as solve_file,
+    solve_program as solve_program,
+)
+from .controls import (
+    DIALECTS as DIALECTS,
+)
+from .diagnosis import (
+    Addition as Addition,
+    Answer as Answer,
+    Depth as Depth,
+    LegalBlock as LegalBlock,
+    Listing as Listing,
+    Policy as Policy,
+    legal_blocks as legal_blocks,
+    list_solutions as list_solutions,
+    ways_to_complete as ways_to_complete,
+    words_to_add as words_to_add,
+)
+from .diagnostics import (
+    Basis as Basis,
+    Diagnosis as Diagnosis,
+    Diagnostic as Diagnostic,
+    MissingExtraError as MissingExtraError,
+    Severity as Severity,
+)
+from .families import (
+    Family as Family,
+    FamilyError as FamilyError,
+    Feasible as Feasible,
+    Found as Found,
+    Region as Region,
+    Sensitivity as Sensitivity,
+    Tolerances as Tolerances,
+    family as family,
+    feasible as feasible,
+    find_word as find_word,
+    region as region,
+    sensitivity as sensitivity,
+    tolerances as tolerances,
+)
+from .gcode import (
+    Block as Block,
+    Program as Program,
+    Word as Word,
+)
+from .notebook import (
+    explore as explore,
+)
+from .output import (
+    StatedWord as StatedWord,
+    construction_lines as construction_lines,
+    end_text as end_text,
+    form_text as form_text,
+    path_table as path_table,
+    report_page as report_page,
+    rule_page as rule_page,
+    start_text as start_text,
+    stated_words as stated_words,
+)
+from .postprocess import (
+    BlockNumber as BlockNumber,
+    Conversion as Conversion,
+    Expansion as Expansion,
+    Replacement as Replacement,
+    block_number_at as block_number_at,
+    format_program as format_program,
+    rename_block as rename_block,
+)
+from .program import (
+    OpenContour as OpenContour,
+    OpenProgram as OpenProgram,
+    Result as Result,
+    SettingError as SettingError,
+    UnknownControlError as UnknownControlError,
+    find_settings as find_settings,
+)
+from .reading import (
+    Dialect as Dialect,
+)
+from .solving import (
+    ArcSegment as ArcSegment,
+    Contour as Contour,
+    Drawings as Drawings,
+    Drawn as Drawn,
+    LineSegment as LineSegment,
+    Sketch as Sketch,
+    Status as Status,
+)
+from .try_edits import (
+    Completion as Completion,
+    completions as completions,
+    what_if as what_if,
+)
+
+__version__: str

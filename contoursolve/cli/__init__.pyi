@@ -1,0 +1,3 @@
+from .group import (
+    main as main,
+)

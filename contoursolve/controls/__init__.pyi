@@ -1,0 +1,43 @@
+from .all_controls import (
+    DIALECTS as DIALECTS,
+)
+from .chain.find import (
+    ChainFinder as ChainFinder,
+)
+from .chain.language import (
+    Joining as Joining,
+    Language as Language,
+)
+from .common import (
+    COMMON_RULES as COMMON_RULES,
+)
+from .fanuc import (
+    FANUC_LATHE as FANUC_LATHE,
+    FANUC_MILL as FANUC_MILL,
+    HAAS_LATHE as HAAS_LATHE,
+    HAAS_MILL as HAAS_MILL,
+)
+from .heidenhain import (
+    HEIDENHAIN as HEIDENHAIN,
+)
+from .isg import (
+    ISG as ISG,
+)
+from .mitsubishi import (
+    MITSUBISHI as MITSUBISHI,
+)
+from .nct_99m import (
+    NCT_99M as NCT_99M,
+)
+from .plain import (
+    CENTERS as CENTERS,
+    PLAIN as PLAIN,
+    Centers as Centers,
+)
+from .siemens import (
+    SIEMENS_808D as SIEMENS_808D,
+    SIEMENS_840D as SIEMENS_840D,
+)
+from .yasnac_lx3 import (
+    YASNAC_LX3 as YASNAC_LX3,
+)

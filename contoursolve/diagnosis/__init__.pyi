@@ -1,0 +1,110 @@
+from .additions import (
+    Addition as Addition,
+    LegalBlock as LegalBlock,
+    legal_blocks as legal_blocks,
+    ways_to_complete as ways_to_complete,
+    words_to_add as words_to_add,
+)
+from .diagnose import (
+    diagnose as diagnose,
+    mend_points as mend_points,
+)
+from .edits import (
+    Edit as Edit,
+    EditKind as EditKind,
+    apply_edits as apply_edits,
+    change as change,
+    drop as drop,
+    edited as edited,
+    write_word as write_word,
+)
+from .examine import (
+    MOST_CHOICES as MOST_CHOICES,
+    Answer as Answer,
+    AskedValue as AskedValue,
+    Depth as Depth,
+    Policy as Policy,
+    answer_question as answer_question,
+    count_choices as count_choices,
+    examine as examine,
+    list_alternatives as list_alternatives,
+    rank as rank,
+)
+from .explain import (
+    Context as Context,
+    context_of as context_of,
+    report as report,
+)
+from .fill import (
+    FARTHEST as FARTHEST,
+    fill_in as fill_in,
+)
+from .repairs import (
+    find_repairs as find_repairs,
+)
+from .solutions import (
+    DECIMALS as DECIMALS,
+    Listed as Listed,
+    Listing as Listing,
+    decimals_of as decimals_of,
+    list_solutions as list_solutions,
+    printed_certificate as printed_certificate,
+)
+from .spelling import (
+    Meanings as Meanings,
+    counts_few as counts_few,
+    explain_asked_outside as explain_asked_outside,
+    explain_faults as explain_faults,
+    explain_start_diameter as explain_start_diameter,
+    explain_start_units as explain_start_units,
+    explain_unmarked as explain_unmarked,
+    explain_words as explain_words,
+    is_counted_start as is_counted_start,
+    readings as readings,
+    without_point as without_point,
+)
+from .table import (
+    tabulate as tabulate,
+)
+from .typo_fixes import (
+    explain_codes as explain_codes,
+    explain_commas as explain_commas,
+    explain_letters as explain_letters,
+)
+from .vocabulary import (
+    corner_words as corner_words,
+    explain_call as explain_call,
+    explain_codes_by_name as explain_codes_by_name,
+    explain_corners as explain_corners,
+    explain_vocabulary as explain_vocabulary,
+    has_corners as has_corners,
+    is_known as is_known,
+    moves as moves,
+    name_of as name_of,
+    not_read_yet as not_read_yet,
+)
+from .wording import (
+    SHOWN as SHOWN,
+    angle_text as angle_text,
+    axis_labels as axis_labels,
+    coordinate_texts as coordinate_texts,
+    coordinates as coordinates,
+    count as count,
+    either as either,
+    element_text as element_text,
+    inward as inward,
+    join as join,
+    length_in as length_in,
+    length_limit as length_limit,
+    length_of as length_of,
+    length_text as length_text,
+    limit_text as limit_text,
+    measured as measured,
+    place_text as place_text,
+    short_name as short_name,
+    statuses_text as statuses_text,
+    unknowns_text as unknowns_text,
+    value_text as value_text,
+    word_keys as word_keys,
+    written as written,
+)

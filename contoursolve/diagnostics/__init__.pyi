@@ -1,0 +1,41 @@
+from .choices import (
+    choice_of as choice_of,
+)
+from .display import (
+    Shown as Shown,
+)
+from .errors import (
+    ProgramError as ProgramError,
+    UserError as UserError,
+)
+from .extras import (
+    MissingExtraError as MissingExtraError,
+    importing as importing,
+    need as need,
+)
+from .finding import (
+    Alarm as Alarm,
+    Applicability as Applicability,
+    Basis as Basis,
+    Diagnosis as Diagnosis,
+    Diagnostic as Diagnostic,
+    Fix as Fix,
+    Freedom as Freedom,
+    Label as Label,
+    Layer as Layer,
+    Severity as Severity,
+    Tie as Tie,
+    Verdict as Verdict,
+)
+from .json_text import (
+    json_text as json_text,
+    members as members,
+    plain as plain,
+)
+from .source import (
+    OWN as OWN,
+    Book as Book,
+    Evidence as Evidence,
+    Source as Source,
+    Span as Span,
+)

@@ -1,0 +1,62 @@
+from .evaluate import (
+    evaluate as evaluate,
+    place_in as place_in,
+    variables_of as variables_of,
+    written as written,
+)
+from .events import (
+    EventKind as EventKind,
+    ProgramEvent as ProgramEvent,
+)
+from .fanuc import (
+    fanuc as fanuc,
+    haas as haas,
+)
+from .isg import (
+    COMMENT as COMMENT,
+    isg as isg,
+)
+from .klartext import (
+    klartext as klartext,
+)
+from .language import (
+    ARGUMENT as ARGUMENT,
+    MACHINES as MACHINES,
+    Apply as Apply,
+    Assign as Assign,
+    Call as Call,
+    CallKind as CallKind,
+    CodeLine as CodeLine,
+    Constant as Constant,
+    Known as Known,
+    MacroLanguage as MacroLanguage,
+    ProgramEnd as ProgramEnd,
+    Term as Term,
+    Unknown as Unknown,
+    Vacant as Vacant,
+    Variable as Variable,
+    When as When,
+    WordFormula as WordFormula,
+)
+from .machine import (
+    MOST_BLOCKS as MOST_BLOCKS,
+    Limit as Limit,
+    Machine as Machine,
+    machine_of as machine_of,
+    needs_running as needs_running,
+)
+from .sinumerik import (
+    sinumerik as sinumerik,
+)
+from .subprograms import (
+    ALONE as ALONE,
+    Library as Library,
+    Surroundings as Surroundings,
+    surroundings_of as surroundings_of,
+)
+from .variables import (
+    check_names as check_names,
+)
+from .write import (
+    write_term as write_term,
+)

@@ -1,0 +1,86 @@
+from .case_classes import (
+    ORIGIN as ORIGIN,
+    verdict_of as verdict_of,
+)
+from .checkpoints import (
+    MOST_ROWS as MOST_ROWS,
+    Parts as Parts,
+    others as others,
+    parts_of as parts_of,
+    room_of as room_of,
+    seconds_of as seconds_of,
+)
+from .compiled_sweep import (
+    CompiledSweep as CompiledSweep,
+)
+from .evaluate import (
+    THREADS as THREADS,
+    FailureSummary as FailureSummary,
+    Tally as Tally,
+    compile_sweep as compile_sweep,
+    failure_summary as failure_summary,
+    family as family,
+    pieces as pieces,
+    solve_sweep as solve_sweep,
+    sweep as sweep,
+)
+from .export import (
+    Family as Family,
+    Measure as Measure,
+    csv_lines as csv_lines,
+    summary_of as summary_of,
+    write_parquet as write_parquet,
+)
+from .feasible_ranges import (
+    End as End,
+    Feasible as Feasible,
+    Interval as Interval,
+    Reason as Reason,
+    Way as Way,
+    feasible as feasible,
+)
+from .free_words import (
+    limits_beside as limits_beside,
+)
+from .inverse import (
+    Found as Found,
+    Hit as Hit,
+    find_word as find_word,
+)
+from .point_tolerances import (
+    Effect as Effect,
+    Limits as Limits,
+    Missing as Missing,
+    Tolerances as Tolerances,
+    tolerances as tolerances,
+)
+from .range_pieces import (
+    LEAST_GAP as LEAST_GAP,
+)
+from .regions import (
+    Boundary as Boundary,
+    Region as Region,
+    region as region,
+    region_of as region_of,
+)
+from .sensitivities import (
+    Sensitivity as Sensitivity,
+    Spread as Spread,
+    sensitivity as sensitivity,
+    slopes_of as slopes_of,
+)
+from .spec import (
+    FamilyError as FamilyError,
+    Ranges as Ranges,
+    RefusedError as RefusedError,
+    errors_of as errors_of,
+    name_of as name_of,
+    unit_word as unit_word,
+    write as write,
+)
+from .targets import (
+    Goal as Goal,
+)
+from .variables import (
+    with_numbers as with_numbers,
+)

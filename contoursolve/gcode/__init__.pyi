@@ -1,0 +1,70 @@
+from .comments import (
+    comment_out as comment_out,
+    is_remark as is_remark,
+    own_comments as own_comments,
+    remark as remark,
+    with_comments_of as with_comments_of,
+)
+from .contents import (
+    decode as decode,
+)
+from .files import (
+    ANY_TEXT as ANY_TEXT,
+    CannotWriteError as CannotWriteError,
+    Tape as Tape,
+    check_target as check_target,
+    check_unprotected as check_unprotected,
+    open_tape as open_tape,
+    open_whole as open_whole,
+    tape_in_memory as tape_in_memory,
+    tape_of as tape_of,
+    write_whole as write_whole,
+)
+from .lexer import (
+    LONGEST_BLOCK as LONGEST_BLOCK,
+    Blocks as Blocks,
+    find_words as find_words,
+    looks_like as looks_like,
+    parse as parse,
+    parse_block as parse_block,
+    read_directive as read_directive,
+    spelled as spelled,
+    split_lines as split_lines,
+    words_as as words_as,
+)
+from .lookalikes import (
+    Lookalike as Lookalike,
+    find_lookalikes as find_lookalikes,
+    has_lookalike_code as has_lookalike_code,
+    lookalike_at as lookalike_at,
+    mended as mended,
+)
+from .syntax import (
+    IN_BRACKETS as IN_BRACKETS,
+    IN_PARENTHESES as IN_PARENTHESES,
+    ISO as ISO,
+    Syntax as Syntax,
+    long_parts as long_parts,
+    nested as nested,
+)
+from .text import (
+    STANDARD_INPUT as STANDARD_INPUT,
+    UnreadableProgramError as UnreadableProgramError,
+    read_bytes as read_bytes,
+)
+from .word import (
+    FACT as FACT,
+    Block as Block,
+    Caller as Caller,
+    Directive as Directive,
+    Fault as Fault,
+    FaultKind as FaultKind,
+    Macro as Macro,
+    Passage as Passage,
+    Program as Program,
+    Substitution as Substitution,
+    Word as Word,
+    call as call,
+    number_of as number_of,
+    spell as spell,
+)

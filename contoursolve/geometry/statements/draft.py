@@ -1,0 +1,264 @@
+"""A drawing under construction, to which statements add what they speak about."""
+
+from collections.abc import Mapping, Sequence
+from decimal import Decimal
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from contoursolve.gcode import Word
+from contoursolve.geometry.figure import FIRST, SECOND, Arc, Circle, Corner, CornerShape, Fact, Figure, Line, scalar
+from contoursolve.geometry.lines import Along, ChamferLeg, Foot, Parallel, Tangent, TangentLine, Through, UnitDirection
+from contoursolve.geometry.points import OnCircle, Radius
+from contoursolve.geometry.profile import Given, Layout, Unit
+from contoursolve.geometry.touching import ArcContact, ChordSetback, Setback, TangentArc
+from contoursolve.tolerance import RADIUS_DIFFERENCE
+
+
+class StatementError(ValueError):
+    """A statement that makes no sense for this drawing; the message says why."""
+
+
+class Round(Struct, frozen=True):
+    """A circle, an arc or a rounding: its centre, its radius, and where it begins and ends, if it does."""
+
+    center: str
+    radius: str
+    begin: str = ""
+    end: str = ""
+
+
+class Draft:
+    """A figure, its facts and its givens. Statements ask it for elements, which it adds as they are needed.
+
+    `word` is what states the facts that are being added; it is kept with their givens.
+    """
+
+    def __init__(self, figure: Figure, facts: Sequence[Fact], givens: Mapping[str, Given]) -> None:
+        self.figure = figure
+        self.facts = list(facts)
+        self.givens = dict(givens)
+        self.word: Word | None = None
+
+    def layout(self) -> Layout:
+        """The figure with all the facts."""
+        return Layout(self.figure, tuple(self.facts))
+
+    def add(self, *facts: Fact) -> None:
+        """Add facts."""
+        self.facts += facts
+
+    def give(self, name: str, value: Decimal, unit: Unit, *, is_diameter: bool = False) -> str:
+        """Add a given and return its name."""
+        self.givens[name] = Given(name, value, unit, self.word, is_diameter)
+        return name
+
+    def element(self, name: str) -> Line | Arc | Corner | Circle:
+        """The element of this name. Raises StatementError if there is none."""
+        everything = (*self.figure.path, *self.figure.corners, *self.figure.lines, *self.figure.circles)
+        for element in everything:
+            if element.name == name:
+                return element
+        names = ", ".join(element.name for element in everything)
+        raise StatementError(f"there is no element {name!r} here; elements are {names}")
+
+    def line(self, name: str) -> Line:
+        """A line whose direction can be spoken about: stated, or unknown as a whole."""
+        line = self.element(name)
+        if not isinstance(line, Line):
+            raise StatementError(f"{name} is not a line")
+        if line.heading is None and name not in self.figure.carriers:
+            self.figure = replace(self.figure, carriers=(*self.figure.carriers, name))
+            self.add(UnitDirection(name))
+            self.add(*(Through(name, end) for end in (line.tail, line.head) if end))
+        return line
+
+    def point_on(self, line: str) -> str:
+        """A point of a line: where it begins, a place that it passes through, or else the point nearest to the start,
+        which is added."""
+        tail = self.line(line).tail
+        own = next((fact.point for fact in self.facts if isinstance(fact, Through) and fact.line == line), "")
+        if tail or own:
+            return tail or own
+        foot = f"{line}.foot"
+        self.figure = replace(self.figure, points=(*self.figure.points, foot))
+        self.add(Through(line, foot), Foot(line, foot, self.figure.start))
+        return foot
+
+    def around(self, name: str, center: str, distance: Decimal) -> Round:
+        """What lies a given distance from a point: a circle that is not drawn."""
+        radius = self.give(f"{name}.radius", distance, Unit.MM)
+        self.figure = replace(self.figure, known_radii=(*self.figure.known_radii, radius))
+        return Round(center, radius)
+
+    def round(self, name: str) -> Round:
+        """An arc, a circle, or a rounding. Raises StatementError for anything else."""
+        match self.element(name):
+            case Arc() as arc:
+                return Round(arc.center, arc.radius, arc.tail, arc.head)
+            case Circle() as circle:
+                return Round(circle.center, circle.radius)
+            case Corner() as corner if corner.shape is CornerShape.FILLET:
+                self.corner(name)
+                return Round(f"{name}.center", f"{name}.radius", f"{name}.begin", f"{name}.end")
+            case _:
+                raise StatementError(f"{name} is not round")
+
+    def point(self, part: str, name: str) -> str:
+        """The point that begins, ends or centers an element."""
+        element = self.element(name)
+        if isinstance(element, Corner):
+            self.corner(name)
+            if part == "center" and element.shape is not CornerShape.FILLET:
+                raise StatementError(f"{name} is not round")
+            return f"{name}.{part}"
+        if part == "center":
+            return self.round(name).center
+        found = {"begin": getattr(element, "tail", ""), "end": getattr(element, "head", "")}[part]
+        if not found:
+            raise StatementError(f"{name} has no {part}")
+        return str(found)
+
+    def place(self, name: str, values: tuple[Decimal, Decimal]) -> str:
+        """A point with given coordinates, mm."""
+        for axis, value in enumerate(values):
+            self.give(scalar(name, axis), value, Unit.MM)
+        self.figure = replace(self.figure, places=(*self.figure.places, name))
+        return name
+
+    def circle(self, name: str, center: tuple[Decimal, Decimal], radius: Decimal) -> Round:
+        """A given circle."""
+        if radius <= 0:
+            raise StatementError("a circle has a radius larger than 0; a line through a point `passes through` it")
+        place = self.place(f"{name}.center", center)
+        known = self.give(f"{name}.radius", radius, Unit.MM)
+        self.figure = replace(
+            self.figure,
+            known_radii=(*self.figure.known_radii, known),
+            circles=(*self.figure.circles, Circle(name, place, known)),
+        )
+        return Round(place, known)
+
+    def given_line(self, name: str, place: tuple[Decimal, Decimal], degrees: Decimal) -> str:
+        """A given line through a place in a direction."""
+        line = Line(name, self.place(f"{name}.place", place), "", self.give(f"{name}.angle", degrees, Unit.DEGREE))
+        self.figure = replace(self.figure, lines=(*self.figure.lines, line))
+        return name
+
+    def junction(self, first: str, second: str) -> str:
+        """The point in which two neighbours of the path meet."""
+        one, other = self.element(first), self.element(second)
+        if isinstance(one, Line | Arc) and isinstance(other, Line | Arc):
+            for before, after in ((one, other), (other, one)):
+                if before.head and before.head == after.tail:
+                    return before.head
+        raise StatementError(f"{first} and {second} are not neighbours")
+
+    def travel(self, name: str, at: str) -> Along | Tangent:
+        """The direction in which an element of the path is travelled at one of its ends."""
+        element = self.element(name)
+        if isinstance(element, Arc):
+            return Tangent(at, element.center, element.radius, element.turn)
+        self.line(name)
+        return Along(name)
+
+    def leave(self, point: str, arc: Arc) -> None:
+        """Drop that a point lies on an arc's circle: something else says so, in a way that keeps a tangent point
+        apart from a double intersection."""
+        self.facts = [
+            fact
+            for fact in self.facts
+            if not (isinstance(fact, OnCircle) and (fact.point, fact.center) == (point, arc.center))
+        ]
+
+    def corner(self, name: str) -> None:
+        """Make a corner's own points and its size unknowns, tied to its lines."""
+        corner = self.element(name)
+        if not isinstance(corner, Corner) or f"{name}.begin" in self.figure.points:
+            return
+        begin, end, size = f"{name}.begin", f"{name}.end", f"{name}.radius"
+        meeting = [
+            (self.element(corner.before), begin, 1),
+            (self.element(corner.after or self._landing(corner)), end, -1),
+        ]
+        if corner.size in self.givens:
+            self.add(Radius(corner.size, size))
+        points = (begin, end) if corner.shape is not CornerShape.FILLET else (f"{name}.center", begin, end)
+        for element, point, way in meeting:
+            self._pass_through(element, point)
+            if corner.shape is CornerShape.FILLET:
+                self._touch(element, corner, point, way)
+            elif corner.shape is CornerShape.CHAMFER_SETBACK:
+                self._set_back(element, corner, point, way)
+            elif corner.shape is CornerShape.CHAMFER_FACE:
+                raise StatementError(f"{name} is a chamfer by the length of its face: its size must be a number")
+        share = corner.shape.share
+        if share:
+            if any(isinstance(element, Arc) for element, *_ in meeting):
+                raise StatementError(f"{name} is a bevel beside an arc: its size must be a number")
+            advance = () if corner.lands_on else self._advance(corner)
+            between = tuple(element.name for element, *_ in meeting) if corner.lands_on else ()
+            self.add(
+                *(
+                    ChamferLeg(begin, end, size, f"{name}.{axis}", axis, advance, between, share=share)
+                    for axis in (FIRST, SECOND)
+                )
+            )
+        self.figure = replace(self.figure, points=(*self.figure.points, *points), radii=(*self.figure.radii, size))
+
+    def _pass_through(self, element: Line | Arc | Corner | Circle, point: str) -> None:
+        """A point of an element of the path."""
+        if isinstance(element, Arc):
+            slack = min([fact.slack for fact in self.facts if isinstance(fact, OnCircle)], default=RADIUS_DIFFERENCE)
+            self.add(OnCircle(point, element.center, element.radius, slack=slack))
+        else:
+            self.line(element.name)
+            self.add(Through(element.name, point))
+
+    def _touch(self, element: Line | Arc | Corner | Circle, corner: Corner, point: str, way: int) -> None:
+        """A rounding touches an element in a point before its corner (`way` +1) or after it (-1)."""
+        center, size, side = f"{corner.name}.center", f"{corner.name}.radius", f"{corner.name}.side"
+        if isinstance(element, Arc):
+            circle = (element.center, element.radius)
+            self.add(
+                TangentArc(circle, element.turn, center, size, side),
+                ArcContact(point, circle, element.turn, center, size, side, corner.at, way),
+            )
+        else:
+            self.add(
+                TangentLine(element.name, center, size, side),
+                Foot(element.name, point, center, corner=corner.at, way=way),
+            )
+
+    def _set_back(self, element: Line | Arc | Corner | Circle, corner: Corner, point: str, way: int) -> None:
+        """A chamfer ends on an element, its size before its corner (`way` +1) or after it (-1)."""
+        size = f"{corner.name}.radius"
+        if isinstance(element, Arc):
+            self.add(ChordSetback(element.center, element.turn, point, corner.at, size, way))
+        else:
+            self.add(Setback(element.name, point, corner.at, size, way))
+
+    def _advance(self, corner: Corner) -> tuple[tuple[str, ...], ...]:
+        """The lines, or pairs of points, whose way along an axis is that of a 45 degree chamfer; the first that moves
+        counts."""
+        lines = [element for element in self.figure.path if isinstance(element, Line)]
+        index = next(number for number, line in enumerate(lines) if line.name == corner.before)
+        if corner.after is not None:
+            after = next(line for line in lines if line.name == corner.after)
+            return ((lines[index].tail, after.head),)
+        return tuple(
+            (line.tail, line.head) if line.heading is None else (line.name,) for line in reversed(lines[: index + 1])
+        )
+
+    def _landing(self, corner: Corner) -> str:
+        """The line that a last corner lands on."""
+        if corner.lands_on is not None:
+            return corner.lands_on
+        if corner.lands_parallel_to is None:
+            raise StatementError(f"{corner.name} needs the last line by its angle and one coordinate")
+        name = f"{corner.name}.landing"
+        line = Line(name, corner.at, "")
+        self.figure = replace(self.figure, lines=(*self.figure.lines, line))
+        self.line(name)
+        self.add(Parallel(name, corner.lands_parallel_to, self._advance(corner)))
+        return name

@@ -1,0 +1,9 @@
+from .exploration import (
+    begin as begin,
+)
+from .explore import (
+    explore as explore,
+)
+from .explorer import (
+    Explorer as Explorer,
+)

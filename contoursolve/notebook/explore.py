@@ -1,0 +1,40 @@
+"""Opens the explorer of a contour, where its packages are installed."""
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+from contoursolve.diagnostics import importing
+from contoursolve.families import with_numbers
+from contoursolve.notebook.exploration import begin
+from contoursolve.reading import Dialect
+
+if TYPE_CHECKING:
+    from contoursolve.notebook.explorer import Explorer
+
+
+def explore(
+    block: str,
+    *,
+    start: str | None = None,
+    control: str | Dialect | None = None,
+    units: str = "mm",
+    rules: str = "enforce",
+    facts: Iterable[str] = (),
+    settings: Mapping[str, str] | None = None,
+    variables: Mapping[str, float] | None = None,
+) -> "Explorer":
+    """A contour to move, in a notebook: a slider for each word, the picture, the findings and their fixes.
+
+    Arguments and errors as for `solve`; `block` may be several lines, with one contour. The widget's `text` is the
+    block as it is now, `result` what it comes to. Without a kernel the notebook shows the picture as it last was.
+    Numbers take the place of variables, and the words that hold them have the sliders.
+
+    Raises FamilyError for a variable without a value, MissingExtraError without the packages of
+    `contoursolve[notebook]`, ValueError for several contours.
+    """
+    with importing("notebook", "exploring a contour"):
+        from contoursolve.notebook.explorer import Explorer  # noqa: PLC0415 - needs an extra
+    options = {"start": start, "control": control, "units": units, "rules": rules, "settings": settings}
+    if variables:
+        block = with_numbers(block, control, settings, variables)
+    return Explorer(begin(block, facts, **options))

@@ -1,0 +1,105 @@
+from .angle import (
+    direction as direction,
+)
+from .ball import (
+    Number as Number,
+)
+from .charts import (
+    Bounds as Bounds,
+    Chart as Chart,
+    Following as Following,
+)
+from .columns import (
+    ROWS as ROWS,
+    ColumnFunction as ColumnFunction,
+    Columns as Columns,
+    columns_of as columns_of,
+    compile_columns as compile_columns,
+    difference as difference,
+    directions as directions,
+    replay_rows as replay_rows,
+)
+from .echelon import (
+    CONSTANT as CONSTANT,
+    Echelon as Echelon,
+)
+from .expressions import (
+    Compiled as Compiled,
+    Expression as Expression,
+    Tape as Tape,
+    affine_parts as affine_parts,
+    angle as angle,
+    at_most as at_most,
+    below as below,
+    cosine as cosine,
+    inverse_norm as inverse_norm,
+    inverse_norms as inverse_norms,
+    is_affine as is_affine,
+    is_number as is_number,
+    is_zero as is_zero,
+    jacobian_parts as jacobian_parts,
+    larger as larger,
+    largest as largest,
+    magnitude as magnitude,
+    opposite as opposite,
+    quadratic_parts as quadratic_parts,
+    sign as sign,
+    sine as sine,
+    sqrt as sqrt,
+    symbol as symbol,
+    true as true,
+    where as where,
+)
+from .formulas import (
+    AT_MOST as AT_MOST,
+    COMMON as COMMON,
+    LESS as LESS,
+    SIGN as SIGN,
+    TURNED as TURNED,
+    ZERO as ZERO,
+    Affine as Affine,
+    formulas_of as formulas_of,
+)
+from .hc4 import (
+    Boxes as Boxes,
+    Narrower as Narrower,
+    approach as approach,
+    contract as contract,
+    joined as joined,
+    stacked as stacked,
+)
+from .inputs import (
+    COSINE as COSINE,
+    SIDE as SIDE,
+    SINE as SINE,
+    given_directions as given_directions,
+    lookup as lookup,
+    named_inputs as named_inputs,
+)
+from .interpreter import (
+    Replay as Replay,
+)
+from .intervals import (
+    Intervals as Intervals,
+    constant as constant,
+)
+from .linear_algebra import (
+    Array as Array,
+    condition as condition,
+    pinv as pinv,
+    shortest_solution as shortest_solution,
+    svd as svd,
+)
+from .modular_rank import (
+    PRIME as PRIME,
+    RESIDUES as RESIDUES,
+    ExactRank as ExactRank,
+    Residue as Residue,
+    Row as Row,
+    draw as draw,
+    draw_direction as draw_direction,
+)
+from .newton import (
+    Finder as Finder,
+    finder_of as finder_of,
+)

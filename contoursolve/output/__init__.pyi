@@ -1,0 +1,110 @@
+from .catalogue import (
+    catalogue_lines as catalogue_lines,
+    rule_lines as rule_lines,
+    rule_page as rule_page,
+    vocabulary_lines as vocabulary_lines,
+    word_set_lines as word_set_lines,
+)
+from .construction import (
+    construction_lines as construction_lines,
+)
+from .contours import (
+    check_table as check_table,
+    count_text as count_text,
+    path_table as path_table,
+    solution_rows as solution_rows,
+)
+from .document import (
+    Findings as Findings,
+    Shelf as Shelf,
+    stream_json as stream_json,
+)
+from .dxf import (
+    to_dxf as to_dxf,
+)
+from .exchange import (
+    to_github as to_github,
+    to_sarif as to_sarif,
+)
+from .families import (
+    effect_table as effect_table,
+    found_data as found_data,
+    found_lines as found_lines,
+    found_table as found_table,
+    found_title as found_title,
+    range_data as range_data,
+    range_lines as range_lines,
+    range_notes as range_notes,
+    range_table as range_table,
+    range_title as range_title,
+    region_data as region_data,
+    region_lines as region_lines,
+    region_notes as region_notes,
+    region_table as region_table,
+    region_title as region_title,
+    rest_lines as rest_lines,
+    spread_lines as spread_lines,
+    tolerances_data as tolerances_data,
+    tolerances_lines as tolerances_lines,
+    tolerances_title as tolerances_title,
+)
+from .findings import (
+    EXPLAINING as EXPLAINING,
+    Style as Style,
+    effect_of as effect_of,
+    finding_lines as finding_lines,
+    finding_pieces as finding_pieces,
+    plain as plain,
+)
+from .html import (
+    bounded as bounded,
+    checks_table as checks_table,
+    figure as figure,
+    finding_element as finding_element,
+    notebook_style as notebook_style,
+    path_element as path_element,
+    remarks as remarks,
+    short as short,
+    solutions_table as solutions_table,
+    table as table,
+    table_of as table_of,
+    words_table as words_table,
+    worst_of as worst_of,
+)
+from .listing import (
+    MOST_ALIKE as MOST_ALIKE,
+    Totals as Totals,
+    closing_lines as closing_lines,
+    lines_of_findings as lines_of_findings,
+    listed as listed,
+    listing_lines as listing_lines,
+    short_findings as short_findings,
+    sources_of as sources_of,
+    stream_findings as stream_findings,
+    stream_listing as stream_listing,
+    summary_line as summary_line,
+    table_lines as table_lines,
+    without_repeated as without_repeated,
+)
+from .plain_text import (
+    Table as Table,
+    columns as columns,
+    harmless as harmless,
+    printable as printable,
+)
+from .report import (
+    report_page as report_page,
+)
+from .resting import (
+    resting_data as resting_data,
+)
+from .words import (
+    StatedWord as StatedWord,
+    end_text as end_text,
+    form_text as form_text,
+    found_value as found_value,
+    meaning_of as meaning_of,
+    start_text as start_text,
+    stated_value as stated_value,
+    stated_words as stated_words,
+)

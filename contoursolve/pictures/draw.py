@@ -1,0 +1,160 @@
+"""Pictures: a contour with its words as dimensions, whatever its status; SVG, and PNG with the extra `picture`.
+
+An answer or a family comes in, one page of shapes goes out. Begin with `compose`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, TypeAlias
+
+from msgspec.structs import replace
+
+from contoursolve.diagnosis import Answer
+from contoursolve.pictures.compose import compose, describe
+from contoursolve.pictures.layout import lay_out
+from contoursolve.pictures.page import stack_sheets
+from contoursolve.pictures.svg import Picture, finish
+from contoursolve.pictures.theme import Theme
+from contoursolve.program import Result
+
+if TYPE_CHECKING:
+    from contoursolve.families import CompiledSweep, Family, Feasible, Region
+    from contoursolve.solving import Drawings, Drawn, Sketch
+
+Drawable: TypeAlias = "Answer | Result | Family | Feasible | Region | Sketch | Drawings | Drawn"
+"""What has a picture."""
+
+
+def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None = None) -> Picture:
+    """The picture of a contour, of all contours of a program, of where a block has one by one or two of its words, or
+    of every way to draw a sketch. `is_whole` is for a program: see `draw_result`.
+
+    Raises ValueError for a family that is no grid of two words, and for a sketch whose facts make no sense.
+    """
+    from contoursolve.families import Family, Feasible, Region  # noqa: PLC0415 - not needed for one contour
+    from contoursolve.solving import Drawings, Drawn, Sketch  # noqa: PLC0415 - as above
+
+    if isinstance(record, Result):
+        return draw_result(record, theme=theme, is_whole=is_whole)
+    if isinstance(record, Family):
+        return draw_family_map(record, theme=theme)
+    if isinstance(record, Feasible):
+        return draw_range(record, theme=theme)
+    if isinstance(record, Sketch | Drawings | Drawn):
+        return draw_drawings(record.solve() if isinstance(record, Sketch) else record, theme=theme)
+    return draw_region(record, theme=theme) if isinstance(record, Region) else draw_answer(record, theme=theme)
+
+
+def draw_answer(
+    answer: Answer,
+    *,
+    theme: Theme = Theme.LIGHT,
+    title: str | None = None,
+    like: Picture | None = None,
+    has_remarks: bool = True,
+) -> Picture:
+    """The picture of one contour: its path where there is one, and what is missing or wrong where there is none.
+
+    `like` is a picture of the contour before a word was moved: scale, origin and height stay, labels keep their sides.
+    Without remarks, the findings are not written below.
+
+    >>> import contoursolve
+    >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
+    >>> draw_answer(answer).title
+    'G111 (taper multiple cornering), program line 1: solved'
+    """
+    scene = compose(answer, title)
+    scene = scene if has_remarks else replace(scene, remarks=())
+    return finish(lay_out(scene, like.sheet.placement if like else None), theme, describe(answer))
+
+
+def draw_result(
+    result: Result, *, theme: Theme = Theme.LIGHT, title: str | None = None, is_whole: bool | None = None
+) -> Picture:
+    """The picture of a whole program: its only contour, or all of them in one drawing for each plane.
+
+    `is_whole` draws turned parts with both halves, or only with the programmed one; without it, with both where the
+    contours stay at least half as large.
+    """
+    from contoursolve.pictures.overview import compose_overview, describe_overview  # noqa: PLC0415 - not needed for one contour
+
+    if len(result.answers) == 1:
+        return draw_answer(result.answers[0], theme=theme, title=title)
+    return finish(
+        stack_sheets([*map(lay_out, compose_overview(result, title, is_whole=is_whole))]),
+        theme,
+        describe_overview(result),
+    )
+
+
+def draw_family_fan(
+    word: str,
+    values: Sequence[float],
+    answers: Sequence[Answer],
+    *,
+    theme: Theme = Theme.LIGHT,
+    title: str | None = None,
+) -> Picture:
+    """The picture of a block for several values of one of its words, each with its answer.
+
+    Raises ValueError for no contour, or for more than can be told apart.
+    """
+    from contoursolve.pictures.overview import compose_fan  # noqa: PLC0415 - not needed for one contour
+
+    return finish(lay_out(compose_fan(word, values, answers, title)), theme)
+
+
+def draw_family_map(
+    family: Family, words: tuple[str, str] | None = None, *, theme: Theme = Theme.LIGHT, title: str | None = None
+) -> Picture:
+    """The picture of what becomes of a block over two of its words: a field for each status, and the boundaries, where
+    the contour begins to exist as exact lines with what fails beyond them (a tenth of a second for most blocks).
+
+    `words` go to the right and up; without them, the two words of the family. Raises ValueError where these are not
+    two words of a grid.
+    """
+    from contoursolve.pictures.maps import lay_out_map  # noqa: PLC0415 - numpy
+
+    return finish(lay_out_map(family, words, title), theme)
+
+
+def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+    """The picture of the values of a word with which a block has a contour: a bar with what ends each range."""
+    from contoursolve.pictures.value_axes import lay_out_range  # noqa: PLC0415 - as above
+
+    return finish(lay_out_range(found, title), theme)
+
+
+def draw_region(region: Region, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+    """The picture of the values of two words with which a block has a contour: the lines that bound them, each with
+    what fails beyond it, and a field for each status, from a solve in each of many cells (a tenth of a second)."""
+    from contoursolve.pictures.maps import lay_out_region  # noqa: PLC0415 - as above
+
+    return finish(lay_out_region(region, title), theme)
+
+
+def draw_drawings(drawings: Drawings | Drawn, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+    """The picture of every way to draw a sketch, or of one: what is given, the facts as dimensions, and each drawing by
+    its number, with what tells it from the others below."""
+    from contoursolve.pictures.sketches import compose_drawings, compose_drawn  # noqa: PLC0415 - as above
+    from contoursolve.solving import Drawn  # noqa: PLC0415 - as above
+
+    scene = compose_drawn(drawings, title) if isinstance(drawings, Drawn) else compose_drawings(drawings, title)
+    return finish(lay_out(scene), theme, str(drawings))
+
+
+def draw_sweep(ready: CompiledSweep, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+    """The picture of a sweep: the fan of contours where one word varies, the map of outcomes where two do.
+
+    Of too many values, some are drawn. The title counts all contours, and solves them for that; with a title of your
+    own, only those that are drawn. Raises FamilyError for paired words, and where none or more than two vary.
+    """
+    from contoursolve.pictures.maps import lay_out_map  # noqa: PLC0415 - as above
+    from contoursolve.pictures.sweeps import count_statuses, solve_shown, sweep_title  # noqa: PLC0415 - as above
+
+    shown = solve_shown(ready)
+    told = title if title is not None else sweep_title(ready.ranges, count_statuses(ready))
+    if isinstance(shown, tuple):
+        return draw_family_fan(*shown, theme=theme, title=told)
+    return finish(lay_out_map(shown, None, told, ready.ranges), theme)

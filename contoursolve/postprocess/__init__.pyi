@@ -1,0 +1,38 @@
+from .block_numbers import (
+    BlockNumber as BlockNumber,
+    Replacement as Replacement,
+    block_number_at as block_number_at,
+    rename_block as rename_block,
+)
+from .expansion_report import (
+    Conversion as Conversion,
+    ConversionError as ConversionError,
+    Expansion as Expansion,
+    Options as Options,
+    Summary as Summary,
+)
+from .formatting import (
+    format_program as format_program,
+)
+from .formulas.rewriting import (
+    formulas_for as formulas_for,
+    post_of_formulas as post_of_formulas,
+)
+from .post_processors import (
+    POSTS as POSTS,
+    Arcs as Arcs,
+    Numbering as Numbering,
+    Post as Post,
+    Risk as Risk,
+    find_post as find_post,
+    machine_of as machine_of,
+    post_of as post_of,
+)
+from .rewrite import (
+    Rewritten as Rewritten,
+    Writer as Writer,
+    rewrite as rewrite,
+)
+from .translate import (
+    language_of as language_of,
+)

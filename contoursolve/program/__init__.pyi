@@ -1,0 +1,65 @@
+from .batch import (
+    Batch as Batch,
+)
+from .called_files import (
+    blocks_of_called_files as blocks_of_called_files,
+)
+from .calls import (
+    machine_for as machine_for,
+    path_of as path_of,
+)
+from .lines import (
+    Lines as Lines,
+)
+from .open_program import (
+    OpenContour as OpenContour,
+    OpenProgram as OpenProgram,
+)
+from .pipeline import (
+    ELSEWHERE as ELSEWHERE,
+    Examiner as Examiner,
+    Result as Result,
+    Run as Run,
+    attach as attach,
+    check_start as check_start,
+    run as run,
+    walk as walk,
+)
+from .profiles import (
+    CycleProfile as CycleProfile,
+)
+from .project import (
+    CONTROL as CONTROL,
+    SettingError as SettingError,
+    check_settings as check_settings,
+    configure as configure,
+    find_settings as find_settings,
+    read_setting as read_setting,
+    restate_control as restate_control,
+    stated_settings as stated_settings,
+)
+from .readers import (
+    choose_alike as choose_alike,
+)
+from .recognise import (
+    Recogniser as Recogniser,
+    SeveralControlsError as SeveralControlsError,
+    UnknownControlError as UnknownControlError,
+    choose as choose,
+    find_dialect as find_dialect,
+    for_kind as for_kind,
+    for_machine as for_machine,
+    named_control as named_control,
+    what_shows as what_shows,
+)
+from .request import (
+    Request as Request,
+    request_for as request_for,
+)
+from .solve_queue import (
+    Step as Step,
+)
+from .stream import (
+    Line as Line,
+    each_block as each_block,
+)

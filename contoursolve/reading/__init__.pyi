@@ -1,0 +1,106 @@
+from .contour_form import (
+    AT_ITS_LIMIT as AT_ITS_LIMIT,
+    Assumption as Assumption,
+    ContourForm as ContourForm,
+    Convention as Convention,
+    CornerRow as CornerRow,
+    FactRow as FactRow,
+    Resting as Resting,
+    Sample as Sample,
+    Setting as Setting,
+    all_resting as all_resting,
+    lay_out as lay_out,
+    stated_sets as stated_sets,
+)
+from .dialect import (
+    Dialect as Dialect,
+    Taken as Taken,
+)
+from .follow import (
+    ContourBlock as ContourBlock,
+    End as End,
+    Finder as Finder,
+    blocks_of as blocks_of,
+    contours_of as contours_of,
+    reach_of as reach_of,
+    state_facts as state_facts,
+)
+from .lexicon import (
+    TURNED as TURNED,
+    Address as Address,
+    Bearing as Bearing,
+    Beside as Beside,
+    Code as Code,
+    Diameter as Diameter,
+    Effect as Effect,
+    Lexicon as Lexicon,
+    NumberFormat as NumberFormat,
+    WithoutPoint as WithoutPoint,
+)
+from .modal_dependence import (
+    MOTIONS as MOTIONS,
+    STANDING_ALONE as STANDING_ALONE,
+    Carried as Carried,
+    Reliance as Reliance,
+    carried as carried,
+    frame_of as frame_of,
+    reliance as reliance,
+    restate as restate,
+    why_unmet as why_unmet,
+)
+from .modal_state import (
+    COMMENTED as COMMENTED,
+    Awaited as Awaited,
+    Mode as Mode,
+    Modes as Modes,
+    Position as Position,
+    State as State,
+    advance as advance,
+    advance_plainly as advance_plainly,
+    apply_modes as apply_modes,
+    axis_words as axis_words,
+    codes_of as codes_of,
+    is_plain as is_plain,
+    motion_of as motion_of,
+    not_read as not_read,
+    plain_lines as plain_lines,
+    positions as positions,
+    words_of as words_of,
+)
+from .parsed_contour import (
+    ParsedContour as ParsedContour,
+    ReadIssue as ReadIssue,
+    Selector as Selector,
+    leave as leave,
+    next_place as next_place,
+    read as read,
+    stating as stating,
+    unused_words as unused_words,
+)
+from .rules import (
+    VERBS as VERBS,
+    Along as Along,
+    Condition as Condition,
+    Count as Count,
+    Offence as Offence,
+    Parallel as Parallel,
+    Rule as Rule,
+    Value as Value,
+    all_of as all_of,
+    at_least as at_least,
+    at_most as at_most,
+    check as check,
+    is_refused_by_values as is_refused_by_values,
+    some as some,
+)
+from .ways import (
+    Ahead as Ahead,
+    Ways as Ways,
+)
+from .writer import (
+    NOTHING as NOTHING,
+    Around as Around,
+    Plain as Plain,
+    Restated as Restated,
+    Writing as Writing,
+)

@@ -1,0 +1,181 @@
+from .affine import (
+    NO_CIRCUITS as NO_CIRCUITS,
+    AffineFacts as AffineFacts,
+    Circuit as Circuit,
+    IndependentFacts as IndependentFacts,
+    affine_facts as affine_facts,
+)
+from .alternatives import (
+    ARCS as ARCS,
+    BOTH as BOTH,
+    Alternative as Alternative,
+    Alternatives as Alternatives,
+    choose as choose,
+    find_alternatives as find_alternatives,
+    sides_of as sides_of,
+)
+from .ambiguity import (
+    before as before,
+    headings_of as headings_of,
+    orders_of as orders_of,
+    restrict as restrict,
+    said_twice as said_twice,
+    settle as settle,
+    settled_by as settled_by,
+    tied_with as tied_with,
+)
+from .certify import (
+    certify as certify,
+)
+from .checks import (
+    NO_PLACE as NO_PLACE,
+    Check as Check,
+    Checks as Checks,
+    Role as Role,
+    Source as Source,
+    Test as Test,
+    add_checks as add_checks,
+    agreement_rows as agreement_rows,
+    at_origin as at_origin,
+    check_facts as check_facts,
+    check_path as check_path,
+    check_range as check_range,
+    check_residuals as check_residuals,
+    compile_checks as compile_checks,
+    passed_rows as passed_rows,
+    plain_checks as plain_checks,
+)
+from .closed_form_branches import (
+    ROOT as ROOT,
+    ClosedForm as ClosedForm,
+    Need as Need,
+    NoFormulaError as NoFormulaError,
+    close as close,
+)
+from .compare import (
+    allowance as allowance,
+    compare as compare,
+    compare_affine as compare_affine,
+    increments_of as increments_of,
+    is_conflict as is_conflict,
+    opposes as opposes,
+    runs_against as runs_against,
+)
+from .compile import (
+    Machine as Machine,
+    compile_path as compile_path,
+    compile_system as compile_system,
+)
+from .contour import (
+    ArcSegment as ArcSegment,
+    Contour as Contour,
+    LineSegment as LineSegment,
+    Segment as Segment,
+    against_angles as against_angles,
+    center_by_radius as center_by_radius,
+    dropped_corners as dropped_corners,
+    trace as trace,
+)
+from .determinacy import (
+    Determinacy as Determinacy,
+    analyse as analyse,
+    basis_of as basis_of,
+    circuits_of as circuits_of,
+    derive as derive,
+    groups_of as groups_of,
+    spare_of as spare_of,
+    survey as survey,
+)
+from .drawn import (
+    Drawings as Drawings,
+    Drawn as Drawn,
+    Stated as Stated,
+)
+from .elimination import (
+    Close as Close,
+    has_closed_form as has_closed_form,
+)
+from .enumerate import (
+    DRAWING as DRAWING,
+    Effort as Effort,
+    Enumeration as Enumeration,
+    enumerate_many as enumerate_many,
+)
+from .exact_inputs import (
+    BALLS as BALLS,
+    SMALLEST as SMALLEST,
+    Ground as Ground,
+    ground_of as ground_of,
+)
+from .free_cuts import (
+    joints_among as joints_among,
+    place_cuts as place_cuts,
+)
+from .identities import (
+    derive_circle_identity as derive_circle_identity,
+    derive_identity as derive_identity,
+    is_affine as is_affine,
+    tied_sets as tied_sets,
+)
+from .numbers import (
+    axes_of as axes_of,
+    corner_of as corner_of,
+    inputs_of as inputs_of,
+    lookup as lookup,
+    scalars_of as scalars_of,
+    sizes_of as sizes_of,
+    solution_at as solution_at,
+)
+from .partition import (
+    Group as Group,
+    Parts as Parts,
+    decompose as decompose,
+    match as match,
+    order as order,
+)
+from .picks import (
+    numbers_of as numbers_of,
+    pick as pick,
+    resolved_later as resolved_later,
+)
+from .plan import (
+    LineCircleStep as LineCircleStep,
+    NoClosedFormError as NoClosedFormError,
+    Plan as Plan,
+    TwoCirclesStep as TwoCirclesStep,
+    is_closed as is_closed,
+    make_plan as make_plan,
+    points_with_two_solutions as points_with_two_solutions,
+)
+from .row_outcome import (
+    REASONS as REASONS,
+    Code as Code,
+    RowOutcome as RowOutcome,
+    code_of as code_of,
+    reason_of as reason_of,
+)
+from .sketch import (
+    Sketch as Sketch,
+)
+from .solution import (
+    BESIDE as BESIDE,
+    Certificate as Certificate,
+    CornerSolution as CornerSolution,
+    Note as Note,
+    NoteKind as NoteKind,
+    Point as Point,
+    Proof as Proof,
+    Refusal as Refusal,
+    RefusalKind as RefusalKind,
+    Solution as Solution,
+    Status as Status,
+    up_to_one_digit as up_to_one_digit,
+)
+from .solve import (
+    ROUNDING as ROUNDING,
+    solve as solve,
+)
+from .step_equations import (
+    Kernel as Kernel,
+    make_kernel as make_kernel,
+)

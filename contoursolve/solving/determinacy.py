@@ -1,0 +1,184 @@
+"""What determines what, under which condition: the rank at random values, and sympy's verdict for all values."""
+
+import json
+import pkgutil
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+from msgspec import Struct
+
+from contoursolve.geometry import Fact, System
+from contoursolve.numeric import (
+    COSINE,
+    RESIDUES,
+    SIDE,
+    SINE,
+    ExactRank,
+    Residue,
+    Row,
+    draw,
+    draw_direction,
+    lookup,
+    modular_rank,
+)
+from contoursolve.solving.partition import Group, order
+
+
+def generic_rank(system: System) -> ExactRank:
+    """The rank of the facts' derivatives by the unknowns, at random values modulo a prime."""
+    columns = {name: number for number, name in enumerate(system.unknowns)}
+    rows = [_gradient(system, fact, columns) for fact in system.facts]
+    return modular_rank.exact_rank(rows, len(columns))
+
+
+class _Witnesses(NamedTuple):
+    """Random values of all inputs, some of which are unknowns."""
+
+    unknowns: Mapping[str, int]
+
+    def input(self, name: str) -> Residue:
+        """The value of an input; the derivative of an unknown by itself is 1."""
+        return Residue(witness_of(name), {name: 1} if name in self.unknowns else {})
+
+
+def _gradient(system: System, fact: Fact, columns: Mapping[str, int]) -> Row:
+    value = fact.equation(lookup(system, _Witnesses(columns), {}, RESIDUES))
+    return {columns[name]: slope for name, slope in value.slopes.items() if slope}
+
+
+def witness_of(name: str, signs: Mapping[str, int] | None = None) -> int:
+    """The random residue that stands for an input; directions have the length 1, sides are +1 or -1."""
+    if name.startswith(SIDE):
+        side = name.removeprefix(SIDE)
+        return signs[side] if signs is not None else 1 - 2 * (draw(side) % 2)
+    for number, endings in enumerate(((COSINE, ".cos"), (SINE, ".sin"))):
+        for ending in endings:
+            if name.endswith(ending):
+                return draw_direction(name.removesuffix(ending))[number]
+    return draw(name)
+
+
+class Determinacy(Struct, frozen=True):
+    """The generic properties of a system, exact for all values but those on which `condition` is zero.
+
+    `basis` are the indices of the first facts that determine as much as all of them do; `tied` those
+    of facts that take part in a dependency; `free` the unknown scalars that nothing determines.
+    `condition` is the determinant of the basis, as text (empty unless all unknowns are determined), without the
+    groups of more than `LARGEST_DETERMINANT` unknowns.
+    """
+
+    rank: int
+    basis: tuple[int, ...]
+    tied: tuple[int, ...]
+    free: tuple[str, ...]
+    condition: str
+
+    @property
+    def is_determined(self) -> bool:
+        """Whether the facts determine every unknown, except on the condition."""
+        return not self.free
+
+
+SEEDS = (1, 2)
+"""The rank is the largest at these random points; a rational point misses it with probability of
+about degree / range, 1e-3 (Schwartz 1980), two of them with 1e-6, and the shipped table is checked."""
+
+
+@lru_cache(maxsize=8192)
+def analyse(system: System) -> Determinacy:
+    """The verdict on a system: from the table that ships with the package, else by the rank at random values.
+
+    Importing sympy takes longer than solving a program, and its verdict on a combination of words
+    never changes, so those of all the controls' forms are kept in `verdicts.json`; a test compares
+    every one of them with `derive`. Systems with further facts are judged without sympy, and without a condition.
+    """
+    known = _shipped().get(system.equations_key)
+    return _from_json(known) if known else survey(system)
+
+
+def basis_of(system: System) -> tuple[Fact, ...]:
+    """The first facts that determine as much as all facts of a system do."""
+    return tuple(system.facts[index] for index in analyse(system).basis)
+
+
+def spare_of(system: System) -> tuple[Fact, ...]:
+    """The facts beside the basis: they say what others say already."""
+    basis = analyse(system).basis
+    return tuple(fact for index, fact in enumerate(system.facts) if index not in basis)
+
+
+def groups_of(system: System) -> tuple[Group, ...]:
+    """The groups of the basis of a determined system, in the order in which they are solved."""
+    return order(system, basis_of(system))
+
+
+@lru_cache(maxsize=256)
+def circuits_of(system: System) -> Mapping[Fact, tuple[Fact, ...]]:
+    """For each fact beside the basis, the facts of the basis from which it follows, in order: one elimination tells it
+    for all of them."""
+    circuits = generic_rank(system).circuits.items()
+    return {system.facts[number]: tuple(system.facts[row] for row in rows) for number, rows in circuits}
+
+
+def survey(system: System) -> Determinacy:
+    """The verdict on a system without sympy, from its rank modulo a prime; it has no condition."""
+
+    rank = generic_rank(system)
+    free = tuple(system.unknowns[column] for column in rank.free_columns)
+    return Determinacy(rank.rank, rank.independent_rows, rank.dependent_rows, free, "")
+
+
+def derive(system: System) -> Determinacy:
+    """The verdict on a system, by sympy: exact rank of the Jacobian at random rational points."""
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - 200 ms, see analyse
+
+    symbols = symbolic.Symbols()
+    at = symbols.lookup(system.headed)
+    residuals = [fact.equation(at) for fact in system.facts]
+    unknowns = [symbols.scalar(name) for name in system.unknowns]
+    if not residuals:
+        return Determinacy(0, (), (), system.unknowns, "")
+    matrix = symbolic.jacobian(residuals, unknowns)
+    ranks = [symbolic.exact_rank(matrix, symbols.random_point(seed)) for seed in SEEDS]
+    best = max(ranks, key=lambda each: each.rank)
+    is_determined = not best.free_columns
+    basis = best.independent_rows
+    return Determinacy(
+        rank=best.rank,
+        basis=basis,
+        tied=best.dependent_rows,
+        free=tuple(system.unknowns[column] for column in best.free_columns),
+        condition=_condition(system, matrix, basis) if is_determined else "",
+    )
+
+
+LARGEST_DETERMINANT = 5
+"""The determinant of a larger group has hundreds of terms and tells nobody anything."""
+
+
+def _condition(system: System, matrix: Any, basis: Sequence[int]) -> str:
+    """What must not be zero: the product of the determinants of the groups that are solved one after the other."""
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - see analyse
+
+    groups = order(system, [system.facts[index] for index in basis])
+    row_of = {system.facts[index]: index for index in basis}
+    column_of = {name: index for index, name in enumerate(system.unknowns)}
+    small = [group for group in groups if len(group.unknowns) <= LARGEST_DETERMINANT]
+    return symbolic.determinants(
+        [
+            matrix.extract([row_of[fact] for fact in group.facts], [column_of[name] for name in group.unknowns])
+            for group in small
+        ]
+    )
+
+
+@lru_cache(maxsize=1)
+def _shipped() -> dict[str, Any]:
+    data = pkgutil.get_data("contoursolve.solving", "verdicts.json")
+    table: dict[str, Any] = json.loads(data) if data else {}
+    return table
+
+
+def _from_json(row: dict[str, Any]) -> Determinacy:
+    return Determinacy(row["rank"], tuple(row["basis"]), tuple(row["tied"]), tuple(row["free"]), row["condition"])

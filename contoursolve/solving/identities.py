@@ -1,0 +1,55 @@
+"""Identities: how words that say the same depend on one another, for all values, by sympy."""
+
+from collections.abc import Sequence
+from itertools import combinations
+
+from contoursolve.geometry import Coordinate, Fact, Heading, Offset, OnCircle, System
+from contoursolve.solving.determinacy import analyse
+
+
+def tied_sets(system: System) -> tuple[tuple[Fact, ...], ...]:
+    """All minimal sets of facts of which, for all values, each follows from the others."""
+    found: list[tuple[Fact, ...]] = []
+    for size in range(1, len(system.unknowns) + 2):
+        for facts in combinations(system.facts, size):
+            if not any(set(other) <= set(facts) for other in found) and analyse(system.keep(facts)).rank < size:
+                found.append(facts)
+    return tuple(found)
+
+
+def derive_identity(system: System, facts: Sequence[Fact]) -> str:
+    """The last length among the facts as a formula of the other words, such as `K = I/tan(A)`.
+
+    All facts must be affine in the unknowns. Lengths are radius values; S.0 and S.1 are the start
+    point's coordinates.
+    """
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see analyse
+
+    lengths = [fact for fact in facts if isinstance(fact, Offset | Coordinate)]
+    symbols = symbolic.Symbols()
+    at = symbols.lookup(system.headed)
+    unknowns = [symbols.scalar(name) for name in system.unknowns]
+    if not lengths:
+        return ""
+    solved = symbolic.eliminate([fact.residual(at) for fact in facts], unknowns, symbols.scalar(lengths[-1].given))
+    return f"{lengths[-1].given} = {solved}" if solved else ""
+
+
+def derive_circle_identity(system: System, facts: Sequence[Fact]) -> str:
+    """What two points of one circle make their words satisfy, as a formula that is zero; empty if the tie is
+    another one. S.0 and S.1 are the start point's coordinates."""
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see analyse
+
+    circles = [fact for fact in facts if isinstance(fact, OnCircle)]
+    if len(circles) != 2 or len({(fact.center, fact.radius) for fact in circles}) != 1:  # noqa: PLR2004
+        return ""
+    symbols = symbolic.Symbols()
+    at = symbols.lookup(system.headed)
+    first, second = (fact.equation(at) for fact in circles)
+    affine = [fact.residual(at) for fact in facts if not isinstance(fact, OnCircle)]
+    return symbolic.substitute_solution(first - second, affine, [symbols.scalar(name) for name in system.unknowns])
+
+
+def is_affine(facts: Sequence[Fact]) -> bool:
+    """Whether all facts are affine in the unknowns."""
+    return all(isinstance(fact, Offset | Coordinate | Heading) for fact in facts)
