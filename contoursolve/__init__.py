@@ -10,8 +10,24 @@ said twice, and what the path is. Lengths are in mm, X of a lathe is a radius, a
 ['line 1', 'corner 1', 'line 2', 'corner 2']
 """
 
+from typing import TYPE_CHECKING
+
 from lazy_loader import attach_stub
+
+from contoursolve.diagnostics import register_renderer
+
+if TYPE_CHECKING:
+    from contoursolve.diagnostics import Renderer
 
 __version__ = "0.1.0"
 
 __getattr__, __dir__, __all__ = attach_stub(__name__, __file__)
+
+
+def _renderer() -> "Renderer":
+    from contoursolve.notebook import bundle  # noqa: PLC0415 - when something is shown
+
+    return bundle
+
+
+register_renderer(_renderer)

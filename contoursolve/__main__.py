@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
+    import click
     from _typeshed import ReadableBuffer
 
 
@@ -43,6 +44,15 @@ def _open_pipe(stream: TextIO | None) -> TextIO:
     )
 
 
+def commands() -> "click.Group":
+    """The command `contoursolve`: the command line, and the language server beside it."""
+    from contoursolve.cli import main as command  # noqa: PLC0415 - after the collector is off
+    from contoursolve.lsp import lsp  # noqa: PLC0415 - as above
+
+    command.add_command(lsp)
+    return command
+
+
 def main() -> None:
     """Run the command in a process of its own.
 
@@ -52,8 +62,7 @@ def main() -> None:
     gc.disable()
     atexit.register(gc.freeze)
     try:
-        from contoursolve.cli import main as command  # noqa: PLC0415 - after the collector is off
-
+        command = commands()
         sys.stdout, sys.stderr = _open_pipe(sys.stdout), _open_pipe(sys.stderr)
         command(prog_name="contoursolve")
     except KeyboardInterrupt:

@@ -9,7 +9,7 @@ import click
 from contoursolve import __version__
 from contoursolve.diagnostics import UserError
 
-_COMMANDS = {
+COMMANDS = {
     "check": "solve:check",
     "solve": "solve:solve",
     "expand": "expand:expand",
@@ -26,17 +26,16 @@ _COMMANDS = {
     "rules": "catalogue:rules",
     "explain": "catalogue:explain",
     "facts": "catalogue:facts",
-    "lsp": "lsp:lsp",
 }
-"""Where each command is: a module of this room, and the name there."""
+"""Where each command is: a module of this room, and the name there. `contoursolve` itself adds what is beside it."""
 
 
 class _Commands(click.Group):
     """The commands; each is imported when it is asked for, so that the others start sooner."""
 
-    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - as click calls it
+    def list_commands(self, ctx: click.Context) -> list[str]:
         """All names, in order."""
-        return list(_COMMANDS)
+        return [*COMMANDS, *super().list_commands(ctx)]
 
     def invoke(self, ctx: click.Context) -> object:
         """Run the command. An interrupt ends it with a status of its own: 1 means that an error was found."""
@@ -65,11 +64,11 @@ class _Commands(click.Group):
             raise click.UsageError("arguments with a NUL character cannot be read", ctx)
         return super().parse_args(ctx, args)
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - as click calls it
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The command of this name."""
-        module, _, name = _COMMANDS.get(cmd_name, "").partition(":")
+        module, _, name = COMMANDS.get(cmd_name, "").partition(":")
         if not module:
-            return None
+            return super().get_command(ctx, cmd_name)
         command: click.Command = getattr(import_module(f"contoursolve.cli.{module}"), name)
         return command
 

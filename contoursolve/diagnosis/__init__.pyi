@@ -5,6 +5,7 @@ from .additions import (
     ways_to_complete as ways_to_complete,
     words_to_add as words_to_add,
 )
+from .behind import report_behind as report_behind
 from .diagnose import (
     diagnose as diagnose,
     mend_points as mend_points,

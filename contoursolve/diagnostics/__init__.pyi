@@ -2,7 +2,9 @@ from .choices import (
     choice_of as choice_of,
 )
 from .display import (
+    Renderer as Renderer,
     Shown as Shown,
+    register_renderer as register_renderer,
 )
 from .errors import (
     ProgramError as ProgramError,

@@ -1,25 +1,40 @@
 """Records that show themselves in notebooks, and are text where they are printed."""
 
-from importlib import import_module
-from typing import Any
+from collections.abc import Callable, Iterable
+from typing import Any, Protocol
+
+
+class Renderer(Protocol):
+    """What shows records. A room far above has it, and the front door of the package registers it."""
+
+    def text_of(self, record: "Shown") -> Iterable[str]:
+        """The lines of a record, as a terminal prints them."""
+
+    def bundle(self, record: "Shown") -> dict[str, str]:
+        """Text, HTML and SVG of a record, by the types of data that a notebook knows."""
+
+
+_load: list[Callable[[], Renderer]] = []
+
+
+def register_renderer(load: Callable[[], Renderer]) -> None:
+    """Register what shows records from now on; it is loaded when one is shown for the first time."""
+    _load[:] = [load]
 
 
 class Shown:
-    """A record that a notebook shows as a picture with tables, and everything else as text.
-
-    Only showing it needs the rooms above, so they are imported by name, when it is shown.
-    """
+    """A record that a notebook shows as a picture with tables, and everything else as text."""
 
     __slots__ = ()
 
     def __str__(self) -> str:
         """What the terminal prints of this record; its `repr` has all its fields."""
-        return "\n".join(import_module("contoursolve.notebook.records").text_of(self)).rstrip()
+        return "\n".join(_load[0]().text_of(self)).rstrip()
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         """Text, HTML and SVG of this record, as IPython asks for them; what cannot be drawn is text."""
         try:
-            bundle: dict[str, str] = import_module("contoursolve.notebook.records").bundle(self)
+            bundle = _load[0]().bundle(self)
         except Exception:  # a notebook must go on, whatever is missing or broken
             return {"text/plain": repr(self)}
         wanted = set(include or bundle) - set(exclude or ())

@@ -4,18 +4,8 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from decimal import Decimal
 
-from contoursolve.execution.language import (
-    VACANT,
-    Apply,
-    Constant,
-    Indexed,
-    Known,
-    Quoted,
-    Term,
-    Unknown,
-    Vacant,
-    Variable,
-)
+from contoursolve.execution.language import VACANT, Known, Unknown, Vacant
+from contoursolve.numeric import Apply, Constant, Indexed, Quoted, Term, Variable
 
 _NEAR = 1e-12
 """Numbers that differ less, as a part of the larger, are equal: SINUMERIK's manual prints it for comparisons and TRUNC,

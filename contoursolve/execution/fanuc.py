@@ -12,7 +12,6 @@ from contoursolve.execution.language import (
     Assign,
     Call,
     CallKind,
-    Constant,
     Else,
     EndIf,
     EndLoop,
@@ -25,12 +24,11 @@ from contoursolve.execution.language import (
     ProgramEnd,
     Return,
     Strange,
-    Term,
-    Variable,
     When,
 )
 from contoursolve.execution.lines import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, number_of, word
 from contoursolve.execution.notation import FANUC
+from contoursolve.numeric import Constant, Term, Variable
 
 _ARGUMENTS = dict(zip("ABCIJKDEFHMQRSTUVWXYZ", (*range(1, 10), 11, 13, *range(17, 27)), strict=True))
 """The variable that each word of G65 sets; I, J and K may stand several times."""

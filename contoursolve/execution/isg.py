@@ -7,7 +7,6 @@ from functools import cache
 from contoursolve.execution.language import (
     MACHINES,
     UNSET,
-    Apply,
     Assign,
     Call,
     CallKind,
@@ -23,11 +22,11 @@ from contoursolve.execution.language import (
     MacroStatement,
     ProgramEnd,
     Return,
-    Term,
 )
 from contoursolve.execution.lines import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, number_of, strange
 from contoursolve.execution.notation import ISG, UnreadableTermError
 from contoursolve.gcode import IN_BRACKETS, nested
+from contoursolve.numeric import Apply, Term
 
 COMMENT = nested(r"\(", r"(?:\)|$)", "[^()]++", 4)
 """A comment in which others may be nested; each may stay open to the end of the line."""

@@ -7,7 +7,6 @@ from functools import cache
 from contoursolve.execution.language import (
     MACHINES,
     UNSET,
-    Apply,
     Call,
     CallKind,
     Forget,
@@ -16,10 +15,10 @@ from contoursolve.execution.language import (
     MacroStatement,
     ProgramEnd,
     Return,
-    Variable,
 )
 from contoursolve.execution.lines import PROGRAM_END, LineForm, LineReader, Spelling, nothing, number_of, strange, word
 from contoursolve.execution.notation import KLARTEXT
+from contoursolve.numeric import Apply, Variable
 
 _CONDITIONS = {9: ("EQU", "equal"), 10: ("NE", "unequal"), 11: ("GT", "greater"), 12: ("LT", "less")}
 """Jumps, by the number of FN: the sign, and what it means."""

@@ -6,20 +6,9 @@ from functools import cache
 
 from msgspec import Struct
 
-from contoursolve.execution.language import (
-    Assign,
-    CodeLine,
-    Constant,
-    Forget,
-    Indexed,
-    MacroStatement,
-    Quoted,
-    Strange,
-    Term,
-    Variable,
-    WordFormula,
-)
+from contoursolve.execution.language import Assign, CodeLine, Forget, MacroStatement, Strange, WordFormula
 from contoursolve.execution.notation import Notation, UnreadableTermError
+from contoursolve.numeric import Constant, Indexed, Quoted, Term, Variable
 
 LONGEST_LINE = 2_000
 """Characters; no control reads more."""

@@ -11,7 +11,6 @@ from contoursolve.execution.evaluate import written
 from contoursolve.execution.events import EventKind, ProgramEvent
 from contoursolve.execution.language import (
     ARGUMENT,
-    Apply,
     Assign,
     Call,
     CallKind,
@@ -33,16 +32,15 @@ from contoursolve.execution.language import (
     ProgramEnd,
     Return,
     Strange,
-    Term,
     Unknown,
     Vacant,
-    Variable,
     When,
     WordFormula,
 )
 from contoursolve.execution.subprograms import Absent, Library, Part, Source, Surroundings
 from contoursolve.execution.variables import Variables
 from contoursolve.gcode import Block, Caller, Program, Substitution, Syntax, parse_block, split_lines
+from contoursolve.numeric import Apply, Term, Variable
 
 MOST_BLOCKS = 5_000
 """Blocks that run again, or in another file, after which a program is not followed any further."""

@@ -7,18 +7,15 @@ from collections.abc import Iterable, Iterator
 from contoursolve.execution.language import (
     MACHINES,
     UNSET,
-    Apply,
     Assign,
     Call,
     CallKind,
-    Constant,
     Else,
     EndIf,
     EndLoop,
     For,
     Forget,
     If,
-    Indexed,
     Jump,
     JumpWay,
     Loop,
@@ -26,15 +23,13 @@ from contoursolve.execution.language import (
     MacroStatement,
     ModalCall,
     ProgramEnd,
-    Quoted,
     Return,
     Strange,
-    Term,
-    Variable,
 )
 from contoursolve.execution.lines import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, strange
 from contoursolve.execution.notation import SINUMERIK, UnreadableTermError
 from contoursolve.gcode import IN_BRACKETS, IN_PARENTHESES
+from contoursolve.numeric import Apply, Constant, Indexed, Quoted, Term, Variable
 
 _WAYS = {"": JumpWay.ANYWHERE, "C": JumpWay.ANYWHERE, "F": JumpWay.FORWARD, "B": JumpWay.BACKWARD}
 _MOST_ELEMENTS = 200

@@ -12,7 +12,6 @@ from contoursolve.execution.language import (
     Call,
     CallKind,
     CodeLine,
-    Constant,
     Else,
     ElseIf,
     EndIf,
@@ -25,11 +24,11 @@ from contoursolve.execution.language import (
     MacroLanguage,
     ProgramEnd,
     Return,
-    Term,
     Unknown,
     When,
 )
 from contoursolve.gcode import Block, Program, Syntax, UnreadableProgramError, decode, parse, read_bytes
+from contoursolve.numeric import Constant, Term
 
 
 class Surroundings(Struct, frozen=True):

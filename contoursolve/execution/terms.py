@@ -8,8 +8,8 @@ from lark import Lark, Token, Transformer, v_args
 from lark.exceptions import UnexpectedInput
 
 from contoursolve.execution.evaluate import ARGUMENTS, name_of_indexed
-from contoursolve.execution.language import Apply, Constant, Indexed, Quoted, Term, Variable
 from contoursolve.execution.notation import Notation, UnreadableTermError
+from contoursolve.numeric import Apply, Constant, Indexed, Quoted, Term, Variable
 
 LONGEST_TERM = 250
 """Signs of an expression; a longer one is not read."""

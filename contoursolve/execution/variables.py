@@ -12,14 +12,12 @@ from contoursolve.execution.language import (
     VACANT,
     Assign,
     Forget,
-    Indexed,
     Known,
     MacroLanguage,
-    Term,
     Unknown,
     Vacant,
-    Variable,
 )
+from contoursolve.numeric import Indexed, Term, Variable
 
 MOST_LOGGED = 10_000
 """Assignments that are kept in mind while it is not known whether a jump took place."""

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Mapping
 
 from contoursolve.execution.evaluate import CONDITIONS, written
-from contoursolve.execution.language import Apply, Constant, Indexed, Quoted, Term, Variable
 from contoursolve.execution.notation import FANUC, HAAS, ISG, KLARTEXT, LINUXCNC, SINUMERIK, Notation
+from contoursolve.numeric import Apply, Constant, Indexed, Quoted, Term, Variable
 
 NOTATIONS: Mapping[str, Notation] = {
     "fanuc": FANUC,

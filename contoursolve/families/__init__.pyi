@@ -13,6 +13,7 @@ from .checkpoints import (
 from .compiled_sweep import (
     CompiledSweep as CompiledSweep,
 )
+from .errors import FamilyError as FamilyError
 from .evaluate import (
     THREADS as THREADS,
     FailureSummary as FailureSummary,
@@ -70,7 +71,6 @@ from .sensitivities import (
     slopes_of as slopes_of,
 )
 from .spec import (
-    FamilyError as FamilyError,
     Ranges as Ranges,
     RefusedError as RefusedError,
     errors_of as errors_of,

@@ -23,7 +23,6 @@ from contoursolve.numeric import (
     compile_columns,
     directions,
     largest,
-    lookup,
 )
 from contoursolve.solving import (
     Check,
@@ -41,6 +40,7 @@ from contoursolve.solving import (
     check_residuals,
     code_of,
     compile_path,
+    input_values,
     make_kernel,
     reason_of,
     spare_of,
@@ -97,7 +97,7 @@ class BranchRows:
         self.boxes = RowBoxes(case)
         self.steps = [_step(make_kernel(self.system, group)) for group in self.boxes.groups]
         tape = Tape()
-        at = lookup(self.system, tape, {})
+        at = input_values(self.system, tape, {})
         for number, fact in enumerate((*basis, *spare)):
             tape.output(f"residual:{number}", fact.residual(at))
         self.solved = [f"residual:{number}" for number in range(len(basis))]
@@ -297,7 +297,7 @@ def add_path(tape: Tape, system: System, givens: Container[str]) -> list[tuple[C
     which sizes of corners are stated."""
     figure, machine = system.figure, compile_path(system)
     path = machine.tape.copy()
-    source = Source(figure, path, lookup(system, path, at_origin(figure)))
+    source = Source(figure, path, input_values(system, path, at_origin(figure)))
     corners = largest(path.expression(name) for name in machine.corner_residuals)
     checks = [check_range(source), *check_path(source), check_residuals(corners)]
     radii = {each.size: f"{each.name}.radius" for each in figure.corners if each.size not in givens}

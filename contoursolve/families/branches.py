@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from contoursolve.diagnosis import join
 from contoursolve.families.case_classes import INSTEAD, ORIGIN, CaseClass, Follows
-from contoursolve.families.spec import NotClosedError
+from contoursolve.families.errors import NotClosedError
 from contoursolve.geometry import Choice, Fact, System
-from contoursolve.numeric import Array, Bounds, Chart, Following, Intervals, lookup
+from contoursolve.numeric import Array, Bounds, Chart, Following, Intervals
 from contoursolve.solving import (
     ROOT,
     Check,
@@ -34,6 +34,7 @@ from contoursolve.solving import (
     close,
     compile_checks,
     compile_system,
+    input_values,
     orders_of,
     settled_by,
 )
@@ -244,7 +245,7 @@ def _compile(system: System, words: int, follows: Follows, choices: tuple[Choice
     form = close(system)
     tape = form.machine.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
-    source = Source(system.figure, tape, lookup(system, tape, known | at_origin(system.figure)))
+    source = Source(system.figure, tape, input_values(system, tape, known | at_origin(system.figure)))
     plan = form.machine.plan
     facts = check_facts(source, plan.checks, len(plan.basis))
     found = [*_conditions(form), *_sides(form, choices), *facts, check_range(source), *check_path(source)]

@@ -15,17 +15,9 @@ from numpy.typing import NDArray
 
 from contoursolve.diagnosis import MOST_CHOICES, Answer, count_choices, join
 from contoursolve.diagnostics import Basis
+from contoursolve.families.errors import FamilyError, NotClosedError
 from contoursolve.families.free_words import bordered, factor_of, kind_of, limits_of, stated_by, value_of
-from contoursolve.families.spec import (
-    FamilyError,
-    NotClosedError,
-    Places,
-    Ranges,
-    Template,
-    called,
-    errors_of,
-    read_limits,
-)
+from contoursolve.families.spec import Places, Ranges, Template, called, errors_of, read_limits
 from contoursolve.families.traced_reading import OWN, Alike, Reading, placed_of, trace_reading
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import FIRST, SECOND, CornerShape, Profile, Question, Start, System, Unit, assemble, scalar

@@ -14,11 +14,11 @@ from msgspec.structs import replace
 from numpy.typing import ArrayLike, NDArray
 
 from contoursolve.families.compiled_sweep import CompiledSweep, Table, cases_of
+from contoursolve.families.errors import FamilyError
 from contoursolve.families.export import Family
 from contoursolve.families.free_words import Examples, check_block, examples_of
 from contoursolve.families.spec import (
     BlockOptions,
-    FamilyError,
     Ranges,
     SweepSpec,
     Template,

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Shown, need
 from contoursolve.families.case_classes import asked_of
+from contoursolve.families.errors import FamilyError
 from contoursolve.families.free_words import kind_of
-from contoursolve.families.spec import FamilyError, Ranges, SweepSpec, Template
+from contoursolve.families.spec import Ranges, SweepSpec, Template
 from contoursolve.gcode import Word
 from contoursolve.geometry import Unit
 from contoursolve.reading import Resting

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from contoursolve.diagnosis import Answer, join
 from contoursolve.diagnostics import Basis
+from contoursolve.families.errors import FamilyError
 from contoursolve.families.spec import (
     LONGEST,
-    FamilyError,
     Places,
     Ranges,
     Template,

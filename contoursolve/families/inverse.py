@@ -12,20 +12,11 @@ from contoursolve.diagnosis import Answer, join, value_text, write_word
 from contoursolve.diagnostics import Shown
 from contoursolve.families.branches import Branch
 from contoursolve.families.case_classes import results_of
+from contoursolve.families.errors import FamilyError, NotClosedError, NotMovedError
 from contoursolve.families.free_words import check_block
 from contoursolve.families.range_pieces import LEAST_GAP, RangePiece, RangeSearch, short
 from contoursolve.families.sensitivities import slopes_of
-from contoursolve.families.spec import (
-    BlockOptions,
-    FamilyError,
-    NotClosedError,
-    NotMovedError,
-    Template,
-    first_error,
-    spec_of,
-    with_value,
-    write,
-)
+from contoursolve.families.spec import BlockOptions, Template, first_error, spec_of, with_value, write
 from contoursolve.families.targets import (
     CONSTANT,
     Goal,

@@ -12,20 +12,12 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Shown
 from contoursolve.families.case_classes import resting_of
+from contoursolve.families.errors import FamilyError
 from contoursolve.families.evaluate import Tally, compile_sweep, solve_sweep
 from contoursolve.families.export import Family
 from contoursolve.families.free_words import check_block, kind_of, value_of
 from contoursolve.families.sensitivities import Spread, read_tolerances, slopes_of, stated_words
-from contoursolve.families.spec import (
-    BlockOptions,
-    FamilyError,
-    Template,
-    find_words,
-    first_error,
-    ranges_of,
-    spec_of,
-    unit_word,
-)
+from contoursolve.families.spec import BlockOptions, Template, find_words, first_error, ranges_of, spec_of, unit_word
 from contoursolve.families.targets import end_name, place_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Length, Plane, Unit

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from contoursolve.diagnosis import value_text
 from contoursolve.families.branches import Branch, branches_of
 from contoursolve.families.case_classes import INSTEAD, CaseClass, FreeWords
-from contoursolve.families.spec import FamilyError, NotClosedError, Template
+from contoursolve.families.errors import FamilyError, NotClosedError
+from contoursolve.families.spec import Template
 from contoursolve.families.subdivision import FEW, SAMPLES, STRETCHES, STRETCHES_FIRST, section, subdivide
 from contoursolve.families.traced_reading import Alike, place_of_contour, read_alone, trace_reading
 from contoursolve.geometry import Unit

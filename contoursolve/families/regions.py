@@ -14,9 +14,10 @@ from contoursolve.diagnostics import Shown
 from contoursolve.families.boundary_tracing import BISECTIONS, NODES, BoundaryTrace, Field, edge_of, gaps_of
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords
+from contoursolve.families.errors import FamilyError
 from contoursolve.families.feasible_ranges import ASIDE, NO_FAILURE, Reason, Way, failure_of, phrase, refused, same
 from contoursolve.families.free_words import check_block
-from contoursolve.families.spec import BlockOptions, FamilyError, Ranges, SweepSpec, Template, called, spec_of
+from contoursolve.families.spec import BlockOptions, Ranges, SweepSpec, Template, called, spec_of
 from contoursolve.families.subdivision import bisect
 from contoursolve.geometry import Unit
 from contoursolve.numeric import Array

@@ -17,12 +17,13 @@ from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Shown
 from contoursolve.families.branch_rows import add_path
 from contoursolve.families.case_classes import CaseClass, case_in, half_circles, results_of
+from contoursolve.families.errors import FamilyError
 from contoursolve.families.free_words import check_block, factor_of
-from contoursolve.families.spec import BlockOptions, FamilyError, first_error, spec_of, subject_of
+from contoursolve.families.spec import BlockOptions, first_error, spec_of, subject_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble, scalar
-from contoursolve.numeric import COSINE, SIDE, SINE, Compiled, Tape, condition, direction, lookup
-from contoursolve.solving import NoteKind, Solution, Status, analyse, basis_of
+from contoursolve.numeric import COSINE, SIDE, SINE, Compiled, Tape, condition, direction
+from contoursolve.solving import NoteKind, Solution, Status, analyse, basis_of, input_values
 from contoursolve.tolerance import RESIDUAL
 
 SINGULAR = 1e-9
@@ -260,7 +261,7 @@ def _compile(system: System, givens: frozenset[str], outputs: tuple[str, ...]) -
     tape = Tape()
     for name in system.unknowns:
         tape.input(name)
-    at = lookup(system, tape, {})
+    at = input_values(system, tape, {})
     basis = basis_of(system)
     for row, fact in enumerate(basis):
         tape.output(f"{row}", fact.residual(at))

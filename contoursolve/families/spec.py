@@ -16,7 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, Depth
-from contoursolve.diagnostics import Diagnostic, UserError
+from contoursolve.diagnostics import Diagnostic
+from contoursolve.families.errors import FamilyError
 from contoursolve.gcode import FACT, Directive, Program, Word, call, spell
 from contoursolve.numeric import Array
 from contoursolve.program import Request, Result, UnknownControlError, choose, request_for, run
@@ -27,18 +28,6 @@ Places = NDArray[numpy.int64]
 
 LONGEST = 262_144
 """Values of one word of a grid that are prepared once for all rows; of more, a stretch at a time."""
-
-
-class FamilyError(UserError, ValueError):
-    """A family that cannot be evaluated; the message says why, and what to do."""
-
-
-class NotClosedError(FamilyError):
-    """What needs a closed form is asked about a block that has none."""
-
-
-class NotMovedError(FamilyError):
-    """A word that does not move a point in the direction that is asked about."""
 
 
 _FEW = 64

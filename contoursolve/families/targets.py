@@ -24,7 +24,8 @@ from contoursolve.diagnosis import (
 )
 from contoursolve.diagnostics import Span
 from contoursolve.families.branches import PLACES, Branch
-from contoursolve.families.spec import FamilyError, NotMovedError, Template, first_error, is_same, with_value, write
+from contoursolve.families.errors import FamilyError, NotMovedError
+from contoursolve.families.spec import Template, first_error, is_same, with_value, write
 from contoursolve.families.subdivision import SAMPLES, SECTIONS, Fineness, bisect, subdivide
 from contoursolve.gcode import Word, read_directive
 from contoursolve.geometry import Figure, Length, Plane, Unit

@@ -3,18 +3,10 @@
 from collections.abc import Mapping, Sequence
 
 from contoursolve import gcode
-from contoursolve.execution import (
-    MacroLanguage,
-    Unknown,
-    Vacant,
-    Variable,
-    WordFormula,
-    evaluate,
-    variables_of,
-    written,
-)
-from contoursolve.families.spec import FamilyError
+from contoursolve.execution import MacroLanguage, Unknown, Vacant, WordFormula, evaluate, variables_of, written
+from contoursolve.families.errors import FamilyError
 from contoursolve.gcode import Program
+from contoursolve.numeric import Variable
 from contoursolve.program import choose
 from contoursolve.reading import Dialect
 

@@ -98,9 +98,6 @@ from .statements.statement import (
     TurnIs as TurnIs,
 )
 from .system import (
-    FLOATS as FLOATS,
-    Created as Created,
-    Functions as Functions,
     System as System,
     Values as Values,
     assemble as assemble,

@@ -1,7 +1,6 @@
 """Facts as equations: what they have in common, the values that they look up, and the system that they make."""
 
-import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -9,6 +8,7 @@ from msgspec import Struct, field
 
 from contoursolve.geometry.figure import FIRST, SECOND, Fact, Figure, Line, Lookup, line_scalars, scalar
 from contoursolve.geometry.profile import Layout, Profile
+from contoursolve.numeric import FLOATS, Created, Functions
 
 
 class Equation:
@@ -63,42 +63,6 @@ def cross(a: tuple[Any, Any], b: tuple[Any, Any]) -> Any:
 def rotate(vector: tuple[Any, Any], by: tuple[Any, Any]) -> tuple[Any, Any]:
     """A vector turned by the angle of this cosine and sine."""
     return vector[0] * by[0] - vector[1] * by[1], vector[1] * by[0] + vector[0] * by[1]
-
-
-def _may_vanish(value: Any) -> bool:
-    return bool(value != 0) is False
-
-
-class Functions(Struct, frozen=True):
-    """What equations need beyond arithmetic, for one kind of number."""
-
-    root: Callable[[Any], Any] = math.sqrt
-    cosine: Callable[[Any], Any] = math.cos
-    sine: Callable[[Any], Any] = math.sin
-    vanishes: Callable[[Any], bool] = _may_vanish
-    """Whether a number is zero; of a ball about one number, whether it may be."""
-
-
-FLOATS = Functions()
-
-
-class Created(Mapping[str, Any]):
-    """A mapping that makes what is asked for, whatever the name."""
-
-    def __init__(self, make: Callable[[str], Any]) -> None:
-        self._make = make
-
-    def __getitem__(self, name: str) -> Any:
-        return self._make(name)
-
-    def __contains__(self, _name: object) -> bool:
-        return True
-
-    def __iter__(self) -> Any:
-        raise TypeError("what is made when it is asked for cannot be listed")
-
-    def __len__(self) -> int:
-        raise TypeError("what is made when it is asked for cannot be counted")
 
 
 class Values(Struct, frozen=True):

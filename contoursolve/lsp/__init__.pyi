@@ -1,3 +1,1 @@
-from .server import (
-    server as server,
-)
+from .command import lsp as lsp

@@ -1,9 +1,2 @@
-from .exploration import (
-    begin as begin,
-)
-from .explore import (
-    explore as explore,
-)
-from .explorer import (
-    Explorer as Explorer,
-)
+from . import bundle as bundle
+from .explore import explore as explore

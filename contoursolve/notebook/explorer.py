@@ -7,13 +7,13 @@ from typing import Any
 import anywidget
 import traitlets
 
+from contoursolve.notebook.bundle import bundle
 from contoursolve.notebook.conversation import Conversation
 from contoursolve.notebook.exploration import Exploration
-from contoursolve.notebook.records import bundle
 from contoursolve.output import notebook_style
 from contoursolve.program import Result
 
-_HOUSE = files("contoursolve.notebook")
+_HOUSE = files(__package__)
 
 
 class Explorer(anywidget.AnyWidget):

@@ -1,8 +1,6 @@
-"""Records as a notebook shows them: the terminal's text always, HTML and a picture where they can be made."""
+"""The lines of every record that shows itself, and their tables."""
 
-import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from importlib import import_module
 from itertools import islice
 from math import isnan
 from typing import Any
@@ -29,7 +27,7 @@ from contoursolve.output import (
 )
 from contoursolve.program import Result
 from contoursolve.reading import Dialect, Lexicon, Rule
-from contoursolve.solving import Contour, Drawings, Drawn, Sketch
+from contoursolve.solving import Contour, Sketch
 from contoursolve.tolerance import AGREEMENT
 
 MOST_ROWS = 200
@@ -37,23 +35,6 @@ MOST_ROWS = 200
 
 MOST_LINES, WIDEST = 400, 400
 """Lines of text, and characters of a line."""
-
-_DRAWN = (Answer, Result, Family, Feasible, Region, Sketch, Drawings, Drawn)
-"""What has a picture."""
-
-MOST_CHARACTERS = 2_000_000
-"""Of HTML or SVG; what is larger stays text."""
-
-
-def bundle(record: Shown) -> dict[str, str]:
-    """A record by the types of data that a notebook knows. What cannot be made is left out."""
-    shown = {"text/plain": bounded(text_of(record))}
-    if _is_terminal():
-        return shown
-    if isinstance(record, _DRAWN) and (not isinstance(record, Result) or record.answers):
-        shown["image/svg+xml"] = _made(_svg, record)
-    shown["text/html"] = _made(_html, record)
-    return {kind: text for kind, text in shown.items() if kind == "text/plain" or 0 < len(text) <= MOST_CHARACTERS}
 
 
 def bounded(lines: Iterable[str]) -> str:
@@ -63,37 +44,6 @@ def bounded(lines: Iterable[str]) -> str:
     if len(first) > MOST_LINES:
         shown.append("...")
     return "\n".join(shown).rstrip()
-
-
-def _made(make: Callable[[Any], str], record: object) -> str:
-    """What a function makes of a record; nothing where a package is missing or the record cannot be drawn."""
-    try:
-        return make(record)
-    except Exception:  # the text says the same
-        return ""
-
-
-def _svg(record: Any) -> str:
-    from contoursolve.pictures import Theme, draw  # noqa: PLC0415 - text needs no picture
-
-    return draw(record, theme=Theme.PAGE).svg
-
-
-def _html(record: Shown) -> str:
-    from contoursolve.notebook.records_html import html_of  # noqa: PLC0415 - needs an extra
-
-    return html_of(record)
-
-
-def _is_terminal() -> bool:
-    """Whether IPython runs in a terminal, which shows text only."""
-    if "IPython" not in sys.modules:
-        return False
-    shell = import_module("IPython").get_ipython()
-    return shell is not None and shell.display_formatter.active_types == ["text/plain"]
-
-
-# Text --------------------------------------------------------------------------------------------------------
 
 
 def text_of(record: Shown) -> Iterable[str]:

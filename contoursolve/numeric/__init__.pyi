@@ -1,6 +1,3 @@
-from .angle import (
-    direction as direction,
-)
 from .ball import (
     Number as Number,
 )
@@ -60,6 +57,13 @@ from .formulas import (
     Affine as Affine,
     formulas_of as formulas_of,
 )
+from .functions import FLOATS as FLOATS, Created as Created, Functions as Functions
+from .given_angle import (
+    COSINE as COSINE,
+    SIDE as SIDE,
+    SINE as SINE,
+    direction as direction,
+)
 from .hc4 import (
     Boxes as Boxes,
     Narrower as Narrower,
@@ -67,14 +71,6 @@ from .hc4 import (
     contract as contract,
     joined as joined,
     stacked as stacked,
-)
-from .inputs import (
-    COSINE as COSINE,
-    SIDE as SIDE,
-    SINE as SINE,
-    given_directions as given_directions,
-    lookup as lookup,
-    named_inputs as named_inputs,
 )
 from .interpreter import (
     Replay as Replay,
@@ -102,4 +98,12 @@ from .modular_rank import (
 from .newton import (
     Finder as Finder,
     finder_of as finder_of,
+)
+from .terms import (
+    Apply as Apply,
+    Constant as Constant,
+    Indexed as Indexed,
+    Quoted as Quoted,
+    Term as Term,
+    Variable as Variable,
 )

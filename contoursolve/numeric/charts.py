@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from contoursolve.numeric import intervals
 from contoursolve.numeric.columns import Rows
 from contoursolve.numeric.expressions import Tape, cosine, sine, symbol
-from contoursolve.numeric.inputs import COSINE, SINE
+from contoursolve.numeric.given_angle import COSINE, SINE
 from contoursolve.numeric.interpreter import Replay, run_steps
 from contoursolve.numeric.intervals import Intervals, constant, down, up
 from contoursolve.numeric.linear_algebra import Array

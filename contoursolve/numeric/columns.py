@@ -147,7 +147,7 @@ def _replay(function: Any, inputs: list[Any]) -> list[Any]:
 
 
 def directions(degrees: Array) -> tuple[Array, Array]:
-    """(cosine, sine) of angles in degrees, exact where they are exact; see `numeric.angle.direction`.
+    """(cosine, sine) of angles in degrees, exact where they are exact; see `numeric.given_angle.direction`.
 
     Angles of at most nine decimals are folded into 0 to 45 degrees as whole numbers, without rounding.
     """

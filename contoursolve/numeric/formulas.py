@@ -8,11 +8,10 @@ from typing import Any
 import sympy
 from msgspec import Struct
 
-from contoursolve.execution import Apply, Constant, Term, Variable
-from contoursolve.numeric.angle import direction
 from contoursolve.numeric.expressions import Tape
-from contoursolve.numeric.inputs import COSINE, SINE
+from contoursolve.numeric.given_angle import COSINE, SINE, direction
 from contoursolve.numeric.interpreter import Replay
+from contoursolve.numeric.terms import Apply, Constant, Term, Variable
 
 ZERO = 1e-6
 """mm, or the sine of an angle. What is not larger is zero for a control, whose cosine of 90 degrees is not; the sine of

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from msgspec import Struct
 
-from contoursolve.geometry import Functions
+from contoursolve.numeric.functions import Functions
 
 PRIME = 2**61 - 1
 

@@ -1,15 +1,17 @@
 """Sympy: the exact, generic properties of a system's equations."""
 
 import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import sympy
 from sympy.polys.domains import QQ
 from sympy.polys.matrices import DomainMatrix
 
-from contoursolve.geometry import Created, Functions, Values
+from contoursolve.numeric.functions import Functions
 from contoursolve.numeric.modular_rank import ExactRank
+
+FUNCTIONS = Functions(sympy.sqrt, sympy.cos, sympy.sin)
 
 
 class Symbols:
@@ -27,17 +29,6 @@ class Symbols:
         """Cosine and sine of a given angle's symbol."""
         angle = self._angles.setdefault(given, sympy.Symbol(given, real=True))
         return sympy.cos(angle), sympy.sin(angle)
-
-    def lookup(self, headed: Mapping[str, tuple[str, str]]) -> Values:
-        """A lookup of these symbols; `headed` are the lines of given direction."""
-        return Values(
-            Created(self.scalar),
-            Created(self.scalar),
-            Created(self.direction),
-            headed,
-            Created(self.scalar),
-            Functions(sympy.sqrt, sympy.cos, sympy.sin),
-        )
 
     def random_point(self, seed: int) -> dict[Any, Any]:
         """A rational value for every symbol; angles and directions of lines get rational cosines and sines."""

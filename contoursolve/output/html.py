@@ -268,7 +268,7 @@ _DARK_PAGES = ('[data-jp-theme-light="false"]', ".vscode-dark", '[data-theme="da
 @lru_cache
 def style_rules(name: str = "style.css") -> str:
     """What everything inside an element of the class `contoursolve` looks like."""
-    return files("contoursolve.output").joinpath(name).read_text(encoding="utf-8")
+    return files(__package__).joinpath(name).read_text(encoding="utf-8")
 
 
 @lru_cache

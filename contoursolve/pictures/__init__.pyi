@@ -33,11 +33,11 @@ from .overview import (
 )
 from .page import (
     About as About,
-    stack_sheets as stack_sheets,
 )
 from .scene import (
     Viewport as Viewport,
 )
+from .sheet import stack_sheets as stack_sheets
 from .sketches import (
     compose_drawings as compose_drawings,
     compose_drawn as compose_drawn,

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer
 from contoursolve.pictures.compose import compose, describe
 from contoursolve.pictures.layout import lay_out
-from contoursolve.pictures.page import stack_sheets
+from contoursolve.pictures.sheet import stack_sheets
 from contoursolve.pictures.svg import Picture, finish
 from contoursolve.pictures.theme import Theme
 from contoursolve.program import Result

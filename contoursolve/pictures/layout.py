@@ -22,7 +22,6 @@ from contoursolve.pictures.page import (
     Anchor,
     Box,
     Item,
-    Sheet,
     Spot,
     Stroke,
     Sweep,
@@ -37,6 +36,7 @@ from contoursolve.pictures.page import (
     wrap,
 )
 from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thin, Trail, Viewport, Weight
+from contoursolve.pictures.sheet import Sheet
 from contoursolve.pictures.svg import steps_text
 from contoursolve.pictures.theme import CHAINS, DASHES, MEANINGS, Role
 from contoursolve.pictures.vectors import along, direction, distance, middle, sweep_of

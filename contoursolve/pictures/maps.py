@@ -11,7 +11,8 @@ from contoursolve.numeric import Array
 from contoursolve.pictures.curves import Curve, curves_of, spots_of, strokes
 from contoursolve.pictures.field_names import is_free, name_all
 from contoursolve.pictures.fields import Outcomes, boundaries, outcomes_of, paint
-from contoursolve.pictures.page import SIZE, Anchor, Box, Dot, Item, Sheet, Text, TextRun, visible
+from contoursolve.pictures.page import SIZE, Anchor, Box, Dot, Item, Text, TextRun, visible
+from contoursolve.pictures.sheet import Sheet
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.value_axes import (
     BELOW,

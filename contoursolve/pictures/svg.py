@@ -15,20 +15,8 @@ from xml.sax.saxutils import escape, quoteattr
 from zlib import crc32
 
 from contoursolve.diagnostics import MissingExtraError, importing
-from contoursolve.pictures.page import (
-    ANYTHING,
-    WIDTH,
-    About,
-    Dot,
-    Item,
-    Shape,
-    Sheet,
-    Spot,
-    Stroke,
-    Sweep,
-    Text,
-    TextRun,
-)
+from contoursolve.pictures.page import ANYTHING, WIDTH, About, Dot, Item, Shape, Spot, Stroke, Sweep, Text, TextRun
+from contoursolve.pictures.sheet import Sheet
 from contoursolve.pictures.theme import CHAINS, DARK_COLORS, LIGHT_COLORS, Role, Theme
 
 SANS = "'DejaVu Sans', Verdana, 'Liberation Sans', Arial, sans-serif"

@@ -18,7 +18,6 @@ from contoursolve.pictures.page import (
     Box,
     Dot,
     Item,
-    Sheet,
     Stroke,
     Text,
     TextRun,
@@ -28,6 +27,7 @@ from contoursolve.pictures.page import (
     width_of,
     wrap,
 )
+from contoursolve.pictures.sheet import Sheet
 from contoursolve.pictures.theme import Role
 
 WIDE, HIGH = 610.0, 400.0

@@ -7,8 +7,9 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Depth, Policy, examine, join
-from contoursolve.execution import MacroLanguage, Unknown, Variable, evaluate, variables_of, written
+from contoursolve.execution import MacroLanguage, Unknown, evaluate, variables_of, written
 from contoursolve.gcode import Block, parse_block
+from contoursolve.numeric import Variable
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue
 
 _STEPS, _GROWTH, _SMALLEST = 48, 1.25, 0.05

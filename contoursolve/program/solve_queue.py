@@ -8,7 +8,17 @@ from typing import Any, Protocol, cast
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, Context, Depth, Policy, context_of, examine, join, measured, report
+from contoursolve.diagnosis import (
+    Answer,
+    Depth,
+    Policy,
+    context_of,
+    examine,
+    join,
+    measured,
+    report,
+    report_behind,
+)
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic
 from contoursolve.gcode import Block, Passage, parse_block
 from contoursolve.program.stream import View
@@ -180,8 +190,8 @@ class Queue:
         dialect = self.dialect
         if dialect.follow is None:
             return ()
-        context = Context(dialect.rules, each.step.before.unit)
-        return tuple(dialect.follow(form, contour, left, each.view.lines(each.after), context, dialect.modes))
+        found = dialect.follow(form, contour, left, each.view.lines(each.after), dialect.modes)
+        return tuple(report_behind(one, dialect.rules) for one in found)
 
     def leave(self, pending: Pending) -> State:
         """The state after a contour; where it ends follows when it is solved."""

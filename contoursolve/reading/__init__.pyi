@@ -13,6 +13,7 @@ from .contour_form import (
     stated_sets as stated_sets,
 )
 from .dialect import (
+    Behind as Behind,
     Dialect as Dialect,
     Taken as Taken,
 )

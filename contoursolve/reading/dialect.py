@@ -5,20 +5,41 @@ from dataclasses import dataclass, replace
 
 from msgspec import Struct
 
-from contoursolve.diagnostics import Diagnostic
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane
 from contoursolve.reading.contour_form import Assumption, ContourForm, Setting
 from contoursolve.reading.follow import Finder
 from contoursolve.reading.lexicon import Diameter
 from contoursolve.reading.modal_state import Modes, Position, State, with_diameters
-from contoursolve.reading.parsed_contour import ReadIssue
+from contoursolve.reading.parsed_contour import ParsedContour, ReadIssue
 from contoursolve.reading.rules import Rule
 from contoursolve.reading.writer import Writing
 
-Follower = Callable[..., Iterator[Diagnostic]]
-"""(name of the form, path or None, what gives the state behind it, lines behind it with their numbers, context of
-messages, modes) to the findings about the block behind a contour."""
+Follower = Callable[..., "Iterator[Behind]"]
+"""(name of the form, path or None, what gives the state behind it, lines behind it with their numbers, modes) to what
+is wrong with the block behind a contour."""
+
+
+class Behind(Struct, frozen=True):
+    """Something that is wrong with the block behind a contour: about what, its words, and what the row says of it.
+
+    `lengths` (mm, as the axis counts) and `angles` (degrees) are fields of the message that its unit or its decimals
+    decide. `meant` is the block with which it would be right.
+    """
+
+    about: ReadIssue
+    state: State
+    block: Block
+    words: tuple[Word, ...]
+    fields: Mapping[str, str]
+    lengths: Mapping[str, float] = {}
+    angles: Mapping[str, float] = {}
+    values: Mapping[str, float] = {}
+    meant: Block | None = None
+    contour: ParsedContour | None = None
+    """The contour that the block would be then; of one without a path it is not said that it is meant."""
+    advice: str = ""
+    """What the meant block is, where it is no contour."""
 
 
 class Taken(Struct, frozen=True):

@@ -8,8 +8,6 @@ from .affine import (
 from .alternatives import (
     ARCS as ARCS,
     BOTH as BOTH,
-    Alternative as Alternative,
-    Alternatives as Alternatives,
     choose as choose,
     find_alternatives as find_alternatives,
     sides_of as sides_of,
@@ -117,6 +115,7 @@ from .identities import (
     is_affine as is_affine,
     tied_sets as tied_sets,
 )
+from .inputs import input_values as input_values
 from .numbers import (
     axes_of as axes_of,
     corner_of as corner_of,
@@ -134,6 +133,8 @@ from .partition import (
     order as order,
 )
 from .picks import (
+    Alternative as Alternative,
+    Alternatives as Alternatives,
     numbers_of as numbers_of,
     pick as pick,
     resolved_later as resolved_later,

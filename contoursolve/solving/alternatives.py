@@ -6,7 +6,6 @@ from itertools import pairwise
 from math import inf
 from typing import Any
 
-from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.geometry import (
@@ -41,7 +40,7 @@ from contoursolve.solving.exact_inputs import ground_of
 from contoursolve.solving.krawczyk import Prover, radius_of
 from contoursolve.solving.numbers import corner_of, sizes_of
 from contoursolve.solving.path import check_path
-from contoursolve.solving.picks import pick
+from contoursolve.solving.picks import Alternative, Alternatives, pick
 from contoursolve.solving.solution import (
     Certificate,
     CornerSolution,
@@ -55,47 +54,6 @@ from contoursolve.solving.solution import (
     Status,
 )
 from contoursolve.tolerance import LENGTH, RESIDUAL
-
-
-class Alternative(Struct, frozen=True):
-    """One solution of the equations, as a path or with what speaks against it.
-
-    `scalars` holds every unknown in mm. `sides` are the branches by the point or the elements that they are about;
-    `name` tells it from the others.
-    """
-
-    solution: Solution
-    scalars: Mapping[str, float]
-    sides: Mapping[str, str]
-    certificate: Certificate
-    name: str = ""
-
-    @property
-    def is_path(self) -> bool:
-        """Whether the control could make it."""
-        return self.solution.status in (Status.SOLVED, Status.OVERDETERMINED)
-
-
-class Alternatives(Struct, frozen=True):
-    """All solutions of a profile's equations; the list is complete, with proof, if there is no doubt.
-
-    `reach` is how far from the start point there is no other one, mm, where they were searched for; None where the
-    closed form gives all.
-    """
-
-    items: tuple[Alternative, ...]
-    doubts: tuple[Doubt, ...]
-    reach: float | None
-
-    @property
-    def is_complete(self) -> bool:
-        """Whether these are proven to be all."""
-        return not self.doubts
-
-    @property
-    def paths(self) -> tuple[Alternative, ...]:
-        """The solutions that the control could make."""
-        return tuple(item for item in self.items if item.is_path)
 
 
 def find_alternatives(profile: Profile) -> Alternatives:

@@ -26,12 +26,12 @@ from contoursolve.numeric import (
     finder_of,
     intervals,
     joined,
-    lookup,
     stacked,
 )
 from contoursolve.solving.determinacy import basis_of
 from contoursolve.solving.elimination import Root
 from contoursolve.solving.implied_constraints import consequences, necessities
+from contoursolve.solving.inputs import input_values
 from contoursolve.solving.krawczyk import keep, prove, refine
 from contoursolve.solving.partition import Group
 from contoursolve.solving.step_equations import Kernel
@@ -126,7 +126,7 @@ def conditions_of(system: System, group: Group) -> Conditions:
     tape = Tape()
     for name in group.unknowns:
         tape.input(name)
-    at = lookup(system, tape, {})
+    at = input_values(system, tape, {})
     zeros = [
         *(fact.equation(at) for fact in group.facts),
         *consequences(group.facts, basis_of(system), system.headed, at),
@@ -136,7 +136,7 @@ def conditions_of(system: System, group: Group) -> Conditions:
         tape.output(str(number), expression)
     slopes = Tape()
     unknowns = [slopes.input(name) for name in group.unknowns]
-    equations = [fact.equation(lookup(system, slopes, {})) for fact in group.facts]
+    equations = [fact.equation(input_values(system, slopes, {})) for fact in group.facts]
     for number, expression in enumerate((*equations, *expressions.derivatives(equations, unknowns))):
         slopes.output(str(number), expression)
     return Conditions(

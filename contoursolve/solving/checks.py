@@ -42,7 +42,6 @@ from contoursolve.numeric import (
     directions,
     larger,
     largest,
-    lookup,
     magnitude,
     opposite,
     replay_rows,
@@ -53,6 +52,7 @@ from contoursolve.solving.compare import allowance, is_directed
 from contoursolve.solving.compile import Machine, compile_plainly, compile_system
 from contoursolve.solving.corners import Pair
 from contoursolve.solving.determinacy import analyse
+from contoursolve.solving.inputs import input_values
 from contoursolve.solving.numbers import axes_of, inputs_of
 from contoursolve.solving.plan import AffineStep, DistanceStep, Step, TwoCirclesStep, is_closed, lines_through
 from contoursolve.solving.solution import RefusalKind
@@ -182,7 +182,7 @@ def _source_of(system: System, machine: Machine) -> Source:
     """The expressions of a system in closed form, with a tape of their own."""
     tape = machine.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
-    return Source(system.figure, tape, lookup(system, tape, known | at_origin(system.figure)))
+    return Source(system.figure, tape, input_values(system, tape, known | at_origin(system.figure)))
 
 
 def plain_checks(system: System) -> tuple[Source, list[tuple[Check, Any]]]:

@@ -27,7 +27,6 @@ from contoursolve.numeric import (
     is_number,
     is_zero,
     larger,
-    lookup,
     quadratic_parts,
     sqrt,
     symbol,
@@ -36,6 +35,7 @@ from contoursolve.numeric import (
 from contoursolve.solving.alternatives import side_values
 from contoursolve.solving.compile import Machine, compile_path
 from contoursolve.solving.determinacy import basis_of, groups_of, spare_of
+from contoursolve.solving.inputs import input_values
 from contoursolve.solving.partition import Group
 from contoursolve.solving.plan import NoClosedFormError, Plan
 
@@ -133,7 +133,7 @@ class _Closing:
         return ClosedForm(machine, tuple(self.signs), tuple(self.conditions), sides)
 
     def _at(self, symbols: Mapping[str, Any] | None = None) -> Values:
-        return lookup(self.system, self.tape, {**self.scalars, **(symbols or {})})
+        return input_values(self.system, self.tape, {**self.scalars, **(symbols or {})})
 
     def _need(self, need: Need, value: Any, facts: Sequence[Fact], unknowns: Sequence[str]) -> None:
         output = f"condition:{len(self.conditions)}"

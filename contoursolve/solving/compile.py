@@ -15,7 +15,6 @@ from contoursolve.geometry import (
     Collinear,
     Corner,
     Fact,
-    Functions,
     Heading,
     Line,
     OnCircle,
@@ -26,6 +25,7 @@ from contoursolve.geometry import (
 )
 from contoursolve.numeric import (
     Compiled,
+    Functions,
     Replay,
     Tape,
     affine_parts,
@@ -33,11 +33,9 @@ from contoursolve.numeric import (
     at_most,
     ball,
     cosine as cosine_of,
-    given_directions,
     is_zero,
     jacobian_parts,
     magnitude,
-    named_inputs,
     sign,
     sine as sine_of,
     sqrt,
@@ -47,6 +45,7 @@ from contoursolve.numeric import (
 from contoursolve.solving.compare import half_circle_allowance
 from contoursolve.solving.corners import Edge, Pair, build_corner, drop_straight, unit
 from contoursolve.solving.determinacy import spare_of
+from contoursolve.solving.inputs import given_directions, named_inputs
 from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep, make_plan
 from contoursolve.tolerance import LENGTH, REGULAR, TOUCHING
 

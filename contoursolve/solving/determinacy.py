@@ -19,9 +19,9 @@ from contoursolve.numeric import (
     Row,
     draw,
     draw_direction,
-    lookup,
     modular_rank,
 )
+from contoursolve.solving.inputs import input_values, symbolic_values
 from contoursolve.solving.partition import Group, order
 
 
@@ -43,7 +43,7 @@ class _Witnesses(NamedTuple):
 
 
 def _gradient(system: System, fact: Fact, columns: Mapping[str, int]) -> Row:
-    value = fact.equation(lookup(system, _Witnesses(columns), {}, RESIDUES))
+    value = fact.equation(input_values(system, _Witnesses(columns), {}, RESIDUES))
     return {columns[name]: slope for name, slope in value.slopes.items() if slope}
 
 
@@ -134,7 +134,7 @@ def derive(system: System) -> Determinacy:
     from contoursolve.numeric import symbolic  # noqa: PLC0415 - 200 ms, see analyse
 
     symbols = symbolic.Symbols()
-    at = symbols.lookup(system.headed)
+    at = symbolic_values(symbols, symbolic.FUNCTIONS, system.headed)
     residuals = [fact.equation(at) for fact in system.facts]
     unknowns = [symbols.scalar(name) for name in system.unknowns]
     if not residuals:
@@ -175,7 +175,7 @@ def _condition(system: System, matrix: Any, basis: Sequence[int]) -> str:
 
 @lru_cache(maxsize=1)
 def _shipped() -> dict[str, Any]:
-    data = pkgutil.get_data("contoursolve.solving", "verdicts.json")
+    data = pkgutil.get_data(__package__, "verdicts.json")
     table: dict[str, Any] = json.loads(data) if data else {}
     return table
 

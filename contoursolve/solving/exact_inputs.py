@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from contoursolve.geometry import FIRST, SECOND, Functions, Given, Profile, System, Unit, Values, scalar
-from contoursolve.numeric import COSINE, SIDE, Number, ball
+from contoursolve.geometry import FIRST, SECOND, Given, Profile, System, Unit, Values, scalar
+from contoursolve.numeric import COSINE, SIDE, Functions, Number, ball
 from contoursolve.solving.numbers import axes_of
 
 REACH = 4.0

@@ -27,9 +27,10 @@ from contoursolve.geometry import (
     both,
     scalar,
 )
-from contoursolve.solving.alternatives import Alternatives, find_alternatives
+from contoursolve.solving.alternatives import find_alternatives
 from contoursolve.solving.ambiguity import restrict, settle
 from contoursolve.solving.determinacy import analyse
+from contoursolve.solving.picks import Alternatives
 from contoursolve.solving.solution import Point, Status
 from contoursolve.tolerance import LENGTH
 

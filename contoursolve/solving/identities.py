@@ -5,6 +5,7 @@ from itertools import combinations
 
 from contoursolve.geometry import Coordinate, Fact, Heading, Offset, OnCircle, System
 from contoursolve.solving.determinacy import analyse
+from contoursolve.solving.inputs import symbolic_values
 
 
 def tied_sets(system: System) -> tuple[tuple[Fact, ...], ...]:
@@ -27,7 +28,7 @@ def derive_identity(system: System, facts: Sequence[Fact]) -> str:
 
     lengths = [fact for fact in facts if isinstance(fact, Offset | Coordinate)]
     symbols = symbolic.Symbols()
-    at = symbols.lookup(system.headed)
+    at = symbolic_values(symbols, symbolic.FUNCTIONS, system.headed)
     unknowns = [symbols.scalar(name) for name in system.unknowns]
     if not lengths:
         return ""
@@ -44,7 +45,7 @@ def derive_circle_identity(system: System, facts: Sequence[Fact]) -> str:
     if len(circles) != 2 or len({(fact.center, fact.radius) for fact in circles}) != 1:  # noqa: PLR2004
         return ""
     symbols = symbolic.Symbols()
-    at = symbols.lookup(system.headed)
+    at = symbolic_values(symbols, symbolic.FUNCTIONS, system.headed)
     first, second = (fact.equation(at) for fact in circles)
     affine = [fact.residual(at) for fact in facts if not isinstance(fact, OnCircle)]
     return symbolic.substitute_solution(first - second, affine, [symbols.scalar(name) for name in system.unknowns])

@@ -18,8 +18,9 @@ from contoursolve.geometry import (
     System,
     both,
 )
-from contoursolve.numeric import Tape, is_affine, lookup
+from contoursolve.numeric import Tape, is_affine
 from contoursolve.solving.determinacy import analyse, basis_of, groups_of, spare_of
+from contoursolve.solving.inputs import input_values
 from contoursolve.solving.partition import Group
 
 
@@ -160,7 +161,7 @@ def _is_affine(fact: Fact, unknowns: set[str], system: System) -> bool:
             not unknowns.isdisjoint(both(point)) for point in (fact.through, fact.point)
         )
     tape = Tape()
-    return is_affine([fact.residual(lookup(system, tape, {}))], [tape.input(name) for name in sorted(unknowns)])
+    return is_affine([fact.residual(input_values(system, tape, {}))], [tape.input(name) for name in sorted(unknowns)])
 
 
 @lru_cache(maxsize=8192)

@@ -32,11 +32,12 @@ from contoursolve.geometry import (
     rank,
     read_statement,
 )
-from contoursolve.solving.alternatives import Alternative, Alternatives, decide, find_alternatives
+from contoursolve.solving.alternatives import decide, find_alternatives
 from contoursolve.solving.contour import trace
 from contoursolve.solving.determinacy import analyse
 from contoursolve.solving.drawn import Asked, Drawings, Drawn, Stated, worded
 from contoursolve.solving.numbers import lookup, scalars_of
+from contoursolve.solving.picks import Alternative, Alternatives
 from contoursolve.solving.solution import RefusalKind, Status
 from contoursolve.tolerance import LARGEST
 

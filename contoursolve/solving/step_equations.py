@@ -6,9 +6,10 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry import Fact, Functions, System
+from contoursolve.geometry import Fact, System
 from contoursolve.numeric import (
     PRIME,
+    Functions,
     Number,
     Replay,
     Tape,
@@ -16,9 +17,9 @@ from contoursolve.numeric import (
     draw,
     draw_direction,
     expressions,
-    lookup,
     modular_rank,
 )
+from contoursolve.solving.inputs import input_values
 from contoursolve.solving.partition import Group
 
 
@@ -169,7 +170,7 @@ def make_kernel(system: System, group: Group) -> Kernel:
     symbols = {name: expressions.symbol(name) for name in group.unknowns}
     tape = Tape()
     parts = expressions.quadratic_parts(
-        [fact.equation(lookup(system, tape, symbols)) for fact in group.facts],
+        [fact.equation(input_values(system, tape, symbols)) for fact in group.facts],
         list(symbols.values()),
     )
     coefficients = None
@@ -179,7 +180,7 @@ def make_kernel(system: System, group: Group) -> Kernel:
         coefficients = Replay(tape.function(), COEFFICIENTS, rational)
     at = Tape()
     unknowns = [at.input(name) for name in group.unknowns]
-    outputs = [fact.equation(lookup(system, at, {})) for fact in group.facts]
+    outputs = [fact.equation(input_values(system, at, {})) for fact in group.facts]
     for number, expression in enumerate((*outputs, *expressions.derivatives(outputs, unknowns))):
         at.output(str(number), expression)
     function = at.function()

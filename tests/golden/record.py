@@ -45,7 +45,7 @@ class Case:
 
 def run(case: Case, folder: Path) -> dict[str, object]:
     """Exit status, standard output and error, and every file that was written, as text."""
-    from contoursolve.cli import main  # noqa: PLC0415 - tests import this module before they choose a package
+    from contoursolve.__main__ import commands  # noqa: PLC0415 - tests import this module before they choose a package
 
     for name, text in case.files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -55,9 +55,9 @@ def run(case: Case, folder: Path) -> dict[str, object]:
     os.chdir(folder)
     try:
         for arguments in case.before:
-            (folder / BEFORE).write_text(runner.invoke(main, list(arguments)).stdout, encoding="utf-8")
+            (folder / BEFORE).write_text(runner.invoke(commands(), list(arguments)).stdout, encoding="utf-8")
         old |= {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} if case.before else {}
-        done = runner.invoke(main, list(case.arguments), input=case.stdin or None)
+        done = runner.invoke(commands(), list(case.arguments), input=case.stdin or None)
     finally:
         os.chdir(here)
     assert done.exception is None or isinstance(done.exception, SystemExit), (case, done.exception)

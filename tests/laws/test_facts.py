@@ -56,7 +56,6 @@ from contoursolve.geometry import (
     EqualSizes,
     Extent,
     Foot,
-    Functions,
     Heading,
     Leaving,
     Length,
@@ -100,6 +99,7 @@ from contoursolve.geometry import (
     write_statement,
 )
 from contoursolve.geometry.statements.apply import vocabulary_of
+from contoursolve.numeric import Functions
 from contoursolve.output.document import to_json
 from contoursolve.solving import NoClosedFormError, analyse, is_closed, solve as solve_in_closed_form
 

@@ -13,7 +13,7 @@ from test_family import CASES, text_of
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.families import FamilyError, RefusedError, Way, family, feasible, region, regions
-from contoursolve.families.spec import NotClosedError
+from contoursolve.families.errors import NotClosedError
 from contoursolve.solving import Code
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from functools import cache
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -13,29 +14,27 @@ import pytest
 import contoursolve
 
 FLOORS = (
-    "tolerance diagnostics",
+    "tolerance diagnostics numeric",
     "gcode",
     "geometry execution",
-    "numeric reading statements",
-    "analysis",
-    "solving",
-    "diagnosis sketch",
-    "controls",
-    "program verification",
-    "comparison families postprocess",
-    "formulas pictures",
+    "reading solving",
+    "diagnosis controls",
+    "program",
+    "comparison families verification",
+    "postprocess pictures",
     "api output",
     "notebook try_edits",
     "__init__",
-    "lsp",
-    "cli",
+    "lsp cli",
     "__main__",
 )
 FLOOR_OF = {room: number for number, rooms in enumerate(FLOORS) for room in rooms.split()}
-BY_NAME = ("diagnostics",)
-"""Rooms that name a higher one, which is imported only when somebody looks at a record."""
 HOUSE = Path(contoursolve.__file__).parent
 MODULES = sorted(HOUSE.rglob("*.py"))
+PATHS = {
+    ".".join(("contoursolve", *path.relative_to(HOUSE).with_suffix("").parts)).removesuffix(".__init__"): path
+    for path in MODULES
+}
 
 
 def room_of(module: Path) -> str:
@@ -43,8 +42,22 @@ def room_of(module: Path) -> str:
 
 
 @cache
+def exported(package: str) -> dict[str, str]:
+    """What a package lists for others: each name, and the module that has it."""
+    stub = PATHS[package].with_suffix(".pyi")
+    if PATHS[package].name != "__init__.py" or not stub.exists():
+        return {}
+    found = {}
+    for node in ast.parse(stub.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.ImportFrom):
+            for alias in node.names:
+                found[alias.name] = f"{package}.{node.module or alias.name}"
+    return found
+
+
+@cache
 def imports(module: Path) -> tuple[str, ...]:
-    """Full names of everything imported anywhere in a module."""
+    """Full names of everything imported anywhere in a module, or named as a module by a text."""
     return tuple(_imports(module))
 
 
@@ -55,9 +68,27 @@ def _imports(module: Path) -> Iterator[str]:
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{module}: a relative import hides the room"
             yield from (f"{node.module}.{alias.name}" for alias in node.names)
-        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and room_of(module) not in BY_NAME:
-            # Modules that are imported by name.
-            yield from (name for name in re.findall(r"\Acontoursolve\.\w+", node.value) if not name.endswith("toml"))
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            named = re.findall(r"\Acontoursolve\.\w+", node.value)
+            # A file beside a module, or its neighbours by their names.
+            yield from (name for name in named if not name.endswith(("toml", f".{room_of(module)}")))
+    if module.name == "__init__.py":
+        package = next(name for name, path in PATHS.items() if path == module)
+        yield from (f"{home}.{name}" for name, home in exported(package).items())
+
+
+def home_of(name: str) -> str | None:
+    """The module of the house that an imported name is in, however many packages list it on the way."""
+    if name in PATHS:
+        return name
+    package, _, last = name.rpartition(".")
+    while package in PATHS and last in exported(package):
+        package = exported(package)[last]
+    return package if package in PATHS else None
+
+
+def needed(module: Path) -> set[str]:
+    return {home for name in imports(module) if (home := home_of(name)) is not None and PATHS[home] != module}
 
 
 def rooms(module: Path) -> Iterator[str]:
@@ -66,6 +97,37 @@ def rooms(module: Path) -> Iterator[str]:
         if house == "contoursolve":
             room = rest.split(".")[0]
             yield room if room in FLOOR_OF else "__init__"
+
+
+def test_the_house_is_small_enough_to_be_walked_through():
+    folders = {path.parent.name for path in HOUSE.glob("*/*.py")}
+    assert len(folders - {"verification"}) <= 18
+    assert len(FLOORS) - 1 <= 12  # without __main__
+    assert {path.name for path in HOUSE.glob("*.py")} == {
+        "__init__.py",
+        "__main__.py",
+        "api.py",
+        "tolerance.py",
+        "try_edits.py",
+    }
+
+
+def test_no_file_stands_in_a_circle():
+    """Of files, whose imports are followed through the lists of packages to where a name is defined."""
+    graph = {name: needed(path) for name, path in PATHS.items()}
+    order = TopologicalSorter(graph)
+    order.prepare()  # raises CycleError, which names the files
+
+
+@pytest.mark.parametrize("module", MODULES, ids=lambda module: str(module.relative_to(HOUSE)))
+def test_nothing_is_imported_past_what_a_package_lists(module):
+    own = room_of(module)
+    past = []
+    for node in ast.walk(ast.parse(module.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("contoursolve."):
+            _, room, *deeper = node.module.split(".")
+            past += [node.module] * bool(room != own and deeper)
+    assert past == []
 
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda module: str(module.relative_to(HOUSE)))
@@ -78,7 +140,12 @@ def test_a_room_imports_only_from_lower_floors(module):
 def test_the_language_server_knows_what_the_package_exports():
     own = [module for module in MODULES if room_of(module) == "lsp"]
     # contoursolve.controls is the name of a command there.
-    assert {room for module in own for room in rooms(module)} - {"controls"} == {"__init__", "lsp", "pictures"}
+    assert {room for module in own for room in rooms(module)} - {"controls"} == {
+        "__init__",
+        "diagnostics",
+        "lsp",
+        "pictures",
+    }
 
 
 def test_only_numeric_imports_sympy_casadi_and_flint():
@@ -126,3 +193,10 @@ def test_nothing_heavy_is_needed_for_what_is_done_most():
     program = "\n".join(("import sys, contoursolve", *(f"{use}\n{told}" for use in USES.values())))
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert dict(zip(USES, done.stdout.splitlines(), strict=True)) == dict.fromkeys(USES, "")
+
+
+def test_no_name_that_a_package_lists_is_that_of_another_of_its_modules():
+    """Importing the module would put it in the place of the name."""
+    for package in PATHS:
+        of_modules = {f"{package}.{name}": f"{home}" for name, home in exported(package).items()}
+        assert {name: home for name, home in of_modules.items() if name in PATHS and home != name} == {}

@@ -13,11 +13,9 @@ from contoursolve.execution.fanuc import fanuc, haas
 from contoursolve.execution.isg import isg
 from contoursolve.execution.klartext import klartext
 from contoursolve.execution.language import (
-    Apply,
     Assign,
     Call,
     CallKind,
-    Constant,
     Else,
     ElseIf,
     EndIf,
@@ -25,16 +23,13 @@ from contoursolve.execution.language import (
     For,
     Forget,
     If,
-    Indexed,
     Jump,
     JumpWay,
     Loop,
     ProgramEnd,
     Return,
     Strange,
-    Term,
     Unknown,
-    Variable,
     When,
     WordFormula,
 )
@@ -42,6 +37,7 @@ from contoursolve.execution.notation import FANUC, ISG, KLARTEXT, LINUXCNC, SINU
 from contoursolve.execution.sinumerik import sinumerik
 from contoursolve.execution.terms import LONGEST_TERM, read_term
 from contoursolve.execution.write import NOTATIONS, UnwritableTermError, write_term
+from contoursolve.numeric.terms import Apply, Constant, Indexed, Term, Variable
 
 VALUES = (2.5, -3.0, 0.75)
 """Of the variables of drawn expressions; each language has names of its own for them."""

@@ -11,11 +11,10 @@ from contoursolve.controls.yasnac_lx3.claim import AXIS_EFFECTS
 from contoursolve.controls.yasnac_lx3.g111 import claim_g111
 from contoursolve.controls.yasnac_lx3.g112 import WAY, claim_g112
 from contoursolve.controls.yasnac_lx3.leaving import claim_leaving
-from contoursolve.diagnosis import Context, Policy, angle_text, examine, length_text, place_text, report
-from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix
 from contoursolve.gcode import Block, Macro, Word, parse_block
 from contoursolve.geometry import FIRST, SECOND
 from contoursolve.reading import (
+    Behind,
     Code,
     Effect,
     Modes,
@@ -89,10 +88,9 @@ def follow(
     contour: Contour | None,
     leave: Callable[[], State],
     lines: Iterable[tuple[int, str]],
-    context: Context,
     modes: Modes,
-) -> Iterator[Diagnostic]:
-    """The findings about the block behind a contour of a form. `leave` gives the state behind it; of the lines, with
+) -> Iterator[Behind]:
+    """What is wrong with the block behind a contour of a form. `leave` gives the state behind it; of the lines, with
     their numbers, no more are read than needed."""
     state: State | None = None
     for (number, text), _ in zip(lines, range(MOST), strict=False):
@@ -116,7 +114,7 @@ def follow(
             return
         own = [code.number for code in codes if isinstance(code, Code) and code.effect in AXIS_EFFECTS]
         if addresses & AXIS_WORDS or (addresses & _OWN and not own):
-            yield from _look(name, contour, state, block, own, context, modes)
+            yield from _look(name, contour, state, block, own, modes)
             return
         if any(not isinstance(code, Code) or code.effect not in _PASSING for code in codes):
             return
@@ -136,21 +134,19 @@ def _look(
     state: State,
     block: Block,
     own: list[int],
-    context: Context,
     modes: Modes,
-) -> Iterator[Diagnostic]:
+) -> Iterator[Behind]:
     """What there is to say of the first block behind a contour that moves."""
-    context = replace(context, unit=state.unit, place=block.span)
     if not own:
         alone = _left_alone(block, state.motion)
         if alone:
-            yield _forgotten(name, alone, block, state, context, modes)
+            yield _forgotten(name, alone, block, state, modes)
             return
         if state.motion == _RAPID:
-            yield _rapid(name, block, context)
+            yield _rapid(name, block, state)
             return
     if contour is not None and not (own and own[-1] == _RAPID):
-        yield from _leaving(contour, state, block, context, modes)
+        yield from _leaving(contour, state, block, modes)
 
 
 def _left_alone(block: Block, motion: int | None) -> list[Word]:
@@ -164,32 +160,25 @@ def _left_alone(block: Block, motion: int | None) -> list[Word]:
     return [word for word in block.words if word.address in found]
 
 
-def _forgotten(name: str, alone: list[Word], block: Block, state: State, context: Context, modes: Modes) -> Diagnostic:
-    """Words of multiple cornering without its code."""
-    rule = context.row(ReadIssue.CODE_FORGOTTEN)
-    finding = report(context, rule, Basis.RULE, alone, code=name)
+def _forgotten(name: str, alone: list[Word], block: Block, state: State, modes: Modes) -> Behind:
+    """Words of multiple cornering without its code. Behind G11 and G12 nothing says which of the two is meant."""
+    found = Behind(ReadIssue.CODE_FORGOTTEN, state, block, tuple(alone), {"code": name})
     if name not in CORNERING:
-        # Behind G11 and G12 nothing says which of the two is meant.
-        return finding
+        return found
     meant = restate(block, f"G{CORNERING[name]:02}")
     claim = find([meant], 0, state, modes)
-    answer = examine(claim, tuple(context.rules), Policy.ENFORCE) if claim is not None else None
-    if answer is None or answer.contour is None or any(each.is_error for each in answer.diagnostics):
-        return finding
-    end = place_text(answer.profile, {"end.0": answer.contour.end[FIRST], "end.1": answer.contour.end[SECOND]})
-    fix = Fix(f"write {name} -> the contour ends at {end}", meant.text, Applicability.CHANGES_CONTOUR)
-    return replace(finding, fixes=(fix,))
+    return found if claim is None else replace(found, meant=meant, contour=claim, advice=f"write {name}")
 
 
-def _rapid(name: str, block: Block, context: Context) -> Diagnostic:
+def _rapid(name: str, block: Block, state: State) -> Behind:
     """Axis words alone, under a G00 that was in force before the contour."""
-    words = [word for word in block.words if word.address in AXIS_WORDS]
-    finding = report(context, context.row(ReadIssue.RAPID_BEHIND), Basis.RULE, words, code=name)
-    fix = Fix("write G01 if this is a cut", restate(block, "G01").text, Applicability.CHANGES_CONTOUR)
-    return replace(finding, fixes=(fix,))
+    words = tuple(word for word in block.words if word.address in AXIS_WORDS)
+    advice = "write G01 if this is a cut"
+    fields = {"code": name}
+    return Behind(ReadIssue.RAPID_BEHIND, state, block, words, fields, meant=restate(block, "G01"), advice=advice)
 
 
-def _leaving(contour: Contour, state: State, block: Block, context: Context, modes: Modes) -> Iterator[Diagnostic]:
+def _leaving(contour: Contour, state: State, block: Block, modes: Modes) -> Iterator[Behind]:
     """A motion that does not go on along the line on which corner 2 lands."""
     last = contour.elements[-1] if contour.elements else None
     if last is None or last.name != "corner 2":
@@ -204,17 +193,13 @@ def _leaving(contour: Contour, state: State, block: Block, context: Context, mod
     if ahead > 0 and abs(aside) <= AGREEMENT:
         return
     turn = abs(degrees(atan2(aside, ahead)))
-    words = [word for word in block.words if word.address in AXIS_WORDS]
+    words = tuple(word for word in block.words if word.address in AXIS_WORDS)
     is_along_z = abs(along[FIRST]) > abs(along[SECOND])
-    place = f"X{length_text(2 * end[SECOND], state.unit)}" if is_along_z else f"Z{length_text(end[FIRST], state.unit)}"
-    leave = "leave" if len(words) > 1 else "leaves"
-    fields = {
-        "leave": leave,
-        "line": f"the line along {'Z' if is_along_z else 'X'} at {place}",
-        "angle": angle_text(turn),
-    }
+    fields = {"leave": "leave" if len(words) > 1 else "leaves", "along": "Z" if is_along_z else "X"}
+    place = {"across": 2 * end[SECOND] if is_along_z else end[FIRST]}
     values = {"expected": 0.0, "actual": turn}
-    yield report(context, context.row(ReadIssue.LANDING_LEFT), Basis.NUMERICAL, words, values, **fields)
+    fields["axis"] = "X" if is_along_z else "Z"
+    yield Behind(ReadIssue.LANDING_LEFT, state, block, words, fields, place, {"angle": turn}, values)
 
 
 def _way(state: State, block: Block, end: Point, modes: Modes) -> Point | None:

@@ -7,8 +7,7 @@ from typing import NamedTuple
 from msgspec import Struct
 
 from contoursolve.diagnosis import Answer
-from contoursolve.execution import Apply, Constant, Term, Variable
-from contoursolve.numeric import AT_MOST, LESS, ZERO, Affine
+from contoursolve.numeric import AT_MOST, LESS, ZERO, Affine, Apply, Constant, Term, Variable
 from contoursolve.postprocess.formulas.check import difference
 from contoursolve.postprocess.formulas.contour import Body, Stop, Writing, body_of, free_sizes
 from contoursolve.postprocess.formulas.given import (

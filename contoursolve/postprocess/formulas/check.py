@@ -5,7 +5,8 @@ from math import dist, hypot, inf
 from typing import Any
 
 from contoursolve.diagnosis import Answer
-from contoursolve.execution import Assign, Term, Unknown, When, evaluate
+from contoursolve.execution import Assign, Unknown, When, evaluate
+from contoursolve.numeric import Term
 from contoursolve.postprocess.formulas.contour import SHORTEST, Choose, Leg, Statement, Stop, Writing
 from contoursolve.solving import ArcSegment, Point
 

@@ -7,10 +7,25 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.execution import Apply, Assign, Constant, Term, Variable, When
+from contoursolve.execution import Assign, When
 from contoursolve.families import ORIGIN
 from contoursolve.geometry import FIRST, SECOND, Arc, Profile, assemble, scalar
-from contoursolve.numeric import AT_MOST, COMMON, LESS, SIGN, TURNED, ZERO, Affine, at_most, formulas_of, magnitude
+from contoursolve.numeric import (
+    AT_MOST,
+    COMMON,
+    LESS,
+    SIGN,
+    TURNED,
+    ZERO,
+    Affine,
+    Apply,
+    Constant,
+    Term,
+    Variable,
+    at_most,
+    formulas_of,
+    magnitude,
+)
 from contoursolve.postprocess.formulas.given import FormulaError, Reader, less
 from contoursolve.solving import (
     Check,

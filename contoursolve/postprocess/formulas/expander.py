@@ -6,9 +6,9 @@ from itertools import count
 from typing import Any
 
 from contoursolve.diagnosis import Answer, Policy
-from contoursolve.execution import Assign, ProgramEnd, Term, Variable, When, place_in, write_term
+from contoursolve.execution import Assign, ProgramEnd, When, place_in, write_term
 from contoursolve.gcode import Block, Passage, comment_out, parse_block
-from contoursolve.numeric import Affine
+from contoursolve.numeric import Affine, Term, Variable
 from contoursolve.postprocess.expander import Expander
 from contoursolve.postprocess.expansion_report import Left
 from contoursolve.postprocess.formulas.cases import Case, Fork, case_of

@@ -7,21 +7,10 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.execution import (
-    Assign,
-    CodeLine,
-    Constant,
-    Known,
-    Term,
-    Unknown,
-    Variable,
-    When,
-    evaluate,
-    place_in,
-    variables_of,
-)
+from contoursolve.execution import Assign, CodeLine, Known, Unknown, When, evaluate, place_in, variables_of
 from contoursolve.families import write
 from contoursolve.gcode import Block, Word, parse_block
+from contoursolve.numeric import Constant, Term, Variable
 from contoursolve.program import Lines
 from contoursolve.reading import Dialect
 

@@ -8,8 +8,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnostics import UserError
-from contoursolve.execution import Assign, Term, Variable, When, place_in, variables_of
-from contoursolve.numeric import COMMON
+from contoursolve.execution import Assign, When, place_in, variables_of
+from contoursolve.numeric import COMMON, Term, Variable
 from contoursolve.postprocess.formulas.contour import Choose, Leg, Said, Statement, Stop
 from contoursolve.postprocess.formulas.given import FormulaError
 

@@ -5,9 +5,9 @@ from itertools import count
 
 from msgspec import Struct
 
-from contoursolve.execution import Apply, Assign, Constant, Term, Variable, When, write_term, written
+from contoursolve.execution import Assign, When, write_term, written
 from contoursolve.geometry import Plane
-from contoursolve.numeric import AT_MOST, LESS
+from contoursolve.numeric import AT_MOST, LESS, Apply, Constant, Term, Variable
 from contoursolve.postprocess.formulas.contour import SHORTEST, Choose, Leg, Said, Statement, Stop
 
 ALARM = 101

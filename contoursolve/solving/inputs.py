@@ -4,33 +4,32 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any, Protocol
 
-from contoursolve.geometry import Created, Functions, System, Values
-from contoursolve.numeric import expressions
-
-COSINE, SINE, SIDE = ":cos", ":sin", "side:"
-"""What the inputs for a given angle end with, and that for a side begins with."""
+from contoursolve.geometry import System, Values
+from contoursolve.numeric import COSINE, SIDE, SINE, Created, Functions, expressions
 
 _SYMBOLS = Functions(expressions.sqrt, expressions.cosine, expressions.sine)
 
 
-class Tape(Protocol):
+class InputSource(Protocol):
     """Gives the inputs of formulas."""
 
     def input(self, name: str) -> Any:
         """The value of an input."""
 
 
-def named_inputs(tape: Tape, symbols: Mapping[str, Any] = MappingProxyType({}), prefix: str = "") -> Created:
+def named_inputs(tape: InputSource, symbols: Mapping[str, Any] = MappingProxyType({}), prefix: str = "") -> Created:
     """Numbers by name as inputs of a tape, created when a formula asks for them; some are symbols already."""
     return Created(lambda name: symbols[name] if name in symbols else tape.input(prefix + name))
 
 
-def given_directions(tape: Tape) -> Created:
+def given_directions(tape: InputSource) -> Created:
     """Given angles as pairs of inputs."""
     return Created(lambda name: (tape.input(name + COSINE), tape.input(name + SINE)))
 
 
-def lookup(system: System, tape: Tape, symbols: Mapping[str, Any], functions: Functions = _SYMBOLS) -> Values:
+def input_values(
+    system: System, tape: InputSource, symbols: Mapping[str, Any], functions: Functions = _SYMBOLS
+) -> Values:
     """A lookup whose values are symbols, or inputs of a tape."""
     return Values(
         named_inputs(tape, symbols),
@@ -40,3 +39,9 @@ def lookup(system: System, tape: Tape, symbols: Mapping[str, Any], functions: Fu
         named_inputs(tape, prefix=SIDE),
         functions,
     )
+
+
+def symbolic_values(symbols: Any, functions: Functions, headed: Mapping[str, tuple[str, str]]) -> Values:
+    """A lookup of symbols of sympy; `headed` are the lines of given direction."""
+    scalars = Created(symbols.scalar)
+    return Values(scalars, scalars, Created(symbols.direction), headed, scalars, functions)

@@ -1,4 +1,4 @@
-"""The command `contoursolve lsp`."""
+"""The command `contoursolve lsp`; it stands beside the command line, which knows nothing of the server."""
 
 import click
 
@@ -17,5 +17,5 @@ def lsp() -> None:
     contoursolve lsp
     """
     with importing("lsp", "the language server"):
-        from contoursolve.lsp import server  # noqa: PLC0415 - needs an extra
+        from contoursolve.lsp.server import server  # noqa: PLC0415 - needs an extra
     server.start_io()

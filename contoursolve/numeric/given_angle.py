@@ -4,6 +4,9 @@ from decimal import Decimal
 from functools import lru_cache
 from math import cos, radians, sin, sqrt
 
+COSINE, SINE, SIDE = ":cos", ":sin", "side:"
+"""What the inputs for a given angle end with, and that for a side begins with."""
+
 _HALF = Decimal(45)
 
 

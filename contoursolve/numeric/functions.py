@@ -1,0 +1,43 @@
+"""What equations need beyond arithmetic, for any kind of number, and mappings that make what is asked for."""
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from msgspec import Struct
+
+
+def _may_vanish(value: Any) -> bool:
+    return bool(value != 0) is False
+
+
+class Functions(Struct, frozen=True):
+    """What equations need beyond arithmetic, for one kind of number."""
+
+    root: Callable[[Any], Any] = math.sqrt
+    cosine: Callable[[Any], Any] = math.cos
+    sine: Callable[[Any], Any] = math.sin
+    vanishes: Callable[[Any], bool] = _may_vanish
+    """Whether a number is zero; of a ball about one number, whether it may be."""
+
+
+FLOATS = Functions()
+
+
+class Created(Mapping[str, Any]):
+    """A mapping that makes what is asked for, whatever the name."""
+
+    def __init__(self, make: Callable[[str], Any]) -> None:
+        self._make = make
+
+    def __getitem__(self, name: str) -> Any:
+        return self._make(name)
+
+    def __contains__(self, _name: object) -> bool:
+        return True
+
+    def __iter__(self) -> Any:
+        raise TypeError("what is made when it is asked for cannot be listed")
+
+    def __len__(self) -> int:
+        raise TypeError("what is made when it is asked for cannot be counted")
