@@ -2,7 +2,7 @@ from .compose import (
     compose as compose,
     describe as describe,
 )
-from .draw import (
+from .drawing import (
     Drawable as Drawable,
     draw as draw,
     draw_answer as draw_answer,

@@ -14,7 +14,7 @@ import pytest
 from click import Context
 from click.testing import CliRunner
 
-from contoursolve.cli import main
+from contoursolve.__main__ import commands
 from contoursolve.controls import DIALECTS
 
 ROOT = Path(__file__).parents[2]
@@ -54,7 +54,7 @@ def compare(folder, monkeypatch, page, command, output) -> tuple[list[str], list
     monkeypatch.chdir(folder)
     done = None
     for part in command.split(" | contoursolve "):
-        done = CliRunner().invoke(main, shlex.split(part), input=done and done.stdout)
+        done = CliRunner().invoke(commands(), shlex.split(part), input=done and done.stdout)
     shown = [line.removeprefix("    ") for line in output.rstrip().split("\n")]
     printed = done.output.rstrip().split("\n")
     if "..." in shown:
@@ -100,7 +100,7 @@ def test_the_line_for_windows_does_what_the_other_one_does() -> None:
 
 def test_the_readme_has_every_command_in_its_table() -> None:
     named = re.findall(r"^\| `contoursolve (\w+)", PAGES[README], re.MULTILINE)
-    assert sorted(named) == sorted(main.list_commands(Context(main)))
+    assert sorted(named) == sorted(commands().list_commands(Context(commands())))
 
 
 def test_the_table_of_settings_has_every_setting_of_every_control() -> None:

@@ -368,7 +368,7 @@ def test_without_a_kernel_the_picture_is_there(widget):
 
 
 def test_without_a_picture_the_tables_are_there(widget, monkeypatch):
-    monkeypatch.setattr("contoursolve.pictures.draw_answer", None)
+    monkeypatch.setattr("contoursolve.pictures.drawing.draw_answer", None)
     data, _ = widget._repr_mimebundle_()
     assert "text/html" in data
     assert "image/svg+xml" not in data

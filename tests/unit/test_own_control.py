@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from examples import some_of
 
 import contoursolve
-from contoursolve.cli import main
+from contoursolve.__main__ import commands
 from contoursolve.controls import DIALECTS, NCT_99M
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.output.contours import contour_lines
@@ -172,7 +172,7 @@ def run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
     def run_(*arguments):
-        done = CliRunner().invoke(main, arguments)
+        done = CliRunner().invoke(commands(), arguments)
         assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
         return done.exit_code, done.output
 
@@ -180,7 +180,7 @@ def run(tmp_path, monkeypatch):
 
 
 def test_every_command_is_tested_with_tables_of_its_own():
-    assert COMMANDS.keys() | OF_THEIR_OWN == set(main.list_commands(None))
+    assert COMMANDS.keys() | OF_THEIR_OWN == set(commands().list_commands(None))
 
 
 @pytest.mark.parametrize("name", COMMANDS)
