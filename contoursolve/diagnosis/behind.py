@@ -14,11 +14,11 @@ def report_behind(found: Behind, rules: tuple[Rule, ...]) -> Diagnostic:
     """One finding about the block behind a contour, with the block that is meant where that has a path."""
     unit = found.state.unit
     context = Context(rules, unit, place=found.block.span)
-    fields = {
-        **found.fields,
+    numbers = {
         **{name: length_text(value, unit) for name, value in found.lengths.items()},
         **{name: angle_text(value) for name, value in found.angles.items()},
     }
+    fields = {name: text.format_map(numbers) for name, text in found.fields.items()} | numbers
     basis = Basis.NUMERICAL if found.values else Basis.RULE
     finding = report(context, found.about, basis, found.words, found.values, **fields)
     if found.meant is None:

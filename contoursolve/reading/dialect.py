@@ -23,8 +23,8 @@ is wrong with the block behind a contour."""
 class Behind(Struct, frozen=True):
     """Something that is wrong with the block behind a contour: about what, its words, and what the row says of it.
 
-    `lengths` (mm, as the axis counts) and `angles` (degrees) are fields of the message that its unit or its decimals
-    decide. `meant` is the block with which it would be right.
+    `lengths` (mm, as the axis counts) and `angles` (degrees) are what the fields, or the message, leave open: the
+    program's unit says how they are written. `meant` is the block with which it would be right.
     """
 
     about: ReadIssue

@@ -195,10 +195,10 @@ def _leaving(contour: Contour, state: State, block: Block, modes: Modes) -> Iter
     turn = abs(degrees(atan2(aside, ahead)))
     words = tuple(word for word in block.words if word.address in AXIS_WORDS)
     is_along_z = abs(along[FIRST]) > abs(along[SECOND])
-    fields = {"leave": "leave" if len(words) > 1 else "leaves", "along": "Z" if is_along_z else "X"}
+    line = "the line along Z at X{across}" if is_along_z else "the line along X at Z{across}"
+    fields = {"leave": "leave" if len(words) > 1 else "leaves", "line": line}
     place = {"across": 2 * end[SECOND] if is_along_z else end[FIRST]}
     values = {"expected": 0.0, "actual": turn}
-    fields["axis"] = "X" if is_along_z else "Z"
     yield Behind(ReadIssue.LANDING_LEFT, state, block, words, fields, place, {"angle": turn}, values)
 
 

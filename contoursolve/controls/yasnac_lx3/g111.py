@@ -426,9 +426,8 @@ _FOLLOWING_RULES = (
     ),
     Rule(
         code="g111-landing-left",
-        message="{words} {leave} the line on which corner 2 lands by {angle}: corner 2 is made for the line "
-        "along {along} at {axis}{across}",
-        help="go on along the line along {along} at {axis}{across}, or give line 2 a sharp end",
+        message="{words} {leave} the line on which corner 2 lands by {angle}: corner 2 is made for {line}",
+        help="go on along {line}, or give line 2 a sharp end",
         source=BOOK.derived("2.8.30, p. 137 and 140: corner 2 does not look at the next block"),
         roles=(_ROLE, "G112"),
         about=ReadIssue.LANDING_LEFT,
