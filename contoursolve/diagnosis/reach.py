@@ -10,10 +10,9 @@ from functools import cached_property
 
 from msgspec import Struct
 
-from contoursolve.analysis import Group, analyse, groups_of
 from contoursolve.diagnosis.edits import Edit, EditKind
 from contoursolve.diagnosis.examine import Answer, problems
-from contoursolve.diagnostics.finding import Diagnostic, Severity
+from contoursolve.diagnostics import Diagnostic, Severity
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -30,7 +29,7 @@ from contoursolve.geometry import (
     both,
 )
 from contoursolve.reading import ParsedContour, ReadIssue
-from contoursolve.solving import RefusalKind
+from contoursolve.solving import Group, RefusalKind, analyse, groups_of
 
 MOST_HELD = 8
 """Problems of one contour, about, that edits are held against; more of them refuse no more edits of few words."""

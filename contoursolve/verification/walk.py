@@ -10,7 +10,16 @@ from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
-from contoursolve.execution import ALONE, EventKind, Limit, Machine, ProgramEvent, Surroundings, machine_of, surroundings_of
+from contoursolve.execution import (
+    ALONE,
+    EventKind,
+    Limit,
+    Machine,
+    ProgramEvent,
+    Surroundings,
+    machine_of,
+    surroundings_of,
+)
 from contoursolve.gcode import Block, Directive, Program
 from contoursolve.geometry import Length
 from contoursolve.reading import (
