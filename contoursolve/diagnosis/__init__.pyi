@@ -80,6 +80,7 @@ from .vocabulary import (
     explain_vocabulary as explain_vocabulary,
     has_corners as has_corners,
     is_known as is_known,
+    like_corners as like_corners,
     moves as moves,
     name_of as name_of,
     not_read_yet as not_read_yet,

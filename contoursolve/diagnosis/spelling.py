@@ -9,7 +9,7 @@ from decimal import Decimal
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.explain import Context, report, spans_of
-from contoursolve.diagnosis.vocabulary import corner_at, meant_by, not_read_yet
+from contoursolve.diagnosis.vocabulary import UNITS, corner_at, meant_by, not_read_yet
 from contoursolve.diagnosis.wording import angle_text, either, join, length_text
 from contoursolve.diagnostics import Basis, Diagnostic, Label, Severity, Span
 from contoursolve.gcode import (
@@ -37,14 +37,20 @@ def explain_spelling(context: Context, claim: ParsedContour) -> Iterator[Diagnos
         yield from (_with_corner(each, block, claim.lexicon) for each in explain_faults(context, block))
     yield from explain_words(context, claim.lexicon, claim.repeated, words)
     yield from _explain_unknown(context, claim)
-    yield from (not_read_yet(context, word, is_needed=True) for word in claim.unread)
+    for word in claim.unread:
+        if word.address == "G" and word.number is None:
+            name, advice = word.text.strip(), "write out what it does"
+            unknown = report(context, ReadIssue.CODE_UNKNOWN, Basis.RULE, [word], name=name, advice=advice)
+            yield replace(unknown, severity=Severity.ERROR)
+        else:
+            yield not_read_yet(context, word, is_needed=True)
     yield from _explain_asked(context, claim)
 
 
 def _with_corner(finding: Diagnostic, block: Block, lexicon: Lexicon) -> Diagnostic:
     """A finding about what belongs to no word, with the word of a corner or an angle that may have been meant."""
     is_open = finding.about in (FaultKind.STRAY_CHARACTER, FaultKind.NUMBER_MISSING) and "meant" not in finding.help
-    found = corner_at(block.text, finding.span, lexicon) if is_open else None
+    found = corner_at(block.text, finding.span, lexicon, in_contour=True) if is_open else None
     if found is None or not found[1]:
         return finding
     word, meant = found
@@ -125,6 +131,10 @@ def _explain_fault(context: Context, fault: Fault, meant: Lookalike | None) -> D
     like = looks_like(fault.text)
     if like != fault.text:
         return _explain_character(finding, fault.text, like)
+    if fault.text.strip().lower() in UNITS:
+        unit = fault.text.strip()
+        told = f"{unit} is no word: a number has no unit behind it"
+        return replace(finding, message=told, help=f"delete {unit}; the program states its unit for all numbers")
     if meant is None:
         return finding
     advice = f"write {meant.new} for {meant.old} if that is meant; else {finding.help}"
@@ -262,6 +272,7 @@ def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnos
         name = form.name if form.name.startswith("G") else form.title
         finding = report(context, ReadIssue.UNKNOWN_ADDRESS, Basis.RULE, [word], form=name, allowed=allowed, advice=do)
         if texts and not meant:
+            sizes = [spell(each, "").split()[0].strip("=") for each in sizes]
             told = f"the radius of an arc is {join(sizes)}" if radius else f"roundings are {join(sizes)}"
             finding = replace(finding, message=f"{word.text.strip()}: {name} has no R; {told}")
         if other and len(word.address) > 1:
@@ -288,7 +299,7 @@ def respelled(word: Word, claim: ParsedContour) -> str:
     """What a word of a contour was most plausibly meant to be by its address; empty if it is like none."""
     if word.address == "R" and (radius := _radius(word, claim)):
         return spell(radius, number_of(word.text, word.address))
-    allowed = [each for each in claim.form.allowed if each in claim.lexicon.addresses]
+    allowed = [each for each in claim.lexicon.addresses if each in claim.form.allowed]
     return next(iter(meant_by(word, allowed, claim.lexicon)), "")
 
 

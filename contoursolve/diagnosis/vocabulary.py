@@ -46,7 +46,9 @@ def _meant(word: Word, known: Collection[str], lexicon: Lexicon) -> list[str]:
     near = [each for each in near if each[1] in own] or near
     roles = [each for each in others if _role(each, lexicon) and _role(each, lexicon) == _begins_like(word.address)]
     corners = [each for each in others if word.address.startswith(",") and each.startswith(",")]
-    if len(bare) == 1 and corners:
+    if _begins_like(word.address):
+        corners = []
+    elif len(bare) == 1 and corners:
         # Which of them it is shows in the number, if at all.
         is_angle = abs(float(word.number or 0)) > _LARGEST_CORNER
         corners.sort(key=lambda each: (_role(each, lexicon) == "angle") is not is_angle)
@@ -72,11 +74,26 @@ def _role(address: str, lexicon: Lexicon) -> str:
     return next((role for role, _ in _ROLES if row and row.meaning.startswith(role)), "")
 
 
+def _part(address: str, lexicon: Lexicon) -> str:
+    """The same where words of two lines differ: `radius of the first rounding`."""
+    row = lexicon.addresses.get(address)
+    return next((role for role, begin in _PARTS if row and row.meaning.startswith(begin)), "")
+
+
+_PARTS = (
+    *(("rounding", f"radius of the {which} rounding") for which in ("first", "second")),
+    *(("chamfer", f"amount of the {which} bevel") for which in ("first", "second")),
+    ("angle", "travel direction of line"),
+)
+"""What the meanings of such words begin with."""
+
+
 def _begins_like(address: str) -> str:
     """What a word means on another control, by how it begins; of one letter, it is the letter."""
     bare, has_sign = address.lstrip(",#"), address[0] in ",#"
     if len(bare) == 1 and not has_sign:
-        return ""
+        # A and C are axes of many machines.
+        return "rounding" if bare == "R" else ""
     return next(
         (role for role, names in _ROLES for name in names if bare == name or (len(name) > 1 and bare.startswith(name))),
         "",
@@ -110,7 +127,7 @@ def _slips(first: str, second: str) -> int:
 
 
 _STRETCH = re.compile(
-    r"(?:(?P<sign>[,#.]++)[ \t]*+)?+(?P<name>[A-Z]++(?:(?<=[A-Z]{2})[ \t]++R(?![A-Z]))?+)"
+    r"(?:(?P<sign>[,#.]++)[ \t]*+)?+(?P<name>[A-Z]++)(?:(?<=[A-Z]{2})[ \t]++R(?![A-Z]))?+"
     r"(?P<between>[ \t]*+[=:,]*+[ \t]*+)(?P<number>[+-]?+(?:\d[\d.,]*+|\.\d[\d.,]*+))",
     re.IGNORECASE | re.ASCII,
 )
@@ -123,26 +140,29 @@ def _stretches(text: str) -> list[re.Match[str]]:
     return [*_STRETCH.finditer(text)]
 
 
-def corner_at(text: str, span: Span, lexicon: Lexicon) -> tuple[Word, list[str]] | None:
+def corner_at(text: str, span: Span, lexicon: Lexicon, *, in_contour: bool = False) -> tuple[Word, list[str]] | None:
     """The stretch of a line at some columns that is typed like a word of a corner or an angle and is none, and the
     words that may have been meant, none where the control has no such words; None if it is like no such word."""
     stretches = _stretches(text)
-    for found in stretches[bisect_right(stretches, span.column - 1, key=re.Match.end) :][:1]:
-        if found.start() >= span.end_column - 1:
-            break
-        name, number = " ".join(found["name"].upper().split()), found["number"]
-        number = number.replace(",", ".") if number.count(",") == 1 and "." not in number else number.strip(",")
-        is_signed = bool(found["sign"] or "," in found["between"] or ("=" in found["between"] and len(name) == 1))
-        word = Word(f"#{name}" if is_signed else name, None, False, found[0], span)
-        place = Span(span.line, found.start() + 1, found.end() + 1)
-        known = [each for each in lexicon.addresses if _role(each, lexicon)]
-        meant = [spell(each, number) for each in _meant(word, known, lexicon)]
-        own = [spell(each, number) for each in known if _typed(each).lstrip(",#") == name]
-        meant = [each for each in dict.fromkeys([*own, *meant]) if each != found[0].strip()]
-        typed = replace(word, address=(found["sign"] or "") + name.split()[0], span=place)
-        is_like = bool(meant) or (typed.address.startswith(",") and bool(_begins_like(word.address)))
-        return (typed, meant) if is_like and (not meant or number.count(".") <= 1) else None
-    return None
+    at = bisect_right(stretches, span.column - 1, key=re.Match.end)
+    if at == len(stretches) or stretches[at].start() >= span.end_column - 1:
+        return None
+    found = stretches[at]
+    name, number = found["name"].upper(), found["number"]
+    number = number.replace(",", ".") if number.count(",") == 1 and "." not in number else number.strip(",")
+    is_signed = bool(found["sign"] or "," in found["between"] or ("=" in found["between"] and len(name) == 1))
+    word = Word(f"#{name}" if is_signed else name, None, False, found[0], span)
+    place = Span(span.line, found.start() + 1, found.end() + 1)
+    known = [each for each in lexicon.addresses if _role(each, lexicon) or (in_contour and _part(each, lexicon))]
+    meant = [spell(each, number) for each in _meant(word, known, lexicon)]
+    own = [spell(each, number) for each in known if _typed(each).partition(" ")[0].lstrip(",#") == name]
+    if in_contour and not (own or meant):
+        meant = [spell(each, number) for each in known if _part(each, lexicon) == _begins_like(word.address)]
+    meant = [each for each in dict.fromkeys([*own, *meant]) if each != found[0].strip()]
+    typed = replace(word, address=(found["sign"] or "") + name, span=place)
+    is_torn = len(name) > 1 and not own and not is_signed
+    is_like = bool(meant) or ((is_torn or typed.address.startswith(",")) and bool(_begins_like(word.address)))
+    return (typed, meant) if is_like and (not meant or number.count(".") <= 1) else None
 
 
 def explain_corners(
@@ -170,6 +190,10 @@ def explain_corners(
 
 
 _MEANT = "if that is meant"
+
+
+UNITS = ("mm", "in", "inch", "deg", "grad", "\N{DEGREE SIGN}")
+"""What readers write behind a number, and no control reads."""
 
 
 def corner_words(lexicon: Lexicon) -> Iterator[str]:
@@ -202,7 +226,7 @@ _OF_A_MOVE = (
     Effect.CONTOUR,
 )
 """What the codes of a block do whose axis words are where it ends."""
-_LINES = (0, 1)
+_LINES, _ARCS = (0, 1), (2, 3)
 _PLAIN = (0, 1, 2, 3, 17, 18, 19, 20, 21, 40, 41, 42, 70, 71, 90, 91)
 """Codes that have no argument."""
 
@@ -226,8 +250,11 @@ def has_corners(block: Block, here: State, modes: Modes) -> bool:
     """Whether a block may have a word of a corner: it moves an axis of the plane in a line or an arc; where corners are
     blocks of their own, it is not read as any other."""
     if modes.follow is not None:
-        return block.macro is None and not any(word.address == "G" for word in block.words)
-    is_torn = any(fault.text.startswith(",") for fault in block.faults)
+        has_function = any(word.address == "G" for word in block.words)
+        return block.macro is None and (not has_function or any(fault.text.startswith(",") for fault in block.faults))
+    is_torn = any(
+        fault.text.startswith(",") or corner_at(block.text, fault.span, modes.lexicon) for fault in block.faults
+    )
     is_cut = here.motion in _CUTTING and (is_torn or moves(block, here, modes, ()))
     return is_cut or _has_unread_code(block, here, modes)
 
@@ -242,6 +269,31 @@ def _has_unread_code(block: Block, here: State, modes: Modes) -> bool:
     return named and here.motion in _CUTTING and any(row and row.axis in here.plane.axes for row in rows)
 
 
+def like_corners(block: Block, modes: Modes, others: Collection[str]) -> bool:
+    """Whether a block has a word that the control has not, and that is almost one of a corner or an angle; `others`
+    are those of other controls, which may be meant as they stand."""
+    lexicon = modes.lexicon
+    if block.macro is not None:
+        return False
+    names = [
+        word
+        for word in block.words
+        if len(word.address) > 1 and word.number is not None and not is_known(word.address, lexicon)
+        if word.address not in others
+        if word.address not in lexicon.addresses and lexicon.bearing(word.address) is None
+    ]
+    corners = [each for each in lexicon.addresses if len(each) > 1 and _role(each, lexicon)] if names else []
+    return any(
+        each.address.lstrip(",#") in _NAMES
+        or any(_apart(each.address.lstrip(",#"), _typed(corner)) is not None for corner in corners)
+        for each in names
+    )
+
+
+_NAMES = frozenset(name for _, names in _ROLES for name in names if len(name) > 1)
+"""How corners and angles are called on one control or another, by more than a letter."""
+
+
 def is_known(address: str, lexicon: Lexicon) -> bool:
     """Whether a word may stand in any block that moves: it moves an axis, or has nothing to do with the path."""
     row = lexicon.addresses.get(address)
@@ -251,7 +303,8 @@ def is_known(address: str, lexicon: Lexicon) -> bool:
 def explain_codes_by_name(context: Context, block: Block, modes: Modes) -> Iterator[Diagnostic]:
     """Codes of a block that the control has not."""
     for word, code in zip((word for word in block.words if word.address == "G"), codes_of(block, modes), strict=True):
-        if isinstance(code, Word) and word.number is None and block.faults:
+        is_own = word.text.strip().upper() in modes.lexicon.addresses
+        if isinstance(code, Word) and word.number is None and block.faults and not is_own:
             # Where characters cannot be read, a name may be a part of what they mean.
             continue
         if isinstance(code, Word):
@@ -262,16 +315,23 @@ def _unknown_code(context: Context, word: Word, modes: Modes) -> Iterator[Diagno
     name = word.text.strip()
     if word.number is None:
         bare = name.partition("(")[0].strip().upper()
+        if bare in modes.lexicon.addresses:
+            yield report(context, FaultKind.NUMBER_MISSING, Basis.RULE, [replace(word, address=bare)])
+            return
         known = [*modes.syntax.codes, *modes.lexicon.plain_names()]
         near = sorted((distance, each) for each in known if (distance := _apart(bare, each)) is not None)
         meant = [f"{each}=" if each in modes.lexicon.addresses else each for _, each in near]
     else:
         digits = f"{word.number:f}"
         codes = [code for code in modes.codes.values() if not code.name and code.text.lstrip("G0") != digits]
-        slips = [(_slips(digits, str(code.number)), -_weight(code), code.text) for code in codes]
-        meant = [text for distance, _, text in sorted(slips) if distance == 1]
+        alike = [code for code in codes if _slips(digits, str(code.number)) == 1]
+        likely = sorted(code.text for code in alike if _weight(code) == max(map(_weight, alike)))
+        # Of several that are as near, none is more likely, unless they are those of contours.
+        meant = likely if len(likely) == 1 or max(map(_weight, alike), default=0) > 1 else []
     row = context.row(ReadIssue.CODE_UNKNOWN)
     advice = f"write {either(meant[:_MOST])} if that is meant" if meant else "write out what it does"
+    if name.lower() in UNITS:
+        advice = f"delete {name}: a number has no unit behind it"
     yield report(context, row, Basis.RULE, [word], name=name, advice=advice)
 
 
@@ -309,16 +369,18 @@ def explain_vocabulary(
     """The words of a block that moves which the control has not; `others` are those of other controls by which these
     are known, `here` is the state with its codes in force."""
     lexicon, has_code = modes.lexicon, _has_code(block)
+    is_line = modes.follow is not None and any(word.text.strip().upper() == "L" for word in block.words)
     for word in block.words:
         bearing = lexicon.bearing(word.address)
         if is_known(word.address, lexicon) or (bearing is Bearing.ARGUMENT and has_code):
             continue
         if word.address in lexicon.addresses:
-            if here.motion in _LINES and not has_code and word.address not in modes.lasting:
+            if (is_line or (here.motion in _LINES and not has_code)) and word.address not in modes.lasting:
                 yield report(context, ReadIssue.WORD_IDLE, Basis.RULE, [word])
             continue
         if f",{word.address}" not in lexicon.addresses and bearing not in (Bearing.UNREAD, Bearing.END):
-            yield _unknown_word(context, word, lexicon, others)
+            is_radius = here.motion in _ARCS and word.address == "R"
+            yield _unknown_word(context, word, lexicon, others, (modes.radius,) if is_radius else ())
 
 
 def _has_code(block: Block) -> bool:
@@ -326,10 +388,13 @@ def _has_code(block: Block) -> bool:
     return any(word.address == "M" or (word.address == "G" and word.number not in _PLAIN) for word in block.words)
 
 
-def _unknown_word(context: Context, word: Word, lexicon: Lexicon, others: Collection[str]) -> Diagnostic:
-    """A word that the control has not: an error where the control stops at it, else a warning."""
-    meant = meant_by(word, lexicon.plain_names(), lexicon)
-    is_written_so = len(word.address) > 1
+def _unknown_word(
+    context: Context, word: Word, lexicon: Lexicon, others: Collection[str], likely: Sequence[str]
+) -> Diagnostic:
+    """A word that the control has not: an error where the control stops at it, else a warning; `likely` are addresses
+    that are meant before all others."""
+    sure = [spell(each, _number(word)) for each in likely if _number(word)]
+    meant = sure or meant_by(word, lexicon.plain_names(), lexicon)
     if word.address in others:
         advice = f"write {either(meant[:_MOST])} if that is meant" if meant else "write out what it means"
         finding = report(context, ReadIssue.COMMA_WORD_UNKNOWN, Basis.RULE, [word], advice=advice)
@@ -337,5 +402,5 @@ def _unknown_word(context: Context, word: Word, lexicon: Lexicon, others: Collec
         finding = report(context, ReadIssue.WORD_MISTYPED, Basis.RULE, [word], meant=either(meant[:_MOST]))
     else:
         finding = report(context, ReadIssue.WORD_UNKNOWN, Basis.RULE, [word])
-    stops = lexicon.unknown if (meant or word.address in others) and is_written_so else None
+    stops = lexicon.unknown if meant or word.address in others else None
     return replace(finding, severity=Severity.ERROR, source=stops) if stops else finding

@@ -42,6 +42,8 @@ from .machine import (
     needs_running as needs_running,
 )
 from .sinumerik import (
+    MOVES_BESIDE as MOVES_BESIDE,
+    SYNCHRONOUS as SYNCHRONOUS,
     sinumerik as sinumerik,
 )
 from .subprograms import (

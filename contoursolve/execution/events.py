@@ -38,6 +38,9 @@ class EventKind(Enum):
     """What is not followed has run behind a move: where the tool stands is not known, as behind each move. A contour of
     several moves goes on, and is refused for its start."""
 
+    MAY_STOP = "may stop"
+    """The program stops here, if a decision is taken of which nobody knows; what follows runs where it is not."""
+
     @property
     def is_open(self) -> bool:
         """Whether a contour may go on beyond it."""
@@ -53,6 +56,7 @@ _OPEN = frozenset(
         EventKind.AGAIN,
         EventKind.BEYOND,
         EventKind.CALLED,
+        EventKind.MAY_STOP,
     }
 )
 

@@ -26,7 +26,17 @@ from contoursolve.execution.language import (
     Strange,
     When,
 )
-from contoursolve.execution.lines import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, number_of, word
+from contoursolve.execution.lines import (
+    O_WORD,
+    ONE,
+    PROGRAM_END,
+    LineForm,
+    LineReader,
+    Spelling,
+    nothing,
+    number_of,
+    word,
+)
 from contoursolve.execution.notation import FANUC
 from contoursolve.numeric import Constant, Term, Variable
 
@@ -130,7 +140,11 @@ def _profile(_: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
 
 
 _TABLE = (
-    Spelling(r"(?=#(?!(?-i:[A-Za-z]{2})\w*+[ \t]*+=[ \t]*+[-+.\d]))", _assign),
+    # Behind a number sign, what is typed like a word of another control is no variable: #RND=5, #R5.
+    Spelling(
+        r"(?=#(?!(?-i:[A-Za-z]{2})\w*+[ \t]*+=[ \t]*+[-+.\d]|[A-Z]++[ \t]*+[-+.\d][\d.]*+(?![\w=\[]|[ \t]*+=)))",
+        _assign,
+    ),
     Spelling(r"[BD]PRNT[ \t]*+\[.*+", nothing),
     Spelling(r"IF[ \t]*+(?=[\[#])", _if, stays=True),
     Spelling(r"WHILE[ \t]*+(?=[\[#])", _while),
@@ -159,7 +173,7 @@ _TABLE = (
 )
 _FORM = LineForm(
     FANUC,
-    head=r"[ \t\f\v\x11-\x14\ufeff%]*+(?>(?:[O:][ \t]*+(?P<program>\d++))?)[ \t]*+(?>(?:/[1-9]?+)?)[ \t]*+"
+    head=rf"[ \t\f\v\x11-\x14\ufeff%]*+(?!{O_WORD})(?>(?:[O:][ \t]*+(?P<program>\d++))?)[ \t]*+(?>(?:/[1-9]?+)?)[ \t]*+"
     r"(?>(?:N[ \t]*+(?P<number>\d++)(?!\.))?)",
     comment=r"\([^)]*+\)?+|;.*+",
     table=_TABLE,

@@ -91,6 +91,8 @@ def _word(line: LineReader, _: re.Match[str]) -> Iterable[MacroStatement]:
 
 
 _OWN = r"\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)(?!\w)"
+_NUMBERED = rf"[SM][ \t]*+{IN_BRACKETS}[ \t]*+="
+_LETTER = rf"(?!{_NUMBERED})[A-Z](?![A-Z_])"
 _VARIABLE = rf"(?:P[ \t]*+\d++|P[ \t]*+{IN_BRACKETS}|V\.[A-Z]++\.(?>(?:[\w.]++|{IN_BRACKETS})+))"
 _TABLE = (
     Spelling(r"%.*+", nothing),
@@ -112,7 +114,7 @@ _TABLE = (
     Spelling(r"LL?+[ \t]++(?:\"(?P<quoted>[^\"]++)\"|(?P<bare>[^\s\[\"();,#$=]++))", _call),
     Spelling(r"M0*+(?:17|29)(?![\w.])", lambda *_: [Return()], stays=True),
     Spelling(PROGRAM_END, lambda *_: [ProgramEnd()], stays=True),
-    Spelling(rf"(?:{_OWN}|[A-Z](?![A-Z_]))[ \t]*+=?+(?=[ \t]*+[-+]?+[ \t]*+[\d.PV\[A-Z])", _word, stays=True),
+    Spelling(rf"(?:{_OWN}|{_LETTER})[ \t]*+=?+(?=[ \t]*+[-+]?+[ \t]*+[\d.PV\[A-Z])", _word, stays=True),
 )
 _FORM = LineForm(
     ISG,

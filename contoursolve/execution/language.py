@@ -62,6 +62,10 @@ class Forget(Struct, frozen=True, tag=True):
     reason: str
 
 
+SKIP_SWITCH = Variable("/")
+"""Whether blocks that begin with / run: a switch at the machine decides, which no program reads."""
+
+
 class JumpWay(Enum):
     """Where a jump looks for its label."""
 
@@ -181,6 +185,8 @@ class Strange(Struct, frozen=True, tag=True):
 
     reason: str
     unread: str = ""
+    jumps: bool = False
+    """Whether it jumps, so that any block with a number or a label may follow."""
 
 
 class ModalCall(Struct, frozen=True, tag=True):

@@ -8,6 +8,7 @@ from msgspec import Struct
 
 from contoursolve.execution.language import Assign, CodeLine, Forget, MacroStatement, Strange, WordFormula
 from contoursolve.execution.notation import Notation, UnreadableTermError
+from contoursolve.gcode import IN_BRACKETS
 from contoursolve.numeric import Constant, Indexed, Quoted, Term, Variable
 
 LONGEST_LINE = 2_000
@@ -108,8 +109,8 @@ class LineReader:
         """The statements up to the end of the line."""
         found, skip = list[MacroStatement](), compiled(self._form.skip)
         while self.at < len(self.text):
-            begin = self.at
-            for spelling in self._form.table:
+            begin, is_first = self.at, not found
+            for spelling in (_O_WORD, *self._form.table) if is_first else self._form.table:
                 match = compiled(spelling.pattern).match(self.text, begin)
                 if match is None:
                     continue
@@ -151,6 +152,20 @@ def strange(text: str) -> Strange:
     return Strange(f"{shown if len(shown) <= _MOST_SHOWN else shown[:_MOST_SHOWN] + '...'} cannot be read")
 
 
+_O_WORDS = "SUB|ENDSUB|CALL|RETURN|IF|ELSEIF|ELSE|ENDIF|DO|WHILE|ENDWHILE|REPEAT|ENDREPEAT|BREAK|CONTINUE"
+_OF_MACRO_B = r"(?!.*(?:GOTO|THEN|DO[ \t]*+\d))"
+O_WORD = rf"O[ \t]*+(?>(?:\d++|<[^<>]*+>|#\d++|{IN_BRACKETS}))[ \t]*+(?:{_O_WORDS})(?![A-Z]){_OF_MACRO_B}"
+"""An O word of LinuxCNC: a number or a name, and what the program does there; behind the number of a program there may
+be an IF of Macro B, which jumps or says THEN."""
+
+
+def o_word(line: "LineReader", found: re.Match[str]) -> Iterable[MacroStatement]:
+    """What is said of an O word of LinuxCNC, which no control reads that contoursolve reads."""
+    line.at = len(line.text)
+    name = " ".join(found[0].split())
+    yield Strange(f"contoursolve does not follow {name}: that is how LinuxCNC calls and branches", name)
+
+
 class Spelling(Struct, frozen=True):
     """A statement: what it begins with, and what reads the rest of it. `stays` if its words stay in the line."""
 
@@ -162,6 +177,14 @@ class Spelling(Struct, frozen=True):
 def number_of(text: str) -> str:
     """A number as jumps name it."""
     return text.lstrip("0") or "0"
+
+
+_O_WORD = Spelling(rf"(?<![^\s/\d]){O_WORD}", o_word)
+
+
+def _has_o_word(text: str) -> bool:
+    """Whether an O word may stand in a line."""
+    return compiled(O_WORD).search(text) is not None
 
 
 class LineForm(Struct, frozen=True, eq=False):
@@ -182,7 +205,8 @@ class LineForm(Struct, frozen=True, eq=False):
     """Names that call no subprogram."""
 
     def may_say(self, line: str) -> bool:
-        return compiled(self.says).search(line if ";" not in line else line.partition(";")[0]) is not None
+        text = line if ";" not in line else line.partition(";")[0]
+        return compiled(self.says).search(text) is not None or (("O" in text or "o" in text) and _has_o_word(text))
 
     def read(self, line: str) -> CodeLine:
         """What a line says. Never raises."""

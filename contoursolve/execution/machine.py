@@ -11,6 +11,7 @@ from contoursolve.execution.evaluate import written
 from contoursolve.execution.events import EventKind, ProgramEvent
 from contoursolve.execution.language import (
     ARGUMENT,
+    SKIP_SWITCH,
     Assign,
     Call,
     CallKind,
@@ -60,10 +61,12 @@ DEEPEST = 50
 def needs_running(lines: Iterable[str], language: MacroLanguage | None) -> bool:
     """Whether a program calls, jumps or computes, so that it has to be followed as it runs."""
     said = (language.read(line.rstrip("\r\n")) for line in lines if language.may_say(line)) if language else ()
-    return any(
-        each.words or each.is_part or any(not isinstance(one, Return | ProgramEnd) for one in each.statements)
-        for each in said
-    )
+    return any(each.words or each.is_part or any(_has_to_run(one, each) for one in each.statements) for each in said)
+
+
+def _has_to_run(statement: MacroStatement, line: CodeLine) -> bool:
+    """Whether a statement is more than the end of what is written, which is the end wherever it runs."""
+    return not isinstance(statement, Return | ProgramEnd) or line.rest.lstrip().startswith("/")
 
 
 def machine_of(
@@ -146,6 +149,8 @@ class _Frame(Struct):
     rest: list[MacroStatement | _Taken] = field(default_factory=list)
     """What that line says besides, and has not been carried out: it waits for what it calls."""
     heads: dict[int, _Head] = field(default_factory=dict)
+    jumped: str = ""
+    """Why it is not known to which block it has jumped, if it has: any block with a number or a label may follow."""
     is_again: bool = False
     """Whether its next line runs again, nobody knows how often."""
 
@@ -477,10 +482,13 @@ class Machine:
                 self.passed_over.add(frame.source.blocks[index].line)
             self._visited.add(index)
         block, code = frame.source.blocks[index], frame.source.code(index)
+        if frame.jumped and (code.labels or self.language.read(block.text).number):
+            self.variables.lose_all(frame.jumped)
+            yield ProgramEvent(EventKind.LOST, self._line(frame, index), frame.jumped)
         self.variables.line, frame.at = self._line(frame, index), index + 1
         if self.language.declares and self._has_strange_words(block, code):
             code = replace(code, rest=block.text, statements=())
-        code, moving = self._assign_first(block, code)
+        code, moving = self._assign_first(block, self._if_not_skipped(code) if block.is_skippable else code)
         when = next((each for each in moving if isinstance(each, When) and each.has_words), None)
         if when is not None:
             yield from self._run_words_if(when, frame, code, is_new=is_new)
@@ -514,6 +522,18 @@ class Machine:
             self._keep(frame, index)
             self._visited.discard(index)
 
+    def _if_not_skipped(self, code: CodeLine) -> CodeLine:
+        """What a line says that begins with /: nobody knows whether it sets, jumps, calls or ends anything."""
+        said = code.statements
+        if any(isinstance(each, When) and each.has_words for each in said):
+            return code
+        jumps = (each.condition for each in said if isinstance(each, Jump | When) and each.condition is not None)
+        if any(self.variables.truth(each) is False for each in jumps):
+            return code
+        doubtful = tuple(each for each in said if isinstance(each, _IN_DOUBT))
+        kept = tuple(each for each in said if not isinstance(each, _IN_DOUBT))
+        return replace(code, statements=(When(SKIP_SWITCH, doubtful), *kept)) if doubtful else code
+
     def _assign_first(self, block: Block, code: CodeLine) -> tuple[CodeLine, list[MacroStatement]]:
         """Carry out the assignments with which a line begins; what else it says, and the statements behind them."""
         rest = iter(code.statements)
@@ -526,7 +546,7 @@ class Machine:
 
     def _run_words(self, frame: _Frame, block: Block, code: CodeLine) -> Iterator[Block | ProgramEvent]:
         """Run the words of a line."""
-        if frame.callers and any(isinstance(each, Return) for each in frame.rest):
+        if any(_returns(each, is_called=bool(frame.callers)) for each in frame.rest):
             code = replace(code, rest=_without_return(code.rest, block))
         ran = self._block(frame, block, code)
         if not self._is_passed_over(frame, code, ran):
@@ -761,6 +781,7 @@ class Machine:
 
     def _do_strange(self, frame: _Frame, index: int, statement: Strange) -> Iterator[Block | ProgramEvent]:
         self.variables.lose_all(statement.reason)
+        frame.jumped = statement.reason if statement.jumps else frame.jumped
         yield from self._unclear(frame, index, statement.reason, unread=statement.unread)
 
     def _do_modal_call(self, frame: _Frame, index: int, call: ModalCall) -> Iterator[Block | ProgramEvent]:
@@ -802,22 +823,18 @@ class Machine:
 
     def _jump(self, frame: _Frame, index: int, jump: Jump) -> Iterator[Block | ProgramEvent]:
         truth = self.variables.truth(jump.condition) if jump.condition is not None else True
-        target = self._target(frame, index, jump)
+        target, told = self._target(frame, index, jump), self._lacks(frame, index, jump)
         if truth is False:
             if target is not None:
                 self._keep(frame, target)
             return
+        if target is None and frame.jumped == told:
+            raise _RefusedError(told)
         if isinstance(truth, Unknown):
-            if target is not None:
-                self._named.add((frame.source.name, target))
-                yield from self._stay(frame, index)
-                taken = _Taken(target, truth.reason)
-                yield self._part(frame, truth.reason, lambda other: other.rest.__setitem__(slice(None), [taken]))
+            yield from self._jump_in_doubt(frame, index, target, truth.reason, told)
             return
         if target is None:
-            where = self.variables.resolve(jump.target)
-            told = f"{where}, which is not there" if isinstance(where, str) else f"an unknown block: {where.reason}"
-            raise _RefusedError(f"program line {self._line(frame, index)} jumps to {told}")
+            raise _RefusedError(told)
         if self._waiting and self._is_alone:
             self._named.add((frame.source.name, target))
             yield from self._stay(frame, index)
@@ -830,6 +847,29 @@ class Machine:
         elif jump.condition is not None:
             self._keep(frame, index + 1)
         yield from self._land(frame, index, target)
+
+    def _jump_in_doubt(
+        self, frame: _Frame, index: int, target: int | None, reason: str, told: str
+    ) -> Iterator[Block | ProgramEvent]:
+        """Run both ways of a jump of which nobody knows whether it is taken; `told` says that its target is missing."""
+        if target is not None:
+            self._named.add((frame.source.name, target))
+            yield from self._stay(frame, index)
+            taken = _Taken(target, reason)
+            yield self._part(frame, reason, lambda other: other.rest.__setitem__(slice(None), [taken]))
+        elif not self._is_alone:
+            # Where it jumps, the control stops; what follows runs where it does not.
+            yield ProgramEvent(EventKind.MAY_STOP, self._line(frame, index), told)
+
+    def _lacks(self, frame: _Frame, index: int, jump: Jump) -> str:
+        """What to say of a jump whose target is not there, or not known: any block may be it then."""
+        line, where = self._line(frame, index), self.variables.resolve(jump.target)
+        if isinstance(where, str):
+            return f"program line {line} jumps to {where}, which is not there"
+        told = f"program line {line} jumps to an unknown block: {where.reason}"
+        if jump.condition is None or self.variables.truth(jump.condition) is not False:
+            frame.jumped = told
+        return told
 
     def _land(self, frame: _Frame, index: int, target: int) -> Iterator[ProgramEvent]:
         """Go on at the target of a jump. It leaves the loops and branches in which its target is not; what begins there
@@ -1313,9 +1353,20 @@ _RETURNS = (17, 29, 99)
 """M codes that end a subprogram."""
 
 
+def _returns(statement: MacroStatement | _Taken, *, is_called: bool) -> bool:
+    """Whether a statement ends a subprogram; in a main program, where it is not known whether it does."""
+    if isinstance(statement, When):
+        return any(isinstance(each, Return) for each in statement.then)
+    return is_called and isinstance(statement, Return)
+
+
+_IN_DOUBT = (Assign, Forget, Jump, Call, Return, ProgramEnd, When)
+"""Statements that a block which begins with / leaves out as a whole."""
+
+
 def _without_return(text: str, block: Block) -> str:
     """A line without the word that ends a subprogram."""
-    for word in block.words:
+    for word in parse_block(text, block.line, block.syntax).words:
         if word.address == "M" and word.number in _RETURNS:
             begin, end = word.span.column - 1, word.span.end_column - 1
             text = text[:begin] + " " * (end - begin) + text[end:]

@@ -53,7 +53,13 @@ def _target(line: LineReader) -> Term | str:
 
 
 def _jump(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
-    yield Jump(_target(line), way=_WAYS[found["way"].upper()])
+    target = _target(line)
+    if line.take("<<"):
+        # The name is put together.
+        line.at = len(line.text)
+        yield Strange(strange(line.text[found.start() :]).reason, jumps=True)
+        return
+    yield Jump(target, way=_WAYS[found["way"].upper()])
 
 
 def _if(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:
@@ -127,6 +133,10 @@ def _call(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
         return
     arguments = tuple(_given(line))
     yield Call(CallKind.PROGRAM, name, count=_count(line), arguments=arguments)
+
+
+def _call_letter(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    yield Call(CallKind.PROGRAM, found["name"].upper(), arguments=tuple(_given(line)))
 
 
 _MOVES = re.compile(r"(?<![A-Z_$])[XYZ](?:[ \t]*+=|[ \t]*+[-+.\d])", re.IGNORECASE)
@@ -238,7 +248,26 @@ def _key(word: str) -> str:
 
 
 _MODAL_CALL = ModalCall("contoursolve does not read MCALL yet: it calls a subprogram behind each move", "MCALL")
+SYNCHRONOUS = r"(?:IDS?[ \t]*+=[ \t]*+\d++[ \t]*+)?(?:WHEN|WHENEVER|FROM|EVERY|DO)\b"
+"""What begins a synchronous action, which runs beside the program, whenever its condition holds."""
+MOVES_BESIDE = r".*\b(?:(?:POSA?|MOV)[ \t]*+\[|DO\b.*(?<![A-Z_$\[])[XYZ][ \t]*+=?+[ \t]*+[-+.\d])"
+"""What stands in one that moves an axis."""
+
+
+def _synchronous(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
+    """What it moves or sets is not known from here on."""
+    shown = strange(found[0]).reason.removesuffix(" cannot be read")
+    line.hide(found.start(), found.end())
+    if found["moves"]:
+        yield Strange(f"{shown} moves an axis beside the program")
+    for name in re.findall(r"(?<!\w)R\d+(?=[ \t]*=(?!=))", found[0], re.IGNORECASE):
+        yield Forget(Variable(name.upper()), f"{shown} sets {name.upper()} beside the program")
+    # What else it does bears on nothing that is known.
+    yield Forget(Variable("$ACTION"), shown)
+
+
 _TABLE = (
+    Spelling(rf"{SYNCHRONOUS}(?P<moves>{MOVES_BESIDE})?+.*+", _synchronous),
     Spelling(r"%.*+", nothing),
     Spelling(r"(?P<label>[A-Z_]\w++):(?!=)", _label),
     Spelling(
@@ -262,7 +291,7 @@ _TABLE = (
     Spelling(_key("REPEAT(?P<block>B?)"), _repeat),
     Spelling(_key("UNTIL"), _until),
     Spelling(_key("GOTO(?P<way>[BFC]?)"), _jump),
-    Spelling(_key("GOTOS"), lambda _, found: [strange(found[0])]),
+    Spelling(_key("GOTOS"), lambda _, found: [Strange(strange(found[0]).reason, jumps=True)]),
     Spelling(_key("CASE"), _case),
     Spelling(_key(rf"CALL[ \t]++BLOCK[ \t]++(?P<first>{_LABEL})[ \t]++TO[ \t]++(?P<last>{_LABEL})"), _between),
     Spelling(_key("(?:CALL|PCALL|EXTCALL)"), _call_by_name),
@@ -277,6 +306,8 @@ _TABLE = (
         _equals,
     ),
     Spelling(r"(?P<name>L\d++)(?![\w.])", _call),
+    # A program of one letter, which no control admits: what stands alone with arguments can be nothing else.
+    Spelling(rf"(?<![^ \t])(?P<name>[A-Z])(?=[ \t]*+{IN_PARENTHESES}[ \t]*+$)", _call_letter),
     Spelling(r"(?P<name>[A-Z_]{2}\w*+)(?![\[=])", _call),
 )
 _RESERVED = ("TO", "OF", "DEFAULT", "SAVE", "ENDLABEL", "AC", "IC", "DC", "ACP", "ACN", "REAL", "INT", "BOOL", "CHAR")
@@ -311,6 +342,8 @@ def sinumerik(names: Iterable[str]) -> MacroLanguage:
         skip=r"[ \t]++|\"[^\"]*+\"?+|[A-Z](?![A-Z_])[\d.]*+|[A-Z_$]\w*+|[\d.]++|.",
         behind_value="[A-Z_$]",
         says=rf"(?<![A-Z_])(?=[A-Z_]{{2}})(?!(?:{long})(?![A-Z_]))"
+        rf"|(?<![A-Z_\d]){SYNCHRONOUS}"
+        r"|(?<![A-Z_])(?:DEF|PROC)[ \t]|(?<![A-Z_\d])[A-Z][ \t]*+\(|[A-Z_]\w++:(?!=)"
         r"|=[ \t]*+[-+]?+(?:[^-+.\d \t]|[\d.,]++[ \t]*+[-+*/])"
         r"|(?<![A-Z_])(?:[RL]\d|MCALL(?![A-Z_])|M0*+(?:2|17|30)(?!\d|[ \t]*+=))|%_N_|\$",
         names=known,

@@ -8,6 +8,7 @@ from contoursolve.diagnostics import UserError
 from contoursolve.execution.evaluate import evaluate, is_true, name_of_indexed
 from contoursolve.execution.language import (
     ARGUMENT,
+    SKIP_SWITCH,
     UNSET,
     VACANT,
     Assign,
@@ -164,6 +165,8 @@ class Variables:
         return {name: value for name, value in self.values.items() if name in once}
 
     def _look_up(self, name: str) -> Known:
+        if name == SKIP_SWITCH.name:
+            return Unknown("a switch at the machine skips blocks that begin with /")
         own = self._own()
         if own is not None and name in own:
             return own[name]

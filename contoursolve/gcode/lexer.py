@@ -94,7 +94,8 @@ def parse_block(text: str, line: int, syntax: Syntax = ISO) -> Block:
     macro = syntax.statement.match(text)
     if macro:
         kind = Macro.FLOW if macro["flow"] else Macro.ASSIGNMENT
-        return Block(line, text, (), macro=kind, syntax=syntax)
+        is_skippable = syntax.skip.match(text) is not None
+        return Block(line, text, (), macro=kind, is_skippable=is_skippable, syntax=syntax)
     words: list[Word] = []
     faults: list[Fault] = []
     looks = text.translate(_READ_AS)

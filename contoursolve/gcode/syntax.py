@@ -77,7 +77,8 @@ ISO = Syntax(
     (?P<blank>[ \t\f\v\x02\x03\x11-\x14\x1a\ufeff%]++)
   | (?P<comment>\([^)]*+\)|;.*+)
   | (?P<open>\([^)]*+)
-  | (?P<word>(?P<long>\#?+[A-Za-z_][A-Za-z]\w*+)[ \t]*+=[ \t]*+(?P<value>[+-]?+(?>\d++\.?+\d*+|\.\d++))(?![\d.,\[\#])
+  | (?P<word>(?P<long>\#?+[A-Za-z_][A-Za-z]\w*+|[SMsm]\d{{1,2}})[ \t]*+=[ \t]*+
+      (?P<value>[+-]?+(?>\d++\.?+\d*+|\.\d++))(?![\d.,\[\#])
     |(?P<comma>,?+)[ \t]*+(?P<letter>[A-Za-z])[ \t]*+
       (?:(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))(?![\d.]|,\d|[eE][+-]?+\d++(?![\d.]))
         |(?P<expression>[+-]?+(?:\#++\d++|\#?+{IN_BRACKETS}))|(?P<asked>\?)))

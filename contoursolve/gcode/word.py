@@ -69,7 +69,8 @@ class Fault(Struct, frozen=True):
 
 
 _ADDRESS = re.compile(
-    r"[ \t]*(,?)[ \t]*(#?[A-Za-z_]\w*(?=[ \t]*=)|(?:RND|CHF)(?=[ \t]+R)|[A-Za-z]{2,}(?=[ \t]*[+-]?\.?\d)|[A-Za-z])",
+    r"[ \t]*(,?)[ \t]*"
+    r"(#?[A-Za-z_]\w*(?=[ \t]*=)|(?:RND|CHF)(?=[ \t]+[+-]?[RQ])|[A-Za-z]{2,}(?=[ \t]*[+-]?\.?\d)|[A-Za-z])",
     re.ASCII,
 )
 

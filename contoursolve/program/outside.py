@@ -4,7 +4,8 @@ Programs of other people hold much that no table knows and no contour minds. So 
 waits. It is told
 
 * at once, if it is about a contour by itself: a slip whose fix makes a block one, a block or a fault with a word by
-  which contours are known, a block too long to be read, a fact, an arc that leads to a contour, a start point apart;
+  which contours are known, a word of a corner or an angle that the control has not, a block too long to be read, a
+  fact, an arc that leads to a contour, a start point apart;
 * where the program has a contour, before or behind: words that may be meant for one, and questions; what cannot be read
   in a block that moves an axis of the plane; and what contoursolve does not know or does not follow;
 * at the next contour behind it: a G word that cannot be read, a comment that is not closed, text outside the %. Nobody
@@ -19,7 +20,7 @@ What waits in vain is passed over; `check --strict` tells all.
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
 
-from contoursolve.diagnosis import Answer, moves
+from contoursolve.diagnosis import Answer, corner_words, moves
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import Block, FaultKind, Word, spell
 from contoursolve.reading import Dialect, ReadIssue, State, apply_modes, words_of
@@ -44,6 +45,7 @@ class Outside:
         own = [each for each in dialect.modes.lexicon.addresses if len(each) > 1] if dialect else []
         self._long = {*own, *(spell(each, "").split(" ")[0] for each in own)}
         """Addresses with a comma or several letters: those of contours."""
+        self._corners = {*corner_words(dialect.modes.lexicon)} if dialect else set[str]()
         self._held: list[Diagnostic] = []
         self._contour = 0
         """The first line of the last contour; 0 if there is none yet."""
@@ -64,7 +66,7 @@ class Outside:
         if self.is_strict:
             yield from findings
             return
-        shown = {block.line - line for block in blocks() if self._signs(block)} if findings else set[int]()
+        shown = {block.line - line for block in blocks() if self._shows(block)} if findings else set[int]()
         is_torn = any(isinstance(each.about, FaultKind) for each in findings)
         moved = {block.line for block in blocks() if self._moves(block, before)} if is_torn else set[int]()
         for each in findings:
@@ -81,6 +83,11 @@ class Outside:
         self._is_behind = answer is not None or (
             self._is_behind and not any(words_of(block.text) for block in blocks())
         )
+
+    def _shows(self, block: Block) -> bool:
+        """Whether a block has a word by which contours are known, or one of a corner or an angle."""
+        words = (word for word in block.words if self._modes is not None and len(word.address) > 1)
+        return bool(self._signs(block)) or any(word.address in self._corners for word in words)
 
     def _moves(self, block: Block, before: State) -> bool:
         """Whether a block moves an axis of the plane."""
@@ -99,6 +106,13 @@ class Outside:
             elif each.span.line in later:
                 self._held.append(each)
 
+    def _is_corner(self, finding: Diagnostic) -> bool:
+        """Whether it is about a word of a corner that the control has not, and says which one is meant; or which no
+        control has, so that nothing else tells of it."""
+        if finding.about is not ReadIssue.COMMA_WORD_UNKNOWN:
+            return False
+        return "if that is meant" in finding.help or all(len(each) > 2 and each[0] == "," for each in finding.addresses)  # noqa: PLR2004 - a comma and a letter
+
     def _is_told(self, finding: Diagnostic) -> bool:
         """Whether a finding waits for nothing."""
         if finding.fixes or finding.about not in _WAITING or finding.span.line <= 0:
@@ -106,7 +120,8 @@ class Outside:
         if isinstance(finding.about, FaultKind) and not self._long.isdisjoint(finding.addresses):
             return True
         if finding.about in _BESIDE_CONTOURS or finding.span in self._torn:
-            return self._contour > 0 or (finding.about is ReadIssue.NOT_READ and finding.is_error)
+            is_unread = finding.about is ReadIssue.NOT_READ and finding.is_error
+            return self._contour > 0 or is_unread or self._is_corner(finding)
         return finding.span.line <= self._contour and _waits_for_any(finding)
 
 

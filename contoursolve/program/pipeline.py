@@ -32,6 +32,7 @@ from contoursolve.diagnosis import (
     has_corners,
     is_known,
     join,
+    like_corners,
     moves,
     name_of,
     not_read_yet,
@@ -488,6 +489,10 @@ class Examiner:
         if event.kind is EventKind.STOPPED:
             row = context.row(ReadIssue.NOT_FOLLOWED)
             self.diagnostics.append(report(context, row, Basis.RULE, [], reason=event.reason))
+        if event.kind is EventKind.MAY_STOP:
+            found = report(context, context.row(ReadIssue.NOT_FOLLOWED), Basis.RULE, [], reason=event.reason)
+            help_ = "write the block or the label; where it jumps, the control stops"
+            self.diagnostics.append(replace(found, help=help_))
         if event.unread:
             row = context.row(ReadIssue.NOT_READ)
             self.diagnostics.append(report(context, row, Basis.RULE, [], name=event.unread))
@@ -873,8 +878,14 @@ class Examiner:
         if dialect is None or here is None or COMMENTED in here.memory:
             return
         modes, signs = dialect.modes, dialect.signs(block)
-        self.diagnostics += explain_codes_by_name(context, block, modes)
-        if moves(block, here, modes, signs) or has_corners(block, here, modes):
+        found = explain_codes_by_name(context, block, modes)
+        # The contour of this block is lost with it.
+        self.diagnostics += (replace(each, severity=Severity.ERROR) if signs else each for each in found)
+        if (
+            moves(block, here, modes, signs)
+            or has_corners(block, here, modes)
+            or like_corners(block, modes, _corner_words())
+        ):
             found = explain_vocabulary(context, block, here, modes, _comma_words())
             # Of the block behind a contour, some controls tell by themselves what its words would have meant there.
             is_said = dialect.follow is not None and self._is_behind_contour(modes)
@@ -891,7 +902,7 @@ class Examiner:
 _ABOUT_VALUES = (ReadIssue.VARIABLE, ReadIssue.POSITION_UNKNOWN)
 """What matters only to what is calculated."""
 
-_OF_ARCS = frozenset("IJKR")
+_OF_ARCS = "IJK"
 """Words that most arcs have."""
 
 
@@ -921,7 +932,7 @@ def _is_clean(block: Block, dialect: Dialect, here: State | None) -> bool:
     if block.faults or block.directives or block.unmarked:
         return False
     addresses, modes = [word.address for word in block.words], dialect.modes
-    own = _OF_ARCS if here is not None and here.motion in _ARCS else frozenset[str]()
+    own = {*_OF_ARCS, modes.radius} if here is not None and here.motion in _ARCS else set[str]()
     is_read = all(each in own or is_known(each, modes.lexicon) for each in addresses)
     codes = codes_of(block, modes) if "G" in addresses else ()
     is_read = is_read and all(not isinstance(code, Word) and code.is_read for code in codes)

@@ -34,6 +34,8 @@ class _Outcome(Struct, frozen=True):
     status: str
     path: tuple[float, ...]
     told: str
+    points: tuple[str, ...] = ()
+    """The points of its path as a reader sees them, which may count diameters."""
 
     def agrees(self, other: "_Outcome | None") -> bool:
         """Whether another control makes the same of it."""
@@ -124,7 +126,8 @@ def _outcome(answer: Answer) -> _Outcome:
     places = [at for each in contour.elements for at in (each.start, each.end, getattr(each, "center", each.end))]
     told = f"ends at {coordinates(contour.end, answer.plane, answer.unit)}"
     path = tuple(value for place in (*places, contour.end) for value in place)
-    return _Outcome(lines, answer.status.value, path, told)
+    points = tuple(coordinates(place, answer.plane, answer.unit) for place in places)
+    return _Outcome(lines, answer.status.value, path, told, points)
 
 
 def _taking_corners(readings: Mapping[str, _Reading]) -> list[str]:
@@ -152,5 +155,16 @@ def _differences(contour: Mapping[str, _Outcome | None], several: UnknownControl
     where = f"program line {lines[0]}" if len(lines) == 1 else f"program lines {lines[0]} to {lines[-1]}"
     where += file
     shown = "does not show its control" if several is None else f"fits {either([*contour])}"
-    told = "; ".join(f"{join(names)}: {'no contour there' if each is None else each.told}" for each, names in groups)
+    made = _told_apart([each for each, _ in groups])
+    told = "; ".join(f"{join(names)}: {text}" for text, (_, names) in zip(made, groups, strict=True))
     return f"the program {shown}, and {where} would not be the same ({told})"
+
+
+def _told_apart(made: Sequence[_Outcome | None]) -> list[str]:
+    """What controls make of a contour, each in words that the others do not share."""
+    told = ["no contour there" if each is None else each.told for each in made]
+    points = [each.points for each in made if each is not None]
+    if len({*told}) == len(told) or len(points) < len(made) or len({len(each) for each in points}) > 1:
+        return told
+    apart = next((at for at, each in enumerate(zip(*points, strict=True)) if len({*each}) > 1), None)
+    return told if apart is None else [f"passes {each[apart]}" for each in points]

@@ -213,9 +213,9 @@ class Lexicon:
         row = self.row_beside(address)
         return row.bearing if row else None
 
-    def plain_names(self) -> frozenset[str]:
+    def plain_names(self) -> tuple[str, ...]:
         """The names of all words of the control, without those for which an argument of a code stands."""
-        return frozenset({*self.addresses, *(name for row in self.beside for name in row.names)})
+        return tuple(dict.fromkeys((*self.addresses, *(name for row in self.beside for name in row.names))))
 
     def value(self, word: Word, unit: Length) -> Decimal | None:
         """The value of a word in mm (diameters halved) or degrees; None for a variable."""

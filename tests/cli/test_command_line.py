@@ -418,6 +418,15 @@ def test_two_processes_write_the_same_bytes(path, form):
     assert first == run_process("solve", path, "--format", form, PYTHONHASHSEED="2")
 
 
+@pytest.mark.slow
+def test_two_processes_name_the_words_that_may_be_meant_in_the_same_order():
+    def told(seed):
+        arguments = "check", "-", "--control", "siemens-840d"
+        return run_process(*arguments, stdin=b"G17 G90 G0 X0 Y0\nG1 X60 ROUND=8 R5\nY40 ,R5", PYTHONHASHSEED=seed)
+
+    assert told("1") == told("2") == told("3")
+
+
 # --- Bad inputs ------------------------------------------------------------------------------------
 
 BAD = {

@@ -364,7 +364,7 @@ SINUMERIK_LINES = [
     ('CYCLE62(,2,"L1","L2")', "", [Call(CallKind.PROFILE, "L1", "L2", cycle="CYCLE62")]),
     ('MSG("X R1=5")', 'MSG("X R1=5")', []),
     ("R1=FOO(3)", "", [Forget(S("R1"), "R1=FOO(3) cannot be read")]),
-    ("GOTOS", "", [Strange("GOTOS cannot be read")]),
+    ("GOTOS", "", [Strange("GOTOS cannot be read", jumps=True)]),
 ]
 G = of(ISG)
 ISG_LINES = [

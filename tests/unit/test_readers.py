@@ -137,3 +137,11 @@ def test_an_edit_may_make_a_lathe_a_mill():
     assert [each.code for each in findings_of(opened)] == ["machine-taken"]
     opened.replace(GROOVE.replace("N30 Z-20", "N30 Y-20"))
     assert "machine-taken" not in {each.code for each in findings_of(opened)}
+
+
+def test_where_readers_end_at_the_same_place_the_message_names_a_point_in_which_they_differ():
+    with pytest.raises(UnknownControlError) as told:
+        solve("G99 G18\nT0101\nG0 X40. Z0.\nG1 Z-40. ,R5. F.2\nX80. ,C1.\nZ-60.\nM30")
+    assert "mitsubishi: passes Z-40.0000 X45.0000; fanuc-lathe and haas-lathe: passes Z-40.0000 X50.0000" in str(
+        told.value
+    )

@@ -80,6 +80,16 @@ ALONE = {
         (SINUMERIK, "R=5", "RND=5"),
         (SINUMERIK, ",C5", "CHR=5"),
         (SINUMERIK, "RND:5", "RND=5"),
+        (ISG, "RND=5", "#RND=5"),
+        (ISG, "CHR5", "#CHR=5 or #CHF=5"),
+        (ISG, "ANG30", "#ANG=30"),
+        (SINUMERIK, "R5", "RND=5 or RNDM=5"),
+        ("fanuc-lathe", "#R5.", ",R5."),
+        ("fanuc-lathe", "#C5.", ",C5."),
+        ("fanuc-lathe", "ANG30.", ",A30."),
+        (KLARTEXT, "RND 5", "RND R5"),
+        (KLARTEXT, "RND=5", "RND R5"),
+        (KLARTEXT, "RMD R5", "RND R5"),
         (KLARTEXT, "RNDR5", "RND R5"),
         (KLARTEXT, "RDN R5", "RND R5"),
         (KLARTEXT, "ROUND R5", "RND R5"),
@@ -207,7 +217,7 @@ def test_letters_that_are_almost_words_of_isg_and_klartext():
     assert (finding.is_error, finding.message.endswith("did you mean CHF 5?")) == (True, True)
 
 
-@pytest.mark.parametrize(("typed", "meant"), [("TC", "CT"), ("DIAMONN", "DIAMON"), ("G310", "G110")])
+@pytest.mark.parametrize(("typed", "meant"), [("TC", "CT"), ("DIAMONN", "DIAMON"), ("G310", "write out")])
 def test_a_command_that_the_control_has_not_is_told(typed, meant):
     text = f"G17 G90\n{typed}\nG0 X0 Y0\nG1 X60 F200\nY40 RND=5\nX20"
     (finding,) = findings(SINUMERIK, text)
@@ -391,3 +401,114 @@ def test_a_function_of_klartext_without_a_blank_before_its_number_is_no_misspelt
     lines = ("FN15: PRINT Q1/Q2", "FN0: Q1 = 5", "LBL10", "CYCL DEF7.0", "L X+60 R0")
     text = "\n".join(["0 BEGIN PGM A MM", *(f"{at} {each}" for at, each in enumerate(lines, 1)), "9 END PGM A MM"])
     assert {each.code for each in contoursolve.check(text, control="heidenhain")} == {"no-contour"}
+
+
+@pytest.mark.parametrize(
+    ("control", "block", "told"),
+    [
+        (SINUMERIK, "RND", "RND has no number"),
+        (SINUMERIK, "RND=", "RND has no number"),
+        (SINUMERIK, "ANG", "ANG has no number"),
+        (ISG, "#RND", "#RND has no number"),
+        (KLARTEXT, "RND Q5", "RND Q5 is not a number"),
+        (KLARTEXT, "FLX AN+30 LEN20", "FLX is no function"),
+    ],
+)
+def test_a_word_of_a_corner_that_cannot_be_read_is_told_where_it_stands_alone(control, block, told):
+    (finding, *_) = (each for each in findings(control, ALONE[control].format(block)) if each.is_error)
+    assert told in finding.message
+
+
+@pytest.mark.parametrize("block", ["G1 RN=5", "G1 Z-5 RN=5", "G0 RDN=5"])
+def test_a_misspelt_corner_is_told_in_a_block_that_moves_nothing_in_the_plane(block):
+    (finding,) = findings(SINUMERIK, MILL + f"{block}\nG1 X60 F200\nY40")
+    assert (finding.code, "write RND=5" in finding.help) == ("word-mistyped", True)
+
+
+@pytest.mark.parametrize("word", ["RND R5", "CHF 2", "AN+30", "LEN20"])
+def test_a_word_that_an_l_block_has_not_is_told(word):
+    (finding,) = findings(KLARTEXT, f"1 L X+0 Y+0 R0 FMAX\n2 L X+60 {word} F200\n3 L Y+40\n4 RND R2\n5 L X+0")
+    assert (finding.code, finding.span.line) == ("word-idle", 2)
+
+
+@pytest.mark.parametrize(
+    ("control", "word", "unit"),
+    [
+        (YASNAC, "A170. X100.mm K-5. Z-9.", "mm"),
+        ("nct-99m", ",R5mm", "mm"),
+        ("nct-99m", ",A30\N{DEGREE SIGN}", "\N{DEGREE SIGN}"),
+        (ISG, "#RND=5 mm", "mm"),
+        (KLARTEXT, "FL AN+30\N{DEGREE SIGN} LEN20", "\N{DEGREE SIGN}"),
+    ],
+)
+def test_a_unit_behind_a_number_is_told_as_one(control, word, unit):
+    text = ALONE[control].format(word) if control in ALONE else f"G0 X40. Z0.\nG111 {word}"
+    found = findings(control, text)
+    assert any(each.is_error and each.help.startswith(f"delete {unit}") for each in found)
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"), [("RN5.", "P5. or Q5."), ("ANG170.", "A170. or B170."), ("CHF2.", "C2. or D2.")]
+)
+def test_a_word_of_another_control_is_told_in_a_g111_block(typed, meant):
+    (finding, *_) = findings(YASNAC, f"G0 X40. Z0.\nG111 {typed} X100.")
+    assert f"write {meant} for {typed}" in finding.help
+
+
+@pytest.mark.parametrize(
+    ("control", "spindle"),
+    [
+        (MITSUBISHI, "S1=500"),
+        (MITSUBISHI, "s2 = 500"),
+        ("fanuc-mill", "S1=500"),
+        (ISG, "S[1]=500"),
+        (ISG, "S[2] = 500"),
+    ],
+)
+def test_the_speed_of_one_of_several_spindles_is_no_stray_character(control, spindle):
+    assert findings(control, CHAIN[control].format(spindle)) == ()
+    plain = contoursolve.solve(CHAIN[control].format(""), control=control).answers[-1].contour
+    assert contoursolve.solve(CHAIN[control].format(spindle), control=control).answers[-1].contour.end == plain.end
+
+
+def test_an_angle_of_a_mill_that_has_none_is_not_called_a_corner():
+    (finding,) = findings("fanuc-mill", CHAIN["fanuc-mill"].format(",A30."))
+    assert (finding.code, ",C" in finding.help) == ("comma-word-unknown", False)
+
+
+def test_a_variable_or_a_program_of_one_letter_is_one():
+    text = MILL + "A(3)\nM30\nPROC A(REAL C)\nDEF REAL D=2\nG1 X60 F200 RND=C\nY40 CHR=D\nX20\nM17"
+    result = contoursolve.solve(text, control=SINUMERIK)
+    assert (result.diagnostics, [each.status for each in result.answers]) == ((), [Status.SOLVED])
+
+
+def test_r_in_an_arc_of_sinumerik_is_told_as_its_radius_where_no_contour_has_the_arc():
+    text = "G17 G90 G0 X40 Y0\nR10=10\nG3 X50 Y10 R=R10 F200\nG1 X80 RND=2\nY50"
+    (finding,) = findings(SINUMERIK, text)
+    assert (finding.code, finding.span.line, "write CR=10" in finding.help) == ("word-mistyped", 3, True)
+
+
+@pytest.mark.parametrize(
+    ("action", "known"),
+    [
+        ("WHEN $AC_TIME>1 DO M8", True),
+        ("ID=1 WHENEVER $AA_IM[X]>2 DO $AC_OVR=0", True),
+        ("N40 IDS=2 EVERY R1==1 DO H5", True),
+        ("DO R7=5", True),
+        ("IDS=1 EVERY $A_IN[1]==1 DO POS[X]=10", False),
+        ("WHEN TRUE DO MOV[Y]=1", False),
+    ],
+)
+def test_a_synchronous_action_of_sinumerik_runs_beside_the_program(action, known):
+    result = contoursolve.solve(MILL + f"G1 X60 RND=5 F200\n{action}\nY40\nX20 RND=3\nY0", control=SINUMERIK)
+    if known:
+        assert (result.diagnostics, {each.status for each in result.answers}) == ((), {Status.SOLVED})
+        assert result.answers[0].lines == (2, 4)
+    else:
+        assert any("moves an axis beside the program" in each.message for each in result.diagnostics if each.is_error)
+
+
+@pytest.mark.parametrize("move", ["LP PR+30 PA+90", "CTP PR+30 PA+90", "CP IPA+90 DR+"])
+def test_what_counts_from_cc_says_so_where_there_is_none(move):
+    found = findings(KLARTEXT, f"1 L X+0 Y+0 R0 F100\n2 L X+10\n3 RND R3\n4 {move}\n5 END PGM A MM")
+    assert any((each.code, each.span.line) == ("heidenhain-centre-missing", 4) for each in found)

@@ -300,3 +300,112 @@ def test_all_ways_of_case_meet(places):
     for value, place in enumerate(places, 1):
         (answer,) = solve(text, control="siemens-840d", variables={"R1": value}).answers
         assert answer.start.values[0] == place
+
+
+SKIPPED = {
+    "goto": (MILL, "G17 G90 G0 X0. Y0.\nG1 F200\n/GOTO10\nX{}.\nN10 Y30. ,R5.\nX80.\nM30"),
+    "goto, switch 2": ("haas-mill", "G17 G90 G0 X0. Y0.\nG1 F200\n/2 N5 GOTO10\nX{}.\nN10 Y30. ,R5.\nX80.\nM30"),
+    "call": ("nct-99m", "G17 G90 G0 X0. Y0.\nG1 F200\n/M98 P9001\nY30. ,R5.\nX80.\nM30\nO9001\nX{}.\nM99"),
+    "return": (MILL, "G17 G90 G0 X0. Y0.\nG1 F200\nM98 P9001\nY30. ,R5.\nX80.\nM30\nO9001\n/M99\nX{}.\nM99"),
+    "variable": ("mitsubishi", "G17 G90 G0 Y0.\nG1 F200\n#1=0\n/#1={}.\nX#1\nY30. ,R5.\nX80.\nM30"),
+    "condition": (LATHE, "G0 X0. Z0.\nG1 F200\n/IF[#1 EQ 1]GOTO10\nX{}.\nN10 Z-30. ,R5.\nX80.\nM30"),
+    "label": (SIEMENS, "G17 G90 G0 X0 Y0\nG1 F200\n/GOTOF A1\nX{}\nA1: Y30 RND=5\nX80\nM30"),
+    "subprogram": (SIEMENS, "G17 G90 G0 X0 Y0\nG1 F200\n/L10\nY30 RND=5\nX80\nM30\n%_N_L10_SPF\nX{}\nM17"),
+    "$GOTO": ("isg", "G17 G90 G0 X0 Y0\nG1 F200\n/$GOTO N50\nX{}\nN50 Y30 #RND=5\nX80\nM30"),
+    "CALL LBL": (
+        "heidenhain",
+        "L X+0 Y+0 R0 F100\n/CALL LBL 1\nL Y+30\nRND R5\nL X+80\nL M30\nLBL 1\nL X+{}\nLBL 0",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SKIPPED)
+def test_what_a_block_with_a_slash_sets_jumps_to_or_calls_is_not_known(name):
+    control, text = SKIPPED[name]
+    line = next(at for at, each in enumerate(text.splitlines()) if each.startswith("/"))
+    lines = text.splitlines()
+    both = ["\n".join([*lines[:line], *way, *lines[line + 1 :]]) for way in ([lines[line][1:].lstrip("2 ")], [])]
+    if name == "condition":
+        both = [each.replace("IF[#1 EQ 1]", "") for each in both]
+    for value in (0, 42):
+        starts = {solve(each.format(value), control=control).answers[-1].contour.start for each in both}
+        result = solve(text.format(value), control=control)
+        answer = result.answers[-1]
+        assert (answer.status is Status.SOLVED) is (len(starts) == 1)
+        if len(starts) == 1:
+            assert {answer.contour.start} == starts
+        else:
+            (finding,) = (each for each in result.diagnostics if each.is_error)
+            told = "\n".join((finding.message, *finding.notes))
+            assert name == "variable" or (f"program line {line + 1}" in told and "a switch at the machine" in told)
+
+
+def test_what_a_skipped_block_decides_is_not_written_out(tmp_path):
+    file = tmp_path / "a.nc"
+    file.write_text(SKIPPED["goto"][1].format(42), encoding="utf-8")
+    result = CliRunner().invoke(main, ["expand", "--inline", "--control", MILL, str(file)])
+    assert (result.exit_code, "a switch at the machine" in result.output) == (1, True)
+
+
+@pytest.mark.parametrize(
+    ("control", "text"),
+    [
+        (MILL, "G17 G90 G0 X0. Y0.\nG1 F200\nIF[#500 EQ 1]GOTO#501\nX38. Y0.\nN20 Y10. ,R5.\nX80.\nM30"),
+        (MILL, "G17 G90 G0 X0. Y0.\nG1 F200\nGOTO[#501*10]\nX38. Y0.\nN20 Y10. ,R5.\nX80.\nM30"),
+        (SIEMENS, 'G17 G90 G0 X0 Y0\nG1 F200\nGOTOF "AA"<<R500\nX38 Y0\nAA1: Y10 RND=5\nX80\nM30'),
+    ],
+)
+def test_behind_a_jump_to_an_unknown_block_nothing_is_known_where_a_block_has_a_name(control, text):
+    (answer,) = solve(text, control=control).answers
+    assert answer.status is Status.UNDERDETERMINED
+    assert (
+        "not known in X and Y"
+        in next(each for each in solve(text, control=control).diagnostics if each.is_error).message
+    )
+
+
+@pytest.mark.parametrize(
+    ("control", "text"),
+    [
+        (MILL, "G17 G90 G0 X0. Y0.\nG1 F200\nIF[#500 EQ 1]GOTO77\nX38.\nY10. ,R5.\nX80.\nM30"),
+        (SIEMENS, "G17 G90 G0 X0 Y0\nG1 F200\nIF R500==1 GOTOF ABSENT\nX38\nY10 RND=5\nX80\nM30"),
+    ],
+)
+def test_a_jump_in_doubt_to_what_is_not_there_is_told_and_the_other_way_runs(control, text):
+    result = solve(text, control=control)
+    assert [(each.code, each.span.line) for each in result.diagnostics] == [("not-followed", 3)]
+    assert result.answers[0].contour.start == (38.0, 0.0)
+
+
+O_WORDS = (
+    ("O100 IF [#5042 GT 5.]", "O100 ELSE", "O100 ENDIF"),
+    ("o100 while [#1 lt 3]", "#1=[#1+1]", "o100 endwhile"),
+    ("N7 o<kont> sub", "N8 o<kont> endsub", "N9 o<kont> call [5] [6]"),
+    ("o#5 repeat [3]", "o#5 continue", "o#5 endrepeat"),
+)
+
+
+@pytest.mark.parametrize("words", O_WORDS)
+@pytest.mark.parametrize(
+    "control", [MILL, LATHE, "haas-mill", "mitsubishi", "nct-99m", "yasnac-lx3", SIEMENS, "isg", "heidenhain"]
+)
+def test_o_words_of_linuxcnc_are_named_and_nothing_is_known_behind_them(control, words):
+    first, move, contour = {
+        LATHE: ("G0 X40. Z0.", "G0 X42.", "G1 Z-30. ,R5. F.2\nX80."),
+        "yasnac-lx3": ("G0 X40. Z0.", "G0 X42.", "G111 A180. K-10. B90. X60."),
+        SIEMENS: ("G17 G90 G0 X0 Y0", "X42", "G1 Y30 RND=5 F200\nX80"),
+        "isg": ("G17 G90 G0 X0 Y0", "X42", "G1 Y30 #RND=5 F200\nX80"),
+        "heidenhain": ("L X+0 Y+0 R0 F100", "L X+42", "L Y+30\nRND R5\nL X+80"),
+    }.get(control, ("G17 G90 G0 X0. Y0.", "X42.", "G1 Y30. ,R5. F200\nX80."))
+    result = solve("\n".join([first, words[0], move, words[1], words[2], contour]), control=control)
+    assert result.answers[-1].status is Status.UNDERDETERMINED
+    named = {each.span.line for each in result.diagnostics if each.code == "not-read"}
+    assert {2, 5} <= named
+    (finding,) = (each for each in result.diagnostics if each.is_error)
+    assert (finding.code, words[2].split(" [")[0].removeprefix("N9 ") in finding.message) == ("position-unknown", True)
+
+
+def test_if_of_macro_b_behind_the_number_of_a_program_is_no_o_word():
+    text = "O0100 IF[#1 EQ 0]GOTO5\nG17 G90\nN5 G0 X0. Y0.\nG17 G90 G1 X10. ,R2. F200\nY20.\nM30"
+    (answer,) = solve(text, control=MILL).answers
+    assert answer.status is Status.SOLVED

@@ -578,7 +578,7 @@ def _element(
     tool = member.here.memory.get(TOOL_AXIS)
     holds = {
         NO_BEFORE: number == 1 and (member.function in TANGENT or ("IAN" in own and "RAN" not in own)),
-        NO_CENTER: member.function in ABOUT_CENTER and member.center_at is None,
+        NO_CENTER: member.function in (*ABOUT_CENTER, "LP", "CTP") and member.center_at is None,
         FULL: member.is_full,
         NO_RADIUS: member.function == "CR" and "R" not in own,
         CLOSES_NOTHING: "CLSD-" in own and not 0 < opening < number,

@@ -95,13 +95,14 @@ def _parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
     return address, number and number.replace(",", "."), found[f"{kind}_asked"] is not None
 
 
-_OWN_WORD = rf"(?:F[LC]T?)?+(?:{_LONG}|RND|CHF|{_AXIS})[ \t]*+[-+.,\d]|[A-Z]++(?<=Q)\d|[A-Z]++(?<=Q[LRS])\d"
+_LACKS_R = r"RND[ \t]++[+-]?+Q[LRS]?+\d++"
+_OWN_WORD = rf"{_LACKS_R}|(?:F[LC]T?)?+(?:{_LONG}|RND|CHF|{_AXIS})[ \t]*+[-+.,\d=]|[A-Z]++(?<=Q)\d|[A-Z]++(?<=Q[LRS])\d"
 _WORDS = (
     r"(?P<label>(?:\A|(?<=/))[ \t]*+N?+\d++(?![.,\w]))",
     r"(?P<sense>DR(?=[ \t]*+[+-])|CLSD(?!\w))[ \t]*+(?P<sign>[+-]?+)",
     rf"(?P<feed>F[ \t]*+(?:AUTO|MAX)\b|F[UZ][ \t]*+{_NUMBER}|M[BT][ \t]*+(?:MAX|{_NUMBER}))",
     rf"(?P<long>{_LONG})[ \t]*+{_value('long')}",
-    rf"(?P<corner>RND(?![A-Z])[ \t]*+(?>(?:R[ \t]*+)?)|CHF(?![A-Z])[ \t]*+(?!R)){_value('corner')}",
+    rf"(?P<corner>RND(?![A-Z])[ \t]*+R[ \t]*+|CHF(?![A-Z])[ \t]*+(?!R)){_value('corner')}",
     # R0 is no radius: it ends the compensation.
     rf"(?!R0(?![\w.,]))(?P<letter>{_AXIS}|[A-Z])(?!(?!Q[LRS]?\d)[A-Z])[ \t]*+{_value('letter')}",
     # Such as LEM20 or ANG=30: no word of Klartext.
@@ -110,13 +111,15 @@ _WORDS = (
 BLOCK_NUMBER = r"[ \t/]*+(?>(?:N?(?P<number>\d++)(?![.,\w])[ \t]*+)?)"
 """What a statement begins with: its sign to skip it and its number, if any."""
 
+_BEHIND = r"[ \t]*+=?+[ \t]*+(?=[\d.,+-])[\w.,+-]++"
+"""What is almost a number, behind an address."""
 _TOKENS = (
     f"(?P<word>{'|'.join(_WORDS)})",
     r"(?P<blank>[ \t\f\v\x1a\ufeff~]++)",
     r"(?P<comment>;.*+)",
     rf"(?P<glued>(?:{'|'.join(sorted(FREE, key=len, reverse=True))})(?=(?:{_LONG}|{_AXIS})[ \t]*+[+-]?+[\d.,]))",
     rf"(?P<name>(?:APPR|DEP)[ \t]++[A-Z]++|(?:{_BY_LENGTH})(?![\w.,]))",
-    rf"(?P<malformed>(?:{_LONG}|RND[ \t]*+R?+|CHF[ \t]*+R?+|{_AXIS}|[A-Z](?![A-Z]))[ \t]*+(?=[\d.,+-])[\w.,+-]++)",
+    rf"(?P<malformed>(?:{_LONG}|(?:RND|CHF)[ \t]*+R?+|{_AXIS}|[A-Z](?![A-Z])){_BEHIND}|{_LACKS_R})",
     r"(?P<bare>[A-Z]++[+-]?+)",
     r"(?P<stray>[^ \tA-Z;]++)",
 )
@@ -227,6 +230,8 @@ _BY_WORD: Mapping[str, str] = {ROUNDING: "RND", CHAMFER: "CHF", "FSELECT": "FSEL
 
 def shown_by(block: Block) -> tuple[Word, ...]:
     """What shows Klartext: the begin of a program, and elements of free contour programming."""
+    if _MISSPELT_FREE.match(block.text):
+        return tuple(word for word in words_as(block, SYNTAX) if word.address in _OF_FREE)
     if not _SHOWS.search(block.text):
         return ()
     begins = _BEGIN.match(block.text)
@@ -235,6 +240,13 @@ def shown_by(block: Block) -> tuple[Word, ...]:
     return tuple(word for word in words_as(block, SYNTAX) if word.address == "G" and word.text.upper() in FREE)
 
 
+_OF_FREE = ("AN", "LEN", "CCX", "CCY", "CCA")
+_MISSPELT_FREE = re.compile(
+    BLOCK_NUMBER
+    + rf"(?!(?:{'|'.join(FREE)})[ \t])F[A-Z]{{1,4}}[ \t]++(?:[^;]*[ \t])?(?:{'|'.join(_OF_FREE)})[ \t]*+[+-]",
+    re.IGNORECASE,
+)
+"""What begins like a free element, and has a word that nothing else has."""
 _SHOWS = re.compile(r"BEGIN|F[LC]T?[ \t\r\n]|F[LC]T?$", re.IGNORECASE)
 _BEGIN = re.compile(r"[ \t\ufeff]*+\d*+[ \t]*+BEGIN[ \t]++PGM\b", re.IGNORECASE)
 

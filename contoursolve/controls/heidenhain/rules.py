@@ -151,7 +151,7 @@ _ROWS = (
          "write CLSD+ into the first block of the contour", BOOK.printed("closed contour"),
          some(CLOSES_NOTHING) & some("CLSD-"), _FK,
          _CLOSED, (" CLSD+", "")),
-    _row("centre-missing", "the arc turns about CC, and no CC is in force", "write CC X Y before it",
+    _row("centre-missing", "it counts from CC, and no CC is in force", "write CC X Y before it",
          BOOK.assumed("path functions"), some(NO_CENTER), (PLAIN,),
          _CORNER.replace("4 L X+40 Y+30", "4 CC X+60 Y+0\n5 C X+60 Y+20 DR-"), ("4 CC X+60 Y+0\n", "")),
     _row("radius-missing", "CR is an arc by its radius, and R is missing", "add R",

@@ -63,6 +63,8 @@ _NUMBER = r"[+-]?+(?>\d++\.?+\d*+|\.\d++)"
 _OWN = r"\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)\b"
 _FOREIGN = r"\#[ \t]*+[A-Za-z]\w*+(?=[ \t]*+=[ \t]*+[-+.\d])"
 """A word with a number sign that the control has not."""
+_NUMBERED = rf"[SM][ \t]*+{IN_BRACKETS}(?=[ \t]*+=)"
+"""A word of one of several spindles: `S[2]=500`."""
 SYNTAX = Syntax(
     "isg",
     token=re.compile(
@@ -72,7 +74,8 @@ SYNTAX = Syntax(
   | (?P<mistyped>\#[ \t]*+(?:ANG|RND|CHR|CHF|FRC)(?:(?=[-+.\d])[-+.,\d]++
       |[ \t]*+=[ \t]*+[+-]?+[\d.]++,[\d.,]*+))
   | (?P<word>
-        (?P<long>{_OWN}|{_FOREIGN})[ \t]*+(?>(?:=[ \t]*+)?)(?:(?P<plain>{_NUMBER})(?![\w.+*/\[-])|(?P<wanted>\?)
+        (?P<long>{_OWN}|{_FOREIGN}|{_NUMBERED})[ \t]*+(?>(?:=[ \t]*+)?)
+          (?:(?P<plain>{_NUMBER})(?![\w.+*/\[-])|(?P<wanted>\?)
           |(?P<formula>[^ \t;()]++))
       | (?P<letter>[A-Za-z])(?![A-Za-z_])[ \t]*+(?>(?:=[ \t]*+)?)(?:(?P<short>{_NUMBER})(?![\d.+*/\[-])|(?P<asked>\?)
           |(?P<expression>[+-]?+(?>(?:[A-Z]*+{IN_BRACKETS}|[PV](?>(?:[\w.]++|{IN_BRACKETS})*)|\d[\d.]*+|[+*/-])+))))

@@ -9,7 +9,7 @@ from msgspec import structs
 from contoursolve.controls.further import rows as rows_beside
 from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, coming_back, lexicon
 from contoursolve.diagnostics import Book
-from contoursolve.execution import MacroLanguage, sinumerik
+from contoursolve.execution import MOVES_BESIDE, SYNCHRONOUS, MacroLanguage, sinumerik
 from contoursolve.gcode import IN_BRACKETS, IN_PARENTHESES, Block, Syntax, Word, long_parts
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import Address, Bearing, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
@@ -36,62 +36,67 @@ _CODES = BASIC_CODES | {
     | dict.fromkeys((450, 451, 460, 461, 462), "corners of the compensated path"),
 }
 _UNITS = {70: Length.INCH, 71: Length.MM, 700: Length.INCH, 710: Length.MM}
-_UNREAD = (
-    (Effect.MOTION, "arc through a point", ("CIP",)),
-    (Effect.MOTION, "involute", ("INVCW INVCCW",)),
-    (Effect.MOTION, "spline or polynomial", ("ASPLINE BSPLINE CSPLINE POLY",)),
-    (Effect.FRAME, "another surface", ("TRANSMIT TRACYL TRAANG TRAORI TRACON",)),
-    (Effect.FRAME, "tilted plane", ("CYCLE800 PAROT PAROTOF TOROT TOROTX TOROTY TOROTZ TOROTOF TOFRAME",)),
-)
+_UNREAD: tuple[tuple[Effect, Mapping[str, tuple[str, ...]]], ...] = (
+    (Effect.MOTION, {
+        "arc through a point": ("CIP",),
+        "involute": ("INVCW INVCCW",),
+        "spline or polynomial": ("ASPLINE BSPLINE CSPLINE POLY",),
+    }),
+    (Effect.FRAME, {
+        "another surface": ("TRANSMIT TRACYL TRAANG TRAORI TRACON",),
+        "tilted plane": ("CYCLE800 PAROT PAROTOF TOROT TOROTX TOROTY TOROTZ TOROTOF TOFRAME",),
+    }),
+)  # fmt: skip
 """Commands by name that change the path or the coordinates in a way that contoursolve does not follow."""
-_NAMES: tuple[tuple[Effect, str, tuple[str, ...]], ...] = (
-    (Effect.FRAME, "coordinate frame", (
-        "TRANS ATRANS ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS TRAFOOF",
-    )),
-    (Effect.SINGLE, "no offset", (
-        "SUPA",
-    )),
-    (Effect.NONE, "speeds up and slows down", (
-        "BRISK BRISKA SOFT SOFTA DRIVE DRIVEA JERKLIM JERKLIMA FFWON FFWOF DYNNORM DYNPOS DYNROUGH",
-        "DYNSEMIFIN DYNFINISH DYNPREC CYCLE832 COMPON COMPCURV COMPCAD COMPSURF COMPPATH COMPOF FIFOCTRL",
-        "STARTFIFO STOPFIFO PREPRO",
-    )),
-    (Effect.NONE, "feed", (
-        "CFC CFTCP CFIN FNORM FLIN FCUB FPO FPRAON FPRAOF FGROUP",
-    )),
-    (Effect.NONE, "spindle", (
-        "SETMS SCC SPCON SPCOF SPI SPN SPOSON DIAMCHANA COUPDEF COUPDEL COUPON COUPONC COUPOF COUPOFS COUPRES",
-    )),
-    (Effect.NONE, "channels and axes", (
-        "WAITM WAITMC WAITE WAITP WAITS WAITENC SETM CLEARM START INIT GET GETD RELEASE AXTOCHAN TANG",
-        "TANGON TANGOF TANGDEL TLIFT TRAILON TRAILOF LEADON LEADOF CTABDEF CTABEND EGDEF EGON EGONSYN",
-        "EGONSYNE EGOFS EGOFC EGDEL CPDEF CPDEL CPON CPOF MASLON MASLOF MASLOFS MASLDEF MASLDEL AXSTRING",
-        "BFREE",
-    )),
-    (Effect.NONE, "tool", (
-        "CUT2D CUT2DF CUT3DC CUT3DF CUT3DFS CUT3DFF CUTCONON CUTCONOF CUTMOD NORM KONT KONTC KONTT CDON",
-        "CDOF CDOF2 GETSELT GETEXET SETPIECE DELT NEWT TCA TCI TMMVTL GETT SETDNO GETDNO CHKDNO DELTC",
-        "DZERO DELDL DELTOOLENV TOOLENV",
-    )),
-    (Effect.NONE, "tells or stores", (
-        "MSG SETAL WRITE READ DELETE ISFILE WORKPIECE GROUP_BEGIN GROUP_END GROUP_ADDEND DISPLOF DISPLON",
-        "ACTBLOCNO SBLON SBLOF SAVE STOPRE STOPREOF ICYCOF ICYCON MMC EXTOPEN EXTCLOSE EXTWRITE PROT",
-        "NPROT NPROTDEF PRLOC BLSYNC CONTPRON CONTDCON EXECTAB EXECUTE",
-    )),
-    (Effect.NONE, "watches", (
-        "WALIMON WALIMOF CPRECON CPRECOF CANCEL LOCK UNLOCK ENABLE DISABLE SETINT CLRINT DELDTG LIFTFAST",
-        "LFON LFOF LFWP LFTXT LFPOS WHEN WHENEVER FROM EVERY DO RDISABLE POLFMASK POLFMLIN RTLION RTLIOF",
-        "COARSEA IPOENDA FINEA",
-    )),
-    (Effect.NONE, "orientation of the tool", (
-        "ORIWKS ORIMKS ORIAXES ORIVECT ORIPLANE ORICONCW ORICONCCW ORICONIO ORICURVE ORIEULER ORIRPY",
-        "ORIRPY2 ORIVIRT1 ORIVIRT2 ORIC ORID ORISON ORISOF OSOF OSC OSS OSSE OSD OST ORIPATH ORIPATHS",
-        "ORIROTA ORIROTR ORIROTT ORIROTC",
-    )),
-    (Effect.NONE, "nothing about the path", (
-        "MCALL UPATH SPATH CP PTP PTPG0 ADISPOS ADIS OFFN LIMS BLKSKIP TOWSTD TOWMCS TOWWCS TOWTCS TOWBCS",
-        "TOWKCS",
-    )),
+_NAMES: tuple[tuple[Effect, Mapping[str, tuple[str, ...]]], ...] = (
+    (Effect.FRAME, {
+        "coordinate frame": ("TRANS ATRANS ROT AROT SCALE ASCALE MIRROR AMIRROR ROTS AROTS TRAFOOF",),
+    }),
+    (Effect.SINGLE, {
+        "no offset": ("SUPA",),
+    }),
+    (Effect.NONE, {
+        "speeds up and slows down": (
+            "BRISK BRISKA SOFT SOFTA DRIVE DRIVEA JERKLIM JERKLIMA FFWON FFWOF DYNNORM DYNPOS DYNROUGH",
+            "DYNSEMIFIN DYNFINISH DYNPREC CYCLE832 COMPON COMPCURV COMPCAD COMPSURF COMPPATH COMPOF FIFOCTRL",
+            "STARTFIFO STOPFIFO PREPRO",
+        ),
+        "feed": ("CFC CFTCP CFIN FNORM FLIN FCUB FPO FPRAON FPRAOF FGROUP",),
+        "spindle": (
+            "SETMS SCC SPCON SPCOF SPI SPN SPOSON DIAMCHANA COUPDEF COUPDEL COUPON COUPONC COUPOF COUPOFS",
+            "COUPRES",
+        ),
+        "channels and axes": (
+            "WAITM WAITMC WAITE WAITP WAITS WAITENC SETM CLEARM START INIT GET GETD RELEASE AXTOCHAN TANG",
+            "TANGON TANGOF TANGDEL TLIFT TRAILON TRAILOF LEADON LEADOF CTABDEF CTABEND EGDEF EGON EGONSYN",
+            "EGONSYNE EGOFS EGOFC EGDEL CPDEF CPDEL CPON CPOF MASLON MASLOF MASLOFS MASLDEF MASLDEL AXSTRING",
+            "BFREE",
+        ),
+        "tool": (
+            "CUT2D CUT2DF CUT3DC CUT3DF CUT3DFS CUT3DFF CUTCONON CUTCONOF CUTMOD NORM KONT KONTC KONTT CDON",
+            "CDOF CDOF2 GETSELT GETEXET SETPIECE DELT NEWT TCA TCI TMMVTL GETT SETDNO GETDNO CHKDNO DELTC",
+            "DZERO DELDL DELTOOLENV TOOLENV",
+        ),
+        "tells or stores": (
+            "MSG SETAL WRITE READ DELETE ISFILE WORKPIECE GROUP_BEGIN GROUP_END GROUP_ADDEND DISPLOF DISPLON",
+            "ACTBLOCNO SBLON SBLOF SAVE STOPRE STOPREOF ICYCOF ICYCON MMC EXTOPEN EXTCLOSE EXTWRITE PROT",
+            "NPROT NPROTDEF PRLOC BLSYNC CONTPRON CONTDCON EXECTAB EXECUTE",
+        ),
+        "watches": (
+            "WALIMON WALIMOF CPRECON CPRECOF CANCEL LOCK UNLOCK ENABLE DISABLE SETINT CLRINT DELDTG LIFTFAST",
+            "LFON LFOF LFWP LFTXT LFPOS WHEN WHENEVER FROM EVERY DO RDISABLE POLFMASK POLFMLIN RTLION RTLIOF",
+            "COARSEA IPOENDA FINEA",
+        ),
+        "orientation of the tool": (
+            "ORIWKS ORIMKS ORIAXES ORIVECT ORIPLANE ORICONCW ORICONCCW ORICONIO ORICURVE ORIEULER ORIRPY",
+            "ORIRPY2 ORIVIRT1 ORIVIRT2 ORIC ORID ORISON ORISOF OSOF OSC OSS OSSE OSD OST ORIPATH ORIPATHS",
+            "ORIROTA ORIROTR ORIROTT ORIROTC",
+        ),
+        "nothing about the path": (
+            "MCALL UPATH SPATH CP PTP PTPG0 ADISPOS ADIS OFFN LIMS BLKSKIP TOWSTD TOWMCS TOWWCS TOWTCS TOWBCS",
+            "TOWKCS",
+        ),
+    }),
 )  # fmt: skip
 """Predefined commands and subprograms by name."""
 _DIAMETERS = {
@@ -109,7 +114,8 @@ def _codes() -> dict[int, Code]:
         number += 1
         rows.append(Code(number, Effect.NONE, meaning, BOOK.assumed("diameters"), diameter=diameter, name=name))
     for is_read, table in ((True, _NAMES), (False, _UNREAD)):
-        for effect, meaning, names in table:
+        named = ((effect, *row) for effect, rows_of in table for row in rows_of.items())
+        for effect, meaning, names in named:
             for name in " ".join(names).split():
                 number += 1
                 source = BOOK.assumed("commands and predefined subprograms")
@@ -148,8 +154,9 @@ SYNTAX = Syntax(
     ),
     statement=re.compile(
         r"[ \t/]*+(?>(?:[Nn]\d++)?)[ \t]*+(?>(?:[A-Za-z_]\w++:)?)[ \t]*+(?:"
-        r"(?P<assignment>DEF|EXTERN|PROC|REDEF|DEFINE)"
-        r"|(?P<flow>IF|ELSE|ENDIF|FOR|ENDFOR|WHILE|ENDWHILE|LOOP|ENDLOOP|REPEATB?|UNTIL|GOTO[BFCS]?|CASE|P?CALL|RET))\b",
+        rf"(?P<assignment>DEF|EXTERN|PROC|REDEF|DEFINE|{SYNCHRONOUS}(?!{MOVES_BESIDE}))"
+        r"|(?P<flow>IF|ELSE|ENDIF|FOR|ENDFOR|WHILE|ENDWHILE|LOOP|ENDLOOP|REPEATB?|UNTIL|GOTO[BFCS]?|CASE|P?CALL|RET"
+        r"|IDS?(?=[ \t]*=)|WHEN|WHENEVER|FROM|EVERY|DO))\b",
         re.IGNORECASE,
     ),
     comment=re.compile(r";.*+"),
