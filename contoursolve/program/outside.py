@@ -109,7 +109,7 @@ class Outside:
     def _is_corner(self, finding: Diagnostic) -> bool:
         """Whether it is about a word of a corner that the control has not, and says which one is meant; or which no
         control has, so that nothing else tells of it."""
-        if finding.about is not ReadIssue.COMMA_WORD_UNKNOWN:
+        if finding.about is not ReadIssue.COMMA_WORD_UNKNOWN or not finding.is_error:
             return False
         return "if that is meant" in finding.help or all(len(each) > 2 and each[0] == "," for each in finding.addresses)  # noqa: PLR2004 - a comma and a letter
 
