@@ -19,6 +19,7 @@ from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, Why, add, 
 from contoursolve.diagnosis.examine import Answer, AskedValue, problems
 from contoursolve.diagnosis.examples import sampled
 from contoursolve.diagnosis.explain import SAID_AGAIN, SINGULAR, facts_at, spans_of
+from contoursolve.diagnosis.sample_drawing import sample_drawing
 from contoursolve.diagnosis.spelling import shapes_of
 from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics import Diagnostic, Span
@@ -175,9 +176,17 @@ def _completing(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     if open_ > MOST_ADDED:
         return
     absent = [name for name in claim.form.usual if name not in claim.words and name in claim.vocabulary]
-    helping = list(islice((edit for name in absent if freedom((edit := add(claim, name),)) < open_), MOST_HELPING))
+    drawing = sample_drawing(claim, answer.profile, absent)
+    names = {add(claim, name): name for name in absent if drawing is None or drawing.helps(name)}
+    helping = list(islice((edit for edit in names if freedom((edit,)) < open_), MOST_HELPING))
+
+    def is_enough(edits: tuple[Edit, ...]) -> bool:
+        told = [names[edit] for edit in edits]
+        there = drawing is None or not drawing.further.keys() >= {*told} or not drawing.open_after(told)
+        return there and not freedom(edits)
+
     for size in range(1, MOST_ADDED + 1):
-        sets = [each for each in combinations(helping, size) if open_ <= size and not freedom(each)]
+        sets = [each for each in combinations(helping, size) if open_ <= size and is_enough(each)]
         yield from sets[:MOST_SHOWN]
         if sets:
             return

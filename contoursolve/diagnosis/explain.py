@@ -302,13 +302,16 @@ def explain_missing(
         ways += [f"give {' or '.join(open_sizes)} a value"] if open_sizes else []
     told = open_text(shown, profile)
     if claim.form.is_general:
+        from contoursolve.diagnosis.lacking import partners_of  # noqa: PLC0415 - few blocks lack words
+        from contoursolve.diagnosis.sample_drawing import sample_drawing  # noqa: PLC0415 - nor such
+
         told, first = _open_elements(free, open_count, profile)
         blocks = zip(claim.blocks, claim.makes, strict=True)
         context = replace(context, place=next((block.span for block, names in blocks if first in names), context.place))
-        usual_words = [claim.vocabulary[name] for name in absent[:_MOST_NAMED]]
+        drawing = None if is_brief else sample_drawing(claim, profile, absent)
+        helping = [name for name in absent if drawing is None or drawing.helps(name)]
+        usual_words = [claim.vocabulary[name] for name in helping[:_MOST_NAMED]]
         ways = [_adding_by_line(usual_words, open_count, claim)] if usual_words else []
-        from contoursolve.diagnosis.lacking import partners_of  # noqa: PLC0415 - few blocks lack words
-
         partners, halves = partners_of(claim)
         if partners:
             asked = _adding_by_line([claim.vocabulary[name] for name in partners], 1, claim, join)

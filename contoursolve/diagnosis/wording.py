@@ -8,6 +8,9 @@ from contoursolve.gcode import FACT, Word, call, spell
 from contoursolve.geometry import Arc, CornerShape, Given, Length, Plane, Profile, Unit
 from contoursolve.solving import Status
 
+LEAST_SHOWN = 0.00025
+"""mm. Coordinates of a place that are nearer to zero are shown as zero, diameters, too."""
+
 SHOWN = 60
 """Characters of a word or a list of words in a message; the listing shows the rest."""
 
@@ -145,7 +148,8 @@ def place_text(profile: Profile, scalars: dict[str, float]) -> str:
     texts = []
     for name, value in sorted(scalars.items(), key=lambda item: item[0].partition(".")[2]):
         axis = int(name.partition(".")[2])
-        shown = value * (2 if profile.plane.diameters[axis] else 1)
+        # What is less than a place shows is zero there.
+        shown = 0.0 if abs(value) < LEAST_SHOWN else value * (2 if profile.plane.diameters[axis] else 1)
         texts.append(f"{profile.plane.axes[axis]}{length_text(shown, profile.unit)}")
     return " ".join(texts)
 

@@ -3,6 +3,7 @@ cell by cell, each brought onto the zero of the margin that governs it.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Protocol
 
 import numpy
 from msgspec import Struct
@@ -44,9 +45,28 @@ class BoundaryTrace(Struct, frozen=True):
     """By (point, word)."""
 
 
+class Grid(Protocol):
+    """What lines are drawn on: rows at the nodes of a grid over a box of two words, `count` along each."""
+
+    count: int
+    bisections: int
+    nodes: Array
+
+    def onto(self, points: Array, checks: NDArray[numpy.int64]) -> Array:
+        """Points moved the shortest way onto the zeros of their margins; NaN where there is none."""
+
+    def corner(self, start: Array, one: int, other: int) -> Array | None:
+        """Where two margins are both zero; None where that is not told."""
+
+    def share(self, vectors: Array) -> Array:
+        """The length of vectors by (point, word) in shares of the box."""
+
+
 class Field:
     """The margins of one class of contours on a grid over a box of two words, of all its solutions one after the other.
     Inside is where one solution alone passes its checks."""
+
+    count, bisections = NODES, BISECTIONS
 
     def __init__(self, branches: Sequence[Branch], low: Sequence[float], high: Sequence[float]) -> None:
         self.branches, self.low, self.high = branches, numpy.array(low), numpy.array(high)
@@ -182,7 +202,7 @@ class GridLines:
 
     def __init__(
         self,
-        field: Field,
+        field: Grid,
         states: NDArray[numpy.bool_],
         tell: Callable[[Array], NDArray[numpy.bool_]],
         govern: Callable[[Array], NDArray[numpy.int64]],
@@ -193,7 +213,7 @@ class GridLines:
         self.edges: dict[tuple[int, int, int], int] = {}
         pairs = list(self._edges(is_counted))
         inside, outside = (field.nodes[[pair[side] for pair in pairs]] for side in (0, 1))
-        outside = bisect(inside, outside, lambda points: tell(points)[:, None], BISECTIONS)[1]
+        outside = bisect(inside, outside, lambda points: tell(points)[:, None], self.field.bisections)[1]
         self.checks = govern(outside) if pairs else numpy.zeros(0, numpy.int64)
         self.points = outside
         if pairs:
@@ -210,7 +230,10 @@ class GridLines:
             differ = (self.states[base] != self.states[shift]) & is_counted[base] & is_counted[shift]
             for i, j in numpy.argwhere(differ).tolist():
                 self.edges[along, i, j] = len(self.edges)
-                here, there = i * NODES + j, (i + 1) * NODES + j if along == 0 else i * NODES + j + 1
+                here, there = (
+                    i * self.field.count + j,
+                    (i + 1) * self.field.count + j if along == 0 else i * self.field.count + j + 1,
+                )
                 yield (here, there) if self.states[i, j] else (there, here)
 
     def _cells(self) -> dict[Cell, list[int]]:
@@ -218,7 +241,7 @@ class GridLines:
         cells: dict[Cell, list[int]] = {}
         for (along, i, j), number in self.edges.items():
             for cell in ((i, j), (i, j - 1) if along == 0 else (i - 1, j)):
-                if min(cell) >= 0 and max(cell) < NODES - 1:
+                if min(cell) >= 0 and max(cell) < self.field.count - 1:
                     cells.setdefault(cell, []).append(number)
         return cells
 
@@ -251,7 +274,7 @@ class GridLines:
         if len(numbers) < 4:  # noqa: PLR2004 - one line through the cell
             return [(numbers[0], numbers[1])] if len(numbers) > 1 else []
         i, j = cell
-        center = (self.field.nodes[i * NODES + j] + self.field.nodes[(i + 1) * NODES + j + 1]) / 2
+        center = (self.field.nodes[i * self.field.count + j] + self.field.nodes[(i + 1) * self.field.count + j + 1]) / 2
         # The two corners of the cell that differ from its middle are cut off, each by the edges that meet there.
         left, bottom = self.edges[1, i, j], self.edges[0, i, j]
         right, top = self.edges[1, i + 1, j], self.edges[0, i, j + 1]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from contoursolve.diagnosis import MOST_CHOICES, Answer, count_choices, join
 from contoursolve.diagnostics import Basis
-from contoursolve.families.errors import FamilyError, NotClosedError
+from contoursolve.families.errors import ByRowError, FamilyError
 from contoursolve.families.free_words import bordered, factor_of, kind_of, limits_of, stated_by, value_of
 from contoursolve.families.spec import Places, Ranges, Template, called, errors_of, read_limits
 from contoursolve.families.traced_reading import OWN, Alike, Reading, placed_of, trace_reading
@@ -260,7 +260,7 @@ def case_of(
     reading = trace_reading(template, values, answer)
     if reading.is_by_row and not (is_sampled and reading.is_followed):
         names = join([called(name) for name in template.words])
-        raise NotClosedError(f"each value of {names} decides how the block is read; {INSTEAD}")
+        raise ByRowError(f"each value of {names} decides how the block is read; {INSTEAD}")
     following = {word for each in (*reading.givens.values(), *reading.start.values()) for word in each.factors}
     facts = {name: word for name, word in template.words.items() if word.address == FACT}
     for name, word in template.words.items():

@@ -296,6 +296,7 @@ def cases_of(
         numbers.append(next((number for number, each in enumerate(items) if case.is_like(each)), len(items)))
         items += [case] if numbers[-1] == len(items) else []
         if row.is_by_row:
-            own = by_row.setdefault(row.key, ByRow(place_of_contour(template, values), {}))
+            like = None if row.is_compared else place_of_contour(template, values)
+            own = by_row.setdefault(row.key, ByRow(like, {}))
             own.classes[read_alone(template, values, own.like).kind] = numbers[-1]
     return tuple(items), numpy.array(numbers, numpy.int64), by_row

@@ -107,8 +107,8 @@ class WordLimits(Struct, frozen=True):
 
 
 def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimits]:
-    """The limits of the rules between which the values of each free word are treated alike. Raises FamilyError where
-    the rules compare two words."""
+    """The limits of the rules between which the values of each free word are treated alike, beside the values of the
+    others. Raises FamilyError for what is no word of the contour."""
     answer = template.solve(values)
     claim = answer.claim
     found: list[WordLimits] = []
@@ -124,8 +124,6 @@ def limits_of(template: Template, values: Mapping[str, float]) -> list[WordLimit
         elif stated:
             one = factor_of(answer, word, stated[0], Decimal(repr(values[name])))
         found.append(WordLimits(float(one or 1), tuple(sorted(map(float, limits)))))
-    for first, second in _compared(template, claim):
-        raise FamilyError(f"the control compares {first} and {second} with each other: vary one of them at a time")
     return found
 
 
@@ -140,19 +138,17 @@ def bordered(limits: Sequence[WordLimits], words: Sequence[str], borders: Iterab
     return found
 
 
-def _compared(template: Template, claim: ParsedContour) -> Iterator[tuple[str, str]]:
-    """The free words, by their names, whose values a rule compares with each other."""
+def are_compared(template: Template, claim: ParsedContour) -> bool:
+    """Whether a rule compares the values of free words with each other, so that only each row tells what it says."""
     stated = claim.stated()
-    free = {
-        name: own for name, word in claim.words.items() for own, each in template.words.items() if is_same(each, word)
-    }
-    for role, calls in names_of_roles(claim.form.roles, stated):
-        seen = {call: stated[name] for call, name in calls.items()}
-        for rule in template.asked.rules:
-            for pair in rule.when.compared(seen) if role.name in rule.roles and rule.when is not None else ():
-                names = [free[calls[call]] for call in pair if calls.get(call) in free]
-                if len(names) == len(pair):
-                    yield names[0], names[1]
+    free = {name for name, word in claim.words.items() if any(is_same(each, word) for each in template.words.values())}
+    return any(
+        free.issuperset(calls.get(call, "") for call in pair)
+        for role, calls in names_of_roles(claim.form.roles, stated)
+        for rule in template.asked.rules
+        if role.name in rule.roles and rule.when is not None
+        for pair in rule.when.compared({call: stated[name] for call, name in calls.items()})
+    )
 
 
 def limits_beside(rules: Sequence[Rule], claim: ParsedContour, word: Word) -> Iterator[Decimal]:
@@ -170,12 +166,14 @@ def limits_beside(rules: Sequence[Rule], claim: ParsedContour, word: Word) -> It
 class Example(Struct, frozen=True):
     """A row of a class that the rules or the reading may tell apart: its key, its values, and how many rows are in the
     class. With `is_by_row`, every row of this key is read by itself, and those that are read alike are a class.
-    `others` are the values of other rows of the key: the last one, and some between."""
+    `is_compared` tells that a rule compares the words of each with each other, too. `others` are the values of other
+    rows of the key: the last one, and some between."""
 
     key: int
     values: tuple[float, ...]
     count: int
     is_by_row: bool = False
+    is_compared: bool = False
     others: tuple[tuple[float, ...], ...] = ()
 
 
@@ -200,7 +198,8 @@ def examples_of(template: Template, ranges: Ranges) -> Examples:
     """A row of each class. What decides how a row is read divides the rows until none is left that is read in another
     way than its example. Raises FamilyError."""
     names, known = list(ranges.values), dict[tuple[float, ...], Reading]()
-    limits = tuple(limits_of(template, {name: float(values[0]) for name, values in ranges.values.items()}))
+    first = {name: float(values[0]) for name, values in ranges.values.items()}
+    limits, is_compared = tuple(limits_of(template, first)), are_compared(template, template.solve(first).claim)
     while True:
         found = _examples_between(limits, ranges)
         for row in found.rows:
@@ -216,11 +215,12 @@ def examples_of(template: Template, ranges: Ranges) -> Examples:
     rest = {
         row.key: row
         for row in found.rows
-        if known[row.values].is_by_row
+        if is_compared
+        or known[row.values].is_by_row
         or not all(known[row.values].holds(template, dict(zip(names, each, strict=True))) for each in row.others)
     }
     rows = [row for row in found.rows if row.key not in rest]
-    rows += _kinds_of(template, ranges, found, rest) if rest else ()
+    rows += _kinds_of(template, ranges, found, rest, is_compared=is_compared) if rest else ()
     return replace(found, rows=tuple(sorted(rows, key=lambda row: row.key)))
 
 
@@ -246,8 +246,11 @@ def _with_others(found: Examples, ranges: Ranges) -> Iterator[Example]:
         yield replace(row, others=tuple(each for each in others[row.key] if each != row.values))
 
 
-def _kinds_of(template: Template, ranges: Ranges, found: Examples, rest: Mapping[int, Example]) -> Iterator[Example]:
-    """A row of each kind among the rows of some keys, which are read one by one. Raises FamilyError for too many."""
+def _kinds_of(
+    template: Template, ranges: Ranges, found: Examples, rest: Mapping[int, Example], *, is_compared: bool
+) -> Iterator[Example]:
+    """A row of each kind among the rows of some keys, which are read one by one, with what the rules say of each where
+    they compare its words. Raises FamilyError for too many."""
     count = sum(row.count for row in rest.values())
     if count > MOST_BY_ROW:
         told = join([called(name) for name in ranges.values])
@@ -256,15 +259,16 @@ def _kinds_of(template: Template, ranges: Ranges, found: Examples, rest: Mapping
             f"take at most {MOST_BY_ROW:,}"
         )
     names = list(ranges.values)
-    likes = {key: place_of_contour(template, dict(zip(names, row.values, strict=True))) for key, row in rest.items()}
+    places = {} if is_compared else {key: dict(zip(names, row.values, strict=True)) for key, row in rest.items()}
+    likes = {key: place_of_contour(template, values) for key, values in places.items()}
     kinds: dict[tuple[int, Alike], Example] = {}
     for first, last in stretches(ranges.count, LONGEST):
         part = ranges.rows(first, last)
         keys = found.key(list(part.values.values()), [numpy.arange(last - first)] * len(names))
         for row in numpy.flatnonzero(numpy.isin(keys, [*rest])).tolist():
             key, values = int(keys[row]), {name: float(column[row]) for name, column in part.values.items()}
-            kind = key, read_alone(template, values, likes[key]).kind
-            before = kinds.get(kind) or Example(key, tuple(values.values()), 0, is_by_row=True)
+            kind = key, read_alone(template, values, likes.get(key)).kind
+            before = kinds.get(kind) or Example(key, tuple(values.values()), 0, is_by_row=True, is_compared=is_compared)
             kinds[kind] = replace(before, count=before.count + 1)
     yield from kinds.values()
 

@@ -9,14 +9,15 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from contoursolve.diagnosis import value_text
+from contoursolve.diagnosis import join, value_text
 from contoursolve.diagnostics import Shown
-from contoursolve.families.boundary_tracing import BISECTIONS, NODES, BoundaryTrace, Field, edge_of, gaps_of
+from contoursolve.families.boundary_tracing import BISECTIONS, NODES, BoundaryTrace, Field, GridLines, edge_of, gaps_of
 from contoursolve.families.branches import branches_of
-from contoursolve.families.case_classes import CaseClass, FreeWords
-from contoursolve.families.errors import FamilyError
+from contoursolve.families.case_classes import INSTEAD, CaseClass, FreeWords
+from contoursolve.families.errors import ByRowError, FamilyError
 from contoursolve.families.feasible_ranges import ASIDE, NO_FAILURE, Reason, Way, failure_of, phrase, refused, same
-from contoursolve.families.free_words import check_block
+from contoursolve.families.free_words import are_compared, check_block
+from contoursolve.families.sampled_regions import SampledField
 from contoursolve.families.spec import BlockOptions, Ranges, SweepSpec, Template, called, spec_of
 from contoursolve.families.subdivision import bisect
 from contoursolve.geometry import Unit
@@ -102,7 +103,7 @@ def region(
     spec = spec_of(block, words, **options)
     template = spec.template()
     check_block(template)
-    return _RegionSearch(template, within).run(spec, {})
+    return _region(_RegionSearch(template, within), spec, {})
 
 
 def region_of(spec: SweepSpec, ranges: Ranges, words: tuple[str, str]) -> Region:
@@ -118,7 +119,15 @@ def region_of(spec: SweepSpec, ranges: Ranges, words: tuple[str, str]) -> Region
     fixed = {name: float(column[0]) for name, column in others.items()}
     template = spec.template().filled(fixed).with_words(words)
     first, second = ((float(values[word].min()), float(values[word].max())) for word in words)
-    return _RegionSearch(template, (first, second)).run(spec, fixed)
+    return _region(_RegionSearch(template, (first, second)), spec, fixed)
+
+
+def _region(search: "_RegionSearch", spec: SweepSpec, fixed: Mapping[str, float]) -> Region:
+    """By closed forms, or where only each row tells how it is read, by rows on a grid."""
+    try:
+        return search.run(spec, fixed)
+    except ByRowError:
+        return search.sample(spec, fixed)
 
 
 class _RegionSearch(FreeWords):
@@ -132,11 +141,15 @@ class _RegionSearch(FreeWords):
             if kind is Unit.SIGN:
                 raise FamilyError(f"{template.words[word].text} has no range; name words that state lengths or angles")
         self.within = [self.limits_within(axis, each) for axis, each in enumerate(within)]
-        self.ticks = self.marks(self.within)
+        self.ticks: list[list[float]] = []
         self.cases: dict[tuple[int, int], CaseClass] = {}
 
     def run(self, spec: SweepSpec, fixed: Mapping[str, float]) -> Region:
-        """The region, of a block that is read by these."""
+        """The region, of a block that is read by these. Raises ByRowError where only each row tells how."""
+        names = join([called(name) for name in self.names])
+        if are_compared(self.template, self.answer.claim):
+            raise ByRowError(f"the control compares {names} with each other; {INSTEAD}")
+        self.ticks = self.marks(self.within)
         for place in product(*(range(len(marks) - 1) for marks in self.ticks)):
             middle = [(self.ticks[axis][place[axis]] + self.ticks[axis][place[axis] + 1]) / 2 for axis in (0, 1)]
             self.cases[place[0], place[1]] = self.case_at(*middle)
@@ -176,6 +189,41 @@ class _RegionSearch(FreeWords):
             fixed=fixed,
             resting=self.resting,
         )
+
+    def sample(self, spec: SweepSpec, fixed: Mapping[str, float]) -> Region:
+        """The region, as far as rows on a grid tell it."""
+        field = SampledField(spec, self.names, self.within, fixed)
+        everywhere = numpy.ones_like(field.is_inside)
+        lines = GridLines(field, field.is_inside, lambda points: field.failing(points) < 0, field.failing, everywhere)
+        cell = field.size / (field.count - 1)
+        boundaries = [self._sampled(trace, 2 * cell / 2**field.bisections) for trace in lines.traces()]
+        names, (first, second) = join([called(name) for name in self.names]), cell.tolist()
+        doubt = f"each value of {names} decides how the block is read, and {field.solved:,} of them were solved"
+        return Region(
+            words=_two(self.names),
+            units=_two(self.units),
+            stated=_two(self.values),
+            within=_two(self.within),
+            boundaries=tuple(boundaries),
+            cell=(first, second),
+            doubts=(doubt,),
+            exists=bool(field.is_inside.any()),
+            spec=spec,
+            fixed=fixed,
+            resting=self.resting,
+        )
+
+    def _sampled(self, trace: BoundaryTrace, step: Array) -> Boundary:
+        """A line between rows with and without a contour, of which points are told apart by steps along the words."""
+        point = trace.points[len(trace.points) // 2]
+        places = [point, *(point + way * step * (numpy.arange(2) == axis) for axis in (0, 1) for way in (-1, 1))]
+        sides = [(float(each[0]), float(each[1])) for each in places]
+        inside = next((side for side in sides if self.is_solved(*side)), None)
+        outside = next((side for side in sides if not self.is_solved(*side)), None)
+        failure = failure_of(self.answer_at(*outside))[0] if outside is not None else NO_FAILURE[0]
+        failure = replace(failure, text=failure.message or "there is no contour")
+        points = tuple((float(first), float(second)) for first, second in trace.points)
+        return Boundary(points, failure, Way.BISECTION, inside, outside, is_gap=False, unverified=0)
 
     def _merge(self, axis: int) -> None:
         """Leave out the limits of rules that change nothing for these words."""

@@ -142,6 +142,8 @@ def _calculated(name: str) -> Callable[..., Any]:
 
 
 for _name in (
+    *("__str__", "__repr__", "__format__", "to_eng_string", "compare_total", "compare_signal", "scaleb", "logb"),
+    *("ln", "log10", "exp", "next_plus", "next_minus", "number_class", "__reduce__", "__copy__", "__deepcopy__"),
     *("__float__", "__int__", "__round__", "__trunc__", "__floor__", "__ceil__", "__complex__", "__rtruediv__"),
     *("__floordiv__", "__rfloordiv__", "__mod__", "__rmod__", "__divmod__", "__rdivmod__", "__pow__", "__rpow__"),
     *("quantize", "normalize", "to_integral_value", "to_integral_exact", "sqrt", "compare", "copy_abs", "copy_sign"),
@@ -222,8 +224,8 @@ def trace_reading(template: Template, values: Mapping[str, float], answer: Answe
 
 def _is_read_so(claim: ParsedContour, answer: Answer) -> bool:
     """Whether a contour that was read apart is what the program has."""
-    with_values = {name: Decimal(str(each.value)) for name, each in claim.givens.items()}
-    starts = [value if value is None else Decimal(str(value)) for value in claim.before.start().values]
+    with_values = {name: Decimal(each.value) for name, each in claim.givens.items()}
+    starts = [value if value is None else Decimal(value) for value in claim.before.start().values]
     return with_values == {name: each.value for name, each in answer.claim.givens.items()} and starts == [
         *answer.start.values
     ]

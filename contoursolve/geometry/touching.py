@@ -110,11 +110,10 @@ class Contact(Equation, Struct, frozen=True):
 
     def residual(self, at: Lookup) -> Any:
         between = step(at, self.first, self.second)
-        try:
-            return self.equation(at) / at.root(dot(between, between))
-        except ZeroDivisionError:
-            # Both circles are about one point: they touch wherever they meet.
-            return self.equation(at)
+        if at.vanishes(dot(between, between)):
+            # Both circles are about one point, as far as numbers tell: they touch wherever they meet.
+            between = step(at, self.first, self.point)
+        return self.equation(at) / at.root(dot(between, between))
 
     def senses(self, at: Lookup) -> tuple[Any, ...]:
         return (self.side * dot(step(at, self.first, self.point), step(at, self.point, self.second)),)

@@ -44,8 +44,9 @@ _NEAR = 2**-6
 """mm. How far behind the point before it a cut is tried, where what is behind it is known through it alone."""
 
 
-MOST_ON_CIRCLES = 8
-"""Points between arcs of one sense up to which cuts are looked for: each takes searches over the whole chain."""
+MOST_ON_CIRCLES, MOST_SINGULAR = 24, 12
+"""Points between arcs of one sense up to which cuts are looked for: each takes searches over the whole chain, about so
+many more of them where only values tell that they are open. Some seconds."""
 
 
 class _Element(Struct, frozen=True):
@@ -141,7 +142,7 @@ def _cuts(profile: Profile, open_: Sequence[str]) -> tuple[list[str], Mapping[st
     elements = {each.head: each for each in figure.path}
     is_arc = [isinstance(elements[each], Arc) for each in joints_among(figure, open_)]
     arcs = [each for each in joints_among(figure, system.unknowns) if isinstance(elements[each], Arc)]
-    if any(is_arc) and len(arcs) > MOST_ON_CIRCLES:
+    if any(is_arc) and len(arcs) > (MOST_ON_CIRCLES if analyse(system).free else MOST_SINGULAR):
         return None
     bent = _bent(profile)
     while open_:

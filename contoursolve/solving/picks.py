@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from math import atan2, cos, dist, pi, remainder, sin, tau
+from statistics import fmean
 
 from msgspec import Struct
 
@@ -154,19 +155,28 @@ def _ranked(values: Sequence[float]) -> list[int]:
 
 def _ahead(paths: Sequence[Alternative], profile: Profile) -> float:
     """The direction from which the turn at the first element is measured, radians: from the start to the first place
-    that the drawing states or all contours have, or else the first direction in which all end an element."""
+    that the drawing states or all contours have, or else the first direction in which all end an element; where they
+    have neither in common, from the start to the first place that is not there in the middle of all contours."""
     figure = profile.figure
     centers = [each.center for each in figure.path if isinstance(each, Arc)]
-    for name in (*(each.head for each in figure.path), *centers, *figure.points):
+    names = (*(each.head for each in figure.path), *centers, *figure.points)
+    begin = paths[0].solution.points[figure.start] if paths else (0.0, 0.0)
+    middles = list[Point]()
+    for name in names if paths else ():
         places = [each.solution.points[name] for each in paths]
-        begin = paths[0].solution.points[figure.start] if paths else (0.0, 0.0)
-        if places and all(_is_same(place, places[0]) for place in places) and dist(begin, places[0]) > SAME:
-            return atan2(places[0][1] - begin[1], places[0][0] - begin[0])
+        middles.append((fmean(x for x, _ in places), fmean(y for _, y in places)))
+        if all(_is_same(place, places[0]) for place in places) and dist(begin, places[0]) > SAME:
+            return _direction(begin, places[0])
     for own in figure.path:
         ends = [_directions(path, own)[1] for path in paths]
         if ends and all(abs(remainder(end - ends[0], tau)) <= SAME for end in ends):
             return ends[0]
-    return 0.0
+    return next((_direction(begin, middle) for middle in middles if dist(begin, middle) > SAME), 0.0)
+
+
+def _direction(begin: Point, end: Point) -> float:
+    """From one point to another, radians."""
+    return atan2(end[1] - begin[1], end[0] - begin[0])
 
 
 def _length(path: Alternative, own: Line | Arc) -> float:
@@ -187,7 +197,7 @@ def _directions(path: Alternative, own: Line | Arc) -> tuple[float, float]:
     points = path.solution.points
     tail, head = points[own.tail], points[own.head]
     if isinstance(own, Line):
-        angle = atan2(head[1] - tail[1], head[0] - tail[0])
+        angle = _direction(tail, head)
         return angle, angle
     center = points[own.center]
     first, second = (atan2(at[1] - center[1], at[0] - center[0]) + own.turn.sign * pi / 2 for at in (tail, head))

@@ -15,7 +15,7 @@ import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from contoursolve import geometry as kinds
+from contoursolve import geometry as kinds, tolerance
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -152,6 +152,13 @@ def unit(a: Vector) -> Vector:
     return a[0] / length, a[1] / length
 
 
+def _in_line(spoke: Vector, between: Vector) -> Any:
+    """How far a point is off the line through two centres, or where these are almost one, how far the second is off
+    the line from the first to the point, mm."""
+    apart = norm(between)
+    return cross(between, spoke) / numpy.where(abs(apart) <= tolerance.LENGTH, norm(spoke), apart)
+
+
 def _touching(fact: Any, at: Place) -> Any:
     """Circles that touch: from outside (+1), or one inside the other."""
     (center, radius), (other, size) = fact.first, fact.second
@@ -250,7 +257,7 @@ MEANINGS: Mapping[type, Meaning] = {
     ),
     kinds.Contact: Meaning(
         "{point} is in line with {first} and {second}",
-        lambda own, at: cross(unit(at.way(own.first, own.second)), at.way(own.first, own.point)),
+        lambda own, at: _in_line(at.way(own.first, own.point), at.way(own.first, own.second)),
         lambda own, at: (own.side * dot(at.way(own.first, own.point), at.way(own.point, own.second)),),
     ),
     kinds.TangentArc: Meaning(

@@ -113,6 +113,47 @@ def test_a_choice_by_fselect_is_the_same_wherever_the_drawing_lies(
     assert sum(not isinstance(each, str) for each in answers) > 1, answers
 
 
+ONE_AXIS = {
+    "no place in common": "1 L X+0 Y+0\n2 FL LEN50 X+30\n3 FSELECT{}\n4 FL LEN70 Y+20\n5 FSELECT{}",
+    "nor in the middle": "1 L X+7 Y-3\n2 FC DR+ R40 CCX+20 X+50\n3 FSELECT{}\n4 FL LEN90 Y+20\n5 FSELECT{}",
+    "two arcs": "1 L X+0 Y+0\n2 FC DR- R30 CCY+10 X+45\n3 FSELECT{}\n4 FCT DR- R90 Y-60\n5 FSELECT{}",
+}
+"""Chains with single coordinates, which only quarters of a turn leave single ones."""
+
+AXIS = re.compile(r"\b(CC|I|)([XY])([+-][\d.]+)")
+
+
+@law(
+    st.sampled_from(sorted(ONE_AXIS)),
+    st.sampled_from((1, 2, 3)),
+    st.tuples(st.integers(-900, 900), st.integers(-900, 900)),
+    st.sampled_from((1, 0.125, 7)),
+    many=100,
+    examples=[(name, turns, (0, 0), 1) for name in ONE_AXIS for turns in (1, 2)],
+)
+def test_a_choice_is_the_same_in_each_quarter_where_all_contours_have_nothing_in_common(
+    name: str, turns: int, shift: tuple[int, int], size: float
+) -> None:
+    by, turn = complex(*shift), 1j**turns
+
+    def place(match: re.Match[str]) -> str:
+        at = size * turn * (float(match[3]) * (1 if match[2] == "X" else 1j))
+        axis = "XY".index(match[2]) ^ (turns % 2)
+        return f"{match[1]}{'XY'[axis]}{(at.real, at.imag)[axis] + shift[axis]:+.9f}"
+
+    seen = set()
+    for text in numbered(ONE_AXIS[name]):
+        here = chosen(text)
+        there = chosen(SIZE.sub(lambda match: f"{match[1]}{size * float(match[2])}", AXIS.sub(place, text)))
+        if isinstance(here, str):
+            assert there == here, text
+            continue
+        assert not isinstance(there, str), there
+        assert max(abs(size * turn * a + by - b) for a, b in zip(here, there, strict=True)) < 1e-4 * size, text
+        seen.add(tuple(complex(round(at.real, 3), round(at.imag, 3)) for at in here))
+    assert len(seen) > 1
+
+
 @law(st.sampled_from(sorted(CHAINS)))
 def test_what_is_listed_as_choosing_a_contour_chooses_it(name: str) -> None:
     text = BLOCK.format(re.sub(r"\d+ FSELECT\{\}\n?", "", CHAINS[name]))

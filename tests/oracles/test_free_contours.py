@@ -1,6 +1,7 @@
 """Free contours in Klartext: the programs of the manuals, and chains that are drawn forwards and told backwards."""
 
 import faulthandler
+import re
 import signal
 import sys
 from contextlib import contextmanager
@@ -247,6 +248,9 @@ TOP = "FC DR- CCX+20 CCY+0 R20"
         ([TOP, "FC DR- CCX+20 CCY+0 R20 X+0 Y+0"], {"P2": (40, 0)}),
         ([TOP, "FCT DR- R20 X+40 Y+0"], {"P2": (20, 20)}),
         ([TOP, "FCT DR- R20", "FLT AN-90 Y-30"], {"P2": (20, 20)}),
+        # An arc through two points of a circle that it touches is on that circle.
+        ([TOP, "FCT DR- X+40 Y+0"], {"P2": (20, 20)}),
+        (["FC DR- CCX+20 CCY+0", "FCT DR- X+36 Y+12", "FLT LEN5"], {"P2": (20 - 20 / 10**0.5, 60 / 10**0.5)}),
         ([TOP, TOP, "FC DR- CCX+20 CCY+0 X+40 Y+0"], {"P2": (10, 17.320508), "P3": (30, 17.320508)}),
         ([TOP, "FC DR- CCX+20 CCY+0 R20 X+40 Y+0", "FL AN+0", "FL AN+0 X+60"], {"P2": (20, 20), "P4": (50, 0)}),
     ],
@@ -299,12 +303,21 @@ def test_a_contradiction_is_told_before_what_is_missing(blocks, code, off):
     assert first.values.get("off_by_mm") == (off and pytest.approx(off, abs=1e-3))
 
 
+def test_a_coordinate_that_rounding_alone_parts_from_zero_is_told_as_zero():
+    (finding,) = solved(
+        chain("FL AN+0 LEN60 CLSD+", "FL AN+90 LEN40", "FL AN+180 LEN60", "FL AN+240 CLSD-")
+    ).diagnostics
+    texts = [fix.description for fix in finding.fixes]
+    assert any("write AN270 for AN+240" in text for text in texts)
+    assert not any("e-" in text for text in texts)
+
+
 def test_many_arcs_on_one_circle_are_told_and_not_searched(monkeypatch):
     calls = []
     monkeypatch.setattr(
         free_cuts, "find_alternatives", lambda profile: calls.append(profile) or find_alternatives(profile)
     )
-    answer = solved(chain(*[TOP] * 11, f"{TOP} X+40 Y+0"))
+    answer = solved(chain(*[TOP] * 14, f"{TOP} X+40 Y+0"))
     assert (answer.status.value, calls) == ("underdetermined", [])
 
 
@@ -320,6 +333,27 @@ def test_a_direction_of_an_arc_that_others_contradict_is_one_conflict_and_never_
     (finding,) = solved(chain(block)).diagnostics
     assert (finding.code, finding.values["expected"]) == ("words-conflict", pytest.approx(float(word[3:])))
     assert any(f"write {word} for" in fix.description for fix in finding.fixes)
+
+
+@pytest.mark.parametrize(
+    ("blocks", "line", "helping"),
+    [
+        # Through two known points, or beside one, a line has its direction.
+        (["FL PDX+35.67 PDY+14.07 D9.222", "FL IX+3.839 Y-14.242"], 2, {"X", "Y", "LEN"}),
+        (["FL X+30", "FL P1X+50 P1Y+20 AN+40", "FL AN+0 LEN10"], 3, {"X", "Y", "LEN"}),
+        (["FL X+20 Y+0", "FL P1X+50 P1Y+20", "FL P1X+70 P1Y+0 LEN30"], 3, {"X", "Y", "LEN"}),
+        (["FC DR+ CCX+0 CCY+20", "FLT LEN10"], 2, {"X", "Y", "LEN", "CCA"}),
+    ],
+)
+def test_no_word_is_offered_that_repeats_what_there_is(blocks, line, helping):
+    answer = solved(chain(*blocks))
+    (finding,) = (each for each in answer.diagnostics if each.code == "words-missing")
+    found = re.search(rf"((?:[A-Z0-9]+(?:, | or )?)+) in program line {line + 1}\b", finding.message)
+    assert found
+    assert {*re.split(", | or ", found[1])} - {"IX", "IY"} == helping
+    for fix in finding.fixes:
+        for word, at in re.findall(r"add ([A-Z]+)\? to program line (\d+)", fix.description):
+            assert int(at) != line + 1 or word in helping | {"IX", "IY"}
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 import re
 from collections import Counter
 from collections.abc import Sequence
+from itertools import product
 from math import inf
 from random import Random
 
@@ -32,7 +33,7 @@ from oracle_fanuc import Machine, run
 from contoursolve import Result, UnknownControlError, check, expand, solve
 from contoursolve.cli import main
 from contoursolve.diagnostics.finding import Diagnostic
-from contoursolve.families import FamilyError, family
+from contoursolve.families import family
 from contoursolve.output.document import to_json
 from contoursolve.solving import Code
 from contoursolve.verification import Document, Verdict, verify
@@ -792,12 +793,16 @@ def test_a_sweep_tells_of_each_angle_what_a_single_solve_tells(settings):
         assert Code(code).status is answer.status, angle
 
 
-def test_two_angles_that_the_control_compares_vary_one_at_a_time():
-    angles = {"2:,A": [30.0, 40.0], "3:,A": [-45.0, -40.0]}
-    with pytest.raises(FamilyError, match="compares 2:,A and 3:,A with each other"):
-        family(SWEPT, vary=angles)
-    table = family(SWEPT, vary=angles, settings={f"{LATHE}.guard-deg": "0"})
-    assert table["status"].size == 4
+def test_rows_of_two_angles_that_the_control_compares_are_solved_one_by_one():
+    angles = {"2:,A": [30.0, 40.0, 134.5, 135.0], "3:,A": [-45.0, -40.0, -45.9, 30.5]}
+    table = family(SWEPT, vary=angles)
+    assert table.remark == "each value of ,A of block 2 and ,A of block 3 decides how its row is read"
+    rows = list(product(*angles.values()))
+    for (first, second), code in zip(rows, table["status"].ravel(), strict=True):
+        (answer,) = solve(SWEPT.replace(",A30.", f",A{first}").replace(",A-45.", f",A{second}")).answers
+        assert Code(code).status is answer.status, (first, second)
+    assert set(table["status"].ravel().tolist()) == {Code.SOLVED, Code.NO_SOLUTION}
+    assert not family(SWEPT, vary=angles, settings={f"{LATHE}.guard-deg": "0"}).remark
 
 
 def test_what_a_setting_means_that_is_not_computed_is_refused():

@@ -1,0 +1,148 @@
+"""A drawing that has all that a contour states, whatever else it has: what further words would determine there.
+
+At most values a word may determine what it does not at those that the others leave: the direction of a line through two
+known points is one that it has already.
+"""
+
+from collections.abc import Collection, Mapping, Sequence
+from math import cos, radians, sin
+
+import numpy
+from msgspec import Struct
+from numpy.typing import NDArray
+
+from contoursolve.geometry import FIRST, SECOND, Fact, Profile, System, Unit, Values, assemble, scalar
+from contoursolve.numeric import Created, pinv, svd
+from contoursolve.reading import ParsedContour, read, stating
+
+Array = NDArray[numpy.float64]
+
+MOST_UNKNOWNS = 60
+"""Unknowns of a contour of which a drawing is looked for: about ten elements, a tenth of a second."""
+
+TRIES, STEPS = 3, 40
+"""Random places from which a drawing is looked for, and steps of the Gauss-Newton method from each."""
+
+ARRIVED, STEP = 1e-8, 1e-6
+"""mm. How well a drawing has what is stated, and how far unknowns are moved for a derivative."""
+
+RANK = 1e-6
+"""Share of the largest singular value below which one counts as zero: derivatives are good to about 1e-9."""
+
+
+class SampleDrawing(Struct, frozen=True, eq=False):
+    """The rows of derivatives of what is stated at one drawing, and those of further words by their names. `own` are
+    the columns of the contour's unknowns: further words may need lines of their own."""
+
+    stated: Array
+    further: Mapping[str, Array]
+    own: tuple[int, ...]
+
+    def open_after(self, names: Collection[str] = ()) -> int:
+        """In how many ways the contour still moves beside these words."""
+        rows = numpy.concatenate([self.stated, *(self.further[name] for name in names if name in self.further)])
+        sizes = numpy.linalg.norm(rows, axis=1)
+        rows = rows[sizes > 0] / sizes[sizes > 0, None]
+        if not rows.size:
+            return len(self.own)
+        _, values, right = svd(rows)
+        moves = right[int((values > RANK * values[0]).sum()) :, list(self.own)]
+        return int((svd(moves)[1] > RANK).sum()) if moves.size else 0
+
+    def helps(self, name: str) -> bool:
+        """Whether a word determines anything that is open."""
+        return name not in self.further or self.open_after((name,)) < self.open_after()
+
+
+def sample_drawing(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> SampleDrawing | None:
+    """A drawing of a contour in which some further words have the values that they have there; None where none is
+    found, or the contour is too large."""
+    whole = read(stating(claim, names), frozenset(fact.given for fact in profile.ignored))
+    system = assemble(whole)
+    if not profile.start.is_known or len(system.unknowns) > MOST_UNKNOWNS:
+        return None
+    profiled, own = {*profile.facts}, assemble(profile).unknowns
+    stated = [fact for fact in system.facts if fact in profiled or not fact.given]
+    equations = _Equations(whole, system)
+    for number in range(TRIES):
+        try:
+            place = equations.solve(stated, number)
+            if place is None:
+                continue
+            told = {name: [fact for fact in system.facts if fact.given == name] for name in names}
+            rows = {name: equations.rows_at(facts, place) for name, facts in told.items() if facts}
+            further = {name: each for name, each in rows.items() if each is not None}
+            columns = tuple(equations.number[name] for name in own)
+            return SampleDrawing(equations.slopes(stated, place), further, columns)
+        except (ArithmeticError, ValueError, numpy.linalg.LinAlgError):
+            continue  # at a random place something may be nothing that others are divided by
+    return None
+
+
+class _Equations:
+    """The facts of a system as functions of its unknowns."""
+
+    def __init__(self, profile: Profile, system: System) -> None:
+        self.system, self.number = system, {name: place for place, name in enumerate(system.unknowns)}
+        starts = [float(value or 0) for value in profile.start.values]
+        self.known = {scalar(profile.figure.start, axis): starts[axis] for axis in (FIRST, SECOND)}
+        self.amounts = {name: float(given.value) for name, given in profile.givens.items()}
+        angles = {name: self.amounts[name] for name, given in profile.givens.items() if given.unit is Unit.DEGREE}
+        self.directions = {name: _direction(value) for name, value in angles.items()}
+        lengths = [abs(value) for name, value in self.amounts.items() if name not in angles]
+        self.size = max(1.0, *lengths, *map(abs, starts))
+        self.scales = numpy.array([1.0 if name.endswith((".cos", ".sin")) else self.size for name in system.unknowns])
+
+    def at(self, place: Array) -> Values:
+        """A lookup at these values of the unknowns, each in its scale."""
+        values = dict(zip(self.number, (place * self.scales).tolist(), strict=True))
+        signs = Created(lambda _: 1)
+        return Values({**self.known, **values}, self.amounts, self.directions, self.system.headed, signs)
+
+    def residuals(self, facts: Sequence[Fact], place: Array) -> Array:
+        """By how much facts are off, in the scale."""
+        at = self.at(place)
+        return numpy.array([float(fact.residual(at)) for fact in facts]) / self.size
+
+    def slopes(self, facts: Sequence[Fact], place: Array) -> Array:
+        """The derivatives of facts by the unknowns."""
+        found = numpy.zeros((len(facts), place.size))
+        for row, fact in enumerate(facts):
+            for name in self.system.unknowns_of(fact):
+                number, ends = self.number[name], []
+                for way in (STEP, -STEP):
+                    moved = place.copy()
+                    moved[number] += way
+                    ends.append(self.residuals([fact], moved)[0])
+                found[row, number] = (ends[0] - ends[1]) / (2 * STEP)
+        return found
+
+    def solve(self, facts: Sequence[Fact], seed: int) -> Array | None:
+        """A place at which all facts are true, from a random one; None if there is none near it."""
+        random = numpy.random.default_rng(seed)
+        place = random.uniform(-1, 1, len(self.number))
+        for name, number in self.number.items():
+            place[number] = abs(place[number]) if name in self.system.figure.radii else place[number]
+        for _ in range(STEPS):
+            off = self.residuals(facts, place)
+            if not numpy.isfinite(off).all():
+                return None
+            if not off.size or numpy.abs(off).max() * self.size < ARRIVED:
+                return place
+            step = pinv(self.slopes(facts, place), rcond=RANK) @ -off
+            place = place + step * min(1.0, 1.0 / max(float(numpy.abs(step).max()), 1e-300))
+        return None
+
+    def rows_at(self, facts: Sequence[Fact], place: Array) -> Array | None:
+        """The derivatives of what a word states, with the value that it has at a place; None where no fact tells it."""
+        given, at = facts[0].given, self.at(place)
+        if given in self.directions:
+            value = next((each for fact in facts if (each := fact.implied(at)) is not None), None)
+            if value is None:
+                return None
+            self.directions[given] = _direction(value)
+        return self.slopes(facts, place)
+
+
+def _direction(angle: float) -> tuple[float, float]:
+    return cos(radians(angle)), sin(radians(angle))
