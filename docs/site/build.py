@@ -52,7 +52,7 @@ PYODIDE = os.environ.get("PYODIDE", f"https://cdn.jsdelivr.net/pyodide/v{PYODIDE
 DISTRIBUTED, DISTRIBUTED_FOR_FEW = ("numpy", "casadi", "markupsafe"), ("sympy",)
 """Packages of Pyodide's distribution: what the first picture needs, and what few blocks need."""
 
-WHEELS = ("python-flint==0.9.0", "msgspec==0.22.0", "htpy==26.5.1", "lark==1.3.1")
+WHEELS = ("python-flint==0.9.0", "msgspec==0.22.0", "htpy==26.5.1", "lark==1.3.1", "lazy-loader==0.6")
 """Packages that it has not, or not as new: the site has their wheels."""
 
 WHEELS_FOR = ("--platform=pyemscripten_2026_0_wasm32", "--platform=any", "--python-version=3.14")

@@ -302,7 +302,7 @@ _OPEN = {"position-unknown", "mode-unknown"}
     ("control", "seed"),
     [
         pytest.param(control, seed, marks=[pytest.mark.slow] if seed else [])
-        for seed in range(40)
+        for seed in range(16)
         for control in SPELLINGS
     ],
 )
