@@ -249,11 +249,10 @@ def _reasons(
     finding: Diagnostic,
 ) -> Iterator[str]:
     profile = answer.profile
-    unit = next(
-        (each.unit for each in profile.givens.values() if each.word and each.word.span == finding.span), Unit.MM
-    )
-    is_opposite = opposes(finding.values, unit)
-    if affine is not None and finding.about in _ABOUT_TIES:
+    if affine is not None and circuits and finding.about in _ABOUT_TIES:
+        words = ((each.unit, each.word) for each in profile.givens.values() if each.word)
+        unit = next((unit for unit, word in words if word.span == finding.span), Unit.MM)
+        is_opposite = opposes(finding.values, unit)
         for circuit in circuits:
             addresses = {word.address for word in profile.words_of(circuit.facts)}
             about = addresses if finding.about in SINGULAR else addresses.intersection(finding.addresses)

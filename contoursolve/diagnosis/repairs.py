@@ -47,7 +47,7 @@ from contoursolve.diagnosis.typo_fixes import (
     slips,
     suspects,
 )
-from contoursolve.diagnostics import Diagnostic
+from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import Block, FaultKind, Word, number_of
 from contoursolve.geometry import Given, Profile, Radius, Unit
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, check, read
@@ -323,13 +323,17 @@ def _values(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     forced = next(unreadable(claim))
     tied = {fact.given for circuit in whole.conflicts for fact in circuit.facts}
     asked_together: list[Edit] = []
+    asking: dict[Span, list[Diagnostic]] = {}
+    """The errors about each word, by its place."""
+    for finding in answer.diagnostics:
+        if finding.is_error and finding.about not in OF_CORNERS and finding.labels:
+            asking.setdefault(finding.labels[0].span, []).append(finding)
     for name, word in claim.words.items():
         given = claim.givens.get(name)
         if given is None or word.number is None or given.unit is Unit.SIGN:
             continue
-        texts = [
-            write_word(word.address, value, lexicon, unit, rounding) for rounding, value in _asked(answer, word, given)
-        ]
+        asked = _asked(asking.get(word.span, ()), given)
+        texts = [write_word(word.address, value, lexicon, unit, rounding) for rounding, value in asked]
         agreeing: list[str] = []
         asked_together += [change(word, texts[0])] if texts and texts[0] != word.text else []
         if name in tied and answer.status is not Status.OVERDETERMINED:
@@ -408,20 +412,16 @@ def _slips(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
                 yield from ((change(word, text),) for text in dict.fromkeys(texts) if text != word.text)
 
 
-def _asked(answer: Answer, word: Word, given: Given) -> Iterator[tuple[str, float]]:
+def _asked(findings: Iterable[Diagnostic], given: Given) -> Iterator[tuple[str, float]]:
     """The values that errors about a word ask for, in mm (radius) or degrees, and how they are rounded."""
-    for finding in answer.diagnostics:
-        if not finding.is_error:
-            continue
-        if finding.about not in OF_CORNERS and finding.labels and finding.labels[0].span == word.span:
-            for key in ("expected", "limit"):
-                if given.unit is Unit.DEGREE and key == "limit":
-                    yield from ((ROUND_HALF_EVEN, angle) for angle in _meeting(finding, given))
-                elif key in finding.values and abs(finding.values[key]) < float("inf"):
-                    value = finding.values[key] * (0.5 if given.is_diameter else 1.0)
-                    rounding = AT_LEAST if key == "limit" else ROUND_HALF_EVEN
-                    # A limit is a size; what the sign of the word says is not in question.
-                    yield rounding, copysign(value, given.value) if key == "limit" else value
+    for finding, key in product(findings, ("expected", "limit")):
+        if given.unit is Unit.DEGREE and key == "limit":
+            yield from ((ROUND_HALF_EVEN, angle) for angle in _meeting(finding, given))
+        elif key in finding.values and abs(finding.values[key]) < float("inf"):
+            value = finding.values[key] * (0.5 if given.is_diameter else 1.0)
+            rounding = AT_LEAST if key == "limit" else ROUND_HALF_EVEN
+            # A limit is a size; what the sign of the word says is not in question.
+            yield rounding, copysign(value, given.value) if key == "limit" else value
 
 
 def _meeting(finding: Diagnostic, given: Given) -> Iterator[float]:
