@@ -18,6 +18,7 @@ from collections.abc import Iterator
 from html import escape
 from os.path import relpath
 from pathlib import Path
+from types import ModuleType
 from urllib.parse import urlsplit
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
@@ -220,9 +221,12 @@ def reference_page() -> Iterator[str]:
     groups: dict[str, list[str]] = {"Functions": [], "Records": [], "Errors": []}
     for name in contoursolve.__all__:
         each = getattr(contoursolve, name)
+        if isinstance(each, ModuleType):
+            continue
         kind = "Functions" if not isinstance(each, type) else "Errors" if issubclass(each, Exception) else "Records"
         groups[kind].append(f"contoursolve.{name}")
-    groups["Pictures"] = [f"contoursolve.pictures.{name}" for name in pictures.__all__]
+    drawn = (name for name in pictures.__all__ if name.startswith("draw") or name in ("Drawable", "Picture", "Theme"))
+    groups["Pictures"] = [f"contoursolve.pictures.{name}" for name in drawn]
 
     yield "# Reference\n"
     yield "The public names of `contoursolve`. [In Python](python.md) shows how they work together."
