@@ -367,8 +367,8 @@ def expand(
     from contoursolve.postprocess import (  # noqa: PLC0415  # noqa: PLC0415
         Arcs,
         Expansion,
+        ExpansionOptions,
         Numbering,
-        Options,
         find_post,
         rewrite,
     )
@@ -383,7 +383,7 @@ def expand(
         post = post_of_formulas(post)
         writer = formulas_for(text, post, scratch, variables or {}, asked.policy)
     numbering = choice_of(Numbering, block_numbers, "block_numbers")
-    options = Options(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, numbering, inline)
+    options = ExpansionOptions(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, numbering, inline)
     stated = {} if isinstance(control, Dialect) else stated_settings(gcode.split_lines(text))
     own = stated | dict(settings or {})
     tape = tape_in_memory(text, name)

@@ -25,9 +25,20 @@ from contoursolve.cli.options import (
 )
 from contoursolve.cli.printing import say, style_of_output
 from contoursolve.diagnosis import Policy, count
-from contoursolve.gcode import Tape, check_target, check_unprotected, open_tape, tape_of, write_whole
+from contoursolve.gcode import OpenFile, check_target, check_unprotected, open_tape, tape_of, write_whole
 from contoursolve.output import Style, finding_lines, plain, without_repeated
-from contoursolve.postprocess import POSTS, Arcs, Numbering, Options, Post, Rewritten, Risk, Summary, Writer, rewrite
+from contoursolve.postprocess import (
+    POSTS,
+    Arcs,
+    ExpansionOptions,
+    Numbering,
+    Post,
+    Rewritten,
+    Risk,
+    Summary,
+    Writer,
+    rewrite,
+)
 from contoursolve.program import request_for
 
 _BY_HAND = "write by hand what is meant there"
@@ -241,11 +252,11 @@ def _post_of(post: str, options: Mapping[str, Any]) -> Post:
     return post_of_formulas(post)
 
 
-def _wish(post: Post, options: Mapping[str, Any]) -> Options:
+def _wish(post: Post, options: Mapping[str, Any]) -> ExpansionOptions:
     """How the options ask the contours to be written."""
     arcs, numbering = Arcs(options["arcs"]), Numbering(options["block_numbers"])
     has_comments, is_inline = not options["no_comments"], options.get("is_inline", False)
-    return Options(post, arcs, options["decimals"], has_comments, numbering, is_inline)
+    return ExpansionOptions(post, arcs, options["decimals"], has_comments, numbering, is_inline)
 
 
 _ASKED = ("units", "rules", "facts", "variables", "folders")
@@ -253,9 +264,9 @@ _ASKED = ("units", "rules", "facts", "variables", "folders")
 
 
 def _rewrite(
-    source: AbstractContextManager[Tape],
+    source: AbstractContextManager[OpenFile],
     body: IO[bytes],
-    wish: Options,
+    wish: ExpansionOptions,
     start: str | None,
     options: Mapping[str, Any],
     progress: Callable[[float], None],
@@ -274,7 +285,7 @@ def _rewrite(
         )
 
 
-def _formulas(tape: Tape, wish: Options, options: Mapping[str, Any]) -> Writer:
+def _formulas(tape: OpenFile, wish: ExpansionOptions, options: Mapping[str, Any]) -> Writer:
     """What writes contours as formulas."""
     from contoursolve.postprocess import formulas_for  # noqa: PLC0415 - few programs need it
 

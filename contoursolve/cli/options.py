@@ -22,7 +22,7 @@ from contoursolve.cli.printing import print_lines, style_of_output
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Policy
 from contoursolve.diagnostics import ProgramError, UserError
-from contoursolve.gcode import STANDARD_INPUT, Program, Tape
+from contoursolve.gcode import STANDARD_INPUT, OpenFile, Program
 from contoursolve.geometry import Length
 from contoursolve.output import EXPLAINING, harmless, lines_of_findings, short_findings
 from contoursolve.program import Result, Run, UnknownControlError, find_settings, read_setting, stated_settings
@@ -324,9 +324,9 @@ def naming(program: str = "", options: str = "") -> Iterator[None]:
         raise UserError(f"{program and program + ': '}{error}{way}") from None
 
 
-def settings_of(program: Program | Tape, assignments: Sequence[str]) -> dict[str, str]:
+def settings_of(program: Program | OpenFile, assignments: Sequence[str]) -> dict[str, str]:
     """The settings of the project file beside a program, or here for what is no file; those that the program states on
     top, and then those of `--set`. Raises SettingError."""
     folder = Path() if program.name.startswith("<") else Path(program.name).parent
-    lines = program.lines() if isinstance(program, Tape) else (block.text for block in program.blocks)
+    lines = program.lines() if isinstance(program, OpenFile) else (block.text for block in program.blocks)
     return find_settings(folder) | stated_settings(lines) | dict(map(read_setting, assignments))

@@ -28,9 +28,9 @@ from contoursolve.cli.progress import STOPPED, duration, leave_threads, progress
 from contoursolve.diagnostics import need
 from contoursolve.families import (
     MOST_ROWS,
+    Checkpoints,
     CompiledSweep,
     FailureSummary,
-    Parts,
     Tally,
     csv_lines,
     failure_summary,
@@ -46,7 +46,7 @@ from contoursolve.families import (
 from contoursolve.gcode import CannotWriteError, check_target, open_whole, write_whole
 from contoursolve.output import columns, rest_lines, resting_data
 from contoursolve.pictures import Theme, draw_sweep, sweep_title
-from contoursolve.solving import REASONS, Code
+from contoursolve.solving import REASONS, StatusCode
 
 PATIENCE = 1.0
 """Seconds between two looks at whether the scheduler is still there."""
@@ -129,7 +129,7 @@ class _Task(Future[Any]):
         return self.inner.cancel()
 
 
-def check_extent(ready: CompiledSweep, parts: Parts | None, target: Path | None, *, is_forced: bool) -> None:
+def check_extent(ready: CompiledSweep, parts: Checkpoints | None, target: Path | None, *, is_forced: bool) -> None:
     """Raise CouldNotRunError for more contours than are begun at a word, or a file that the disk has no room for."""
     rows = ready.ranges.count
     if rows > sys.maxsize:
@@ -290,7 +290,7 @@ def _target(output: str | None, is_forced: bool) -> Path | None:
 
 def _tables(
     ready: CompiledSweep,
-    parts: Parts | None,
+    parts: Checkpoints | None,
     workers: tuple[int | None, Executor | None],
     tally: Tally,
     advance: Callable[[int], None],
@@ -302,7 +302,7 @@ def _tables(
         advance(table["status"].size)
 
 
-def _run(tables: Iterator[dict[str, Any]], parts: Parts | None, target: Path | None, *, is_forced: bool) -> None:
+def _run(tables: Iterator[dict[str, Any]], parts: Checkpoints | None, target: Path | None, *, is_forced: bool) -> None:
     """Evaluate all rows, and write them."""
     if parts is None or target is None:
         for _ in tables:
@@ -312,7 +312,7 @@ def _run(tables: Iterator[dict[str, Any]], parts: Parts | None, target: Path | N
         _write(target, parts, tables, is_forced=is_forced)
 
 
-def _stopped(parts: Parts | None, tally: Tally | None) -> str:
+def _stopped(parts: Checkpoints | None, tally: Tally | None) -> str:
     """What is kept of a sweep that was told to stop."""
     if parts is None:
         done = int(tally.counts.sum()) if tally is not None else 0
@@ -324,7 +324,7 @@ def _stopped(parts: Parts | None, tally: Tally | None) -> str:
     return f"stopped after {kept}: the same command goes on there; delete that folder to give up"
 
 
-def _tell(parts: Parts, target: Path) -> None:
+def _tell(parts: Checkpoints, target: Path) -> None:
     """What is left of sweeps that were not finished."""
     if parts.rows_done:
         say(f"going on after {parts.rows_done:,} of {parts.ready.ranges.count:,} contours", err=True)
@@ -332,7 +332,7 @@ def _tell(parts: Parts, target: Path) -> None:
         say(f"{folder} is left of another sweep that was not finished; it may be deleted", err=True)
 
 
-def _write(target: Path, parts: Parts, tables: Iterator[dict[str, Any]], *, is_forced: bool) -> None:
+def _write(target: Path, parts: Checkpoints, tables: Iterator[dict[str, Any]], *, is_forced: bool) -> None:
     """The whole file, or none; what is finished stays beside it until then."""
     try:
         temporary = parts.temporary("whole")
@@ -354,7 +354,7 @@ def _write(target: Path, parts: Parts, tables: Iterator[dict[str, Any]], *, is_f
     parts.remove()
 
 
-def _kept(parts: Parts) -> str:
+def _kept(parts: Checkpoints) -> str:
     """What is left of a sweep whose file cannot be written."""
     if not parts.rows_done:
         parts.remove()
@@ -393,7 +393,7 @@ def _summary_data(counts: Any, failures: FailureSummary | None) -> dict[str, Any
 
 def _counted(counts: Any) -> Iterator[tuple[str, int, dict[str, int]]]:
     """Each status that there is, how often, and how often for each reason, the most frequent first."""
-    for code in Code:
+    for code in StatusCode:
         if counts[code].sum():
             numbers = sorted(range(1, len(REASONS)), key=lambda each: -counts[code, each])
             kinds = [(REASONS[number], int(counts[code, number])) for number in numbers if counts[code, number]]

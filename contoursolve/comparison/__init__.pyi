@@ -4,7 +4,7 @@ from .compare import (
     compare as compare,
 )
 from .follow import (
-    Path as Path,
+    ToolPath as ToolPath,
     follow as follow,
 )
 from .travel import (

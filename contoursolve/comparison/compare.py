@@ -5,7 +5,7 @@ from math import inf
 
 from msgspec import Struct
 
-from contoursolve.comparison.follow import Path
+from contoursolve.comparison.follow import ToolPath
 from contoursolve.comparison.travel import Motion, Place, Step, Travel, Unfollowed, deviation, distance
 
 
@@ -24,8 +24,8 @@ class Difference(Struct, frozen=True):
 class Comparison(Struct, frozen=True):
     """Two paths that are the same to within `deviation` mm, at most at these lines, up to the difference if any."""
 
-    old: Path
-    new: Path
+    old: ToolPath
+    new: ToolPath
     tolerance: float
     difference: Difference | None
     deviation: float
@@ -74,7 +74,7 @@ class _Cursor(Struct):
         return before.end if isinstance(before, Travel) else None
 
 
-def compare(old: Path, new: Path, tolerance: float) -> Comparison:
+def compare(old: ToolPath, new: ToolPath, tolerance: float) -> Comparison:
     """Follow both paths as far as they are the same to within a tolerance, mm.
 
     It makes no difference into how many collinear lines or arcs of one circle a cut is divided.

@@ -47,7 +47,7 @@ _NAMES = frozenset("DGHMNOPST")
 """Addresses whose numbers are names or counts: a decimal point changes nothing."""
 
 
-class Path(Struct, frozen=True):
+class ToolPath(Struct, frozen=True):
     """The path of one program: its axes, and its elements in order."""
 
     name: str
@@ -61,7 +61,7 @@ class Path(Struct, frozen=True):
         return tuple(step for step in self.steps if isinstance(step, Unfollowed))
 
 
-def follow(result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...]) -> Path:
+def follow(result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...]) -> ToolPath:
     """The path of a program that has been solved for this control; `unit` is that before any G20 or G21."""
     follower, machine = _Follower(dialect, unit, axes), machine_for(result.program, dialect, result.around)
     if machine is None:
@@ -69,7 +69,7 @@ def follow(result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...]
     else:
         examiner = Examiner(Request(dialect, unit, result.policy, Depth.VERDICT, result.start))
         steps = follower.run(examiner.steps(machine.run_all_alone()))
-    return Path(result.program.name, dialect.name, axes, tuple(steps))
+    return ToolPath(result.program.name, dialect.name, axes, tuple(steps))
 
 
 class _Follower:

@@ -9,7 +9,7 @@ from itertools import chain, islice
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.edits import Edit, EditKind, Side, Why, apply_edits, edit_facts, edited
+from contoursolve.diagnosis.edits import Edit, EditKind, InsertionSide, Why, apply_edits, edit_facts, edited
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
 from contoursolve.diagnosis.examples import ends, propose, sampled
 from contoursolve.diagnosis.reach import Reach
@@ -405,7 +405,7 @@ def _is_comma(edit: Edit) -> bool:
 def _parted(blocks: list[Block], edits: tuple[Edit, ...]) -> tuple[list[Block], list[Block], list[Block]]:
     """Blocks as those of words that were moved before the contour, its own, and those of words moved behind it."""
     sides = [edit.errand.side for edit in edits if edit.kind is EditKind.MOVE and edit.errand]
-    first, last = sides.count(Side.BEFORE), len(blocks) - sides.count(Side.BEHIND)
+    first, last = sides.count(InsertionSide.BEFORE), len(blocks) - sides.count(InsertionSide.BEHIND)
     return blocks[:first], blocks[first:last], blocks[last:]
 
 

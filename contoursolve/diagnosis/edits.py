@@ -38,7 +38,7 @@ class EditKind(Enum):
     MOVE = "move"
 
 
-class Side(Enum):
+class InsertionSide(Enum):
     """Where a word goes that gets a block of its own."""
 
     BEFORE = "before"
@@ -53,7 +53,7 @@ class Errand(Struct, frozen=True):
     numbers: tuple[int, ...]
     """The numbers that it is about; none for any number."""
     meaning: str
-    side: Side | None
+    side: InsertionSide | None
     source: Source
 
 
@@ -61,16 +61,16 @@ _ASSUMED = Source("contoursolve", "when a control runs what stands beside a moti
 
 ERRANDS = (
     Errand("F", (), "feed", None, _ASSUMED),
-    Errand("T", (), "tool", Side.BEFORE, _ASSUMED),
-    Errand("S", (), "spindle speed", Side.BEFORE, _ASSUMED),
-    Errand("M", (3, 4), "spindle on", Side.BEFORE, _ASSUMED),
-    Errand("M", (7, 8), "coolant on", Side.BEFORE, _ASSUMED),
-    Errand("M", (9,), "coolant off", Side.BEHIND, _ASSUMED),
-    Errand("M", (5,), "spindle off", Side.BEHIND, _ASSUMED),
-    Errand("M", (0, 1), "stop", Side.BEHIND, _ASSUMED),
-    Errand("M", (98, 99), "subprogram", Side.BEHIND, _ASSUMED),
-    Errand("M", (2, 30), "end of program", Side.BEHIND, _ASSUMED),
-    Errand("M", (), "machine function", Side.BEFORE, _ASSUMED),
+    Errand("T", (), "tool", InsertionSide.BEFORE, _ASSUMED),
+    Errand("S", (), "spindle speed", InsertionSide.BEFORE, _ASSUMED),
+    Errand("M", (3, 4), "spindle on", InsertionSide.BEFORE, _ASSUMED),
+    Errand("M", (7, 8), "coolant on", InsertionSide.BEFORE, _ASSUMED),
+    Errand("M", (9,), "coolant off", InsertionSide.BEHIND, _ASSUMED),
+    Errand("M", (5,), "spindle off", InsertionSide.BEHIND, _ASSUMED),
+    Errand("M", (0, 1), "stop", InsertionSide.BEHIND, _ASSUMED),
+    Errand("M", (98, 99), "subprogram", InsertionSide.BEHIND, _ASSUMED),
+    Errand("M", (2, 30), "end of program", InsertionSide.BEHIND, _ASSUMED),
+    Errand("M", (), "machine function", InsertionSide.BEFORE, _ASSUMED),
 )
 """The first row that fits counts; words that move to one side of a block stand there in the order of the rows."""
 
@@ -227,8 +227,8 @@ def _with_moved(text: str, edits: Iterable[Edit]) -> str:
     moved.sort(key=lambda each: (each[0], each[1].span))
     skipped = re.match(r"\s*(/\d*)", text)
     skip = skipped[1] if skipped else ""
-    sides = {side: [skip + edit.old for row, edit in moved if ERRANDS[row].side is side] for side in Side}
-    return "\n".join([*sides[Side.BEFORE], text, *sides[Side.BEHIND]])
+    sides = {side: [skip + edit.old for row, edit in moved if ERRANDS[row].side is side] for side in InsertionSide}
+    return "\n".join([*sides[InsertionSide.BEFORE], text, *sides[InsertionSide.BEHIND]])
 
 
 def edit_facts(facts: Iterable[Directive], edits: Iterable[Edit]) -> tuple[Directive, ...]:

@@ -44,8 +44,8 @@ from contoursolve.reading import (
     Assumption,
     Offence,
     ParsedContour,
+    Premises,
     ReadIssue,
-    Resting,
     Rule,
     check,
     read,
@@ -150,9 +150,9 @@ class Answer(Shown, Struct, frozen=True):
         return self.claim.rests_on([AT_ITS_LIMIT] if self._has_bevel_at_its_limit() else [])
 
     @property
-    def resting(self) -> Resting:
+    def resting(self) -> Premises:
         """All that the contour rests on beside its words."""
-        return Resting(self.claim.conventions, self.assumptions)
+        return Premises(self.claim.conventions, self.assumptions)
 
     def _has_bevel_at_its_limit(self) -> bool:
         """Whether a 45 degree bevel begins or ends at its virtual intersection, so that it runs along a line."""

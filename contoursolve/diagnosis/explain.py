@@ -31,7 +31,7 @@ from contoursolve.diagnosis.wording import (
 )
 from contoursolve.diagnostics import Basis, Diagnostic, Label, Span
 from contoursolve.gcode import FACT, Word, spell
-from contoursolve.geometry import Arc, Fact, Heading, Length, ParallelLines, Profile, Radius, Role, Unit, assemble
+from contoursolve.geometry import Arc, BlockRole, Fact, Heading, Length, ParallelLines, Profile, Radius, Unit, assemble
 from contoursolve.reading import VERBS, Offence, ParsedContour, ReadIssue, Rule
 from contoursolve.solving import (
     BESIDE,
@@ -82,7 +82,7 @@ class Present(Struct, frozen=True):
         return join([self.by_name[name] for name in spec.split() if name in self.by_name]) or "none of them"
 
 
-class Absent(Struct, frozen=True):
+class NotStated(Struct, frozen=True):
     """The names of a list that are not stated; `X|U` is one of which either will do: `{absent:B X|U}`."""
 
     by_name: Mapping[str, str]
@@ -93,7 +93,7 @@ class Absent(Struct, frozen=True):
 
 
 class Able(Struct, frozen=True):
-    """As `Absent`, the names of a list that are among some."""
+    """As `NotStated`, the names of a list that are among some."""
 
     names: frozenset[str]
 
@@ -136,7 +136,7 @@ def context_of(claim: ParsedContour, rules: tuple[Rule, ...]) -> Context:
 
 
 @lru_cache(maxsize=256)
-def _own_first(rules: tuple[Rule, ...], roles: tuple[Role, ...]) -> tuple[Rule, ...]:
+def _own_first(rules: tuple[Rule, ...], roles: tuple[BlockRole, ...]) -> tuple[Rule, ...]:
     own = {role.name for role in roles}
     return tuple(sorted(rules, key=lambda rule: own.isdisjoint(rule.roles)))
 
@@ -158,7 +158,7 @@ def report(
     stated = {
         "words": Words(tuple(_named(blamed, context))),
         "present": Present(context.typed),
-        "absent": Absent(context.typed),
+        "absent": NotStated(context.typed),
         "address": blamed[0].address if blamed else "",
         **{several: several if len(blamed) > 1 else one for several, one in VERBS.items()},
         **fields,

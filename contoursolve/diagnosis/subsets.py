@@ -14,7 +14,7 @@ from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.spelling import answerable, shapes_of
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import Word
-from contoursolve.geometry import Role
+from contoursolve.geometry import BlockRole
 from contoursolve.reading import ContourForm, Dialect, ParsedContour, Rule, check, is_refused_by_values
 
 MOST_CHECKED = 2_000
@@ -130,7 +130,7 @@ def _is_chain(form: ContourForm) -> bool:
     )
 
 
-def _offending(roles: tuple[Role, ...], rules: tuple[Rule, ...], stated: frozenset[str]) -> list[set[str]]:
+def _offending(roles: tuple[BlockRole, ...], rules: tuple[Rule, ...], stated: frozenset[str]) -> list[set[str]]:
     """The beginnings of the names of blocks that are refused; those that are refused together in one set."""
     groups: list[set[str]] = []
     for role in roles:
@@ -144,7 +144,7 @@ def _offending(roles: tuple[Role, ...], rules: tuple[Rule, ...], stated: frozens
 
 
 def _smallest(
-    roles: tuple[Role, ...],
+    roles: tuple[BlockRole, ...],
     rules: tuple[Rule, ...],
     present: frozenset[str],
     touched: frozenset[str],

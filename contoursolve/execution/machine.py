@@ -38,7 +38,7 @@ from contoursolve.execution.language import (
     When,
     WordFormula,
 )
-from contoursolve.execution.subprograms import Absent, Library, Part, Source, Surroundings
+from contoursolve.execution.subprograms import Absent, Library, LineRange, ProgramFile, Surroundings
 from contoursolve.execution.variables import Variables
 from contoursolve.gcode import Block, Caller, Program, Substitution, Syntax, parse_block, split_lines
 from contoursolve.numeric import Apply, Term, Variable
@@ -87,7 +87,7 @@ class _Loop(Struct):
     """A loop that is open: its lines, the last value and the step of what it counts, why nobody knows how often it
     runs, if that is so, and which pass this is."""
 
-    lines: Part
+    lines: LineRange
     last: float | None = None
     step: float = 1.0
     reason: str = ""
@@ -97,7 +97,7 @@ class _Loop(Struct):
 class _Branch(Struct):
     """An If that is open: its lines, whether one of its parts has run, and whether nobody knows which."""
 
-    lines: Part
+    lines: LineRange
     has_run: bool
     is_undecided: bool = False
 
@@ -130,7 +130,7 @@ _Begun = tuple[str, int, int, frozenset[tuple[str, Known]]]
 class _Frame(Struct):
     """A program, a subprogram or a section that runs: the indices of its next, first and last line."""
 
-    source: Source
+    source: ProgramFile
     at: int
     first: int
     last: int
@@ -221,7 +221,7 @@ class Machine:
     ) -> None:
         self.language, self.library = language, library
         self._program = program
-        self.main = Source(program, language, is_other=False)
+        self.main = ProgramFile(program, language, is_other=False)
         self.variables = Variables(language, given or {}, self._own)
         self._frames: list[_Frame] = []
         self._visited: set[int] = set()
@@ -960,7 +960,7 @@ class Machine:
             self._keep(frame, index + 1)
             frame.go_to(frame.source.nesting.next_parts[index])
 
-    def _branch_lines(self, frame: _Frame, index: int) -> Part:
+    def _branch_lines(self, frame: _Frame, index: int) -> LineRange:
         """The lines of the branch that a line begins or goes on with. Raises if it has no end."""
         lines = frame.source.nesting.branches.get(index)
         if lines is None or lines.last > frame.last:
@@ -1023,7 +1023,7 @@ class Machine:
             frame.loops.append(_Loop(lines))
 
     def _run_unknown_loop(
-        self, frame: _Frame, lines: Part, reason: str, known: _Loop | None
+        self, frame: _Frame, lines: LineRange, reason: str, known: _Loop | None
     ) -> Iterator[Block | ProgramEvent]:
         """Run a loop once more, of which nobody knows whether it does."""
         if not self._is_alone and not (known is not None and known.reason):
@@ -1034,7 +1034,7 @@ class Machine:
         yield self._part(frame, reason, lambda other: other.go_to(lines.last + 1))
         frame.loops.append(_Loop(lines, reason=reason))
 
-    def _count(self, frame: _Frame, loop: For, lines: Part, known: _Loop | None) -> Iterator[Block | ProgramEvent]:
+    def _count(self, frame: _Frame, loop: For, lines: LineRange, known: _Loop | None) -> Iterator[Block | ProgramEvent]:
         name = self.variables.name(loop.variable)
         first, last, step = (self.variables.value(each) for each in (loop.first, loop.last, loop.step))
         if known is not None and known.reason:
@@ -1055,7 +1055,7 @@ class Machine:
         if is_over:
             self._leave_loop(frame, lines)
 
-    def _leave_loop(self, frame: _Frame, lines: Part) -> None:
+    def _leave_loop(self, frame: _Frame, lines: LineRange) -> None:
         """Go on behind a loop."""
         _leave_loop(frame, lines)
         frame.go_to(lines.last + 1)
@@ -1141,7 +1141,7 @@ class Machine:
             raise _RefusedError(why.reason)
         yield from self._unclear(frame, index, why.reason, called)
 
-    def _begun(self, line: int, source: Source, first: int, last: int, own: Mapping[str, Known] | None) -> _Begun:
+    def _begun(self, line: int, source: ProgramFile, first: int, last: int, own: Mapping[str, Known] | None) -> _Begun:
         """What a call runs, and with which values. Refuses to run what runs already with the same ones: it would call
         itself for ever."""
         begun = source.name, first, last, frozenset({**self.variables.values, **(own or {})}.items())
@@ -1162,7 +1162,7 @@ class Machine:
         block, code = frame.source.blocks[index], frame.source.code(index)
         return any(word.address != "N" for word in parse_block(code.rest, block.line, block.syntax).words)
 
-    def _arguments(self, call: Call, source: Source, first: int) -> dict[str, Known] | None:
+    def _arguments(self, call: Call, source: ProgramFile, first: int) -> dict[str, Known] | None:
         values = {name: self.variables.value(term) for name, term in call.arguments}
         formal = source.code(first).parameters if source.blocks else ()
         if formal:
@@ -1192,7 +1192,7 @@ class Machine:
                 raise _RefusedError("the subprogram returns to a block that is not there")
             caller.at = target
 
-    def _unwind(self, source: Source, first: int) -> Iterator[ProgramEvent]:
+    def _unwind(self, source: ProgramFile, first: int) -> Iterator[ProgramEvent]:
         """End what calls itself at all depths: otherwise, the calls behind each of its calls multiply."""
         outermost = next(
             (at for at, each in enumerate(self._frames) if (each.source, each.first) == (source, first)), 1
@@ -1221,7 +1221,7 @@ def _is_loop(call: Call | None) -> bool:
     )
 
 
-def _begin_part(frame: _Frame, *, first: int, lines: Part) -> None:
+def _begin_part(frame: _Frame, *, first: int, lines: LineRange) -> None:
     """Let a frame go on at the next part of a branch: behind ELSE, at ELSEIF or at the end."""
     part = frame.source.nesting.next_parts[first]
     said = frame.source.code(part).statements
@@ -1230,7 +1230,7 @@ def _begin_part(frame: _Frame, *, first: int, lines: Part) -> None:
     frame.branches.append(_Branch(lines, has_run, is_undecided=True))
 
 
-def _leave_loop(frame: _Frame, lines: Part) -> None:
+def _leave_loop(frame: _Frame, lines: LineRange) -> None:
     frame.loops = [each for each in frame.loops if each.lines != lines]
 
 
@@ -1292,7 +1292,7 @@ def _ends_last(statements: Sequence[MacroStatement]) -> list[MacroStatement]:
     return sorted(statements, key=lambda each: (isinstance(each, ProgramEnd | Return), isinstance(each, Return)))
 
 
-def _backwards(source: Source, first: int, last: int, index: int) -> str:
+def _backwards(source: ProgramFile, first: int, last: int, index: int) -> str:
     """That a call on a line names lines of which the last one stands before the first one."""
     begins, ends = (source.blocks[each].line for each in (first, last))
     if last == index - 1:

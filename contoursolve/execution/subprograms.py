@@ -58,7 +58,7 @@ class Absent(Unknown, frozen=True):
     """What is named stands nowhere in the program itself."""
 
 
-class Part(Struct, frozen=True, order=True):
+class LineRange(Struct, frozen=True, order=True):
     """The lines of a loop or of a branch: the indices of its first and its last one."""
 
     first: int
@@ -74,12 +74,12 @@ class Nesting(Struct, frozen=True):
     lines that begin them, go on with them or end them; and by the line that begins one part of a branch, the line with
     the next part or the end."""
 
-    loops: Mapping[tuple[int, str], Part]
-    branches: Mapping[int, Part]
+    loops: Mapping[tuple[int, str], LineRange]
+    branches: Mapping[int, LineRange]
     next_parts: Mapping[int, int]
 
 
-class Source:
+class ProgramFile:
     """One file with programs, and what each of its lines says."""
 
     def __init__(self, program: Program, language: MacroLanguage, *, is_other: bool) -> None:
@@ -159,7 +159,7 @@ class Source:
                     found.update(each for each in places if each is not None)
         return frozenset(found)
 
-    def _may_be_left(self, loop: Part) -> bool:
+    def _may_be_left(self, loop: LineRange) -> bool:
         """Whether anything but its own condition ends a loop."""
         begins = self.code(loop.first).statements
         if not any(isinstance(each, For) or (isinstance(each, Loop) and each.condition is not None) for each in begins):
@@ -197,8 +197,8 @@ class Source:
     @cached_property
     def nesting(self) -> Nesting:
         """Its loops and branches."""
-        loops, open_loops = dict[tuple[int, str], Part](), dict[str, list[int]]()
-        branches, next_parts, open_branches = dict[int, Part](), dict[int, int](), list[list[int]]()
+        loops, open_loops = dict[tuple[int, str], LineRange](), dict[str, list[int]]()
+        branches, next_parts, open_branches = dict[int, LineRange](), dict[int, int](), list[list[int]]()
         for index in range(len(self)):
             code = self.code(index)
             if code.begins is not None:
@@ -208,7 +208,7 @@ class Source:
                     open_loops.setdefault(each.name, []).append(index)
                 elif isinstance(each, EndLoop) and open_loops.get(each.name):
                     first = open_loops[each.name].pop()
-                    loops[first, each.name] = Part(first, index)
+                    loops[first, each.name] = LineRange(first, index)
                 elif isinstance(each, If):
                     open_branches.append([index])
                 elif isinstance(each, Else | ElseIf | EndIf) and open_branches and open_branches[-1][-1] < index:
@@ -216,7 +216,7 @@ class Source:
                     open_branches[-1].append(index)
                     if isinstance(each, EndIf):
                         lines = open_branches.pop()
-                        branches |= dict.fromkeys(lines, Part(lines[0], index))
+                        branches |= dict.fromkeys(lines, LineRange(lines[0], index))
         return Nesting(loops, branches, next_parts)
 
 
@@ -225,7 +225,7 @@ class Library:
 
     def __init__(self, language: MacroLanguage, syntax: Syntax, folders: Sequence[Path]) -> None:
         self.language, self.syntax, self.folders = language, syntax, folders
-        self._files: dict[str, Source | None] = {}
+        self._files: dict[str, ProgramFile | None] = {}
 
     @cached_property
     def _listed(self) -> dict[str, Path]:
@@ -240,7 +240,7 @@ class Library:
                 found.setdefault(file.name.upper(), file)
         return found
 
-    def find(self, name: str) -> Source | None:
+    def find(self, name: str) -> ProgramFile | None:
         """The file that holds a subprogram; None if there is none that can be read."""
         if name not in self._files:
             names = (each.upper() for each in self.language.files(name))
@@ -249,8 +249,8 @@ class Library:
         return self._files[name]
 
     def find_called(
-        self, call: Call, source: Source, index: int, main: Source, resolve: Resolve
-    ) -> tuple[Source, int, int] | Unknown:
+        self, call: Call, source: ProgramFile, index: int, main: ProgramFile, resolve: Resolve
+    ) -> tuple[ProgramFile, int, int] | Unknown:
         """What a call on a line of a file runs: a file, and the indices of its first and last line there."""
         text = source.blocks[index].text.strip()
         first = resolve(call.target)
@@ -279,7 +279,9 @@ class Library:
             return Absent(f"{text} names {first if begin is None else last}, which is not there")
         return source, begin, end
 
-    def _find_program(self, name: str, source: Source, main: Source, text: str) -> tuple[Source, int, int] | Unknown:
+    def _find_program(
+        self, name: str, source: ProgramFile, main: ProgramFile, text: str
+    ) -> tuple[ProgramFile, int, int] | Unknown:
         for each in dict.fromkeys((source, main)):
             if name in each.sections:
                 first = each.sections[name]
@@ -295,9 +297,9 @@ class Library:
         first = found.sections.get(name, 0)
         return found, first, found.section_end(first) if len(found.sections) > 1 else len(found) - 1
 
-    def _open(self, path: Path) -> Source | None:
+    def _open(self, path: Path) -> ProgramFile | None:
         try:
             text = decode(read_bytes(str(path)), str(path))
         except UnreadableProgramError:
             return None
-        return Source(parse(text, path.name, syntax=self.syntax), self.language, is_other=True)
+        return ProgramFile(parse(text, path.name, syntax=self.syntax), self.language, is_other=True)

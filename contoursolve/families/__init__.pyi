@@ -4,7 +4,7 @@ from .case_classes import (
 )
 from .checkpoints import (
     MOST_ROWS as MOST_ROWS,
-    Parts as Parts,
+    Checkpoints as Checkpoints,
     others as others,
     parts_of as parts_of,
     room_of as room_of,
@@ -49,7 +49,7 @@ from .inverse import (
     find_word as find_word,
 )
 from .point_tolerances import (
-    Effect as Effect,
+    Contribution as Contribution,
     Limits as Limits,
     Missing as Missing,
     Tolerances as Tolerances,

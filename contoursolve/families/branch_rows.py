@@ -8,7 +8,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.families.case_classes import CaseClass, asked_of
-from contoursolve.families.row_boxes import Place, RowBoxes
+from contoursolve.families.row_boxes import RowBoxes, SolutionBox
 from contoursolve.families.spec import Places, stretches
 from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Radius, System, Unit, Values, scalar
 from contoursolve.numeric import (
@@ -26,11 +26,11 @@ from contoursolve.numeric import (
 )
 from contoursolve.solving import (
     Check,
-    Code,
     Kernel,
     RefusalKind,
     RowOutcome,
     Source,
+    StatusCode,
     add_checks,
     at_origin,
     basis_of,
@@ -146,13 +146,13 @@ class BranchRows:
 
     def _pairs(self, values: Mapping[str, Array], settled: RowSolutions) -> RowCandidates:
         """Every row with each of its solutions; rows without any are settled."""
-        found: list[tuple[Places, Place]] = []
+        found: list[tuple[Places, SolutionBox]] = []
         for cell in self.boxes.cells(values):
             if cell.solutions is None:
                 settled.again[cell.rows] = True
                 continue
             if cell.is_lost:
-                settled.status[cell.rows] = Code.NO_SOLUTION
+                settled.status[cell.rows] = StatusCode.NO_SOLUTION
                 settled.reason[cell.rows] = reason_of(RefusalKind.NO_POINT)
                 continue
             if not any(place.is_chosen for place in cell.solutions):
@@ -190,13 +190,13 @@ class BranchRows:
         verdict = RowOutcome(self.checks, _run(self.function, {**known, **scalars}, size), size)
         status, reason = verdict.status, verdict.reason
         settled.again |= count(is_bad | verdict.again | (reason == reason_of(RefusalKind.NOT_VERIFIED))) > 0
-        status[(status == Code.OVERDETERMINED) & (reason != 0)] = Code.NO_SOLUTION
-        is_path = (reason == 0) & (status <= Code.OVERDETERMINED) & pairs.is_chosen
+        status[(status == StatusCode.OVERDETERMINED) & (reason != 0)] = StatusCode.NO_SOLUTION
+        is_path = (reason == 0) & (status <= StatusCode.OVERDETERMINED) & pairs.is_chosen
         # A word that tells a solution from another one is needed after all.
         agrees = numpy.zeros(pairs.rows.size, bool)
         for name, mask in verdict.agreeing.items():
             agrees |= mask & (count(verdict.differing[name]) == 0)[pairs.rows]
-        status[is_path] = numpy.where(agrees[is_path], Code.OVERDETERMINED, Code.SOLVED)
+        status[is_path] = numpy.where(agrees[is_path], StatusCode.OVERDETERMINED, StatusCode.SOLVED)
         # Later pairs first, so that the first of several counts.
         for mask in (pairs.is_chosen, is_path):
             at = numpy.flatnonzero(mask)[::-1]
@@ -207,7 +207,7 @@ class BranchRows:
         if self.case.profile.picks:
             # Which of several a number chooses is counted for each row by itself.
             settled.again |= paths > 1
-        settled.status[paths > 1] = Code.AMBIGUOUS
+        settled.status[paths > 1] = StatusCode.AMBIGUOUS
         settled.reason[paths > 1] = 0
         is_only = (paths == 1) | ((paths == 0) & (chosen == 1))
         shown = is_path | (pairs.is_chosen & (paths[pairs.rows] == 0))

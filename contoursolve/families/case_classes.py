@@ -22,7 +22,7 @@ from contoursolve.families.traced_reading import OWN, Alike, Reading, placed_of,
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import FIRST, SECOND, CornerShape, Profile, Question, Start, System, Unit, assemble, scalar
 from contoursolve.numeric import COSINE, SINE, Affine, Array, Following, difference, directions
-from contoursolve.reading import ParsedContour, ReadIssue, Resting, all_resting
+from contoursolve.reading import ParsedContour, Premises, ReadIssue, all_resting
 from contoursolve.solving import (
     Check,
     Machine,
@@ -100,7 +100,7 @@ class CaseClass(Struct, frozen=True, eq=False):
     free: Mapping[str, Linear]
     moves: Mapping[int, Linear] = field(default_factory=dict)
     is_closed: bool = True
-    resting: Resting = Resting()
+    resting: Premises = Premises()
     """What its contours rest on beside the words."""
 
     @property
@@ -344,7 +344,7 @@ def verdict_of(answer: Answer) -> Status | None:
     raise FamilyError(f"{errors[0].message}; leave out what is said twice, or apply no rules")
 
 
-def resting_of(cases: Iterable[CaseClass], template: Template, more: Iterable[Resting] = ()) -> Resting:
+def resting_of(cases: Iterable[CaseClass], template: Template, more: Iterable[Premises] = ()) -> Premises:
     """What the contours of classes rest on beside their words, those that are not refused."""
     dialect = template.asked.dialect
     several = (*more, *(case.resting for case in cases if case.status is None))
@@ -395,7 +395,7 @@ class FreeWords:
         return case
 
     @property
-    def resting(self) -> Resting:
+    def resting(self) -> Premises:
         """What the contours rest on that were looked at."""
         own = [self.answer.resting] if self.answer.contour is not None else []
         return resting_of(self._cases, self.template, own)

@@ -33,7 +33,7 @@ NUMBER = 20
 """Bytes of a number in CSV: 17 digits, a sign, a point and a comma."""
 
 
-class Parts(Struct, frozen=True):
+class Checkpoints(Struct, frozen=True):
     """A folder with a file for each finished stretch of rows of one sweep.
 
     The name of the folder tells the sweep: another block, other values, another version have another folder. The same
@@ -111,10 +111,10 @@ class Parts(Struct, frozen=True):
             temporary.unlink(missing_ok=True)
 
 
-def parts_of(target: Path, ready: CompiledSweep) -> Parts:
+def parts_of(target: Path, ready: CompiledSweep) -> Checkpoints:
     """The parts of a sweep that is to be written to a file, on the disk on which that is."""
     target = _real(target)
-    return Parts(target.with_name(f".{target.name}.{digest(ready)}.parts"), ready)
+    return Checkpoints(target.with_name(f".{target.name}.{digest(ready)}.parts"), ready)
 
 
 def _real(target: Path) -> Path:
@@ -122,7 +122,7 @@ def _real(target: Path) -> Path:
     return target.resolve() if target.is_symlink() else target
 
 
-def others(parts: Parts, target: Path) -> Collection[Path]:
+def others(parts: Checkpoints, target: Path) -> Collection[Path]:
     """The folders of other sweeps to the same file that were not finished."""
     target = _real(target)
     found = target.parent.glob(f".{escape(target.name)}.*.parts")
@@ -162,7 +162,7 @@ def seconds_of(ready: CompiledSweep) -> float:
         rows *= 2
 
 
-def room_of(parts: Parts, *, is_text: bool) -> int:
+def room_of(parts: Checkpoints, *, is_text: bool) -> int:
     """The bytes that the file (as CSV: `is_text`) and the parts that are still to come take at most, while both are
     there."""
     kinds, words = parts.ready.columns(), len(parts.ready.ranges.values)

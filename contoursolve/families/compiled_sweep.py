@@ -37,8 +37,8 @@ from contoursolve.families.spec import Places, Ranges, SweepSpec, Template, call
 from contoursolve.families.traced_reading import place_of_contour, read_alone
 from contoursolve.geometry import System
 from contoursolve.numeric import ROWS, Array, ColumnFunction, Columns, compile_columns, where
-from contoursolve.reading import Resting
-from contoursolve.solving import NO_PLACE, Code, RefusalKind, RowOutcome, code_of, compile_checks, reason_of
+from contoursolve.reading import Premises
+from contoursolve.solving import NO_PLACE, RefusalKind, RowOutcome, StatusCode, code_of, compile_checks, reason_of
 
 Table = dict[str, NDArray[Any]]
 Target = slice | Places
@@ -77,7 +77,7 @@ class CompiledSweep(Struct, eq=False):
         return len(self.cases) == 1 and case.status is None and case.is_closed and not self.by_row
 
     @property
-    def resting(self) -> Resting:
+    def resting(self) -> Premises:
         """What its contours rest on beside the words."""
         return resting_of(self.cases, self.template)
 
@@ -240,7 +240,9 @@ class _ClassRows:
         several = target[count > 1]
         for name in names.values():
             table[name][several] = numpy.nan
-        status = numpy.choose(numpy.minimum(count, 2), (Code.NO_SOLUTION, Code.SOLVED, Code.AMBIGUOUS))
+        status = numpy.choose(
+            numpy.minimum(count, 2), (StatusCode.NO_SOLUTION, StatusCode.SOLVED, StatusCode.AMBIGUOUS)
+        )
         self._note(count == 1, status.astype(numpy.uint8), numpy.where(count == 0, reason, 0), target, table)
         if again.any():
             for name in names.values():

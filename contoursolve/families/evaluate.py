@@ -29,7 +29,7 @@ from contoursolve.families.spec import (
 )
 from contoursolve.numeric import Array
 from contoursolve.reading import Dialect
-from contoursolve.solving import REASONS, Code, Status
+from contoursolve.solving import REASONS, Status, StatusCode
 
 STRETCH = 65_536
 """Rows that are evaluated, or written to a file, at once."""
@@ -283,7 +283,9 @@ class Tally(Struct):
     """How many rows have each status and reason, and the values of the first of each."""
 
     words: tuple[str, ...]
-    counts: NDArray[numpy.int64] = field(default_factory=lambda: numpy.zeros((len(Code), len(REASONS)), numpy.int64))
+    counts: NDArray[numpy.int64] = field(
+        default_factory=lambda: numpy.zeros((len(StatusCode), len(REASONS)), numpy.int64)
+    )
     firsts: dict[tuple[int, int], dict[str, float]] = field(default_factory=dict)
 
     def add(self, table: Table) -> None:
@@ -300,7 +302,7 @@ def failure_summary(ready: CompiledSweep, tally: Tally) -> FailureSummary | None
     """The most frequent failure; None where rows have different statuses, or a contour."""
     totals = tally.counts.sum(axis=1)
     code = int(totals.argmax())
-    if totals[code] != totals.sum() or Code(code).status in (Status.SOLVED, Status.OVERDETERMINED):
+    if totals[code] != totals.sum() or StatusCode(code).status in (Status.SOLVED, Status.OVERDETERMINED):
         return None
     if all(case.status is not None for case in ready.cases):
         return _by_kinds(ready)

@@ -19,8 +19,8 @@ from contoursolve.families.free_words import kind_of
 from contoursolve.families.spec import Ranges, SweepSpec, Template
 from contoursolve.gcode import Word
 from contoursolve.geometry import Unit
-from contoursolve.reading import Resting
-from contoursolve.solving import REASONS, Code, Status
+from contoursolve.reading import Premises
+from contoursolve.solving import REASONS, Status, StatusCode
 
 
 class Measure(Struct, frozen=True):
@@ -77,7 +77,7 @@ class Family(Shown):
     names, in mm with X of a lathe as radius, whatever the unit of the block:
 
     * the free words, as written: in the unit of the block, X of a lathe as diameter (float64);
-    * `status` (uint8, see `Code`) and `reason` (uint8, an index of `REASONS`; 0 for none);
+    * `status` (uint8, see `StatusCode`) and `reason` (uint8, an index of `REASONS`; 0 for none);
     * `branch.P1` (int8): the side that the block chooses: +1 farther or left, -1 nearer or right; 0 where there is no
       contour, or both are one;
     * `V1.Z`, `V1.X`: the points; `r`: radii; `corner 1.begin.Z`, `.end`, `.center`: the corners (float64, NaN where
@@ -92,7 +92,7 @@ class Family(Shown):
     columns: Mapping[str, NDArray[Any]]
     spec: SweepSpec = field(repr=False)
     """Plain data from which its block can be read again."""
-    resting: Resting = field(default=Resting(), repr=False)
+    resting: Premises = field(default=Premises(), repr=False)
     """What its contours rest on beside the words."""
     remark: str = field(default="", repr=False)
     """That rows are read one by one, and why; empty if they are not."""
@@ -121,12 +121,12 @@ class Family(Shown):
     @property
     def has_contour(self) -> NDArray[numpy.bool_]:
         """Where there is a contour: solved, or with words that agree; and nothing speaks against it."""
-        is_solved = (self["status"] <= Code.OVERDETERMINED) & (self["reason"] == 0)
+        is_solved = (self["status"] <= StatusCode.OVERDETERMINED) & (self["reason"] == 0)
         return numpy.asarray(is_solved)
 
     def summary(self) -> dict[Status, int]:
         """How many rows have each status, without those that none has."""
-        return summary_of(numpy.bincount(self.columns["status"], minlength=len(Code)))
+        return summary_of(numpy.bincount(self.columns["status"], minlength=len(StatusCode)))
 
     def measures(self) -> dict[str, Measure]:
         """What each array is measured in, by name."""
@@ -150,12 +150,12 @@ class Family(Shown):
 
 
 def summary_of(counts: NDArray[Any]) -> dict[Status, int]:
-    """The counts by `Code` as counts by status."""
-    return {code.status: int(counts[code]) for code in Code if counts[code]}
+    """The counts by `StatusCode` as counts by status."""
+    return {code.status: int(counts[code]) for code in StatusCode if counts[code]}
 
 
 _WORDS: Mapping[str, list[str | None]] = {
-    "status": [code.status.value for code in Code],
+    "status": [code.status.value for code in StatusCode],
     "reason": [kind.value if kind else None for kind in REASONS],
 }
 """What the numbers of two columns stand for."""

@@ -15,7 +15,7 @@ from contoursolve.families.free_words import check_block
 from contoursolve.families.range_pieces import Onset, RangePiece, RangeSearch
 from contoursolve.families.spec import BlockOptions, called, errors_of, first_error, spec_of
 from contoursolve.geometry import Line
-from contoursolve.reading import Resting
+from contoursolve.reading import Premises
 from contoursolve.solving import Check, NoteKind, RefusalKind
 
 ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
@@ -112,7 +112,7 @@ class Feasible(Shown, Struct, frozen=True):
     """Whether the values are diameters."""
     is_open: bool = False
     """Whether it is a variable of which nobody says the value; `stated` says nothing then."""
-    resting: Resting = Resting()
+    resting: Premises = Premises()
     """What the contours rest on beside the words."""
 
     @property

@@ -31,7 +31,7 @@ from contoursolve.families.targets import (
 from contoursolve.gcode import FACT
 from contoursolve.geometry import FIRST, SECOND, Length, Plane, Unit, assemble
 from contoursolve.numeric import Intervals
-from contoursolve.reading import Resting
+from contoursolve.reading import Premises
 from contoursolve.solving import Certificate, Contour, Point, Status, analyse
 
 ARRIVED = 1e-9
@@ -84,7 +84,7 @@ class Found(Shown, Struct, frozen=True):
     remark: str = ""
     """Why there is no value, where the word does not move the point, with the words that do, or where the block as it
     stands has no contour; else empty."""
-    resting: Resting = Resting()
+    resting: Premises = Premises()
     """What the contours rest on beside the words."""
 
     @property

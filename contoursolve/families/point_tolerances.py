@@ -22,14 +22,14 @@ from contoursolve.families.targets import end_name, place_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Length, Plane, Unit
 from contoursolve.numeric import Array
-from contoursolve.reading import Resting
-from contoursolve.solving import Code, Point
+from contoursolve.reading import Premises
+from contoursolve.solving import Point, StatusCode
 
 MOST_WORDS = 10
 """Words with a tolerance of which all combinations of limits are solved; each doubles them."""
 
 
-class Effect(Struct, frozen=True):
+class Contribution(Struct, frozen=True):
     """What one word or fact does to the point.
 
     `slope` is by how much it moves on each axis, mm (X as radius) for each unit of the word as written, in `unit` (mm,
@@ -82,10 +82,10 @@ class Tolerances(Shown, Struct, frozen=True):
     place: Point
     plane: Plane
     length: Length
-    effects: tuple[Effect, ...]
+    effects: tuple[Contribution, ...]
     spread: tuple[Spread, Spread]
     limits: Limits | None
-    resting: Resting = Resting()
+    resting: Premises = Premises()
     """What the contour rests on beside its words."""
 
 
@@ -145,7 +145,7 @@ def _missing(template: Template, found: Family, words: Sequence[str]) -> Iterato
     free, tally = template.with_words(list(found.ranges.values)), Tally(tuple(found.ranges.values))
     tally.add({name: found[name].reshape(-1) for name in found.names})
     for kind, values in sorted(tally.firsts.items(), key=lambda each: -tally.counts[each[0]]):
-        if kind[0] > Code.OVERDETERMINED:
+        if kind[0] > StatusCode.OVERDETERMINED:
             told = dict(zip(words, values.values(), strict=True))
             yield Missing(int(tally.counts[kind]), told, first_error(free.solve(values)))
 
@@ -192,13 +192,13 @@ class _Study:
             return float(typed.number) / self.value(word)
         return 1.0 / value_of(unit_word(typed, has_point=typed.has_point), self.answer)
 
-    def effect(self, word: str, slope: Point, tolerance: float | None) -> Effect:
+    def effect(self, word: str, slope: Point, tolerance: float | None) -> Contribution:
         """What a word does."""
         moves, typed = hypot(*slope) * tolerance if tolerance else 0.0, self.words.get(word)
         lexicon, value = self.answer.claim.lexicon, self.value(word)
         stated = kind_of(self._typed(word), self.answer)[0]
         unit = "deg" if stated is Unit.DEGREE else self.answer.unit.value
-        effect = Effect(word, unit, value, slope, tolerance, moves, None, None, None, None, 0.0)
+        effect = Contribution(word, unit, value, slope, tolerance, moves, None, None, None, None, 0.0)
         if typed is None:
             return effect
         exact, step = Decimal(repr(value)), lexicon.numbers.step(stated, self.answer.unit)

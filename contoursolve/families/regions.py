@@ -22,7 +22,7 @@ from contoursolve.families.spec import BlockOptions, Ranges, SweepSpec, Template
 from contoursolve.families.subdivision import bisect
 from contoursolve.geometry import Unit
 from contoursolve.numeric import Array
-from contoursolve.reading import Resting
+from contoursolve.reading import Premises
 from contoursolve.solving import NoteKind, Point, RefusalKind
 from contoursolve.tolerance import LENGTH
 
@@ -67,7 +67,7 @@ class Region(Shown, Struct, frozen=True):
     """Whether the contour exists anywhere in the box, as far as was looked."""
     spec: SweepSpec
     fixed: Mapping[str, float]
-    resting: Resting = Resting()
+    resting: Premises = Premises()
     """What its contours rest on beside the words."""
 
     @property

@@ -79,7 +79,7 @@ class BoxGround(Ground):
         return Ground.number(self, name, scalars, signs)
 
 
-class Place(Struct, frozen=True, eq=False):
+class SolutionBox(Struct, frozen=True, eq=False):
     """Where a solution lies, alone: the bounds of every unknown, and the sides at which elements touch; and whether it
     lies on the sides that the words choose."""
 
@@ -93,7 +93,7 @@ class Cell(Struct, frozen=True, eq=False):
     `is_lost` tells that there is none because a search found none."""
 
     rows: Places
-    solutions: tuple[Place, ...] | None = None
+    solutions: tuple[SolutionBox, ...] | None = None
     is_lost: bool = False
 
 
@@ -198,7 +198,7 @@ class RowBoxes:
         points = {choice.point for choice in choices}
         if not enumeration.is_complete or any(each.doubles for each in enumeration.found):
             return Cell(rows)
-        items: list[Place] = []
+        items: list[SolutionBox] = []
         for each in enumeration.found:
             try:
                 sides = sides_of(self.system, ground.values(each.scalars, each.signs, self.system), points)
@@ -210,5 +210,5 @@ class RowBoxes:
             # What the form chooses by itself is no alternative.
             if all(fits[choice] for choice in choices if not choice.given):
                 bounds = {name: ball.bounds(value) for name, value in each.scalars.items()}
-                items.append(Place(bounds, each.signs, all(fits.values())))
+                items.append(SolutionBox(bounds, each.signs, all(fits.values())))
         return Cell(rows, tuple(items), enumeration.is_lost)

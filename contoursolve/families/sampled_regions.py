@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from contoursolve.families.evaluate import compile_sweep
 from contoursolve.families.spec import Ranges, RefusedError, SweepSpec
 from contoursolve.numeric import Array
-from contoursolve.solving import Code, Point
+from contoursolve.solving import Point, StatusCode
 
 COUNT, BISECTIONS = 33, 16
 """Nodes of the grid along each word, and how often the way between two of them is halved: to a two-millionth of the
@@ -52,7 +52,7 @@ class SampledField:
         table = ready.empty(len(points))
         ready.evaluate(0, len(points), table)
         status = table["status"].astype(numpy.int64)
-        is_path = numpy.isin(status, (Code.SOLVED, Code.OVERDETERMINED))
+        is_path = numpy.isin(status, (StatusCode.SOLVED, StatusCode.OVERDETERMINED))
         return numpy.where(is_path, -1, status * _REASONS + table["reason"])
 
     def onto(self, points: Array, _checks: NDArray[numpy.int64]) -> Array:

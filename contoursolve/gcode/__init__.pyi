@@ -11,7 +11,7 @@ from .contents import (
 from .files import (
     ANY_TEXT as ANY_TEXT,
     CannotWriteError as CannotWriteError,
-    Tape as Tape,
+    OpenFile as OpenFile,
     check_target as check_target,
     check_unprotected as check_unprotected,
     open_tape as open_tape,

@@ -25,7 +25,7 @@ class CannotWriteError(UserError, ValueError):
     """A target that cannot be written; the message says why and what to do."""
 
 
-class Tape(Struct, frozen=True):
+class OpenFile(Struct, frozen=True):
     """An open program: its name, its bytes, how many there are, and how they are to be read."""
 
     name: str
@@ -70,7 +70,7 @@ class Tape(Struct, frozen=True):
 
 
 @contextmanager
-def open_tape(path: str | Path) -> Iterator[Tape]:
+def open_tape(path: str | Path) -> Iterator[OpenFile]:
     """Open a file of UTF-8 or Latin-1 text; `-` is standard input.
 
     Raises UnreadableProgramError if there is no such file, or it is no program.
@@ -82,7 +82,7 @@ def open_tape(path: str | Path) -> Iterator[Tape]:
         stamp = _stamp_of(data) if name != STANDARD_INPUT else None
         encoding, mark = encoding_of(iter(partial(data.read, _CHUNK), b""), name)
         size = data.seek(0, os.SEEK_END)
-        yield Tape("<standard input>" if name == STANDARD_INPUT else name, data, size, encoding, mark, stamp)
+        yield OpenFile("<standard input>" if name == STANDARD_INPUT else name, data, size, encoding, mark, stamp)
 
 
 def _stamp_of(data: BinaryIO) -> object:
@@ -95,7 +95,7 @@ def _stamp_of(data: BinaryIO) -> object:
 
 
 @contextmanager
-def tape_of(text: str, name: str) -> Iterator[Tape]:
+def tape_of(text: str, name: str) -> Iterator[OpenFile]:
     """A text as if it were in a file."""
     try:
         data = text.encode("utf-8", "surrogateescape")
@@ -103,13 +103,13 @@ def tape_of(text: str, name: str) -> Iterator[Tape]:
         raise UnreadableProgramError(f"{name} is not text") from None
     # A terminal's bytes need not be UTF-8.
     encoding, _ = encoding_of([data], name)
-    yield Tape(name, io.BytesIO(data), len(data), encoding, b"")
+    yield OpenFile(name, io.BytesIO(data), len(data), encoding, b"")
 
 
-def tape_in_memory(text: str, name: str) -> Tape:
+def tape_in_memory(text: str, name: str) -> OpenFile:
     """Any text as if it were in a file; its bytes are in `ANY_TEXT`."""
     data = text.encode(*ANY_TEXT)
-    return Tape(name, io.BytesIO(data), len(data), ANY_TEXT[0], b"", errors=ANY_TEXT[1])
+    return OpenFile(name, io.BytesIO(data), len(data), ANY_TEXT[0], b"", errors=ANY_TEXT[1])
 
 
 ANY_TEXT = ("utf-8", "surrogatepass")

@@ -2,6 +2,7 @@ from .figure import (
     FIRST as FIRST,
     SECOND as SECOND,
     Arc as Arc,
+    BlockRole as BlockRole,
     Circle as Circle,
     Corner as Corner,
     CornerShape as CornerShape,
@@ -9,7 +10,6 @@ from .figure import (
     Figure as Figure,
     Line as Line,
     Lookup as Lookup,
-    Role as Role,
     Turn as Turn,
     line_scalars as line_scalars,
     names_of_roles as names_of_roles,
@@ -60,7 +60,7 @@ from .profile import (
     least_increments as least_increments,
 )
 from .statements.apply import (
-    Fault as Fault,
+    UnusedFact as UnusedFact,
     apply_statements as apply_statements,
     rank as rank,
     word_of as word_of,

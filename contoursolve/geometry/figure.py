@@ -218,7 +218,7 @@ class Figure(Struct, frozen=True):
         raise KeyError(name)
 
 
-class Role(Struct, frozen=True):
+class BlockRole(Struct, frozen=True):
     """What some blocks of a contour are together, by the name under which rules speak of it.
 
     `prefixes` begin the names of what each of these blocks states. A rule about one block sees the names without
@@ -233,8 +233,8 @@ class Role(Struct, frozen=True):
         return next(named for _, named in names_of_roles((self,), stated))
 
 
-def names_of_roles(roles: Iterable[Role], stated: Iterable[str]) -> Iterator[tuple[Role, dict[str, str]]]:
-    """Each role with the names of `Role.names`. A prefix ends with the first colon of a name."""
+def names_of_roles(roles: Iterable[BlockRole], stated: Iterable[str]) -> Iterator[tuple[BlockRole, dict[str, str]]]:
+    """Each role with the names of `BlockRole.names`. A prefix ends with the first colon of a name."""
     everything = list(stated)
     starting: dict[str, list[tuple[int, str]]] = {}
     for place, name in enumerate(everything):

@@ -14,7 +14,7 @@ _REFUSED = -32803
 _TOO_LONG = 9
 
 
-class RefusedError(JsonRpcException):
+class EditRefusedError(JsonRpcException):
     """What cannot be done, with the reason for the user."""
 
     def __init__(self, message: str) -> None:
@@ -22,12 +22,12 @@ class RefusedError(JsonRpcException):
 
 
 def formatted(opened: Opened) -> list[types.TextEdit]:
-    """The edits that put blanks and block numbers right. Raises RefusedError if block numbers cannot be."""
+    """The edits that put blanks and block numbers right. Raises EditRefusedError if block numbers cannot be."""
     program, step = opened.program, opened.options.block_numbers
     try:
         new = format_program(program.text, control=program.dialect, block_numbers=step)
     except ValueError as error:
-        raise RefusedError(f"nothing was changed: {error}") from None
+        raise EditRefusedError(f"nothing was changed: {error}") from None
     ends = str.maketrans("", "", "\r\n")
     lines = enumerate(new.replace("\r\n", "\n").replace("\r", "\n").split("\n"), 1)
     return edits(opened.places, [(line, text.translate(ends)) for line, text in lines], opened.line_end)
@@ -42,16 +42,16 @@ def block_number_under(opened: Opened, position: types.Position) -> types.Prepar
 
 
 def renamed(opened: Opened, position: types.Position, name: str) -> types.WorkspaceEdit | None:
-    """Another number for a block and every jump to it. Raises RefusedError if that cannot be."""
+    """Another number for a block and every jump to it. Raises EditRefusedError if that cannot be."""
     found, digits = _number(opened, position), name.strip().lstrip("Nn")
     if found is None or found.line is None:
         return None
     if not (digits.isascii() and digits.isdigit() and len(digits) < _TOO_LONG):
-        raise RefusedError(f"a block number is a whole number, not {name!r}")
+        raise EditRefusedError(f"a block number is a whole number, not {name!r}")
     try:
         changes = rename_block(opened.program.text, found.line, int(digits), control=opened.program.dialect)
     except ValueError as error:
-        raise RefusedError(f"nothing was changed: {error}") from None
+        raise EditRefusedError(f"nothing was changed: {error}") from None
     return opened.workspace_edit([types.TextEdit(opened.places.range(*each.span), each.text) for each in changes])
 
 

@@ -9,12 +9,12 @@ from msgspec import Struct, field
 
 from contoursolve import OpenProgram, find_settings
 from contoursolve.lsp.pages import Pages
-from contoursolve.lsp.places import Places
+from contoursolve.lsp.places import ClientPositions
 
 CONTROL = "control"
 
 
-class Options(Struct, frozen=True):
+class ClientSettings(Struct, frozen=True):
     """What the client is set to, in its section `contoursolve`."""
 
     control: str = ""
@@ -25,7 +25,7 @@ class Options(Struct, frozen=True):
     block_numbers: int = 0
 
 
-def read_options(section: Any, *, has_pictures: bool = False) -> Options:
+def read_options(section: Any, *, has_pictures: bool = False) -> ClientSettings:
     """The options of a client's section; what is of another kind counts as not set.
 
     `has_pictures` tells whether pictures are shown where it does not say that: a terminal would show their data.
@@ -37,7 +37,7 @@ def read_options(section: Any, *, has_pictures: bool = False) -> Options:
 
     style, given, control = table.get("format"), table.get("settings"), table.get(CONTROL)
     step = style.get("blockNumbers") if isinstance(style, dict) else 0
-    return Options(
+    return ClientSettings(
         control if isinstance(control, str) else "",
         {str(name): str(value) for name, value in given.items()} if isinstance(given, dict) else {},
         switch("inlayHints"),
@@ -54,7 +54,7 @@ class Opened:
         self,
         item: types.TextDocumentItem,
         path: Path | None,
-        options: Options,
+        options: ClientSettings,
         pages: Pages,
         client: types.ClientCapabilities,
         encoding: types.PositionEncodingKind | str,
@@ -63,7 +63,7 @@ class Opened:
         self.options, self._project = options, _project_of(path)
         name = path.name if path else item.uri
         self.program = OpenProgram(item.text, settings=self._settings(), name=name)
-        self.places = Places(self.program, encoding)
+        self.places = ClientPositions(self.program, encoding)
         text, workspace = client.text_document, client.workspace
         shown = text.publish_diagnostics if text else None
         self.tells_related = bool(shown and shown.related_information)
@@ -71,7 +71,7 @@ class Opened:
         self.reads_markdown = formats is None or types.MarkupKind.Markdown in formats
         self._has_versions = bool(workspace and workspace.workspace_edit and workspace.workspace_edit.document_changes)
 
-    def configure(self, options: Options) -> None:
+    def configure(self, options: ClientSettings) -> None:
         """Follow other options, or another project file."""
         self.options, self._project = options, _project_of(self.path)
         self.program.configure(None, self._settings())

@@ -10,7 +10,7 @@ _FAR = 0xFFFF
 """The last character that takes one unit of UTF-16."""
 
 
-class Places:
+class ClientPositions:
     """The places of one program, in the units that the client counts."""
 
     def __init__(self, program: OpenProgram, encoding: types.PositionEncodingKind | str) -> None:
@@ -43,7 +43,7 @@ class Places:
         return line, len(self.text(line)) + 1
 
 
-def edits(places: Places, changes: Sequence[tuple[int, str]], end: str) -> list[types.TextEdit]:
+def edits(places: ClientPositions, changes: Sequence[tuple[int, str]], end: str) -> list[types.TextEdit]:
     """The edits that write other texts for lines, each from its first character that differs to its last one; `end` is
     how the program's lines end."""
     found = []

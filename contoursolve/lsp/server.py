@@ -17,7 +17,7 @@ from contoursolve import DIALECTS, Severity, Status, __version__
 from contoursolve.lsp import commands
 from contoursolve.lsp.editing import block_number_under, formatted, renamed, target_of
 from contoursolve.lsp.findings import actions_of, diagnostics_of
-from contoursolve.lsp.opened import Opened, Options, read_options
+from contoursolve.lsp.opened import ClientSettings, Opened, read_options
 from contoursolve.lsp.pages import Pages
 from contoursolve.lsp.reading import Completer, folds_of, hints_of, hover_of, signatures_of, symbols_of
 
@@ -66,7 +66,7 @@ class Server(LanguageServer):
         super().__init__(SECTION, __version__, protocol_cls=Protocol)
         self.opened: dict[str, Opened] = {}
         self.checking: dict[str, asyncio.Task[None]] = {}
-        self.options, self.pages = Options(), Pages()
+        self.options, self.pages = ClientSettings(), Pages()
         self.has_client_commands = False
         self.is_configured = asyncio.Event()
 

@@ -75,7 +75,7 @@ class Moving(Struct, frozen=True):
     """1 clockwise on the page, -1 counter-clockwise, 0 for a line."""
 
 
-class Motion(Struct, frozen=True):
+class ContourDerivatives(Struct, frozen=True):
     """How the words of a solved contour move its points and elements, in mm for each unit as written."""
 
     answer: Answer
@@ -100,12 +100,12 @@ class Motion(Struct, frozen=True):
         return tuple(self.of_point(name) for name in names[: 3 if isinstance(segment, ArcSegment) else 2])
 
 
-def motion_of(answer: Answer) -> Motion | None:
+def motion_of(answer: Answer) -> ContourDerivatives | None:
     """How the words of a contour move it; None where it has no path, or no derivatives."""
     if answer.contour is None:
         return None
     try:
-        return Motion(answer, slopes_of(answer, is_twice_fine=answer.claim.form.is_general).slopes)
+        return ContourDerivatives(answer, slopes_of(answer, is_twice_fine=answer.claim.form.is_general).slopes)
     except FamilyError:
         return None
 
@@ -113,7 +113,7 @@ def motion_of(answer: Answer) -> Motion | None:
 def handles_of(
     answer: Answer,
     picture: Picture,
-    motion: Motion | None,
+    motion: ContourDerivatives | None,
     pinned: Collection[str] = (),
     held: Mapping[str, Sequence[str]] | None = None,
 ) -> list[Handle]:
@@ -143,7 +143,7 @@ def handles_of(
     return found
 
 
-def moving_of(motion: Motion, picture: Picture, keys: Iterable[str]) -> list[Moving]:
+def moving_of(motion: ContourDerivatives, picture: Picture, keys: Iterable[str]) -> list[Moving]:
     """The elements of the path as they are drawn, and how these words move them."""
     view = picture.sheet.placement.view if picture.sheet.placement else None
     contour, wanted = motion.answer.contour, set(keys)
@@ -181,7 +181,7 @@ def _on_page(slope: Point, view: Viewport) -> Point:
 
 
 def _points(
-    motion: Motion, view: Viewport, words: Mapping[str, StatedWord], held: Mapping[str, Sequence[str]]
+    motion: ContourDerivatives, view: Viewport, words: Mapping[str, StatedWord], held: Mapping[str, Sequence[str]]
 ) -> Iterator[Handle]:
     """A handle for each named point, the end, and each centre that a word moves; one where several coincide."""
     seen: list[Point] = []
@@ -194,7 +194,7 @@ def _points(
                 yield Handle(name, HandleKind.POINT, view.place(at), moves)
 
 
-def _places(motion: Motion) -> Iterator[tuple[str, Point, Slopes]]:
+def _places(motion: ContourDerivatives) -> Iterator[tuple[str, Point, Slopes]]:
     answer = motion.answer
     contour, figure = answer.contour, answer.profile.figure
     if contour is None or not contour.elements:
@@ -232,7 +232,9 @@ def _chosen(name: str, slopes: Slopes, words: Mapping[str, StatedWord]) -> Seque
 # Sizes -------------------------------------------------------------------------------------------------------
 
 
-def _size_slope(answer: Answer, word: StatedWord, motion: Motion | None, known: Known | None) -> Point | None:
+def _size_slope(
+    answer: Answer, word: StatedWord, motion: ContourDerivatives | None, known: Known | None
+) -> Point | None:
     """How one unit of a word moves the middle of the element whose size it states, where its arrow points; of a refused
     contour from what is known of it."""
     figure = answer.profile.figure

@@ -6,7 +6,7 @@ from itertools import groupby
 from math import degrees, isfinite
 from typing import Any
 
-from contoursolve.comparison import Comparison, Path, Place, Step, Travel, Unfollowed
+from contoursolve.comparison import Comparison, Place, Step, ToolPath, Travel, Unfollowed
 from contoursolve.diagnosis import count, length_of
 from contoursolve.diagnostics import json_text, members
 from contoursolve.geometry import Length
@@ -87,7 +87,7 @@ def _runs(blocks: Sequence[Unfollowed]) -> Iterator[str]:
         yield f"{file}line {first.line}: {_cut(first.text)} ({reason}){until}"
 
 
-def _step_lines(name: str, path: Path, step: Step | None) -> Iterator[str]:
+def _step_lines(name: str, path: ToolPath, step: Step | None) -> Iterator[str]:
     if step is None:
         yield f"  {name} {printable(path.name)}: the path has ended"
         return
@@ -134,7 +134,7 @@ def _is_shown(distance: float | None) -> bool:
     return distance is not None and isfinite(distance)
 
 
-def _sides(comparison: Comparison) -> tuple[tuple[str, Path], tuple[str, Path]]:
+def _sides(comparison: Comparison) -> tuple[tuple[str, ToolPath], tuple[str, ToolPath]]:
     return ("OLD", comparison.old), ("NEW", comparison.new)
 
 
@@ -179,7 +179,7 @@ def refusal_to_json(results: Sequence[Result]) -> str:
     )
 
 
-def _path(path: Path) -> dict[str, Any]:
+def _path(path: ToolPath) -> dict[str, Any]:
     return {
         "program": path.name,
         "control": path.control,

@@ -9,7 +9,7 @@ from contoursolve.diagnostics import members
 from contoursolve.families import (
     LEAST_GAP,
     CompiledSweep,
-    Effect,
+    Contribution,
     End,
     Family,
     Feasible,
@@ -275,7 +275,7 @@ def _has_tolerances(found: Tolerances) -> bool:
     return found.limits is not None or any(each.tolerance is not None for each in found.effects)
 
 
-def _effect_cells(each: Effect, found: Tolerances, has_tolerances: bool) -> list[str]:
+def _effect_cells(each: Contribution, found: Tolerances, has_tolerances: bool) -> list[str]:
     slopes = [
         _length(slope * (2 if is_diameter else 1), found.length)
         for slope, is_diameter in zip(each.slope, found.plane.diameters, strict=True)
@@ -319,7 +319,7 @@ def tolerances_data(found: Tolerances) -> dict[str, Any]:
     }
 
 
-def _effect_data(each: Effect) -> dict[str, Any]:
+def _effect_data(each: Contribution) -> dict[str, Any]:
     rounding = "half_increment_mm=by_half rounded rounding_mm=by_rounding rounding_linear_mm=by_rounding_linear"
     return {
         "word": each.word,

@@ -56,7 +56,7 @@ Marked = tuple[Label, Diagnostic]
 """A stretch of a line, and the finding that marks it."""
 
 
-class Places(Struct, frozen=True):
+class PageAnchors(Struct, frozen=True):
     """The addresses on the page: the lines that it shows, the numbers of contours by line and of findings by identity,
     both from 1, and what findings mark, by line."""
 
@@ -74,14 +74,14 @@ class Places(Struct, frozen=True):
         return f"finding-{self.findings[id(finding)]}"
 
 
-def _find_places(result: Result) -> Places:
+def _find_places(result: Result) -> PageAnchors:
     """The places of everything that a result holds."""
     numbered = list(enumerate(result.answers, 1))
     marks: dict[int, list[Marked]] = {}
     for finding in result.diagnostics:
         for label in finding.labels:
             marks.setdefault(label.span.line, []).append((label, finding))
-    return Places(
+    return PageAnchors(
         frozenset(block.line for block in result.program.blocks),
         {line: number for number, answer in reversed(numbered) for line in answer.lines},  # of several, the first
         {id(each): number for number, each in enumerate(result.diagnostics, 1)},
@@ -159,7 +159,7 @@ def _conditions(result: Result) -> h.Element:
     return h.dl[([h.dt[name], h.dd[short(value)]] for name, value in rows)]
 
 
-def _contours(result: Result, places: Places, progress: Progress, *, is_lit: bool) -> h.Element | None:
+def _contours(result: Result, places: PageAnchors, progress: Progress, *, is_lit: bool) -> h.Element | None:
     if not result.answers:
         return h.section(id="contours")[h.h2["Contours"], h.p["The program has no contour."]]
     header = ("contour", "line", "form", "status", "ends at", "findings")
@@ -184,7 +184,7 @@ def _contours(result: Result, places: Places, progress: Progress, *, is_lit: boo
     ]
 
 
-def _contour(answer: Answer, number: int, result: Result, places: Places, progress: Progress) -> h.Element:
+def _contour(answer: Answer, number: int, result: Result, places: PageAnchors, progress: Progress) -> h.Element:
     keys = named_words(answer)
     found = [
         _finding(each, result, places, names=[("finding", str(place)), *_words_of(each, keys)])
@@ -218,7 +218,7 @@ def _words_of(finding: Diagnostic, named: Mapping[Span, About]) -> Iterator[Name
 
 
 def _finding(
-    finding: Diagnostic, result: Result, places: Places, heading: h.Element = h.h4, names: Sequence[Name] = ()
+    finding: Diagnostic, result: Result, places: PageAnchors, heading: h.Element = h.h4, names: Sequence[Name] = ()
 ) -> h.Element:
     name, sources, identity = result.program.name, sources_of(result, finding), places.finding(finding)
     return finding_element(finding, name, sources, anchor=places.line, identity=identity, heading=heading, names=names)
@@ -234,12 +234,12 @@ def _found(findings: tuple[Diagnostic, ...]) -> str:
     return ", ".join(count(numbers[each], each.value) for each in Severity if numbers[each]) or "none"
 
 
-def _line_link(line: int, places: Places) -> h.Node:
+def _line_link(line: int, places: PageAnchors) -> h.Node:
     target = places.line(line)
     return h.a(href=target)[f"program line {line}"] if target else f"program line {line}"
 
 
-def _others(result: Result, places: Places) -> h.Element | None:
+def _others(result: Result, places: PageAnchors) -> h.Element | None:
     """What was found outside contours."""
     own = {id(each) for answer in result.answers for each in answer.diagnostics}
     others = [finding for finding in result.diagnostics if id(finding) not in own]
@@ -251,7 +251,7 @@ def _others(result: Result, places: Places) -> h.Element | None:
     ]
 
 
-def _program(result: Result, places: Places) -> h.Element:
+def _program(result: Result, places: PageAnchors) -> h.Element:
     return h.section(id="program")[
         h.h2["Program"],
         h.p["The number of a line leads to its contour, a marked word to the finding about it."],
@@ -286,7 +286,7 @@ def _sources(result: Result) -> h.Element:
 # The program -------------------------------------------------------------------------------------------------
 
 
-def _line(block: Block, places: Places) -> h.Element:
+def _line(block: Block, places: PageAnchors) -> h.Element:
     contour, number = places.contours.get(block.line), str(block.line)
     shown = h.a(href=f"#contour-{contour}", title=f"contour {contour}")[number] if contour is not None else number
     kind = "contour" if contour is not None else None
@@ -295,7 +295,7 @@ def _line(block: Block, places: Places) -> h.Element:
     ]
 
 
-def _findings(block: Block, places: Places) -> Iterator[h.Node]:
+def _findings(block: Block, places: PageAnchors) -> Iterator[h.Node]:
     """Links to the findings at a line."""
     found = {id(finding): finding for _, finding in places.marks.get(block.line, ())}
     for finding in found.values():
@@ -303,7 +303,7 @@ def _findings(block: Block, places: Places) -> Iterator[h.Node]:
             yield h.a(class_=f"code {finding.severity.value}", href=f"#{places.finding(finding)}")[finding.code]
 
 
-def _text(block: Block, places: Places) -> Iterator[h.Node]:
+def _text(block: Block, places: PageAnchors) -> Iterator[h.Node]:
     """The text with the marked words as links to their findings."""
     text, here = printable(block.text), 0
     for begin, end, finding in _apart(places.marks.get(block.line, ()), len(text)):

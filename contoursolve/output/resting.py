@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from typing import Any
 
 from contoursolve.diagnostics import members
-from contoursolve.reading import Convention, Resting
+from contoursolve.reading import Convention, Premises
 
 
-def resting_texts(resting: Resting, control: str) -> Iterator[str]:
+def resting_texts(resting: Premises, control: str) -> Iterator[str]:
     """What the manual does not say and a contour rests on, each in a line; what the control is taken to accept, in one
     line, if there is anything."""
     yield from (_convention_text(each, control) for each in resting.conventions)
@@ -25,7 +25,7 @@ def _convention_text(convention: Convention, control: str) -> str:
     return f"{convention.evidence.value}: {convention.meaning} (--set {name}={convention.value})"
 
 
-def resting_data(resting: Resting) -> dict[str, Any]:
+def resting_data(resting: Premises) -> dict[str, Any]:
     """The same as members of an object."""
     return {
         "conventions": [

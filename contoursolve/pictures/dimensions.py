@@ -46,7 +46,7 @@ from contoursolve.pictures.scene import (
     number,
     word_text,
 )
-from contoursolve.pictures.subject import Subject, Traced
+from contoursolve.pictures.subject import PartialDrawing, Subject
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import (
     DIAGONAL,
@@ -107,7 +107,7 @@ def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
             yield replace(drawn, about=subject.about(question.word.span))
 
 
-def dimension_of(subject: Traced, fact: Fact, text: str, role: Role, value: float) -> Dimension | None:
+def dimension_of(subject: PartialDrawing, fact: Fact, text: str, role: Role, value: float) -> Dimension | None:
     """How a fact with a value stands on a drawing; None where its points are not known, or it has no such form."""
     from contoursolve.geometry import Distance  # noqa: PLC0415 - see `constraints`
 
@@ -139,7 +139,7 @@ def dimension_of(subject: Traced, fact: Fact, text: str, role: Role, value: floa
     return _apart(subject, fact, text, role) if isinstance(fact, TangentLine | PointBeside) else None
 
 
-def in_chain(subject: Traced, fact: Fact, text: str, role: Role, value: float) -> Dimension | None:
+def in_chain(subject: PartialDrawing, fact: Fact, text: str, role: Role, value: float) -> Dimension | None:
     """The same of facts that words state of chains of lines and arcs alone."""
     if isinstance(fact, Spoke):
         # The direction of a radius is that of the arc a quarter of a turn from it, where it begins.
@@ -173,7 +173,7 @@ def in_chain(subject: Traced, fact: Fact, text: str, role: Role, value: float) -
     return None
 
 
-def _way(subject: Traced, of: Along | Tangent | Chord) -> float | None:
+def _way(subject: PartialDrawing, of: Along | Tangent | Chord) -> float | None:
     """The direction of an element or of a chord where it ends, degrees."""
     if isinstance(of, Chord):
         tail, head = subject.at(of.tail), subject.at(of.head)
@@ -192,7 +192,7 @@ def _way(subject: Traced, of: Along | Tangent | Chord) -> float | None:
     return _degrees(direction(ends[0], ends[1])) if ends[0] is not None and ends[1] is not None else None
 
 
-def _begin(subject: Traced, of: Along | Tangent | Chord) -> Point | None:
+def _begin(subject: PartialDrawing, of: Along | Tangent | Chord) -> Point | None:
     """Where an element or a chord begins to run in its direction."""
     if isinstance(of, Along):
         return next((subject.at(each.tail) for each in subject.profile.figure.path if each.name == of.line), None)
@@ -203,7 +203,7 @@ def _degrees(way: Point) -> float:
     return degrees(atan2(way[1], way[0]))
 
 
-def _apart(subject: Traced, fact: TangentLine | PointBeside, text: str, role: Role) -> Dimension | None:
+def _apart(subject: PartialDrawing, fact: TangentLine | PointBeside, text: str, role: Role) -> Dimension | None:
     """How far a point is from a line or a circle, which a circle about the point touches that is not drawn."""
     center, radius = (fact.center, fact.radius) if isinstance(fact, TangentLine) else fact.first
     figure = subject.profile.figure
@@ -215,7 +215,7 @@ def _apart(subject: Traced, fact: TangentLine | PointBeside, text: str, role: Ro
     return _beside(subject, fact, text, role)
 
 
-def _beside(subject: Traced, fact: TangentLine | PointBeside, text: str, role: Role) -> Dimension | None:
+def _beside(subject: PartialDrawing, fact: TangentLine | PointBeside, text: str, role: Role) -> Dimension | None:
     """The distance of a place from a line or a circle."""
     center = fact.center if isinstance(fact, TangentLine) else fact.first[0]
     at = subject.known.points.get(center, place_of(subject.profile, center))
@@ -228,7 +228,7 @@ def _beside(subject: Traced, fact: TangentLine | PointBeside, text: str, role: R
     return Aligned(at, along(circle[0], direction(circle[0], at), circle[1]), text, role) if circle else None
 
 
-def _radius(subject: Traced, name: str, text: str, role: Role) -> Dimension | None:
+def _radius(subject: PartialDrawing, name: str, text: str, role: Role) -> Dimension | None:
     """The radius of an arc of the path, of a circle, or of a rounding."""
     elements = subject.elements
     for each in subject.profile.figure.circles:

@@ -12,14 +12,18 @@ from contoursolve.pictures.curves import Curve, near
 from contoursolve.pictures.page import Box, Item, Spot, Stroke
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.value_axes import HIGH, LEFT, TOP, WIDE
-from contoursolve.solving import REASONS, Code
+from contoursolve.solving import REASONS, StatusCode
 
 Outcomes = NDArray[numpy.int64]
 """What became of each cell of a plane, the uppermost row first: its status and the reason against it, as one number."""
 
 Mask = NDArray[numpy.bool_]
 
-_FIELDS = {Code.SOLVED: Role.SOLVED_FIELD, Code.OVERDETERMINED: Role.SOLVED_FIELD, Code.NO_SOLUTION: Role.REFUSED_FIELD}
+_FIELDS = {
+    StatusCode.SOLVED: Role.SOLVED_FIELD,
+    StatusCode.OVERDETERMINED: Role.SOLVED_FIELD,
+    StatusCode.NO_SOLUTION: Role.REFUSED_FIELD,
+}
 """How an outcome without a reason against it is painted; with one, there is no contour."""
 
 _OVER = 0.6
@@ -36,14 +40,14 @@ def outcomes_of(family: Family) -> Outcomes:
 
 def words_of(outcome: int) -> list[str]:
     """An outcome in words: its status, and the reason if there is one."""
-    code, reason = Code(outcome // len(REASONS)), REASONS[outcome % len(REASONS)]
+    code, reason = StatusCode(outcome // len(REASONS)), REASONS[outcome % len(REASONS)]
     return [each.value.replace("-", " ") for each in (code.status, reason) if each is not None]
 
 
 def role_of(outcome: int) -> Role:
     """How an outcome is painted."""
     code, reason = divmod(outcome, len(REASONS))
-    role = _FIELDS.get(Code(code), Role.OTHER_FIELD)
+    role = _FIELDS.get(StatusCode(code), Role.OTHER_FIELD)
     return Role.REFUSED_FIELD if reason and role is Role.SOLVED_FIELD else role
 
 

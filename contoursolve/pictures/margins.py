@@ -36,7 +36,7 @@ _SHORT = 22.0
 """Pixels. In a shorter distance the arrowheads stand outside."""
 
 
-class Border(Struct, frozen=True):
+class DrawingEdge(Struct, frozen=True):
     """An edge of the drawing: the axis that runs along it, and whether it is the lower or left one (`sign` -1) or the
     upper or right one (+1), in mm."""
 
@@ -53,7 +53,7 @@ class Border(Struct, frozen=True):
         return (place, level) if self.axis == FIRST else (level, place)
 
 
-_SIDES = (Border(FIRST, -1), Border(FIRST, 1), Border(SECOND, -1), Border(SECOND, 1))
+_SIDES = (DrawingEdge(FIRST, -1), DrawingEdge(FIRST, 1), DrawingEdge(SECOND, -1), DrawingEdge(SECOND, 1))
 
 Row = tuple[LinearDimension, int]
 """A distance and the number of its row, from the drawing outwards."""
@@ -65,9 +65,9 @@ class Placement(Struct, frozen=True):
 
     view: Viewport
     frame: Box
-    outer: Mapping[Border, float]
-    rows: Mapping[About, tuple[Border, int]]
-    edges: Mapping[int, Border]
+    outer: Mapping[DrawingEdge, float]
+    rows: Mapping[About, tuple[DrawingEdge, int]]
+    edges: Mapping[int, DrawingEdge]
     """At which edge the coordinates on an axis are written."""
     labels: Mapping[tuple[About, int], LabelSpot]
     """By what they show, and the number of the label of those that show the same."""
@@ -84,9 +84,9 @@ class Arrangement(Struct, frozen=True):
 
     view: Viewport
     frame: Box
-    rows: Mapping[Border, Sequence[Row]]
-    coordinates: Mapping[Border, Sequence[Ordinate]]
-    outer: Mapping[Border, float]
+    rows: Mapping[DrawingEdge, Sequence[Row]]
+    coordinates: Mapping[DrawingEdge, Sequence[Ordinate]]
+    outer: Mapping[DrawingEdge, float]
 
 
 def arrange(scene: Scene, top: float, held: Placement | None = None) -> Arrangement:
@@ -117,14 +117,14 @@ def arrange(scene: Scene, top: float, held: Placement | None = None) -> Arrangem
 
 def _arranged_as(scene: Scene, held: Placement) -> Arrangement:
     """The margins of a drawing that stands as another one did; a distance that is new is in the next row."""
-    rows: dict[Border, list[Row]] = {side: [] for side in _SIDES}
+    rows: dict[DrawingEdge, list[Row]] = {side: [] for side in _SIDES}
     own = bounds_of(scene)
     for each in (each for each in scene.each(LinearDimension) if each.length):
         side, row = held.rows.get(each.about, (_side_of(each, own), None))
         rows[side].append((each, _count(rows[side]) if row is None else row))
-    coordinates: dict[Border, list[Ordinate]] = {side: [] for side in _SIDES}
+    coordinates: dict[DrawingEdge, list[Ordinate]] = {side: [] for side in _SIDES}
     for ordinate in scene.each(Ordinate):
-        coordinates[held.edges.get(ordinate.axis, Border(ordinate.axis, 1))].append(ordinate)
+        coordinates[held.edges.get(ordinate.axis, DrawingEdge(ordinate.axis, 1))].append(ordinate)
     return Arrangement(held.view, held.frame, rows, coordinates, held.outer)
 
 
@@ -142,24 +142,24 @@ def _with_turning_axis(scene: Scene, span: Rectangle) -> Rectangle:
     return Rectangle((span.low[FIRST], 0.0), span.high) if scene.has_turning_axis and is_near else span
 
 
-def _side_of(dimension: LinearDimension, span: Rectangle) -> Border:
+def _side_of(dimension: LinearDimension, span: Rectangle) -> DrawingEdge:
     """The edge that is nearer to the points of a distance."""
     across = 1 - dimension.axis
     mean = (dimension.start[across] + dimension.end[across]) / 2
-    return Border(dimension.axis, 1 if mean > span.middle[across] else -1)
+    return DrawingEdge(dimension.axis, 1 if mean > span.middle[across] else -1)
 
 
 def _edges(
-    ordinates: Sequence[Ordinate], by_side: Mapping[Border, Sequence[LinearDimension]], span: Rectangle
-) -> dict[Border, list[Ordinate]]:
+    ordinates: Sequence[Ordinate], by_side: Mapping[DrawingEdge, Sequence[LinearDimension]], span: Rectangle
+) -> dict[DrawingEdge, list[Ordinate]]:
     """Coordinates by the edge at which they are written: where there are fewer distances, else where the points are."""
-    found: dict[Border, list[Ordinate]] = {side: [] for side in _SIDES}
+    found: dict[DrawingEdge, list[Ordinate]] = {side: [] for side in _SIDES}
     for axis in (FIRST, SECOND):
         own = [each for each in ordinates if each.axis == axis]
-        less, more = (len(by_side[Border(axis, sign)]) for sign in (-1, 1))
+        less, more = (len(by_side[DrawingEdge(axis, sign)]) for sign in (-1, 1))
         mean = sum(each.at[1 - axis] for each in own) / len(own) if own else 0.0
         is_upper = mean > span.middle[1 - axis] if less == more else less > more
-        found[Border(axis, 1 if is_upper else -1)] = own
+        found[DrawingEdge(axis, 1 if is_upper else -1)] = own
     return found
 
 
@@ -214,7 +214,7 @@ def draw_margins(canvas: Canvas, margins: Arrangement) -> None:
         _draw_coordinates(canvas, margins.coordinates[side], side, level)
 
 
-def _draw_distances(canvas: Canvas, rows: Sequence[Row], side: Border, edge: float) -> None:
+def _draw_distances(canvas: Canvas, rows: Sequence[Row], side: DrawingEdge, edge: float) -> None:
     """Distances along one edge, which is at `edge` on the page; lines first, and then their texts."""
     texts: list[tuple[LinearDimension, Spot, Spot]] = []
     for dimension, row in rows:
@@ -262,7 +262,7 @@ def _write(canvas: Canvas, dimension: LinearDimension, middle: Spot) -> None:
 # Coordinates -------------------------------------------------------------------------------------------------
 
 
-def _draw_coordinates(canvas: Canvas, ordinates: Sequence[Ordinate], side: Border, edge: float) -> None:
+def _draw_coordinates(canvas: Canvas, ordinates: Sequence[Ordinate], side: DrawingEdge, edge: float) -> None:
     """Coordinates on an axis, written at the edge on which their lines end; moved apart where they are close."""
     entries = sorted(ordinates, key=lambda each: (canvas.view.place(each.at)[side.axis], each.text))
     wanted = [canvas.view.place(each.at)[side.axis] for each in entries]
@@ -273,7 +273,7 @@ def _draw_coordinates(canvas: Canvas, ordinates: Sequence[Ordinate], side: Borde
             _coordinate(canvas, ordinate, side, edge, at, place)
 
 
-def _coordinate(canvas: Canvas, ordinate: Ordinate, side: Border, edge: float, at: float, place: float) -> None:
+def _coordinate(canvas: Canvas, ordinate: Ordinate, side: DrawingEdge, edge: float, at: float, place: float) -> None:
     """A coordinate, its line from its point at `at` along the edge, and its text at `place`."""
     role, outward = ordinate.role, side.outward
     begin, knee = canvas.view.place(ordinate.at)[1 - side.axis] + outward * _GAP, edge - outward * 8.0

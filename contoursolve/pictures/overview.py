@@ -43,7 +43,7 @@ _LABELED = 7
 """Contours of a fan that are labelled, besides those beside which the outcome changes."""
 
 
-class Drawn(Struct, frozen=True):
+class DrawnContour(Struct, frozen=True):
     """A contour as it is drawn: its number, from 1, and its path; no trails where nothing of it is known."""
 
     number: int
@@ -66,7 +66,7 @@ class Drawn(Struct, frozen=True):
         return tuple(segment for trail in self.trails for segment in trail.segments)
 
 
-class Move(Struct, frozen=True):
+class PlaneMove(Struct, frozen=True):
     """A move in a plane, whose axes it names, and whether it joins two solved contours at a feed."""
 
     segment: Segment
@@ -90,7 +90,7 @@ def compose_overview(result: Result, title: str | None, *, is_whole: bool | None
     scenes: list[Scene] = []
     for plane in dict.fromkeys(answer.plane for answer in result.answers):
         own = [(number, answer) for number, answer in enumerate(result.answers, 1) if answer.plane == plane]
-        drawn = [Drawn(number, answer, tuple(_trails(answer))) for number, answer in own[:MOST_CONTOURS]]
+        drawn = [DrawnContour(number, answer, tuple(_trails(answer))) for number, answer in own[:MOST_CONTOURS]]
         told = shown if not scenes else f"{plane.code}: {' and '.join(plane.axes)}"
         beside = [each for each in moves if each.axes == plane.axes]
         scene = Scene(
@@ -107,7 +107,7 @@ def compose_overview(result: Result, title: str | None, *, is_whole: bool | None
     return scenes
 
 
-def _turned(scene: Scene, drawn: Sequence[Drawn], moves: Sequence[Move], *, is_whole: bool | None) -> Scene:
+def _turned(scene: Scene, drawn: Sequence[DrawnContour], moves: Sequence[PlaneMove], *, is_whole: bool | None) -> Scene:
     """The scene of contours on a lathe: the part around its axis."""
     solved = [each for each in drawn if each.answer.contour is not None]
     cut = [segment for each in solved for segment in each.segments]
@@ -138,7 +138,7 @@ def describe_overview(result: Result) -> str:
     return " ".join(sentences) or "There is no contour."
 
 
-def _profile_parts(profiles: Sequence[CycleProfile], plane: Plane, moves: Sequence[Move]) -> Iterator[Part]:
+def _profile_parts(profiles: Sequence[CycleProfile], plane: Plane, moves: Sequence[PlaneMove]) -> Iterator[Part]:
     """The ways between the start of each cycle and the ends of its profile, and the cycles by their names and lines."""
     drawn = {(move.segment.start, move.segment.end) for move in moves}
     begun: dict[Point, list[str]] = {}
@@ -162,10 +162,10 @@ def _cycle(profile: CycleProfile) -> str:
     return f"{profile.caller.cycle}, program line {profile.caller.line}"
 
 
-def _contour_parts(drawn: Sequence[Drawn]) -> Iterator[Part]:
+def _contour_parts(drawn: Sequence[DrawnContour]) -> Iterator[Part]:
     """The paths, with their numbers where they begin, and their ends."""
     named = [each for each in drawn[:MOST_LABELED] if each.trails]
-    begun: dict[Point, list[Drawn]] = {}
+    begun: dict[Point, list[DrawnContour]] = {}
     for each in named:
         begun.setdefault(each.start, []).append(each)
     for each in drawn:
@@ -179,7 +179,7 @@ def _contour_parts(drawn: Sequence[Drawn]) -> Iterator[Part]:
         yield Mark(each.end, MarkKind.END)
 
 
-def _remarks(drawn: Sequence[Drawn], total: int) -> Iterator[tuple[TextRun, ...]]:
+def _remarks(drawn: Sequence[DrawnContour], total: int) -> Iterator[tuple[TextRun, ...]]:
     """What is wrong with contours that have no path, and what cannot be seen in the picture."""
     refused = [each for each in drawn if each.answer.contour is None]
     for each in refused[:MOST_REFUSED]:
@@ -197,7 +197,7 @@ def _fault(answer: Answer) -> str:
     return f": {found.message}" if found is not None else ""
 
 
-def _closeups(drawn: Sequence[Drawn]) -> Iterator[Closeup]:
+def _closeups(drawn: Sequence[DrawnContour]) -> Iterator[Closeup]:
     """The contours, each of which may be too small."""
     for each in drawn:
         if each.trails and each.answer.contour is not None:
@@ -208,7 +208,7 @@ def _trails(answer: Answer) -> list[Trail]:
     return [*list_trails(answer, find_known(answer))]
 
 
-def _label(here: Sequence[Drawn]) -> tuple[TextRun, ...]:
+def _label(here: Sequence[DrawnContour]) -> tuple[TextRun, ...]:
     """The numbers and the lines of the contours that begin at one place."""
     numbers = [TextRun(f"{', ' if place else ''}{each.number}", _role(each.answer)) for place, each in enumerate(here)]
     lines = ", ".join(str(each.answer.lines[0]) for each in here)
@@ -222,7 +222,7 @@ def _role(answer: Answer, solved: Role = Role.INK) -> Role:
 # Moves -------------------------------------------------------------------------------------------------------
 
 
-def _moves(result: Result) -> list[Move]:
+def _moves(result: Result) -> list[PlaneMove]:
     """The moves at a feed that are joined to a contour, before it or after it, in the plane of that contour, and the
     rapid moves that lead to these or away from them; nothing for a control that nobody has described."""
     dialect = DIALECTS.get(result.control or "")
@@ -232,7 +232,7 @@ def _moves(result: Result) -> list[Move]:
     # Before any code that says it, the unit is that of the first contour.
     path = follow(result, dialect.configure(result.settings), result.answers[0].unit, axes)
     owners = {line: answer for answer in result.answers for line in answer.lines}
-    found: dict[int, Move] = {}
+    found: dict[int, PlaneMove] = {}
     reached: Counter[int] = Counter()
     for steps in (list(enumerate(path.steps)), list(enumerate(path.steps))[::-1]):
         owner: Answer | None = None
@@ -251,7 +251,7 @@ def _moves(result: Result) -> list[Move]:
             if segment is not None:
                 reached[number] += owner.contour is not None and not is_rapid
                 is_between = reached[number] > 1  # from both sides
-                found[number] = Move(segment, owner.plane.axes, is_rapid, is_between)
+                found[number] = PlaneMove(segment, owner.plane.axes, is_rapid, is_between)
     # What runs several times is drawn once.
     once = {(move.segment, move.is_rapid): move for _, move in sorted(found.items(), key=lambda each: each[0])}
     return list(once.values())[:MOST_MOVES]
@@ -270,12 +270,12 @@ def plain_trail(result: Result, like: Answer) -> list[Trail]:
     return [Trail(found, Role.INK)] if found else []
 
 
-def _meaning_of(moves: Sequence[Move]) -> Mapping[Role, str]:
+def _meaning_of(moves: Sequence[PlaneMove]) -> Mapping[Role, str]:
     """What thin lines are, where there are any."""
     return {} if all(move.is_rapid for move in moves) else {Role.INK: "feed move"}
 
 
-def _move_trails(moves: Sequence[Move]) -> Iterator[Trail]:
+def _move_trails(moves: Sequence[PlaneMove]) -> Iterator[Trail]:
     """Moves as they are drawn: rapid ones as far as the picture goes."""
     for move in moves:
         role, weight = (Role.RAPID, Weight.PASSING) if move.is_rapid else (Role.INK, Weight.BESIDE)

@@ -22,7 +22,7 @@ from contoursolve.pictures.scene import (
     number,
     word_text,
 )
-from contoursolve.pictures.subject import Traced
+from contoursolve.pictures.subject import PartialDrawing
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import DIAGONAL, SAME, along, distance, foot
 from contoursolve.solving import Drawings, Drawn, Point, Stated
@@ -162,7 +162,7 @@ def _dimensions(drawn: Drawn, stated: Stated) -> Iterator[Part]:
         for name, values in drawn.lines.items()
         for scalar, value in zip(line_scalars(name), values, strict=True)
     }
-    traced = Traced(stated.profile, Known(points, drawn.radii, scalars=lines), trails)
+    traced = PartialDrawing(stated.profile, Known(points, drawn.radii, scalars=lines), trails)
     for fact in stated.profile.facts:
         text = stated.texts.get(fact.given)
         if text is not None:

@@ -83,7 +83,7 @@ _CORNERS = (
 """Refusals after which the lines of the path are as they should be, without their corners."""
 
 
-class Traced(Struct, frozen=True):
+class PartialDrawing(Struct, frozen=True):
     """A drawing of which points are known, and its path as far as it is known."""
 
     profile: Profile
@@ -153,7 +153,7 @@ def has_several(answer: Answer) -> bool:
     return answer.status is Status.AMBIGUOUS or (is_refused and len(fitting(answer)) > 1)
 
 
-class Subject(Traced, frozen=True):
+class Subject(PartialDrawing, frozen=True):
     """An answer with what is drawn of it, and the role of each given whose word is drawn."""
 
     answer: Answer

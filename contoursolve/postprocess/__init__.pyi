@@ -8,7 +8,7 @@ from .expansion_report import (
     Conversion as Conversion,
     ConversionError as ConversionError,
     Expansion as Expansion,
-    Options as Options,
+    ExpansionOptions as ExpansionOptions,
     Summary as Summary,
 )
 from .formatting import (

@@ -229,7 +229,7 @@ def dialect_of(text: str, control: str | Dialect | None, settings: Mapping[str, 
         return None
 
 
-class Line(Struct, frozen=True):
+class ProgramLine(Struct, frozen=True):
     """A line of a program with its end."""
 
     block: Block
@@ -243,7 +243,7 @@ class Line(Struct, frozen=True):
         return not self.is_comment and all(each.kind is not FaultKind.BLOCK_TOO_LONG for each in self.block.faults)
 
 
-def read_lines(text: str, dialect: Dialect | None) -> list[Line]:
+def read_lines(text: str, dialect: Dialect | None) -> list[ProgramLine]:
     """The lines of a program as its control spells blocks; as ISO 6983 does where that is not known."""
     syntax = dialect.modes.syntax if dialect else ISO
     remember = dialect.modes.remember if dialect else None
@@ -254,7 +254,7 @@ def read_lines(text: str, dialect: Dialect | None) -> list[Line]:
         block = parse_block(bare, number, syntax)
         was = COMMENTED in memory
         memory = remember(memory, block) if remember else memory
-        found.append(Line(block, line[len(bare) :], was or COMMENTED in memory))
+        found.append(ProgramLine(block, line[len(bare) :], was or COMMENTED in memory))
     return found
 
 
@@ -279,7 +279,7 @@ class Number(Struct, frozen=True):
         return f"{number:0{len(self.digits)}}" if self.digits.startswith("0") else str(number)
 
 
-class Doubt(Struct, frozen=True):
+class RenumberingObstacle(Struct, frozen=True):
     """What keeps the blocks of a section from getting other numbers: the one with this number, or all (None)."""
 
     message: str
@@ -290,13 +290,13 @@ class Doubt(Struct, frozen=True):
 class Directory:
     """The block numbers of a program and all jumps to them. A file may hold several programs: each is a section."""
 
-    def __init__(self, lines: Sequence[Line], dialect: Dialect | None) -> None:
+    def __init__(self, lines: Sequence[ProgramLine], dialect: Dialect | None) -> None:
         self.own: dict[int, Number] = {}
         """The numbers of blocks, by line."""
         self.blocks: dict[tuple[int, int], list[Number]] = defaultdict(list)
         """The same by section and number."""
         self.jumps: list[Number] = []
-        self.doubts: list[Doubt] = []
+        self.doubts: list[RenumberingObstacle] = []
         self.sections: dict[int, int] = {}
         """The section of each line."""
         self._syntax = dialect.modes.syntax if dialect else ISO
@@ -443,7 +443,9 @@ class Directory:
         return self._syntax is not ISO and (_MARK.fullmatch(target) is not None or target.upper() in self._labels)
 
     def _doubt(self, block: Block, reason: str, number: int | None = None) -> None:
-        self.doubts.append(Doubt(f"program line {block.line}: {reason}", self.sections[block.line], number))
+        self.doubts.append(
+            RenumberingObstacle(f"program line {block.line}: {reason}", self.sections[block.line], number)
+        )
 
 
 def _code(word: Word) -> str:

@@ -72,7 +72,7 @@ class Format:
         return text if self.has_point else text.removesuffix(".")
 
 
-class Move(NamedTuple):
+class MotionBlock(NamedTuple):
     """One block of plain G-code: its motion code, its words, where it ends and how far its path is from the exact
     one; mm, X of a lathe as radius."""
 
@@ -87,7 +87,7 @@ def longest(form: Format) -> float:
     return LONGEST_BY_RADIUS if form.arcs is Arcs.RADIUS else LONGEST_BY_CENTER
 
 
-def emit(segment: Segment, here: Point, form: Format, *, is_rapid: bool = False) -> Iterator[Move]:
+def emit(segment: Segment, here: Point, form: Format, *, is_rapid: bool = False) -> Iterator[MotionBlock]:
     """The moves that make an element, from where the tool really is; none if it rounds to nothing.
 
     A last move without words tells how far off that is.
@@ -122,7 +122,7 @@ class _Writer:
         self.here = here[0] / self.mm, here[1] / self.mm
         self.step = form.step
 
-    def move(self, is_rapid: bool) -> Move:
+    def move(self, is_rapid: bool) -> MotionBlock:
         form, mm, (here, there) = self.form, self.mm, self.here
         (one, two), exact = form.scales, self.segment.end
         base, other = (here, there) if form.is_incremental else (0.0, 0.0)
@@ -130,7 +130,7 @@ class _Writer:
         end = base + float(first) / one, other + float(second) / two
         off = hypot(exact[0] - end[0] * mm, exact[1] - end[1] * mm)
         if hypot(end[0] - here, end[1] - there) < self.step / 4 or self._is_turned_back(end):
-            return Move(1, (), self._in_mm(self.here), off)
+            return MotionBlock(1, (), self._in_mm(self.here), off)
         words = sorted((form.plane.axes[0] + first, form.plane.axes[1] + second))
         more: list[str] = []
         if isinstance(self.segment, LineSegment):
@@ -140,7 +140,7 @@ class _Writer:
             by_radius = self.form.arcs is Arcs.RADIUS
             more, center, radius = self._by_radius(end) if by_radius else self._by_center(end)
             off = max(off, _arc_deviation(self.segment, self._in_mm(center), radius * self.mm))
-        return Move(code, (*words, *sorted(more)), (end[0] * mm, end[1] * mm), off)
+        return MotionBlock(code, (*words, *sorted(more)), (end[0] * mm, end[1] * mm), off)
 
     def _is_turned_back(self, end: Point) -> bool:
         """Whether an arc is so short that its rounded end lies behind its start: it would go around nearly once."""

@@ -23,10 +23,10 @@ from contoursolve.gcode import (
     with_comments_of,
 )
 from contoursolve.geometry import Length
-from contoursolve.postprocess.emit import Format, Move, emit
-from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
+from contoursolve.postprocess.emit import Format, MotionBlock, emit
+from contoursolve.postprocess.expansion_report import ExpansionOptions, Left, Summary, left_unread
 from contoursolve.postprocess.numbering import Numberer, Numbers, Offsets
-from contoursolve.postprocess.post_processors import SAME, Machine, machine_of
+from contoursolve.postprocess.post_processors import SAME, MachineKind, machine_of
 from contoursolve.postprocess.translate import Moves, translate
 from contoursolve.postprocess.untranslatable import Watch
 from contoursolve.program import ELSEWHERE, Lines, Step, path_of
@@ -82,7 +82,7 @@ class Expander:
     """How centres of arcs are written: as coordinates or not, and with how many more decimals."""
 
     def __init__(
-        self, dialect: Dialect, options: Options, summary: Summary, lines: Lines, numbers: Numbers | None
+        self, dialect: Dialect, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
     ) -> None:
         self.dialect = dialect
         self.modes = dialect.modes
@@ -285,7 +285,7 @@ class Expander:
             return ""
         what = "a diameter" if counts else "a radius"
         if not any(code.diameter for code in modes.codes.values()):
-            is_lathe = machine_of(self.dialect) is Machine.LATHE
+            is_lathe = machine_of(self.dialect) is MachineKind.LATHE
             settings = {setting.name for setting in self.dialect.settings}
             advice = f"; for a lathe, set {self.dialect.name}.machine=lathe" if "machine" in settings else ""
             return "" if counts is is_lathe else f"X is {what} here, and the target cannot switch that{advice}"
@@ -328,7 +328,7 @@ class Expander:
             part = found
             state = part.state
             form = self._format(state if answer.plane is state.plane else replace(state, plane=answer.plane))
-            moves: list[Move] = []
+            moves: list[MotionBlock] = []
             if translated is not None:
                 moves = [move for name, each in translated.items() if part.makes(name) for move in each]
                 here = moves[-1].end if moves else here
@@ -342,7 +342,7 @@ class Expander:
                         moves.append(move)
             beside = [self._as_written(word, form, state) for word in claim.beside_plane(block)]
             if beside:
-                move = moves.pop() if moves else Move(0 if part.is_rapid else 1, (), here, 0.0)
+                move = moves.pop() if moves else MotionBlock(0 if part.is_rapid else 1, (), here, 0.0)
                 moves.append(move._replace(words=(*move.words, *beside)))
             end = self.lines.take_end(block.line)
             self._end_lasting(moves, ended, claim.after if block is step.blocks[-1] else None)
@@ -374,7 +374,7 @@ class Expander:
         stated = {word.address for block in claim.blocks for word in block.words} | before.memory.keys()
         return [off for address, off in self.lasting.items() if address in stated]
 
-    def _end_lasting(self, moves: list[Move], ended: list[str], after: State | None) -> None:
+    def _end_lasting(self, moves: list[MotionBlock], ended: list[str], after: State | None) -> None:
         """Write what ends words into the first move of a contour, and those in force behind it into the last one."""
         if moves and ended:
             moves[0] = moves[0]._replace(words=(*moves[0].words, *ended))
@@ -429,7 +429,7 @@ class Expander:
         places = max(form.decimals, -exponent if isinstance(exponent, int) else 0)
         return spell(word.address, form.number(float(value), f"%.{places}f"))
 
-    def _write(self, block: Block, moves: list[Move], end: str, state: State, solved: Block) -> str:
+    def _write(self, block: Block, moves: list[MotionBlock], end: str, state: State, solved: Block) -> str:
         """The lines in place of a block; `solved` is the same with numbers for variables. Its number and what it sets
         stand in the first, what ends it in the last."""
         frame, rest = frame_of(block.text), carried(solved, self.modes)

@@ -9,7 +9,7 @@ from contoursolve.execution import ProgramEvent
 from contoursolve.gcode import Directive, Program
 from contoursolve.geometry import Length
 from contoursolve.postprocess.expander import OPENING, Expander
-from contoursolve.postprocess.expansion_report import Left, Options, Summary
+from contoursolve.postprocess.expansion_report import ExpansionOptions, Left, Summary
 from contoursolve.postprocess.numbering import Numbers
 from contoursolve.postprocess.post_processors import SAME, machine_of
 from contoursolve.postprocess.restating import UNITS, InGCodes, InOwnWords
@@ -23,7 +23,7 @@ def expand_lines(
     lines: Lines,
     dialect: Dialect,
     asked: Request,
-    options: Options,
+    options: ExpansionOptions,
     summary: Summary,
     *,
     numbers: Numbers | None = None,
@@ -65,7 +65,7 @@ def lines_of_facts(program: Program, asked: Request) -> dict[int, tuple[Directiv
     return {block.line: worded for block in attached.blocks if worded and worded[0] in block.directives}
 
 
-def opening_of(options: Options, dialect: Dialect, unit: Length, summary: Summary) -> str:
+def opening_of(options: ExpansionOptions, dialect: Dialect, unit: Length, summary: Summary) -> str:
     """The line that the target needs before the first block; empty if it needs none, or nothing was replaced."""
     text = options.post.opening.get(machine_of(dialect), "") if summary.replaced else ""
     if summary.unit is not None and dialect.writing is not None:

@@ -15,7 +15,7 @@ _KEPT_WARNINGS = 20
 """Warnings that are kept to be shown."""
 
 
-class Options(Struct, frozen=True):
+class ExpansionOptions(Struct, frozen=True):
     """What is asked of an expansion: the target, how it writes arcs, decimals (None: the target's own), whether the
     original blocks are kept as comments, block numbers, and whether calls are written out."""
 

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Meanings
 from contoursolve.gcode import Block, Syntax, parse_block
-from contoursolve.postprocess.block_numbers import LONG, Directory, Line, Replacement, dialect_of, read_lines
+from contoursolve.postprocess.block_numbers import LONG, Directory, ProgramLine, Replacement, dialect_of, read_lines
 from contoursolve.postprocess.numbering import Numbers
 from contoursolve.reading import Dialect
 
@@ -77,7 +77,7 @@ def _addresses(dialect: Dialect | None) -> frozenset[str]:
     return frozenset(address for each in known for address in each.modes.lexicon.addresses)
 
 
-def _spaced(line: Line, addresses: Container[str]) -> str:
+def _spaced(line: ProgramLine, addresses: Container[str]) -> str:
     """A line with its blanks in their places; as it is where a control could read it otherwise."""
     block = line.block
     if line.is_comment or block.faults or block.macro or _is_doubtful(block, addresses):
@@ -140,7 +140,7 @@ def _without_blanks(word: str, syntax: Syntax) -> str:
     return bare if is_number and not now.faults and _meanings(was) == _meanings(now) else word
 
 
-def _numbered(lines: list[Line], dialect: Dialect | None, step: int) -> list[Line]:
+def _numbered(lines: list[ProgramLine], dialect: Dialect | None, step: int) -> list[ProgramLine]:
     """Lines with their block numbers anew, and jumps that follow them. Raises ValueError."""
     numbers = Directory(lines, dialect)
     if numbers.doubts:

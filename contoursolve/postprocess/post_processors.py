@@ -27,7 +27,7 @@ class Numbering(Enum):
     """All, the others with numbers that the program does not use."""
 
 
-class Machine(Enum):
+class MachineKind(Enum):
     """What a control is for; lathes of the family of G-code system A share their codes."""
 
     LATHE = "lathe"
@@ -56,7 +56,7 @@ class Other:
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class SupportedCodes:
     """What a target reads of a program as its own control does.
 
     `g` and `m` are the codes that it knows and that mean the same there; `otherwise` says of a code (`G90`) or of an
@@ -84,8 +84,8 @@ class Post:
     title: str
     decimals: Mapping[Length, int] | None
     without_point: WithoutPoint | None
-    opening: Mapping[Machine, str] = field(default_factory=dict)
-    readings: Mapping[Machine, Reading] = field(default_factory=dict)
+    opening: Mapping[MachineKind, str] = field(default_factory=dict)
+    readings: Mapping[MachineKind, SupportedCodes] = field(default_factory=dict)
     target: Dialect | None = None
     """The control in whose own words contours are written, as far as it has them."""
     modes: Modes | None = None
@@ -135,7 +135,7 @@ _FEEDS = {
 }
 _STACK = {f"M{code}": Other("saves or restores what is in force", Risk.PATH) for code in range(70, 74)}
 
-_LINUXCNC_LATHE = Reading(
+_LINUXCNC_LATHE = SupportedCodes(
     g=_span(range(5), 7, 18, 20, 21, 30, 40, 41, 42, 53, range(54, 60), 96, 97),
     m=_LINUXCNC_M,
     otherwise={
@@ -175,7 +175,7 @@ _LINUXCNC_LATHE = Reading(
     has_macros=False,
 )
 
-_LINUXCNC_MILL = Reading(
+_LINUXCNC_MILL = SupportedCodes(
     g=_span(range(5), range(17, 22), 28, 30, range(40, 44), 49, range(53, 60), 61, 64, 73, range(80, 93), 94)
     | _span(range(95, 100)) - {87},
     m=_LINUXCNC_M,
@@ -200,7 +200,7 @@ _LINUXCNC_MILL = Reading(
 
 _POLAR = Other("begins polar coordinates", Risk.PATH)
 
-_FANUC_LATHE = Reading(
+_FANUC_LATHE = SupportedCodes(
     g=_span(range(5), 10, 18, 20, 21, 22, 23, 27, 28, 30, 31, 32, 34, 36, 37, 40, 41, 42, 50, range(53, 60), 65, 66, 67)
     | _span(range(70, 77), 90, 92, 94, range(96, 100)),
     m=_span(range(10), 19, 30, 98, 99),
@@ -211,7 +211,7 @@ _FANUC_LATHE = Reading(
     },
 )
 
-_FANUC_MILL = Reading(
+_FANUC_MILL = SupportedCodes(
     g=_span(range(5), 9, 10, range(15, 24), range(27, 32), 33, 37, range(40, 45), range(49, 60), 61, range(64, 70))
     | _span(73, 74, 76, range(80, 93), range(94, 100)),
     m=_span(range(10), 19, 30, 98, 99),
@@ -225,8 +225,8 @@ LINUXCNC = Post(
     "LinuxCNC 2.9",
     {Length.MM: 4, Length.INCH: 5},
     WithoutPoint.AS_WRITTEN,
-    opening={Machine.LATHE: "G7 G18 {unit} G90 G91.1", Machine.MILL: "G8 G17 {unit} G90 G91.1"},
-    readings={Machine.LATHE: _LINUXCNC_LATHE, Machine.MILL: _LINUXCNC_MILL},
+    opening={MachineKind.LATHE: "G7 G18 {unit} G90 G91.1", MachineKind.MILL: "G8 G17 {unit} G90 G91.1"},
+    readings={MachineKind.LATHE: _LINUXCNC_LATHE, MachineKind.MILL: _LINUXCNC_MILL},
     modes=PLAIN["linuxcnc"].modes,
 )
 """G7: X is a diameter, G8: a radius; G91.1: I J K are counted from where the arc begins."""
@@ -236,16 +236,16 @@ FANUC = Post(
     "Fanuc 0i and relatives; lathes in G-code system A",
     {Length.MM: 3, Length.INCH: 4},
     WithoutPoint.LEAST_INCREMENTS,
-    readings={Machine.LATHE: _FANUC_LATHE, Machine.MILL: _FANUC_MILL},
+    readings={MachineKind.LATHE: _FANUC_LATHE, MachineKind.MILL: _FANUC_MILL},
     modes=FANUC_CONTROL.modes,
 )
 
 POSTS = {post.name: post for post in (SAME, LINUXCNC, FANUC)}
 
 
-def machine_of(dialect: Dialect) -> Machine:
+def machine_of(dialect: Dialect) -> MachineKind:
     """What a control is for."""
-    return Machine.LATHE if dialect.plane.code == "G18" else Machine.MILL
+    return MachineKind.LATHE if dialect.plane.code == "G18" else MachineKind.MILL
 
 
 _SINUMERIK_LATHE = {
@@ -256,13 +256,13 @@ _SINUMERIK_LATHE = {
 }
 """What SINUMERIK has instead of codes of the G-code system A."""
 
-_INSTEAD = {name: {Machine.LATHE: _SINUMERIK_LATHE} for name in ("siemens-840d", "siemens-808d")}
+_INSTEAD = {name: {MachineKind.LATHE: _SINUMERIK_LATHE} for name in ("siemens-840d", "siemens-808d")}
 
 
 def post_of(target: Dialect) -> Post:
     """A control as a target in whose own words contours are written: it reads the codes of its tables, and any M."""
     codes, numbers = target.modes.codes, target.modes.lexicon.numbers
-    reading = Reading(
+    reading = SupportedCodes(
         g=frozenset(codes),
         m=_span(range(1000)),
         otherwise={

@@ -9,9 +9,9 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer
 from contoursolve.gcode import Block, comment_out, own_comments, remark
 from contoursolve.geometry import Length, Turn
-from contoursolve.postprocess.emit import Move, emit, longest
+from contoursolve.postprocess.emit import MotionBlock, emit, longest
 from contoursolve.postprocess.expander import NAMES, Expander
-from contoursolve.postprocess.expansion_report import Left, Options, Summary
+from contoursolve.postprocess.expansion_report import ExpansionOptions, Left, Summary
 from contoursolve.postprocess.numbering import Numbers
 from contoursolve.program import Lines, Step
 from contoursolve.reading import (
@@ -39,7 +39,7 @@ class _Expander(Expander):
     has_motions = False
 
     def __init__(
-        self, dialect: Dialect, options: Options, summary: Summary, lines: Lines, numbers: Numbers | None
+        self, dialect: Dialect, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
     ) -> None:
         super().__init__(dialect, options, summary, lines, numbers)
         self.writing = cast("Writing", dialect.writing)
@@ -65,7 +65,7 @@ class InOwnWords(_Expander):
     has_absolute_centers = True
 
     def __init__(
-        self, dialect: Dialect, options: Options, summary: Summary, lines: Lines, numbers: Numbers | None
+        self, dialect: Dialect, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
     ) -> None:
         super().__init__(dialect, options, summary, lines, numbers)
         self.own = self.writing.own()
@@ -80,7 +80,7 @@ class InOwnWords(_Expander):
         self.claim = answer.claim
         yield from super()._replace(step, answer)
 
-    def _write(self, block: Block, moves: list[Move], end: str, _state: State, _solved: Block) -> str:
+    def _write(self, block: Block, moves: list[MotionBlock], end: str, _state: State, _solved: Block) -> str:
         texts = self.own.write(block, [(move.code, move.words) for move in moves])
         behind = self.own.close(self.claim.after) if block.line == self.claim.blocks[-1].line else []
         frame, number = frame_of(block.text), block.find("N")
@@ -98,7 +98,7 @@ class InGCodes(_Expander):
     """All of a program in G codes; what has none is a comment."""
 
     def __init__(
-        self, dialect: Dialect, options: Options, summary: Summary, lines: Lines, numbers: Numbers | None
+        self, dialect: Dialect, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
     ) -> None:
         super().__init__(dialect, options, summary, lines, numbers)
         self.plain = self.writing.plain()
@@ -138,7 +138,7 @@ class InGCodes(_Expander):
         if self.options.post.target is not None:
             self.summary.written_out.append(answer.lines[0])
 
-    def _write(self, block: Block, moves: list[Move], end: str, state: State, _solved: Block) -> str:
+    def _write(self, block: Block, moves: list[MotionBlock], end: str, state: State, _solved: Block) -> str:
         said = self.plain.beside(block, state)
         self.summary.unit = self.summary.unit or state.unit
         return "".join(self._say_left(block, said.reason)) + self._lines(block, said.says, moves, end)
@@ -156,7 +156,7 @@ class InGCodes(_Expander):
             sources = {**before.sources, block.line: block.text}
             left[-1] = replace(before, lines=(*before.lines, block.line), sources=sources)
 
-    def _moves(self, said: Restated, before: State) -> Iterator[Move]:
+    def _moves(self, said: Restated, before: State) -> Iterator[MotionBlock]:
         """The moves of a block: a line to its end, or its arc."""
         if said.around is not None:
             yield from self._arc(said.around, said.ends, before)
@@ -164,9 +164,9 @@ class InGCodes(_Expander):
             form = self._format(before)
             self.offsets.keep([axis for axis in self.modes.axes if axis not in said.ends])
             words = tuple(axis + form.number(end / form.mm) for axis, end in said.ends.items())
-            yield Move(0 if said.is_rapid else 1, words, (0.0, 0.0), 0.0)
+            yield MotionBlock(0 if said.is_rapid else 1, words, (0.0, 0.0), 0.0)
 
-    def _arc(self, around: Around, ends: Mapping[str, float], before: State) -> Iterator[Move]:
+    def _arc(self, around: Around, ends: Mapping[str, float], before: State) -> Iterator[MotionBlock]:
         """An arc, and how far other axes go along with each of its moves."""
         form, axes, (center, sweep) = self._format(before), before.plane.axes, around
         first, second = (float(before.axes[axis].value or 0) for axis in axes)
@@ -187,7 +187,9 @@ class InGCodes(_Expander):
             at = end
         self.offsets.leave(axes, here, at)
 
-    def _lines(self, block: Block, says: Carried, moves: Sequence[Move], end: str, *, is_kept: bool = False) -> str:
+    def _lines(
+        self, block: Block, says: Carried, moves: Sequence[MotionBlock], end: str, *, is_kept: bool = False
+    ) -> str:
         """The lines in place of a block; `is_kept` where it has to be a comment."""
         syntax = self._syntax_of(block)
         texts = [[NAMES[move.code], *move.words] for move in moves if move.words]

@@ -9,10 +9,10 @@ from typing import IO, Any, Protocol
 from msgspec import Struct
 
 from contoursolve.execution import needs_running
-from contoursolve.gcode import Block, Tape, parse, parse_block
+from contoursolve.gcode import Block, OpenFile, parse, parse_block
 from contoursolve.postprocess.expander import Expander
 from contoursolve.postprocess.expansion import OPENING, expand_lines, lines_of_facts, opening_of
-from contoursolve.postprocess.expansion_report import Left, Options, Summary, left_unread
+from contoursolve.postprocess.expansion_report import ExpansionOptions, Left, Summary, left_unread
 from contoursolve.postprocess.numbering import numbers_of
 from contoursolve.postprocess.post_processors import Numbering
 from contoursolve.program import (
@@ -68,9 +68,9 @@ class Rewritten(Struct, frozen=True):
 
 
 def rewrite(
-    tape: Tape,
+    tape: OpenFile,
     body: IO[bytes],
-    options: Options,
+    options: ExpansionOptions,
     asked: Request,
     *,
     control: str | Dialect | None = None,
@@ -146,7 +146,7 @@ def _recognise(recogniser: Recogniser, blocks: Iterable[Block]) -> Dialect | Non
     return recogniser.find()
 
 
-def _blocks(tape: Tape, unread: list[Left]) -> Iterator[Block]:
+def _blocks(tape: OpenFile, unread: list[Left]) -> Iterator[Block]:
     """The blocks of a program; those that are too long to be read are added to `unread`."""
     for number, line in enumerate(tape.lines(), 1):
         block = parse_block(line.rstrip("\r\n"), number)

@@ -12,7 +12,7 @@ from contoursolve.controls import ChainFinder, Joining, Language
 from contoursolve.diagnosis import Answer, Depth
 from contoursolve.gcode import parse, spell
 from contoursolve.geometry import Arc, Corner, CornerShape, Heading, Line, Profile, Unit
-from contoursolve.postprocess.emit import Format, Move, emit
+from contoursolve.postprocess.emit import Format, MotionBlock, emit
 from contoursolve.program import Request, run
 from contoursolve.reading import Dialect, Diameter, WithoutPoint
 from contoursolve.solving import ArcSegment, Contour, LineSegment, Point, Segment
@@ -20,7 +20,7 @@ from contoursolve.solving import ArcSegment, Contour, LineSegment, Point, Segmen
 EXACT = 5e-9
 """mm. A coordinate that is off a number with the target's decimals by no more is that number."""
 
-Moves = Mapping[str, tuple[Move, ...]]
+Moves = Mapping[str, tuple[MotionBlock, ...]]
 """The moves for each element of a contour, by its name."""
 
 
@@ -57,7 +57,7 @@ class _Translator:
 
     def moves(self, here: Point) -> Moves:
         """Element by element, in the order of the path."""
-        found: dict[str, tuple[Move, ...]] = {}
+        found: dict[str, tuple[MotionBlock, ...]] = {}
         path = self.profile.figure.path
         is_open = False
         for number, element in enumerate(path):
@@ -71,7 +71,7 @@ class _Translator:
             if isinstance(element, Line) and isinstance(own, LineSegment) and not (corner and not word):
                 line, is_open = self._line_words(element, own.end, after, is_open)
             if line is not None:
-                written = [Move(0 if self.is_rapid else 1, line, own.end, 0.0)]
+                written = [MotionBlock(0 if self.is_rapid else 1, line, own.end, 0.0)]
             else:
                 written = [move for move in emit(own, here, self.form, is_rapid=self.is_rapid) if move.words]
             if word and written:

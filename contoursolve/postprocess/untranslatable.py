@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import join
 from contoursolve.gcode import Block, Macro, Word, spell
 from contoursolve.geometry import Length
-from contoursolve.postprocess.post_processors import Other, Post, Reading, Risk
+from contoursolve.postprocess.post_processors import Other, Post, Risk, SupportedCodes
 from contoursolve.reading import Code, Dialect, Effect, State, WithoutPoint, codes_of
 
 _NO_COMPENSATION = 40
@@ -74,7 +74,7 @@ def _looking_for(addresses: str, is_counting: bool) -> re.Pattern[str]:
 class Watch:
     """Looks at every block that is not replaced."""
 
-    def __init__(self, post: Post, dialect: Dialect, reading: Reading | None) -> None:
+    def __init__(self, post: Post, dialect: Dialect, reading: SupportedCodes | None) -> None:
         self.post = post
         self.reading = reading
         self.control = dialect.name
@@ -133,7 +133,7 @@ class Watch:
         if self.minds(state):
             self._note("G19 compensation", Unfamiliar(f"G{state.compensation} in G19", "is not known", block.line))
 
-    def _judge(self, word: Word, reading: Reading) -> Other | None:
+    def _judge(self, word: Word, reading: SupportedCodes) -> Other | None:
         """What a word is on the target instead; None if it is the same."""
         if self.is_spelled_otherwise and _LONG.search(word.text) and word.address not in ("G", "M"):
             return _NOT_KNOWN
@@ -207,7 +207,7 @@ class Watch:
         row = self.lexicon.addresses.get(word.address)
         return row is not None and bool(row.axis)
 
-    def _stops(self, block: Block, words: Sequence[Word], reading: Reading) -> bool:
+    def _stops(self, block: Block, words: Sequence[Word], reading: SupportedCodes) -> bool:
         """Whether the words of a block make no path there: a dwell, data, or a code at which the target stops."""
         codes = [code for code in codes_of(block, self.modes) if isinstance(code, Code)]
         if any(code.effect is Effect.NO_MOTION for code in codes):

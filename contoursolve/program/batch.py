@@ -16,12 +16,12 @@ from contoursolve.reading import ContourForm, Dialect, ParsedContour, Rule, With
 from contoursolve.solving import (
     ROUNDING,
     Check,
-    Code,
     LineCircleStep,
     Machine,
     Proof,
     RowOutcome,
     Status,
+    StatusCode,
     TwoCirclesStep,
     against_angles,
     certify,
@@ -251,7 +251,7 @@ def _examine(kind: Kind, out: Columns, rows: int) -> tuple[NDArray[numpy.bool_],
     """Which rows are solved without anything to say of them, and bounds of the errors of those, mm."""
     figure, plan = kind.system.figure, kind.machine.plan
     verdict = RowOutcome(kind.checks, out, rows)
-    plain = (verdict.status == Code.SOLVED) & (verdict.reason == 0) & ~verdict.again
+    plain = (verdict.status == StatusCode.SOLVED) & (verdict.reason == 0) & ~verdict.again
     for element in figure.path:
         if isinstance(element, Line):
             plain &= numpy.abs(out[f"length:{element.name}"]) > LENGTH

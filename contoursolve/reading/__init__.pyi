@@ -5,7 +5,7 @@ from .contour_form import (
     Convention as Convention,
     CornerRow as CornerRow,
     FactRow as FactRow,
-    Resting as Resting,
+    Premises as Premises,
     Sample as Sample,
     Setting as Setting,
     all_resting as all_resting,
@@ -80,11 +80,11 @@ from .parsed_contour import (
 )
 from .rules import (
     VERBS as VERBS,
-    Along as Along,
+    AngleAlong as AngleAlong,
+    AnglesParallel as AnglesParallel,
     Condition as Condition,
     Count as Count,
     Offence as Offence,
-    Parallel as Parallel,
     Rule as Rule,
     Value as Value,
     all_of as all_of,

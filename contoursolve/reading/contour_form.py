@@ -14,13 +14,13 @@ from msgspec.structs import replace
 from contoursolve.diagnostics import Evidence, Source
 from contoursolve.geometry import (
     Arc,
+    BlockRole,
     Corner,
     CornerShape,
     Fact,
     Figure,
     Layout,
     Line,
-    Role,
     Through,
     UnitDirection,
     names_of_roles,
@@ -120,7 +120,7 @@ class Assumption:
     roles: tuple[str, ...]
     when: Condition
 
-    def carries(self, roles: Iterable[Role], stated: Stated) -> bool:
+    def carries(self, roles: Iterable[BlockRole], stated: Stated) -> bool:
         """Whether a contour of these roles, which states this, rests on it."""
         own = [role for role in roles if role.name in self.roles]
         return any(
@@ -129,7 +129,7 @@ class Assumption:
         )
 
 
-class Resting(Struct, frozen=True, eq=False):
+class Premises(Struct, frozen=True, eq=False):
     """What contours rest on beside their words: settings with the values that were used, and what the control is taken
     to accept. `control` is the one whose settings these are, empty where it is told elsewhere."""
 
@@ -138,10 +138,10 @@ class Resting(Struct, frozen=True, eq=False):
     control: str = ""
 
 
-def all_resting(several: Iterable[Resting], control: str) -> Resting:
+def all_resting(several: Iterable[Premises], control: str) -> Premises:
     """What several contours of a control rest on, each once."""
     every = tuple(several)
-    return Resting(
+    return Premises(
         tuple({(each.setting.name, each.value): each for one in every for each in one.conventions}.values()),
         tuple(dict.fromkeys(each for one in every for each in one.assumptions)),
         control,
@@ -192,7 +192,7 @@ class ContourForm:
 
     name: str
     title: str
-    roles: tuple[Role, ...]
+    roles: tuple[BlockRole, ...]
     start: str
     points: tuple[str, ...]
     radii: tuple[str, ...]

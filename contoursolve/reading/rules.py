@@ -8,7 +8,7 @@ from enum import Enum
 from functools import lru_cache
 
 from contoursolve.diagnostics import Alarm, Severity, Shown, Source
-from contoursolve.geometry import Role, names_of_roles
+from contoursolve.geometry import BlockRole, names_of_roles
 
 Stated = Mapping[str, Decimal | None]
 """What a block states: the value of each given by name (None for a variable), and circumstances such
@@ -166,7 +166,7 @@ class Value(Condition):
 
 
 @dataclass(frozen=True, slots=True)
-class Along(Condition):
+class AngleAlong(Condition):
     """Some of these angles, in degrees, lies within a limit of a direction or of its opposite."""
 
     names: tuple[str, ...]
@@ -190,7 +190,7 @@ class Along(Condition):
 
 
 @dataclass(frozen=True, slots=True)
-class Parallel(Condition):
+class AnglesParallel(Condition):
     """Two angles, in degrees, differ by no more than a limit, or by that from half a turn."""
 
     names: tuple[str, str]
@@ -324,7 +324,7 @@ class Offence:
 
     rule: Rule
     names: tuple[str, ...]
-    role: Role
+    role: BlockRole
 
     @property
     def ignored(self) -> str:
@@ -332,13 +332,13 @@ class Offence:
         return self.rule.ignores and self.role.prefixes[-1] + self.rule.ignores
 
 
-def check(rules: tuple[Rule, ...], roles: Sequence[Role], stated: Stated) -> tuple[Offence, ...]:
+def check(rules: tuple[Rule, ...], roles: Sequence[BlockRole], stated: Stated) -> tuple[Offence, ...]:
     """All rules on combinations of words that refuse or ignore something in what the blocks of a contour state."""
     named = names_of_roles(roles, stated)
     return tuple(offence for role, names in named for offence in _check_role(rules, role, names, stated))
 
 
-def is_refused_by_values(rules: tuple[Rule, ...], roles: Sequence[Role], stated: Stated) -> bool:
+def is_refused_by_values(rules: tuple[Rule, ...], roles: Sequence[BlockRole], stated: Stated) -> bool:
     """Whether `check` finds something that depends on values and not on names alone."""
     by_values_of = {role: _rules_of(rules, role.name)[1] for role in roles}
     for role, names in names_of_roles((role for role, own in by_values_of.items() if own), stated):
@@ -349,7 +349,9 @@ def is_refused_by_values(rules: tuple[Rule, ...], roles: Sequence[Role], stated:
     return False
 
 
-def _check_role(rules: tuple[Rule, ...], role: Role, names: Mapping[str, str], stated: Stated) -> tuple[Offence, ...]:
+def _check_role(
+    rules: tuple[Rule, ...], role: BlockRole, names: Mapping[str, str], stated: Stated
+) -> tuple[Offence, ...]:
     by_names, by_values = _rules_of(rules, role.name)
     offences = _offences_by_names(by_names, role, frozenset(names.values()))
     if by_values:
@@ -367,13 +369,13 @@ def _rules_of(rules: tuple[Rule, ...], role: str) -> tuple[tuple[Rule, ...], tup
 
 
 @lru_cache(maxsize=8192)
-def _offences_by_names(rules: tuple[Rule, ...], role: Role, stated: frozenset[str]) -> tuple[Offence, ...]:
+def _offences_by_names(rules: tuple[Rule, ...], role: BlockRole, stated: frozenset[str]) -> tuple[Offence, ...]:
     """Programs repeat few combinations of words many times."""
     names = role.names(stated)
     own = dict.fromkeys(names)
     return tuple(_offence(rule, role, own, names) for rule in rules if rule.holds(own))
 
 
-def _offence(rule: Rule, role: Role, own: Stated, names: Mapping[str, str]) -> Offence:
+def _offence(rule: Rule, role: BlockRole, own: Stated, names: Mapping[str, str]) -> Offence:
     offenders = rule.when.offenders(own) if rule.when is not None else ()
     return Offence(rule, tuple(names[call] for call in offenders), role)

@@ -22,7 +22,7 @@ Lines = Mapping[Mode, int]
 """On which lines modes were set."""
 
 
-class Way(Struct, frozen=True):
+class ControlFlowPath(Struct, frozen=True):
     """One way, in a state. `unread` are its last blocks: what they are depends on what comes behind them. `entered` are
     the states to which it comes back, `lines` where modes were set."""
 
@@ -67,13 +67,13 @@ class Ways:
 
     def __init__(self, first: Callable[[], State], modes: Modes) -> None:
         self.modes, self._first = modes, first
-        self.now: list[Way] = [Way(first())]
+        self.now: list[ControlFlowPath] = [ControlFlowPath(first())]
         self.marked: dict[int, State] = {}
         """The states before blocks, by their marks."""
-        self._kept: dict[int, list[Way]] = {}
+        self._kept: dict[int, list[ControlFlowPath]] = {}
         self._reason, self._is_beyond = "", False
         """What decides between those that met last, and whether what follows has been read."""
-        self._heads: dict[int, tuple[list[Way], bool]] = {}
+        self._heads: dict[int, tuple[list[ControlFlowPath], bool]] = {}
         """Where something may run again: on which ways that was reached, and whether others have come into it."""
         self.settled: int | None = None
         """The mark of the last of these of which nothing new followed."""
@@ -82,7 +82,7 @@ class Ways:
         """Follow each way through some blocks, as far as it is known what they are; ways that have come equally far
         meet. `is_open` tells whether a contour may go on behind them."""
         moving = [_Moving(way, [*way.unread, *blocks] if way.unread else blocks) for way in self.now]
-        stopped = list[Way]()
+        stopped = list[ControlFlowPath]()
         while moving and not (self._is_beyond and min(each.place for each in moving) >= 0):
             place = min(each.place for each in moving)
             here = [each for each in moving if each.place == place]
@@ -105,7 +105,7 @@ class Ways:
         span, self._is_beyond = Span(event.line, 1, 2), event.kind is EventKind.BEYOND
         match event.kind:
             case EventKind.FRESH:
-                self.now = [Way(self._fresh(event))]
+                self.now = [ControlFlowPath(self._fresh(event))]
                 self._kept, self._heads = {}, {}
             case EventKind.ENTER:
                 self.now = [replace(each, entered=(*each.entered, each.state)) for each in self.now]
@@ -164,7 +164,7 @@ class Ways:
 class _Moving:
     """A way through some blocks, behind those that it had not read before, and the index up to which it has."""
 
-    def __init__(self, way: Way, blocks: Sequence[Block], index: int = 0) -> None:
+    def __init__(self, way: ControlFlowPath, blocks: Sequence[Block], index: int = 0) -> None:
         self.way, self.blocks, self.index, self._before = way, blocks, index, len(way.unread)
 
     @property
@@ -173,11 +173,11 @@ class _Moving:
         return self.index - self._before
 
 
-def _behind(way: Way, state: State, line: int) -> Way:
+def _behind(way: ControlFlowPath, state: State, line: int) -> ControlFlowPath:
     """A way behind what ends on a line."""
     changed = {mode: line for mode, value in _values(way.state).items() if value != _values(state)[mode]}
     lines = {**way.lines, **changed} if changed else way.lines
-    return Way(state, (), way.entered, lines)
+    return ControlFlowPath(state, (), way.entered, lines)
 
 
 def _values(state: State) -> dict[Mode, Any]:
@@ -195,9 +195,9 @@ def _values(state: State) -> dict[Mode, Any]:
 # Where ways meet -------------------------------------------------------------------------------------------------
 
 
-def _meet_all(ways: Sequence[Way], reason: str, modes: Modes) -> list[Way]:
+def _meet_all(ways: Sequence[ControlFlowPath], reason: str, modes: Modes) -> list[ControlFlowPath]:
     """The ways that there are behind some that meet: one for each end of which it is not known yet what it is."""
-    by_end: dict[object, list[Way]] = {}
+    by_end: dict[object, list[ControlFlowPath]] = {}
     for way in ways:
         by_end.setdefault(tuple(map(_key, way.unread)), []).append(way)
     return [reduce(partial(_meet, reason=reason, modes=modes), each) for each in by_end.values()]
@@ -207,7 +207,7 @@ def _key(block: Block) -> object:
     return block.line, block.text, block.file, block.callers
 
 
-def _meet(one: Way, other: Way, reason: str, modes: Modes) -> Way:
+def _meet(one: ControlFlowPath, other: ControlFlowPath, reason: str, modes: Modes) -> ControlFlowPath:
     """What two ways have in common."""
     if one.state is other.state:
         return one
@@ -247,7 +247,7 @@ def _meet(one: Way, other: Way, reason: str, modes: Modes) -> Way:
         doubts=doubts,
     )
     entered = tuple(one.entered) if len(one.entered) <= len(other.entered) else tuple(other.entered)
-    return Way(with_diameters(state), one.unread, entered, {**other.lines, **one.lines})
+    return ControlFlowPath(with_diameters(state), one.unread, entered, {**other.lines, **one.lines})
 
 
 def _meet_positions(one: Position, other: Position, why: str) -> Position:
@@ -296,14 +296,14 @@ def _memories(state: State) -> dict[str, object]:
     return {name: _said(word) for name, word in state.memory.items()}
 
 
-def _are_same(ways: Sequence[Way], others: Sequence[Way]) -> bool:
+def _are_same(ways: Sequence[ControlFlowPath], others: Sequence[ControlFlowPath]) -> bool:
     """Whether the same is known on some ways and on others."""
     return [_known(each) for each in ways] == [_known(each) for each in others]
 
 
-def _known(way: Way) -> object:
+def _known(way: ControlFlowPath) -> object:
     """What is known on a way."""
     state = way.state
     places = {axis: None if at.value is None else round(at.value, 9) for axis, at in state.axes.items()}
-    entered = tuple(_known(Way(each)) for each in way.entered)
+    entered = tuple(_known(ControlFlowPath(each)) for each in way.entered)
     return tuple(map(_key, way.unread)), places, _values(state), _memories(state), {*state.doubts}, entered

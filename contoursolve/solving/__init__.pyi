@@ -150,8 +150,8 @@ from .plan import (
 )
 from .row_outcome import (
     REASONS as REASONS,
-    Code as Code,
     RowOutcome as RowOutcome,
+    StatusCode as StatusCode,
     code_of as code_of,
     reason_of as reason_of,
 )

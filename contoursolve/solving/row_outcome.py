@@ -16,7 +16,7 @@ Places = NDArray[numpy.intp]
 Out = Mapping[str, Array]
 
 
-class Code(IntEnum):
+class StatusCode(IntEnum):
     """A status in a column of numbers."""
 
     SOLVED = 0
@@ -40,9 +40,9 @@ REASONS: tuple[RefusalKind | None, ...] = (None, *RefusalKind)
 _REASON = {kind: number for number, kind in enumerate(REASONS)}
 
 
-def code_of(status: Status) -> Code:
+def code_of(status: Status) -> StatusCode:
     """The number of a status."""
-    return Code[status.name]
+    return StatusCode[status.name]
 
 
 def reason_of(kind: RefusalKind | None) -> int:
@@ -81,10 +81,10 @@ class RowOutcome:
     @property
     def status(self) -> Codes:
         """The statuses; of several, the first in the order of `Status`."""
-        status: Codes = (self.reason != 0).view(numpy.uint8) * numpy.uint8(Code.NO_SOLUTION)
+        status: Codes = (self.reason != 0).view(numpy.uint8) * numpy.uint8(StatusCode.NO_SOLUTION)
         for agrees in self.agreeing.values():
-            status[agrees] = Code.OVERDETERMINED
-        status[self._conflicts] = Code.CONFLICTING
+            status[agrees] = StatusCode.OVERDETERMINED
+        status[self._conflicts] = StatusCode.CONFLICTING
         return status
 
     def _note_first(self, checks: Sequence[Check], rows: Places, failed: Places, out: Out) -> None:

@@ -26,7 +26,7 @@ from contoursolve.execution.machine import needs_running
 from contoursolve.gcode import parse
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.postprocess.emit import Format, emit
-from contoursolve.postprocess.post_processors import LINUXCNC, POSTS, Arcs, Machine
+from contoursolve.postprocess.post_processors import LINUXCNC, POSTS, Arcs, MachineKind
 from contoursolve.program.lines import Lines
 from contoursolve.program.pipeline import run as solved, walk
 from contoursolve.program.request import Request
@@ -500,7 +500,7 @@ def test_a_code_that_a_control_of_ones_own_reads_as_the_target_does_is_not_read_
 
 
 @pytest.mark.interpreter
-@pytest.mark.parametrize("machine", Machine)
+@pytest.mark.parametrize("machine", MachineKind)
 @pytest.mark.parametrize("stride", [15, pytest.param(1, marks=pytest.mark.slow)])
 def test_linuxcnc_stops_at_every_code_of_which_no_row_says_what_it_does(machine, stride, tmp_path):
     reading = LINUXCNC.readings[machine]

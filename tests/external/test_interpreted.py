@@ -19,7 +19,7 @@ from oracle_fanuc import Machine, whole
 from oracle_mitsubishi import FORMS as PAIRS, RIGHT, random_block
 
 import contoursolve
-from contoursolve.comparison import Path, compare, follow
+from contoursolve.comparison import ToolPath, compare, follow
 from contoursolve.controls import DIALECTS, PLAIN
 from contoursolve.gcode import parse
 from contoursolve.geometry import Length
@@ -286,7 +286,7 @@ def hide(comment: re.Match[str]) -> str:
     return " " * len(comment[0])
 
 
-def path_of(text: str, control: str) -> Path:
+def path_of(text: str, control: str) -> ToolPath:
     dialect = {**DIALECTS, **PLAIN}[control]
     result = run(parse(text), Request(dialect))
     return follow(result, dialect, Length.MM, ("X", "Y", "Z"))

@@ -15,7 +15,7 @@ from contoursolve.families.sampled_regions import SampledField
 from contoursolve.families.spec import name_of, spec_of
 from contoursolve.families.traced_reading import Traced
 from contoursolve.output.families import rest_lines
-from contoursolve.solving import Code
+from contoursolve.solving import StatusCode
 
 NEAR = 1e-7  # mm, or of the coordinate
 
@@ -27,7 +27,7 @@ def alone(block, values, **options):
 
 def difference(row, answer):
     """By what a row differs from a single solve; empty if by nothing."""
-    status = Code(int(row["status"])).status
+    status = StatusCode(int(row["status"])).status
     if status is not answer.status:
         return f"{status}, alone {answer.status}"
     if answer.contour is None:
@@ -87,7 +87,7 @@ def test_what_a_number_forgets_stays_in_no_row(monkeypatch, order):
 
 def test_tangent_arcs_turn_to_the_side_of_their_row():
     found = family(TURNED, vary={"2:Y": [24, 26, 28.8582, 30]}, **SINUMERIK)
-    assert found["status"].tolist() == [Code.SOLVED] * 4
+    assert found["status"].tolist() == [StatusCode.SOLVED] * 4
     assert found["r3"][2:] == pytest.approx([104.8299, 2589.4814], abs=5e-5)
 
 
@@ -96,7 +96,7 @@ def test_a_start_that_moves_turns_an_arc_that_ends_on_the_other_side_of_its_cent
     found = family(block, vary={"X": [100, 60], "start.X": [80, 140]}, control="yasnac-lx3", start="X80. Z0.")
     for row, (end, begin) in enumerate([(100, 80), (100, 140), (60, 80), (60, 140)]):
         (answer,) = solve(block.replace("X100.", f"X{end}."), control="yasnac-lx3", start=f"X{begin}. Z0.").answers
-        assert Code(int(found["status"].ravel()[row])).status is answer.status
+        assert StatusCode(int(found["status"].ravel()[row])).status is answer.status
 
 
 def test_a_word_that_others_count_from_varies_with_them():

@@ -14,7 +14,7 @@ import contoursolve
 from contoursolve.cli import main
 from contoursolve.families import FamilyError, RefusedError, Way, family, feasible, region, regions
 from contoursolve.families.errors import NotClosedError
-from contoursolve.solving import Code
+from contoursolve.solving import StatusCode
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
 WORDS = [(name, word) for name, (_, _, ranges) in CASES.items() for word in ranges if not word.endswith("Q")]
@@ -363,7 +363,7 @@ FACTS = {
 
 def solved_in(block, vary, options):
     """Whether each row of a family, which is followed in boxes and not in closed form, has a contour."""
-    return np.isin(family(block, vary=vary, **options)["status"], (Code.SOLVED, Code.OVERDETERMINED))
+    return np.isin(family(block, vary=vary, **options)["status"], (StatusCode.SOLVED, StatusCode.OVERDETERMINED))
 
 
 def check_against_family(block, word, found, options):
@@ -532,4 +532,4 @@ def test_a_coordinate_and_the_start_point_that_it_counts_from_bound_a_region_tog
     assert {round(end - start, 6) for end, start in line.points} == {round(least, 6)}
     rows = family(BLOCK, vary={"X": np.linspace(*within[0], 9), "start.X": np.linspace(*within[1], 7)}, start=START)
     ends, starts = np.meshgrid(*rows.ranges.values.values(), indexing="ij")
-    assert np.array_equal(rows["status"] == Code.SOLVED, ends - starts >= least)
+    assert np.array_equal(rows["status"] == StatusCode.SOLVED, ends - starts >= least)

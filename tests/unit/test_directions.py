@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from contoursolve import Diagnostic, Result, family, solve
 from contoursolve.cli import main
 from contoursolve.diagnostics.finding import Tie
-from contoursolve.solving import Code
+from contoursolve.solving import StatusCode
 from contoursolve.verification import Document, Verdict, verify
 
 G111 = "G111 {A} I12. K-12. B180. Z-40."
@@ -150,7 +150,7 @@ def test_rows_of_a_family_have_the_status_of_their_block(name):
         settings=case.get("settings"),
     )
     alone = [solved(name, angle if angle % 1 else int(angle))[0].answers[0].status for angle in angles]
-    assert [Code(each).status for each in rows["status"]] == alone
+    assert [StatusCode(each).status for each in rows["status"]] == alone
 
 
 @pytest.mark.parametrize("name", [",A of Fanuc", ",A of Fanuc as a direction", "A of G111", "AN of FK"])

@@ -16,7 +16,7 @@ import contoursolve
 from contoursolve.cli import main
 from contoursolve.cli.blocks import read_range
 from contoursolve.families import FamilyError, family, sensitivity
-from contoursolve.solving import REASONS, Code, RefusalKind
+from contoursolve.solving import REASONS, RefusalKind, StatusCode
 
 LATHE, MILL = {"start": "X40. Z0."}, {}
 _NCT = "G17 G90 {comp} G0 X{x} Y{y}\n"
@@ -147,7 +147,7 @@ def test_a_row_of_a_family_is_the_single_solve_of_its_block(name, count):
     for row, each in enumerate(zip(*values.values(), strict=True)):
         text = text_of(block, values, each)
         answer = contoursolve.solve(text, depth="verdict", **options).answers[0]
-        status = Code(int(found["status"][row])).status
+        status = StatusCode(int(found["status"][row])).status
         assert status is answer.status, (text, status, answer.status)
         seen.add(status)
         sides = {point: side.sign for point, side in answer.sides.items()}
@@ -200,14 +200,14 @@ def test_nor_where_balls_prove_what_is_found(name, monkeypatch):
 def test_a_value_that_is_refused_does_not_end_a_family():
     facts = {"facts": ["length of line 1 = 30"], "start": START}
     found = family("G111 X100. A? K-30. B120. P5.", vary={"length of line 1": [30.0, 0.0, 35.0]}, **facts)
-    codes = [Code.SOLVED, Code.REJECTED, Code.AMBIGUOUS]
+    codes = [StatusCode.SOLVED, StatusCode.REJECTED, StatusCode.AMBIGUOUS]
     assert found["status"].tolist() == codes
 
 
 def test_types_are_as_documented_and_reasons_have_names():
     found = family(BLOCK, start=START, vary={"P": [5, 80]})
     assert (found["status"].dtype, found["reason"].dtype, found["V1.Z"].dtype) == (np.uint8, np.uint8, np.float64)
-    assert found["status"].tolist() == [Code.SOLVED, Code.NO_SOLUTION]
+    assert found["status"].tolist() == [StatusCode.SOLVED, StatusCode.NO_SOLUTION]
     assert REASONS[found["reason"][1]].value == "corner-too-large"
     assert np.isnan(found["V2.Z"]).tolist() == [False, True]
     assert found["line 2.room"][0] > 0 > found["line 1.room"][1]
@@ -300,7 +300,7 @@ def test_facts_choices_and_start_points_vary_as_words_do(name, share):
     for row, each in enumerate(zip(*values.values(), strict=True)):
         text, more = filled(block, options, dict(zip(values, each, strict=True)))
         answer = contoursolve.solve(text, depth="verdict", **more).answers[0]
-        assert Code(int(found["status"][row])).status is answer.status, (text, more)
+        assert StatusCode(int(found["status"][row])).status is answer.status, (text, more)
         seen.add(answer.status)
         assert found.has_contour[row] == (answer.contour is not None)
         if answer.contour is None:
@@ -324,7 +324,7 @@ def test_which_way_a_path_advances_is_told_row_by_row():
     values = [-24.5, -22.25, -20.0, -10.0]
     found = family(block.format(-24.5), vary={"K": values}, **options)
     single = [contoursolve.solve(block.format(value), **options).answers[0].status for value in values]
-    assert [Code(code).status for code in found["status"]] == single == [contoursolve.Status.AMBIGUOUS] * 4
+    assert [StatusCode(code).status for code in found["status"]] == single == [contoursolve.Status.AMBIGUOUS] * 4
 
 
 def test_a_value_that_is_asked_for_is_a_column():
@@ -364,7 +364,7 @@ def test_families_go_to_arrow_parquet_and_xarray(tmp_path):
 
 def check_table(table, found):
     """A table has the numbers of a family, and the status and the reason of each row in words."""
-    assert table["status"].to_pylist() == [Code(code).status.value for code in found["status"].ravel()]
+    assert table["status"].to_pylist() == [StatusCode(code).status.value for code in found["status"].ravel()]
     reasons = [REASONS[number] for number in found["reason"].ravel()]
     assert table["reason"].to_pylist() == [kind.value if kind else None for kind in reasons]
     for name in set(found.names) - {"status", "reason"}:
@@ -589,7 +589,7 @@ def test_a_sweep_writes_every_row(tmp_path):
     assert len(rows) == len(found)
     for name, column in zip(names, zip(*rows, strict=True), strict=True):
         if name == "status":
-            assert list(column) == [Code(code).status.value for code in found["status"].ravel()]
+            assert list(column) == [StatusCode(code).status.value for code in found["status"].ravel()]
         elif name != "reason":
             numbers = [float(each) if each else float("nan") for each in column]
             assert np.array_equal(numbers, found[name].ravel(), equal_nan=True), name

@@ -35,7 +35,7 @@ from contoursolve.cli import main
 from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.families import family
 from contoursolve.output.document import to_json
-from contoursolve.solving import Code
+from contoursolve.solving import StatusCode
 from contoursolve.verification import Document, Verdict, verify
 
 
@@ -615,7 +615,7 @@ def test_a_sweep_across_the_sign_says_what_solve_says():
     table = family(text.format("5.", "40."), vary={"1:R": radii, "2:X": ends}, start="X20. Z0", control=LATHE)
     for row, (radius, end) in enumerate((radius, end) for radius in radii for end in ends):
         (answer,) = solve("G00 X20. Z0\n" + text.format(radius, end), control=LATHE).answers
-        assert Code(table["status"].ravel()[row]).status is answer.status, (radius, end)
+        assert StatusCode(table["status"].ravel()[row]).status is answer.status, (radius, end)
 
 
 @pytest.mark.slow
@@ -784,13 +784,13 @@ def test_a_sweep_tells_of_each_angle_what_a_single_solve_tells(settings):
     for (angle, radius), code in zip(rows, table["status"].ravel(), strict=True):
         text = SWEPT.replace(",A30.", f",A{angle}").replace(",R5.", f",R{radius}")
         (answer,) = solve(text, settings=named, depth="verdict").answers
-        assert Code(code).status is answer.status, text
+        assert StatusCode(code).status is answer.status, text
     single = START + "G01 X40. ,A150. ,C2.\nZ-60."
     angles = [0.0, 0.5, 1.0, 1.001, 90.0, 150.0, 178.999, 179.0, 180.0, 181.0, 181.001, -0.5, 359.5]
     table = family(single, vary={"2:,A": angles}, control=LATHE, settings=named)
     for angle, code in zip(angles, table["status"].ravel(), strict=True):
         (answer,) = solve(single.replace(",A150.", f",A{angle}"), control=LATHE, settings=named).answers
-        assert Code(code).status is answer.status, angle
+        assert StatusCode(code).status is answer.status, angle
 
 
 def test_rows_of_two_angles_that_the_control_compares_are_solved_one_by_one():
@@ -800,8 +800,8 @@ def test_rows_of_two_angles_that_the_control_compares_are_solved_one_by_one():
     rows = list(product(*angles.values()))
     for (first, second), code in zip(rows, table["status"].ravel(), strict=True):
         (answer,) = solve(SWEPT.replace(",A30.", f",A{first}").replace(",A-45.", f",A{second}")).answers
-        assert Code(code).status is answer.status, (first, second)
-    assert set(table["status"].ravel().tolist()) == {Code.SOLVED, Code.NO_SOLUTION}
+        assert StatusCode(code).status is answer.status, (first, second)
+    assert set(table["status"].ravel().tolist()) == {StatusCode.SOLVED, StatusCode.NO_SOLUTION}
     assert not family(SWEPT, vary=angles, settings={f"{LATHE}.guard-deg": "0"}).remark
 
 

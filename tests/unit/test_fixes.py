@@ -10,7 +10,7 @@ from test_limits import KINDS
 
 from contoursolve import solve
 from contoursolve.cli import main
-from contoursolve.diagnosis.edits import ERRANDS, Side
+from contoursolve.diagnosis.edits import ERRANDS, InsertionSide
 from contoursolve.diagnostics.finding import Applicability, Fix
 from contoursolve.diagnostics.source import Evidence
 from contoursolve.notebook.exploration import apply_fix, begin
@@ -53,7 +53,7 @@ def test_several_words_move_in_the_order_in_which_a_machine_needs_them():
     (finding,) = solve(f"/{TAPER} M08 S500 T0101 F0.2", start=START, rules="enforce").diagnostics[-1:]
     fix = finding.fixes[0]
     assert fix.replacement.split("\n") == ["/T0101", "/S500", "/M08", f"/{TAPER} F0.2"]
-    assert {row.side for row in ERRANDS} == {*Side, None}
+    assert {row.side for row in ERRANDS} == {*InsertionSide, None}
     assert {row.source.evidence for row in ERRANDS} == {Evidence.ASSUMED}
 
 

@@ -20,7 +20,7 @@ from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.families import family
 from contoursolve.output.document import to_json
 from contoursolve.program.project import SettingError
-from contoursolve.solving import Code
+from contoursolve.solving import StatusCode
 from contoursolve.verification import Document, Verdict, verify
 
 FROM_CIRCLE = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
@@ -261,7 +261,7 @@ def test_a_family_counts_with_the_settings_too():
     for index, (i, j, x) in enumerate(rows):
         lines = text.replace("I-40 J20", f"I{i} J{j}").replace("X-49.98", f"X{x}")
         (answer,) = solve(lines, settings=settings, depth="verdict").answers
-        assert (answer.contour is not None) == (table["status"][index] == Code.SOLVED), lines
+        assert (answer.contour is not None) == (table["status"][index] == StatusCode.SOLVED), lines
         if answer.contour:
             solved += 1
             at = table["P1.X"][index], table["P1.Y"][index]

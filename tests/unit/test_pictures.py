@@ -41,7 +41,7 @@ from contoursolve.pictures.scene import Leader, Mark, MarkKind
 from contoursolve.pictures.subject import subject_of
 from contoursolve.pictures.svg import PIXELS
 from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
-from contoursolve.solving import Code
+from contoursolve.solving import StatusCode
 from contoursolve.solving.contour import ArcSegment
 
 PROGRAMS = sorted((Path(__file__).parents[2] / "notebooks" / "programs").glob("*.nc"))
@@ -796,7 +796,7 @@ def test_what_is_refused_is_painted_as_refused_though_words_agree():
     block = "G111 A135. I10. K-10. B120. Z-40."
     vary = {"B": numpy.arange(10.0, 90.0, 5), "I": [10.0, 10.0001]}
     found = contoursolve.family(block, start=START, rules="off", vary=vary)
-    assert (found["status"] == Code.OVERDETERMINED).all()
+    assert (found["status"] == StatusCode.OVERDETERMINED).all()
     assert not numpy.isfinite(found["V2.X"]).any()
     picture = draw_family_map(found)
     shapes = [item for item in picture.sheet.drawing if isinstance(item, Shape)]

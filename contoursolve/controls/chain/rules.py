@@ -23,7 +23,7 @@ from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
 from contoursolve.gcode import FaultKind
-from contoursolve.reading import Condition, Parallel, Rule, Value, all_of, some
+from contoursolve.reading import AnglesParallel, Condition, Rule, Value, all_of, some
 from contoursolve.solving import RefusalKind
 
 ANY, LINES = (LINE, OVER_LINE, ARC), (LINE, OVER_LINE)
@@ -199,7 +199,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         "angles-parallel",
         "{words}: the two lines are parallel, so they have no vertex",
         "correct one of the angles",
-        Parallel((f"1:{angle}", f"2:{angle}"), _GUARD),
+        AnglesParallel((f"1:{angle}", f"2:{angle}"), _GUARD),
         (LINE_LINE,),
         vertex,
         vertex.rpartition(" ")[0] + " " + vertex.partition("\n")[2].partition("\n")[0].split(" ")[1],

@@ -32,7 +32,7 @@ from contoursolve.controls.fanuc.language import (
 from contoursolve.controls.fanuc.lexicon import CORNERS, DRAWING, HAAS
 from contoursolve.controls.geometry_rules import COMMA_MISSING, GEOMETRY_RULES
 from contoursolve.diagnostics import Alarm, Book, Evidence, Source
-from contoursolve.reading import Along, Parallel, ReadIssue, Rule, all_of, at_least, some
+from contoursolve.reading import AngleAlong, AnglesParallel, ReadIssue, Rule, all_of, at_least, some
 from contoursolve.solving import RefusalKind
 
 _ANY = (LINE, OVER_LINE, ARC)
@@ -351,7 +351,7 @@ def _angle_rules(machine: _Machine) -> tuple[Rule, ...]:
             alarm=machine.alarm("057 (the end of the block is not found)"),
             roles=(LINE,),
             is_about_geometry=True,
-            when=some(*_SECOND) & ~some(*_FIRST) & Along((angle,), 0, GUARD) & ~some(UNGUARDED),
+            when=some(*_SECOND) & ~some(*_FIRST) & AngleAlong((angle,), 0, GUARD) & ~some(UNGUARDED),
             accepted=(good,),
             rejected=(good.replace("150.", "180."), good.replace("150.", "179.5")),
         ),
@@ -363,7 +363,7 @@ def _angle_rules(machine: _Machine) -> tuple[Rule, ...]:
             alarm=machine.alarm("057 (the end of the block is not found)"),
             roles=(LINE,),
             is_about_geometry=True,
-            when=some(*_FIRST) & ~some(*_SECOND) & Along((angle,), 90, GUARD) & ~some(UNGUARDED),
+            when=some(*_FIRST) & ~some(*_SECOND) & AngleAlong((angle,), 90, GUARD) & ~some(UNGUARDED),
             accepted=(good,),
             rejected=(f"{machine.start}G01 Z-20. {angle}90.",),
         ),
@@ -424,7 +424,7 @@ _VERTEX_RULES = (
         alarm=_FANUC_LATHE.alarm("058 (the end of the block is not found)"),
         roles=(LINE_LINE,),
         is_about_geometry=True,
-        when=Parallel(("1:,A", "2:,A"), GUARD) & ~some("1:" + UNGUARDED),
+        when=AnglesParallel(("1:,A", "2:,A"), GUARD) & ~some("1:" + UNGUARDED),
         accepted=(_VERTEX,),
         rejected=(_VERTEX.replace("120.", "180."), _VERTEX.replace("120.", "0.5")),
     ),

@@ -35,7 +35,7 @@ from contoursolve.controls.mitsubishi.language import (
 )
 from contoursolve.controls.mitsubishi.lexicon import BOOK
 from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
-from contoursolve.reading import Condition, Parallel, Rule, Value, all_of, some
+from contoursolve.reading import AnglesParallel, Condition, Rule, Value, all_of, some
 from contoursolve.solving import RefusalKind
 
 _BESIDE = tuple(f"beside-{axis}" for axis in "XYZ")
@@ -182,7 +182,7 @@ _ROWS = (
          BOOK.derived("p. 378"), some("P", "Q") & ~some(HIGH_SPEED), _LINES, _ANGLED, ("A30.", "A30. P5.")),
     _row("angles-parallel", "{words}: the two lines are parallel to less than 1 deg, so the control computes no vertex",
          "correct one of the angles",
-         BOOK.assumed("alarm P392"), Parallel(("1:A", "2:A"), _GUARD) & ~some("1:" + UNGUARDED), (LINE_LINE,),
+         BOOK.assumed("alarm P392"), AnglesParallel(("1:A", "2:A"), _GUARD) & ~some("1:" + UNGUARDED), (LINE_LINE,),
          _VERTEX, ("A-30.", "A70.5"), ("A-30.", "A250."), alarm="P392 (angle less than 1 deg)", is_about_geometry=True),
     _row("h-value", "H is neither 0 nor 1", "choose: H0 is the shorter line, H1 the longer one",
          BOOK.printed("p. 378"), some(PICKS_NOTHING), _ARCS, _CROSSING, ("H0", "H2"), alarm=_FORMAT),

@@ -8,7 +8,7 @@ from contoursolve.controls.yasnac_lx3.claim import OTHER_G, after_cornering, bev
 from contoursolve.controls.yasnac_lx3.lexicon import ASSUMPTIONS, BOOK, MOTION_AFTER, alarms
 from contoursolve.diagnostics import Evidence, Severity, Source
 from contoursolve.gcode import Block
-from contoursolve.geometry import FIRST, SECOND, Coordinate, CornerShape, Heading, Line, Offset, Role
+from contoursolve.geometry import FIRST, SECOND, BlockRole, Coordinate, CornerShape, Heading, Line, Offset
 from contoursolve.reading import (
     ContourForm,
     CornerRow,
@@ -42,7 +42,7 @@ def g111(bevel: CornerShape) -> ContourForm:
     return ContourForm(
         name="G111",
         title="taper multiple cornering",
-        roles=(Role("G111"),),
+        roles=(BlockRole("G111"),),
         start=START,
         points=(V1, V2),
         radii=(),

@@ -8,7 +8,7 @@ from contoursolve.controls.yasnac_lx3.g111 import START, V1
 from contoursolve.controls.yasnac_lx3.lexicon import BOOK
 from contoursolve.diagnostics import Alarm, Evidence
 from contoursolve.gcode import Block
-from contoursolve.geometry import FIRST, SECOND, Coordinate, CornerShape, Given, Level, Line, Offset, Role, Unit
+from contoursolve.geometry import FIRST, SECOND, BlockRole, Coordinate, CornerShape, Given, Level, Line, Offset, Unit
 from contoursolve.reading import (
     ContourForm,
     CornerRow,
@@ -44,7 +44,7 @@ def leaving(code: int, along: int) -> ContourForm:
     return ContourForm(
         name=f"G{code:02}",
         title=f"{_TITLES[code]}, along {'ZX'[along]}",
-        roles=(Role("leaving"), Role((ALONG_Z, ALONG_X)[along])),
+        roles=(BlockRole("leaving"), BlockRole((ALONG_Z, ALONG_X)[along])),
         start=START,
         points=(V1, END),
         radii=(),

@@ -3,7 +3,7 @@
 A text such as `length of line 1 = 30` comes in, facts of a profile go out. Begin with `statement`.
 """
 
-from contoursolve.geometry.statements.apply import Fault, apply_statements
+from contoursolve.geometry.statements.apply import UnusedFact, apply_statements
 from contoursolve.geometry.statements.draft import Draft, StatementError
 from contoursolve.geometry.statements.grammar import GrammarError, Vocabulary, read_statement, write_statement
 from contoursolve.geometry.statements.statement import (
@@ -35,7 +35,6 @@ __all__ = [
     "Draft",
     "EqualLengths",
     "EqualSizes",
-    "Fault",
     "GrammarError",
     "LengthIs",
     "LineAt",
@@ -52,6 +51,7 @@ __all__ = [
     "StraightIs",
     "Touches",
     "TurnIs",
+    "UnusedFact",
     "Vocabulary",
     "apply_statements",
     "read_statement",

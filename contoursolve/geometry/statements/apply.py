@@ -40,7 +40,7 @@ _FIRST = (MeetsLine, Touches, DirectionIs, TurnIs, PassesThrough, PassesBeside, 
 """Statements that say what a line is come before those that measure it."""
 
 
-class Fault(Struct, frozen=True):
+class UnusedFact(Struct, frozen=True):
     """A fact that was not used: what is wrong, in words, and where."""
 
     message: str
@@ -50,7 +50,7 @@ class Fault(Struct, frozen=True):
 
 def apply_statements(
     profile: Profile, directives: Sequence[Directive], next_place: Callable[[], Place | None]
-) -> tuple[Profile, tuple[Fault, ...]]:
+) -> tuple[Profile, tuple[UnusedFact, ...]]:
     """The profile with further facts and with what is asked for, and the facts that make no sense.
 
     `next_place` tells where the next block's line ends, mm; None if it is not known.
@@ -59,7 +59,7 @@ def apply_statements(
         return profile, ()
     draft = Draft(profile.figure, profile.facts, profile.givens)
     words = vocabulary_of(profile)
-    faults: list[Fault] = []
+    faults: list[UnusedFact] = []
     read: list[tuple[str, Statement, Word]] = []
     for number, directive in enumerate(directives, 1):
         try:
@@ -69,7 +69,7 @@ def apply_statements(
             # A comment ends with the first ), wherever that stands.
             is_cut = "(" in directive.text and directive.span.line > 0
             hint = "; inside a comment write [ ] for ( )" if is_cut else ""
-            faults.append(Fault(f"{error}{hint}", word_of(directive, error.begin, error.end), is_readable=False))
+            faults.append(UnusedFact(f"{error}{hint}", word_of(directive, error.begin, error.end), is_readable=False))
     questions = list(profile.questions)
     for name, statement, word in sorted(read, key=lambda each: rank(each[1])):
         draft.word = word
@@ -77,7 +77,7 @@ def apply_statements(
             stated = _resolved(statement, next_place)
             fact = stated.state(draft, name)
         except StatementError as error:
-            faults.append(Fault(str(error), word))
+            faults.append(UnusedFact(str(error), word))
             continue
         axis = stated.axis if isinstance(stated, PointIs) else None
         is_diameter = axis is not None and profile.plane.diameters[axis]
@@ -107,14 +107,14 @@ def _resolved(statement: Statement, next_place: Callable[[], Place | None]) -> S
     return statement
 
 
-def _add_size(draft: Draft, question: Question, faults: list[Fault]) -> None:
+def _add_size(draft: Draft, question: Question, faults: list[UnusedFact]) -> None:
     """A corner whose size is asked for is part of the equations."""
     for corner in draft.figure.corners if isinstance(question.fact, Radius) else ():
         try:
             if corner.size == question.name:
                 draft.corner(corner.name)
         except StatementError as error:
-            faults.append(Fault(str(error), question.word))
+            faults.append(UnusedFact(str(error), question.word))
 
 
 def rank(statement: Statement) -> int:

@@ -9,9 +9,9 @@ from msgspec import Struct
 from contoursolve.diagnosis import Answer
 from contoursolve.numeric import AT_MOST, LESS, ZERO, Affine, Apply, Constant, Term, Variable
 from contoursolve.postprocess.formulas.check import difference
-from contoursolve.postprocess.formulas.contour import Body, Stop, Writing, body_of, free_sizes
+from contoursolve.postprocess.formulas.contour import BlockUnits, Body, Stop, body_of, free_sizes
 from contoursolve.postprocess.formulas.given import (
-    Border,
+    CaseBoundary,
     FormulaError,
     Reader,
     Values,
@@ -87,7 +87,7 @@ def term_of(value: Affine) -> Term:
 def case_of(
     reader: Reader,
     values: Values,
-    writing: Callable[[Answer], Mapping[str, Writing]],
+    writing: Callable[[Answer], Mapping[str, BlockUnits]],
     decided: tuple[_Side, ...] = (),
 ) -> Case:
     """The statements of a contour in the case of some values, and in all others where what is `decided` holds. Raises
@@ -174,7 +174,7 @@ def _reach(
     return next((there for there in tried if all(each.holds(there) for each in (side, *decided))), None)
 
 
-def _others(border: Border, known: Values) -> Iterator[tuple[_Side, Decimal]]:
+def _others(border: CaseBoundary, known: Values) -> Iterator[tuple[_Side, Decimal]]:
     """The sides of a border on which a value is not."""
     own = at(border.value, known)
     for low, high, inner in border.sides():

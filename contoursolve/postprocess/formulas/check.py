@@ -7,7 +7,7 @@ from typing import Any
 from contoursolve.diagnosis import Answer
 from contoursolve.execution import Assign, Unknown, When, evaluate
 from contoursolve.numeric import Term
-from contoursolve.postprocess.formulas.contour import SHORTEST, Choose, Leg, Statement, Stop, Writing
+from contoursolve.postprocess.formulas.contour import SHORTEST, BlockUnits, Choose, Leg, Statement, Stop
 from contoursolve.solving import ArcSegment, Point
 
 WITHIN = 0.0005
@@ -58,7 +58,7 @@ class Runner:
 
 
 def difference(
-    statements: Iterable[Statement], values: Mapping[str, float], answer: Answer, writing: Mapping[str, Writing]
+    statements: Iterable[Statement], values: Mapping[str, float], answer: Answer, writing: Mapping[str, BlockUnits]
 ) -> str:
     """How statements, at some values of what they read, differ from a single solve there; empty if they do not."""
     runner = Runner(values)

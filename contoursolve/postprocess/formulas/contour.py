@@ -83,7 +83,7 @@ class Said(Struct, frozen=True):
 Statement = Assign | When | Stop | Leg | Choose | Said
 
 
-class Writing(Struct, frozen=True):
+class BlockUnits(Struct, frozen=True):
     """How a block counts: words of each axis for a mm, and whether its ends count from where its elements begin."""
 
     scales: tuple[float, float]
@@ -104,7 +104,7 @@ class Body(Struct, frozen=True):
         return (*self.stops, *self.formulas)
 
 
-def body_of(reader: Reader, profile: Profile, stated: Mapping[str, Affine], writing: Mapping[str, Writing]) -> Body:
+def body_of(reader: Reader, profile: Profile, stated: Mapping[str, Affine], writing: Mapping[str, BlockUnits]) -> Body:
     """The statements of a contour of one case; `writing` goes by the names of elements and corners. Raises
     FormulaError where a step has no closed form."""
     system = assemble(profile)
@@ -180,7 +180,7 @@ class _Way(Struct, frozen=True):
     values: tuple[Any, ...]
 
 
-def _path(source: Source, profile: Profile, writing: Mapping[str, Writing]) -> Iterator[_Way]:
+def _path(source: Source, profile: Profile, writing: Mapping[str, BlockUnits]) -> Iterator[_Way]:
     """The elements and corners of a path, as `solving.contour.trace` has them."""
     figure, tape = profile.figure, source.tape
     corners = {corner.at: corner for corner in figure.corners}

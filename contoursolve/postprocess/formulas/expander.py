@@ -13,7 +13,7 @@ from contoursolve.postprocess.expander import Expander
 from contoursolve.postprocess.expansion_report import Left
 from contoursolve.postprocess.formulas.cases import Case, Fork, case_of
 from contoursolve.postprocess.formulas.check import Runner, difference
-from contoursolve.postprocess.formulas.contour import Body, Choose, Leg, Said, Statement, Writing
+from contoursolve.postprocess.formulas.contour import BlockUnits, Body, Choose, Leg, Said, Statement
 from contoursolve.postprocess.formulas.given import STEP, FormulaError, Reader, at
 from contoursolve.postprocess.formulas.lines import FormulaLines, Free, MacroLine
 from contoursolve.postprocess.formulas.scratch import Scratch, allocate, apart, names_of, place, renamed
@@ -164,7 +164,7 @@ class FormulaExpander(Expander):
         self.writer.plane, reader = answer.plane, self._reader(step, answer)
         parts = {each.block.line: each for each in blocks_of(answer.claim, step.before, self.modes)}
 
-        def writing_of(other: Answer) -> dict[str, Writing]:
+        def writing_of(other: Answer) -> dict[str, BlockUnits]:
             figure = other.profile.figure
             names = [each.name for each in (*figure.path, *figure.corners)]
             return {name: self._writing(_part_of(name, parts), other) for name in names}
@@ -193,11 +193,11 @@ class FormulaExpander(Expander):
             yield (end or self.lines.end).join(text) + end if text else ""
         self.motion = NO_MOTION
 
-    def _writing(self, part: ContourBlock, answer: Answer) -> Writing:
+    def _writing(self, part: ContourBlock, answer: Answer) -> BlockUnits:
         """How the words of a block count."""
         mm = float(part.state.unit.in_mm)
         first, second = ((2 if is_diameter else 1) / mm for is_diameter in answer.plane.diameters)
-        return Writing((first, second), part.state.is_incremental)
+        return BlockUnits((first, second), part.state.is_incremental)
 
     def _placed(
         self, reader: Reader, blocks: Sequence[Sequence[Statement]], case: Case
@@ -217,7 +217,7 @@ class FormulaExpander(Expander):
         return renamed(term, self.target.prefix) if self.is_foreign else term
 
     def _check(
-        self, reader: Reader, statements: Sequence[Statement], writing: Callable[[Answer], Mapping[str, Writing]]
+        self, reader: Reader, statements: Sequence[Statement], writing: Callable[[Answer], Mapping[str, BlockUnits]]
     ) -> None:
         """Hold what is written against single solves, for the example and beside it. Raises FormulaError."""
         known = {name: value for each in reader.free.values() for name, value in each.known.items()}
@@ -232,7 +232,7 @@ class FormulaExpander(Expander):
                 shown = ", ".join(f"{name}={value:g}" for name, value in values.items())
                 raise FormulaError(f"{problem}, at {shown}")
 
-    def _end(self, answer: Answer, reader: Reader, ends: Sequence[Term], writing: Writing) -> None:
+    def _end(self, answer: Answer, reader: Reader, ends: Sequence[Term], writing: BlockUnits) -> None:
         """What follows begins where the contour ends."""
         contour = answer.contour
         if contour is None:

@@ -138,7 +138,7 @@ def refusal(answer: Answer) -> str:
     return errors_of(answer)[0].code if is_refused else ""
 
 
-class Border(Struct, frozen=True):
+class CaseBoundary(Struct, frozen=True):
     """A value on whose sides the words may be read in different ways: where it is one of these numbers."""
 
     value: Affine
@@ -154,9 +154,9 @@ class Border(Struct, frozen=True):
             yield low, high, inner or (high - 1 if low is None and high is not None else (low or Decimal(0)) + 1)
 
 
-def borders_of(reader: Reader, answer: Answer, stated: Mapping[str, Affine]) -> list[Border]:
+def borders_of(reader: Reader, answer: Answer, stated: Mapping[str, Affine]) -> list[CaseBoundary]:
     """The borders between cases; the cases of one do not depend on the others."""
-    claim, found = answer.claim, list[Border]()
+    claim, found = answer.claim, list[CaseBoundary]()
     for block in claim.blocks:
         macro = reader.macros.get(block.line)
         for index, slot in (macro.typed(block, {})[1] if macro else {}).items():
@@ -164,16 +164,16 @@ def borders_of(reader: Reader, answer: Answer, stated: Mapping[str, Affine]) -> 
             if word.address in claim.lexicon.addresses:
                 one = claim.lexicon.value(unit_word(word, has_point=True), answer.unit) or Decimal(1)
                 numbers = sorted({Decimal(0), *limits_beside(reader.dialect.rules, claim, word)})
-                found.append(Border(Affine({slot.free.name: one}, Decimal(0)), tuple(numbers)))
+                found.append(CaseBoundary(Affine({slot.free.name: one}, Decimal(0)), tuple(numbers)))
     for name in claim.limits:
         value = less(stated[name], stated[f"limit:{name}"])
         own = next((each for each in found if each.value.factors.keys() == value.factors.keys()), None)
         if value.factors and own is None:
-            found.append(Border(value, (Decimal(0),)))
+            found.append(CaseBoundary(value, (Decimal(0),)))
             # Seen from either of two values, it is the same border.
             break
         if own is not None:
             (factor,) = value.factors.values()
             number = -value.constant / factor * next(iter(own.value.factors.values()))
-            found[found.index(own)] = Border(own.value, tuple(sorted({*own.numbers, number})))
+            found[found.index(own)] = CaseBoundary(own.value, tuple(sorted({*own.numbers, number})))
     return found

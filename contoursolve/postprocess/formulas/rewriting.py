@@ -27,7 +27,7 @@ POST_NAMES = (*POSTS, *_FURTHER)
 """Targets of formulas."""
 
 
-class Formulas(Struct, frozen=True, eq=False):
+class FormulaRequest(Struct, frozen=True, eq=False):
     """A target by its name, the variables that may be used, if they are named, the values of others for example, and
     what the program uses itself."""
 
@@ -67,11 +67,13 @@ def post_of_formulas(post: str | Post) -> Post:
     return replace(post_of(_FURTHER[post]), name=post, target=None)
 
 
-def formulas_for(text: str, post: Post, scratch: str | None, lets: Mapping[str, float], policy: Policy) -> Formulas:
+def formulas_for(
+    text: str, post: Post, scratch: str | None, lets: Mapping[str, float], policy: Policy
+) -> FormulaRequest:
     """The formulas of a program for a target. Raises NoFormulasError for a range of variables that is none."""
     used = frozenset(re.sub(r"\s+", "", each).upper() for each in _VARIABLES.findall(text))
     numbers = [int(each) for each in _LABELS.findall(text)]
     label = max([_FIRST_LABEL, *(number + 1 for number in numbers if number >= _FIRST_LABEL)])
     if post.name not in ("same", *TARGETS):
         raise NoFormulasError(f"{post.title} has no formulas; choose from {', '.join(POST_NAMES)}")
-    return Formulas(post.name, read_scratch(scratch) if scratch else None, lets, policy, used, label)
+    return FormulaRequest(post.name, read_scratch(scratch) if scratch else None, lets, policy, used, label)
