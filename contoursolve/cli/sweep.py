@@ -12,7 +12,7 @@ from typing import Any
 
 import click
 
-from contoursolve.cli.blocks import (
+from contoursolve.cli.block_options import (
     block_options,
     fact_option,
     format_option,

@@ -5,7 +5,7 @@ from .additions import (
     ways_to_complete as ways_to_complete,
     words_to_add as words_to_add,
 )
-from .behind import report_behind as report_behind
+from .block_behind import report_behind as report_behind
 from .diagnose import (
     diagnose as diagnose,
     mend_points as mend_points,
@@ -40,6 +40,9 @@ from .fill import (
     FARTHEST as FARTHEST,
     fill_in as fill_in,
 )
+from .legality_table import (
+    tabulate as tabulate,
+)
 from .repairs import (
     find_repairs as find_repairs,
 )
@@ -63,9 +66,6 @@ from .spelling import (
     is_counted_start as is_counted_start,
     readings as readings,
     without_point as without_point,
-)
-from .table import (
-    tabulate as tabulate,
 )
 from .typo_fixes import (
     explain_codes as explain_codes,

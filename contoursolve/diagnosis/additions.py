@@ -8,9 +8,9 @@ from msgspec import Struct
 
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits
 from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.legality_table import legal_samples
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.subsets import smallest_sets
-from contoursolve.diagnosis.table import legal_samples
 from contoursolve.gcode import spell
 from contoursolve.geometry import assemble
 from contoursolve.reading import Dialect, ParsedContour, check, read, stating

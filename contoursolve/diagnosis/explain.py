@@ -302,7 +302,7 @@ def explain_missing(
         ways += [f"give {' or '.join(open_sizes)} a value"] if open_sizes else []
     told = open_text(shown, profile)
     if claim.form.is_general:
-        from contoursolve.diagnosis.lacking import partners_of  # noqa: PLC0415 - few blocks lack words
+        from contoursolve.diagnosis.missing_words import partners_of  # noqa: PLC0415 - few blocks lack words
         from contoursolve.diagnosis.sample_drawing import sample_drawing  # noqa: PLC0415 - nor such
 
         told, first = _open_elements(free, open_count, profile)
@@ -355,7 +355,7 @@ def _adding_by_line(
 
 def _adding(names: Sequence[str], claim: ParsedContour, profile: Profile, unable: Collection[str]) -> Iterator[str]:
     """To add the words that complete a contour: with their lines where it has several."""
-    from contoursolve.diagnosis.lacking import lack_of, lack_text, still_able  # noqa: PLC0415 - few blocks lack words
+    from contoursolve.diagnosis.missing_words import lack_of, lack_text, still_able  # noqa: PLC0415 - few blocks lack words
 
     if claim.form.is_general:
         return

@@ -19,7 +19,14 @@ from .isg import (
 from .klartext import (
     klartext as klartext,
 )
-from .language import (
+from .machine import (
+    MOST_BLOCKS as MOST_BLOCKS,
+    Limit as Limit,
+    Machine as Machine,
+    machine_of as machine_of,
+    needs_running as needs_running,
+)
+from .macro_language import (
     ARGUMENT as ARGUMENT,
     MACHINES as MACHINES,
     Assign as Assign,
@@ -34,13 +41,6 @@ from .language import (
     When as When,
     WordFormula as WordFormula,
 )
-from .machine import (
-    MOST_BLOCKS as MOST_BLOCKS,
-    Limit as Limit,
-    Machine as Machine,
-    machine_of as machine_of,
-    needs_running as needs_running,
-)
 from .sinumerik import (
     MOVES_BESIDE as MOVES_BESIDE,
     SYNCHRONOUS as SYNCHRONOUS,
@@ -52,9 +52,9 @@ from .subprograms import (
     Surroundings as Surroundings,
     surroundings_of as surroundings_of,
 )
+from .term_writer import (
+    write_term as write_term,
+)
 from .variables import (
     check_names as check_names,
-)
-from .write import (
-    write_term as write_term,
 )

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from decimal import Decimal
 
-from contoursolve.execution.language import VACANT, Known, Unknown, Vacant
+from contoursolve.execution.macro_language import VACANT, Known, Unknown, Vacant
 from contoursolve.numeric import Apply, Constant, Indexed, Quoted, Term, Variable
 
 _NEAR = 1e-12

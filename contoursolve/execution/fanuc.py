@@ -6,7 +6,18 @@ from functools import cache
 
 from msgspec import structs
 
-from contoursolve.execution.language import (
+from contoursolve.execution.line_reader import (
+    O_WORD,
+    ONE,
+    PROGRAM_END,
+    LineForm,
+    LineReader,
+    Spelling,
+    nothing,
+    number_of,
+    word,
+)
+from contoursolve.execution.macro_language import (
     MACHINES,
     UNSET,
     Assign,
@@ -25,17 +36,6 @@ from contoursolve.execution.language import (
     Return,
     Strange,
     When,
-)
-from contoursolve.execution.lines import (
-    O_WORD,
-    ONE,
-    PROGRAM_END,
-    LineForm,
-    LineReader,
-    Spelling,
-    nothing,
-    number_of,
-    word,
 )
 from contoursolve.execution.notation import FANUC
 from contoursolve.numeric import Constant, Term, Variable

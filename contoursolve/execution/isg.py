@@ -4,7 +4,17 @@ import re
 from collections.abc import Iterable, Iterator
 from functools import cache
 
-from contoursolve.execution.language import (
+from contoursolve.execution.line_reader import (
+    ONE,
+    PROGRAM_END,
+    LineForm,
+    LineReader,
+    Spelling,
+    nothing,
+    number_of,
+    strange,
+)
+from contoursolve.execution.macro_language import (
     MACHINES,
     UNSET,
     Assign,
@@ -23,7 +33,6 @@ from contoursolve.execution.language import (
     ProgramEnd,
     Return,
 )
-from contoursolve.execution.lines import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, number_of, strange
 from contoursolve.execution.notation import ISG, UnreadableTermError
 from contoursolve.gcode import IN_BRACKETS, nested
 from contoursolve.numeric import Apply, Term

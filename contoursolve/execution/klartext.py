@@ -4,7 +4,17 @@ import re
 from collections.abc import Iterable, Iterator
 from functools import cache
 
-from contoursolve.execution.language import (
+from contoursolve.execution.line_reader import (
+    PROGRAM_END,
+    LineForm,
+    LineReader,
+    Spelling,
+    nothing,
+    number_of,
+    strange,
+    word,
+)
+from contoursolve.execution.macro_language import (
     MACHINES,
     UNSET,
     Call,
@@ -16,7 +26,6 @@ from contoursolve.execution.language import (
     ProgramEnd,
     Return,
 )
-from contoursolve.execution.lines import PROGRAM_END, LineForm, LineReader, Spelling, nothing, number_of, strange, word
 from contoursolve.execution.notation import KLARTEXT
 from contoursolve.numeric import Apply, Variable
 

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from contoursolve.execution.evaluate import written
 from contoursolve.execution.events import EventKind, ProgramEvent
-from contoursolve.execution.language import (
+from contoursolve.execution.macro_language import (
     ARGUMENT,
     SKIP_SWITCH,
     Assign,

@@ -4,7 +4,8 @@ import itertools
 import re
 from collections.abc import Iterable, Iterator
 
-from contoursolve.execution.language import (
+from contoursolve.execution.line_reader import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, strange
+from contoursolve.execution.macro_language import (
     MACHINES,
     UNSET,
     Assign,
@@ -26,7 +27,6 @@ from contoursolve.execution.language import (
     Return,
     Strange,
 )
-from contoursolve.execution.lines import ONE, PROGRAM_END, LineForm, LineReader, Spelling, nothing, strange
 from contoursolve.execution.notation import SINUMERIK, UnreadableTermError
 from contoursolve.gcode import IN_BRACKETS, IN_PARENTHESES
 from contoursolve.numeric import Apply, Constant, Indexed, Quoted, Term, Variable

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from msgspec import Struct
 
-from contoursolve.execution.language import (
+from contoursolve.execution.macro_language import (
     Call,
     CallKind,
     CodeLine,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from contoursolve.diagnostics import UserError
 from contoursolve.execution.evaluate import evaluate, is_true, name_of_indexed
-from contoursolve.execution.language import (
+from contoursolve.execution.macro_language import (
     ARGUMENT,
     SKIP_SWITCH,
     UNSET,

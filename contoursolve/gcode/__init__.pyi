@@ -5,7 +5,7 @@ from .comments import (
     remark as remark,
     with_comments_of as with_comments_of,
 )
-from .contents import (
+from .decoding import (
     decode as decode,
 )
 from .files import (

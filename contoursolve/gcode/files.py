@@ -13,7 +13,7 @@ from typing import BinaryIO
 from msgspec import Struct
 
 from contoursolve.diagnostics import UserError
-from contoursolve.gcode.contents import encoding_of
+from contoursolve.gcode.decoding import encoding_of
 from contoursolve.gcode.text import STANDARD_INPUT, UnreadableProgramError, opening, standard_input
 
 _CHUNK = 1 << 20

@@ -8,8 +8,8 @@ from lsprotocol import types
 
 import contoursolve
 from contoursolve import Answer, Conversion, Dialect, Expansion, end_text, start_text, stated_words
+from contoursolve.lsp.language_features import stretch
 from contoursolve.lsp.opened import Opened
-from contoursolve.lsp.reading import stretch
 from contoursolve.pictures import Theme, draw_answer
 
 MOST_TOLD = 3

@@ -5,7 +5,7 @@ from pygls.exceptions import JsonRpcException
 
 from contoursolve import BlockNumber, block_number_at, format_program, rename_block
 from contoursolve.lsp.opened import Opened
-from contoursolve.lsp.places import edits
+from contoursolve.lsp.positions import edits
 
 _REFUSED = -32803
 """RequestFailed of the protocol: the client shows the message, and nothing is changed."""

@@ -6,7 +6,7 @@ from lsprotocol import types
 
 from contoursolve import Diagnostic, Severity
 from contoursolve.lsp.opened import Opened
-from contoursolve.lsp.places import edits
+from contoursolve.lsp.positions import edits
 
 _SEVERITY = {
     Severity.ERROR: types.DiagnosticSeverity.Error,

@@ -8,8 +8,8 @@ from lsprotocol import types
 from msgspec import Struct, field
 
 from contoursolve import OpenProgram, find_settings
-from contoursolve.lsp.pages import Pages
-from contoursolve.lsp.places import ClientPositions
+from contoursolve.lsp.positions import ClientPositions
+from contoursolve.lsp.rule_pages import Pages
 
 CONTROL = "control"
 

@@ -17,9 +17,9 @@ from contoursolve import DIALECTS, Severity, Status, __version__
 from contoursolve.lsp import commands
 from contoursolve.lsp.editing import block_number_under, formatted, renamed, target_of
 from contoursolve.lsp.findings import actions_of, diagnostics_of
+from contoursolve.lsp.language_features import Completer, folds_of, hints_of, hover_of, signatures_of, symbols_of
 from contoursolve.lsp.opened import ClientSettings, Opened, read_options
-from contoursolve.lsp.pages import Pages
-from contoursolve.lsp.reading import Completer, folds_of, hints_of, hover_of, signatures_of, symbols_of
+from contoursolve.lsp.rule_pages import Pages
 
 logger = logging.getLogger(__name__)
 

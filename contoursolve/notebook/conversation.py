@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 
 from contoursolve.notebook import exploration as explorations
 from contoursolve.notebook.exploration import Exploration, words_of
-from contoursolve.notebook.front_end import Data, asked_now, frames_of, ghost_of, picture_of, range_of, view_of
+from contoursolve.notebook.exploration_view import Data, asked_now, frames_of, ghost_of, picture_of, range_of, view_of
 
 _CHANGES: Mapping[str, Callable[[Exploration, Data], Exploration]] = {
     "move": lambda now, action: explorations.set_words(now, action["values"]),

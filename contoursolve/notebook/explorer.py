@@ -7,9 +7,9 @@ from typing import Any
 import anywidget
 import traitlets
 
-from contoursolve.notebook.bundle import bundle
 from contoursolve.notebook.conversation import Conversation
 from contoursolve.notebook.exploration import Exploration
+from contoursolve.notebook.mime_bundle import bundle
 from contoursolve.output import notebook_style
 from contoursolve.program import Result
 

@@ -92,13 +92,13 @@ from .plain_text import (
     harmless as harmless,
     printable as printable,
 )
+from .premises import (
+    resting_data as resting_data,
+)
 from .report import (
     report_page as report_page,
 )
-from .resting import (
-    resting_data as resting_data,
-)
-from .words import (
+from .word_meanings import (
     StatedWord as StatedWord,
     end_text as end_text,
     form_text as form_text,

@@ -25,8 +25,8 @@ from contoursolve.diagnostics import Diagnosis, Verdict
 from contoursolve.gcode import FACT
 from contoursolve.geometry import Length, Turn
 from contoursolve.output.plain_text import NAMELESS, Name, Table, columns, printable
-from contoursolve.output.resting import resting_texts
-from contoursolve.output.words import form_text, found_value, meaning_of, stated_words
+from contoursolve.output.premises import resting_texts
+from contoursolve.output.word_meanings import form_text, found_value, meaning_of, stated_words
 from contoursolve.program import Result
 from contoursolve.solving import ArcSegment, Contour, resolved_later
 

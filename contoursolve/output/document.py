@@ -7,7 +7,7 @@ from typing import Any
 from contoursolve.diagnosis import DECIMALS, Answer, AskedValue, decimals_of, list_solutions, printed_certificate, rank
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Span, json_text, members, plain
 from contoursolve.output.listing import Totals, findings_of
-from contoursolve.output.resting import resting_data
+from contoursolve.output.premises import resting_data
 from contoursolve.program import Result, Run
 from contoursolve.solving import ArcSegment, Certificate, Contour, Point, Proof, Segment
 

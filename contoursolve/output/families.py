@@ -21,7 +21,7 @@ from contoursolve.families import (
 )
 from contoursolve.geometry import Length
 from contoursolve.output.plain_text import Table
-from contoursolve.output.resting import resting_data, resting_texts
+from contoursolve.output.premises import resting_data, resting_texts
 
 # Ranges of a word --------------------------------------------------------------------------------------------
 

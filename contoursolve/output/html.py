@@ -20,7 +20,7 @@ from contoursolve.output.contours import (
 )
 from contoursolve.output.findings import Piece, finding_pieces
 from contoursolve.output.plain_text import NAMELESS, Name, Table, printable
-from contoursolve.output.resting import resting_texts
+from contoursolve.output.premises import resting_texts
 from contoursolve.pictures import CHAINS, DARK_COLORS, LIGHT_COLORS, Drawable, Role, Theme, draw
 
 WIDEST, LONGEST = 200, 400

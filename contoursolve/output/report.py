@@ -31,7 +31,7 @@ from contoursolve.output.html import (
 )
 from contoursolve.output.listing import sources_of, summary_line
 from contoursolve.output.plain_text import Name, printable
-from contoursolve.output.words import form_text
+from contoursolve.output.word_meanings import form_text
 from contoursolve.pictures import About, named_words
 from contoursolve.program import Result
 

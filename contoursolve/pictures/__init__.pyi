@@ -14,7 +14,7 @@ from .drawing import (
     draw_result as draw_result,
     draw_sweep as draw_sweep,
 )
-from .known import (
+from .known_points import (
     Known as Known,
 )
 from .layout import (

@@ -19,7 +19,7 @@ from contoursolve.geometry import (
     Unit,
     line_scalars,
 )
-from contoursolve.pictures.known import place_beside, place_of
+from contoursolve.pictures.known_points import place_beside, place_of
 from contoursolve.pictures.scene import Aligned, Leader, Mark, MarkKind, Part, Ring, Slide, Thin, Trail, number
 from contoursolve.pictures.subject import Subject
 from contoursolve.pictures.theme import Role

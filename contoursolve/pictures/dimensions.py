@@ -31,7 +31,7 @@ from contoursolve.geometry import (
     TurnBetween,
     Unit,
 )
-from contoursolve.pictures.known import place_of
+from contoursolve.pictures.known_points import place_of
 from contoursolve.pictures.page import About, TextRun
 from contoursolve.pictures.scene import (
     Aligned,

@@ -16,7 +16,7 @@ from contoursolve.pictures.page import TextRun, visible
 from contoursolve.pictures.scene import Closeup, Mark, MarkKind, Part, Scene, Trail, Weight, axis_names
 from contoursolve.pictures.subject import find_known, list_trails
 from contoursolve.pictures.theme import Role
-from contoursolve.pictures.turned import crosses_axis, cylinders_of, turn_part
+from contoursolve.pictures.turned_part import crosses_axis, cylinders_of, turn_part
 from contoursolve.pictures.vectors import distance
 from contoursolve.program import CycleProfile, Result
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment

@@ -5,7 +5,7 @@ from math import cos, pi, sin
 
 from contoursolve.geometry import Figure, Length, Profile, Unit, line_scalars
 from contoursolve.pictures.dimensions import around, dimension_of
-from contoursolve.pictures.known import Known, place_beside, place_of, start_of
+from contoursolve.pictures.known_points import Known, place_beside, place_of, start_of
 from contoursolve.pictures.page import TextRun, visible
 from contoursolve.pictures.scene import (
     Leader,

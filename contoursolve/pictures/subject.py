@@ -29,7 +29,7 @@ from contoursolve.geometry import (
     line_scalars,
     scalar,
 )
-from contoursolve.pictures.known import (
+from contoursolve.pictures.known_points import (
     Known,
     by_point,
     complete,
@@ -41,9 +41,9 @@ from contoursolve.pictures.known import (
     start_of,
     with_facts,
 )
+from contoursolve.pictures.misread_words import counted, is_mended_by, unread
 from contoursolve.pictures.page import ANYTHING, About
 from contoursolve.pictures.scene import Trail, word_text
-from contoursolve.pictures.slips import counted, is_mended_by, unread
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, direction, distance
 from contoursolve.reading import ReadIssue

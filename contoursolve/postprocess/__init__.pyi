@@ -14,7 +14,7 @@ from .expansion_report import (
 from .formatting import (
     format_program as format_program,
 )
-from .formulas.rewriting import (
+from .formulas.formula_request import (
     formulas_for as formulas_for,
     post_of_formulas as post_of_formulas,
 )

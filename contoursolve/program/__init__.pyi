@@ -1,3 +1,6 @@
+from .agreeing_controls import (
+    choose_alike as choose_alike,
+)
 from .batch import (
     Batch as Batch,
 )
@@ -8,8 +11,15 @@ from .calls import (
     machine_for as machine_for,
     path_of as path_of,
 )
+from .cycle_profiles import (
+    CycleProfile as CycleProfile,
+)
 from .lines import (
     Lines as Lines,
+)
+from .lookahead import (
+    Line as Line,
+    each_block as each_block,
 )
 from .open_program import (
     OpenContour as OpenContour,
@@ -25,10 +35,7 @@ from .pipeline import (
     run as run,
     walk as walk,
 )
-from .profiles import (
-    CycleProfile as CycleProfile,
-)
-from .project import (
+from .project_file import (
     CONTROL as CONTROL,
     SettingError as SettingError,
     check_settings as check_settings,
@@ -37,9 +44,6 @@ from .project import (
     read_setting as read_setting,
     restate_control as restate_control,
     stated_settings as stated_settings,
-)
-from .readers import (
-    choose_alike as choose_alike,
 )
 from .recognise import (
     Recogniser as Recogniser,
@@ -58,8 +62,4 @@ from .request import (
 )
 from .solve_queue import (
     Step as Step,
-)
-from .stream import (
-    Line as Line,
-    each_block as each_block,
 )

@@ -10,7 +10,7 @@ from contoursolve.diagnosis import Answer, Context, context_of, join, measured, 
 from contoursolve.diagnostics import Basis, Diagnostic, Fix, Label, Severity, Span
 from contoursolve.execution import ARGUMENT, MACHINES, Limit, Machine, Surroundings, machine_of
 from contoursolve.gcode import Block, Caller, Program, Substitution
-from contoursolve.program.profiles import CycleProfile, profiles_of, turns_back
+from contoursolve.program.cycle_profiles import CycleProfile, profiles_of, turns_back
 from contoursolve.program.solve_queue import Step
 from contoursolve.reading import Dialect, ReadIssue, Rule, State
 from contoursolve.solving import ArcSegment

@@ -6,8 +6,8 @@ from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
 from contoursolve.gcode import LONGEST_BLOCK, Block, Directive, Passage, parse_block
+from contoursolve.program.lookahead import Line
 from contoursolve.program.recognise import several_controls, sign_against, sign_of
-from contoursolve.program.stream import Line
 from contoursolve.reading import Dialect, plain_lines
 
 _USUAL = "\n"

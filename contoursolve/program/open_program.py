@@ -25,10 +25,10 @@ from contoursolve.diagnostics import Diagnostic, Fix, Span, choice_of
 from contoursolve.execution import needs_running, surroundings_of
 from contoursolve.gcode import ISO, Block, Blocks, Program, Syntax, parse, parse_block, split_lines
 from contoursolve.geometry import Length, Plane
-from contoursolve.program.outside import Outside
+from contoursolve.program.agreeing_controls import choose_alike
+from contoursolve.program.outside_contours import Outside
 from contoursolve.program.pipeline import Checkpoint, Examiner, Result, run
-from contoursolve.program.project import CONTROL, FIRST_LINES, SettingError, stated_settings
-from contoursolve.program.readers import choose_alike
+from contoursolve.program.project_file import CONTROL, FIRST_LINES, SettingError, stated_settings
 from contoursolve.program.recognise import (
     PLANE,
     TURNED_AXES,

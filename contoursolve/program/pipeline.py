@@ -55,12 +55,12 @@ from contoursolve.gcode import (
 )
 from contoursolve.geometry import Length, Plane
 from contoursolve.program.calls import in_text_order, machine_for
-from contoursolve.program.outside import Outside
-from contoursolve.program.profiles import CycleProfile
+from contoursolve.program.cycle_profiles import CycleProfile
+from contoursolve.program.lookahead import Line, View, each_block, go_on, pass_plainly, says_something
+from contoursolve.program.outside_contours import Outside
 from contoursolve.program.recognise import begins_for_another, first_signs, what_shows
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Pending, Previous, Queue, Step, Together
-from contoursolve.program.stream import Line, View, each_block, go_on, pass_plainly, says_something
 from contoursolve.program.tape_markers import Marks
 from contoursolve.reading import (
     COMMENTED,

@@ -9,7 +9,7 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import either, join
 from contoursolve.diagnostics import ProgramError
 from contoursolve.gcode import Block, Program, Syntax, Word
-from contoursolve.program.project import CONTROL, FIRST_LINES, check_settings, configure, stated_settings
+from contoursolve.program.project_file import CONTROL, FIRST_LINES, check_settings, configure, stated_settings
 from contoursolve.reading import Dialect, ReadIssue, Taken, plain_lines, words_of
 
 

@@ -21,7 +21,7 @@ from contoursolve.diagnosis import (
 )
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic
 from contoursolve.gcode import Block, Passage, parse_block
-from contoursolve.program.stream import View
+from contoursolve.program.lookahead import View
 from contoursolve.reading import (
     Awaited,
     Dialect,

@@ -12,6 +12,10 @@ from .contour_form import (
     lay_out as lay_out,
     stated_sets as stated_sets,
 )
+from .control_flow import (
+    Ahead as Ahead,
+    Ways as Ways,
+)
 from .dialect import (
     Behind as Behind,
     Dialect as Dialect,
@@ -93,10 +97,6 @@ from .rules import (
     check as check,
     is_refused_by_values as is_refused_by_values,
     some as some,
-)
-from .ways import (
-    Ahead as Ahead,
-    Ways as Ways,
 )
 from .writer import (
     NOTHING as NOTHING,

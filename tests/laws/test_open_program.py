@@ -8,7 +8,7 @@ from editor import random_edit
 
 import contoursolve
 from contoursolve import OpenProgram
-from contoursolve.gcode.contents import decode
+from contoursolve.gcode.decoding import decode
 
 ROOT = Path(__file__).parents[2]
 PROGRAMS = sorted([*(ROOT / "notebooks" / "programs").glob("*.nc"), *(ROOT / "docs" / "programs").glob("*.*")])

@@ -17,7 +17,7 @@ from examples import some_of
 import contoursolve
 from contoursolve import Status
 from contoursolve.notebook import exploration as explore
-from contoursolve.notebook.front_end import picture_of, range_of, view_of
+from contoursolve.notebook.exploration_view import picture_of, range_of, view_of
 
 WHOLE = "G111 X100. A180. K-30. B120. P5. Q5."
 START = {"start": "X40. Z0."}

@@ -9,7 +9,7 @@ from contoursolve import Status
 from contoursolve.controls.heidenhain.rules import RULES
 from contoursolve.notebook import exploration as explore
 from contoursolve.notebook.conversation import Conversation
-from contoursolve.notebook.front_end import picture_of, view_of
+from contoursolve.notebook.exploration_view import picture_of, view_of
 
 FRAME = "0 BEGIN PGM A MM\n1 L X+0 Y+0\n{}\n99 END PGM A MM"
 LINES = FRAME.format("2 FL AN+60\n3 FL X+80 Y+20 AN-30")

@@ -14,7 +14,7 @@ from examples import few_and_many, some_of
 
 import contoursolve
 from contoursolve.cli import main
-from contoursolve.cli.blocks import read_range
+from contoursolve.cli.block_options import read_range
 from contoursolve.families import FamilyError, family, sensitivity
 from contoursolve.solving import REASONS, RefusalKind, StatusCode
 

@@ -21,7 +21,7 @@ from generate_nct import FORMS, random_chain, random_cornered, random_pair
 from contoursolve import feasible, solve
 from contoursolve.cli import main
 from contoursolve.notebook.exploration import begin
-from contoursolve.notebook.front_end import range_of, view_of
+from contoursolve.notebook.exploration_view import range_of, view_of
 from contoursolve.solving import RefusalKind
 
 STEP = Decimal("0.001")

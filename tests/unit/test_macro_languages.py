@@ -12,7 +12,7 @@ from contoursolve.execution.evaluate import FUNCTIONS, evaluate, name_of_indexed
 from contoursolve.execution.fanuc import fanuc, haas
 from contoursolve.execution.isg import isg
 from contoursolve.execution.klartext import klartext
-from contoursolve.execution.language import (
+from contoursolve.execution.macro_language import (
     Assign,
     Call,
     CallKind,
@@ -35,8 +35,8 @@ from contoursolve.execution.language import (
 )
 from contoursolve.execution.notation import FANUC, ISG, KLARTEXT, LINUXCNC, SINUMERIK, Notation, UnreadableTermError
 from contoursolve.execution.sinumerik import sinumerik
-from contoursolve.execution.terms import LONGEST_TERM, read_term
-from contoursolve.execution.write import NOTATIONS, UnwritableTermError, write_term
+from contoursolve.execution.term_reader import LONGEST_TERM, read_term
+from contoursolve.execution.term_writer import NOTATIONS, UnwritableTermError, write_term
 from contoursolve.numeric.terms import Apply, Constant, Indexed, Term, Variable
 
 VALUES = (2.5, -3.0, 0.75)

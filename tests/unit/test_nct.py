@@ -19,7 +19,7 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.families import family
 from contoursolve.output.document import to_json
-from contoursolve.program.project import SettingError
+from contoursolve.program.project_file import SettingError
 from contoursolve.solving import StatusCode
 from contoursolve.verification import Document, Verdict, verify
 

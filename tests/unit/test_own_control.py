@@ -15,7 +15,7 @@ from contoursolve.controls import DIALECTS, NCT_99M
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.output.contours import contour_lines
 from contoursolve.postprocess.post_processors import LINUXCNC
-from contoursolve.program.project import SettingError
+from contoursolve.program.project_file import SettingError
 from contoursolve.reading import ParsedContour
 from contoursolve.solving import NoteKind, RefusalKind
 

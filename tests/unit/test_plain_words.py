@@ -22,7 +22,7 @@ FORBIDDEN = re.compile(
 )
 SOLVER = (
     "diagnosis/diagnose.py",
-    "diagnosis/table.py",
+    "diagnosis/legality_table.py",
     "solving/closed_form_branches.py",
     "solving/plan.py",
     "solving/solve.py",

@@ -330,7 +330,7 @@ def test_what_cannot_be_drawn_is_told_and_what_cannot_be_made_is_left_out(monkey
     assert "cannot be drawn" in "".join(Page(data[HTML]).words)
     monkeypatch.setattr("contoursolve.notebook.records_html.html_of", fail)
     assert list(answer._repr_mimebundle_()) == [TEXT]
-    monkeypatch.setattr("contoursolve.notebook.bundle.text_of", fail)
+    monkeypatch.setattr("contoursolve.notebook.mime_bundle.text_of", fail)
     assert answer._repr_mimebundle_() == {TEXT: repr(answer)}
 
 

@@ -8,9 +8,9 @@ from msgspec import Struct
 
 from contoursolve.diagnosis import Answer
 from contoursolve.numeric import AT_MOST, LESS, ZERO, Affine, Apply, Constant, Term, Variable
-from contoursolve.postprocess.formulas.check import difference
-from contoursolve.postprocess.formulas.contour import BlockUnits, Body, Stop, body_of, free_sizes
-from contoursolve.postprocess.formulas.given import (
+from contoursolve.postprocess.formulas.contour_statements import BlockUnits, Body, Stop, body_of, free_sizes
+from contoursolve.postprocess.formulas.trial_run import difference
+from contoursolve.postprocess.formulas.word_dependence import (
     CaseBoundary,
     FormulaError,
     Reader,

@@ -9,10 +9,10 @@ from msgspec import Struct
 
 from contoursolve.controls import HAAS_MILL, HEIDENHAIN, SIEMENS_840D
 from contoursolve.diagnosis import Policy
-from contoursolve.postprocess.formulas.expander import FormulaExpander
-from contoursolve.postprocess.formulas.lines import FormulaLines
-from contoursolve.postprocess.formulas.scratch import NoFormulasError, Scratch, read_scratch
-from contoursolve.postprocess.formulas.targets import TARGETS
+from contoursolve.postprocess.formulas.formula_expander import FormulaExpander
+from contoursolve.postprocess.formulas.formula_lines import FormulaLines
+from contoursolve.postprocess.formulas.macro_targets import TARGETS
+from contoursolve.postprocess.formulas.scratch_variables import NoFormulasError, Scratch, read_scratch
 from contoursolve.postprocess.post_processors import POSTS, Post, find_post, post_of
 from contoursolve.reading import Dialect
 

@@ -11,7 +11,7 @@ from contoursolve.families import FamilyError, errors_of, limits_beside, unit_wo
 from contoursolve.gcode import Block
 from contoursolve.geometry import Choice
 from contoursolve.numeric import Affine
-from contoursolve.postprocess.formulas.lines import Free, MacroLine
+from contoursolve.postprocess.formulas.formula_lines import Free, MacroLine
 from contoursolve.reading import Dialect, Position, State
 
 STEP = Decimal(1) / 1024

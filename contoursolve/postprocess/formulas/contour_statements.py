@@ -26,7 +26,7 @@ from contoursolve.numeric import (
     formulas_of,
     magnitude,
 )
-from contoursolve.postprocess.formulas.given import FormulaError, Reader, less
+from contoursolve.postprocess.formulas.word_dependence import FormulaError, Reader, less
 from contoursolve.solving import (
     Check,
     RefusalKind,

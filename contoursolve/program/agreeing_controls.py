@@ -12,7 +12,7 @@ from contoursolve.diagnosis import Answer, Depth, coordinates, either, join
 from contoursolve.gcode import Block, Program
 from contoursolve.program.called_files import blocks_of_called_files
 from contoursolve.program.pipeline import Run
-from contoursolve.program.project import configure, stated_settings
+from contoursolve.program.project_file import configure, stated_settings
 from contoursolve.program.recognise import (
     CORNERS_WITHOUT_COMMA,
     SeveralControlsError,

@@ -7,7 +7,7 @@ from typing import Any
 from contoursolve.diagnosis import Answer
 from contoursolve.execution import Assign, Unknown, When, evaluate
 from contoursolve.numeric import Term
-from contoursolve.postprocess.formulas.contour import SHORTEST, BlockUnits, Choose, Leg, Statement, Stop
+from contoursolve.postprocess.formulas.contour_statements import SHORTEST, BlockUnits, Choose, Leg, Statement, Stop
 from contoursolve.solving import ArcSegment, Point
 
 WITHIN = 0.0005

@@ -12,12 +12,12 @@ from contoursolve.numeric import Affine, Term, Variable
 from contoursolve.postprocess.expander import Expander
 from contoursolve.postprocess.expansion_report import Left
 from contoursolve.postprocess.formulas.cases import Case, Fork, case_of
-from contoursolve.postprocess.formulas.check import Runner, difference
-from contoursolve.postprocess.formulas.contour import BlockUnits, Body, Choose, Leg, Said, Statement
-from contoursolve.postprocess.formulas.given import STEP, FormulaError, Reader, at
-from contoursolve.postprocess.formulas.lines import FormulaLines, Free, MacroLine
-from contoursolve.postprocess.formulas.scratch import Scratch, allocate, apart, names_of, place, renamed
-from contoursolve.postprocess.formulas.targets import PREFIXES, MacroTarget, TargetWriter, lowered
+from contoursolve.postprocess.formulas.contour_statements import BlockUnits, Body, Choose, Leg, Said, Statement
+from contoursolve.postprocess.formulas.formula_lines import FormulaLines, Free, MacroLine
+from contoursolve.postprocess.formulas.macro_targets import PREFIXES, MacroTarget, TargetWriter, lowered
+from contoursolve.postprocess.formulas.scratch_variables import Scratch, allocate, apart, names_of, place, renamed
+from contoursolve.postprocess.formulas.trial_run import Runner, difference
+from contoursolve.postprocess.formulas.word_dependence import STEP, FormulaError, Reader, at
 from contoursolve.program import Step
 from contoursolve.reading import ContourBlock, Position, State, advance, blocks_of, carried, words_of
 

@@ -8,7 +8,7 @@ from contoursolve.diagnosis import MOST_CHOICES, Answer, angle_text, count_choic
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import FaultKind, Word
 from contoursolve.geometry import Given, Unit, assemble
-from contoursolve.pictures.known import is_chosen
+from contoursolve.pictures.known_points import is_chosen
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import Status, analyse, is_closed, solve
 

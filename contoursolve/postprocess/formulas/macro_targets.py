@@ -8,7 +8,7 @@ from msgspec import Struct
 from contoursolve.execution import Assign, When, write_term, written
 from contoursolve.geometry import Plane
 from contoursolve.numeric import AT_MOST, LESS, Apply, Constant, Term, Variable
-from contoursolve.postprocess.formulas.contour import SHORTEST, Choose, Leg, Said, Statement, Stop
+from contoursolve.postprocess.formulas.contour_statements import SHORTEST, Choose, Leg, Said, Statement, Stop
 
 ALARM = 101
 """The number of the alarm by which a program stops on Fanuc and Haas, of those that programs may use."""

@@ -10,8 +10,8 @@ from msgspec.structs import replace
 from contoursolve.diagnostics import UserError
 from contoursolve.execution import Assign, When, place_in, variables_of
 from contoursolve.numeric import COMMON, Term, Variable
-from contoursolve.postprocess.formulas.contour import Choose, Leg, Said, Statement, Stop
-from contoursolve.postprocess.formulas.given import FormulaError
+from contoursolve.postprocess.formulas.contour_statements import Choose, Leg, Said, Statement, Stop
+from contoursolve.postprocess.formulas.word_dependence import FormulaError
 
 _RANGE = re.compile(r"\s*([^\d\s-]+)(\d+)\s*-\s*(?:[^\d\s-]+)?(\d+)\s*")
 

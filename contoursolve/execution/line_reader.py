@@ -6,7 +6,7 @@ from functools import cache
 
 from msgspec import Struct
 
-from contoursolve.execution.language import Assign, CodeLine, Forget, MacroStatement, Strange, WordFormula
+from contoursolve.execution.macro_language import Assign, CodeLine, Forget, MacroStatement, Strange, WordFormula
 from contoursolve.execution.notation import Notation, UnreadableTermError
 from contoursolve.gcode import IN_BRACKETS
 from contoursolve.numeric import Constant, Indexed, Quoted, Term, Variable
@@ -53,7 +53,7 @@ class LineReader:
     def term(self, *, is_value: bool = False) -> Term:
         """The expression that stands next."""
         # Lark takes a tenth of a second to import, and few programs have expressions.
-        from contoursolve.execution.terms import read_term  # noqa: PLC0415
+        from contoursolve.execution.term_reader import read_term  # noqa: PLC0415
 
         found, self.at = read_term(self.notation, self.text, self.at, is_value=is_value)
         return found
