@@ -295,8 +295,7 @@ def _is_comment(opened: Opened, line: int) -> bool:
 
 
 def _comment(opened: Opened) -> re.Pattern[str]:
-    dialect = opened.program.dialect or DIALECTS["fanuc-mill"]
-    return dialect.modes.syntax.comment
+    return opened.program.syntax.comment
 
 
 def folds_of(opened: Opened) -> Iterator[types.FoldingRange]:

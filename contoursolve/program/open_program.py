@@ -190,6 +190,11 @@ class OpenProgram:
         self._begin()
 
     @property
+    def syntax(self) -> Syntax:
+        """How its blocks are spelled: as ISO 6983 has it where the control is not known."""
+        return self.dialect.modes.syntax if self.dialect is not None else ISO
+
+    @property
     def text(self) -> str:
         """The program as it is now."""
         return "".join(self._lines.texts)

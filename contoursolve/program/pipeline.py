@@ -81,6 +81,7 @@ from contoursolve.reading import (
     next_place,
     reach_of,
     state_facts,
+    unread_state,
 )
 
 if TYPE_CHECKING:
@@ -363,7 +364,7 @@ class Examiner:
         """The answers of a program that runs, by what is known before a contour, its blocks and those behind it."""
         self.faulty: Counter[tuple[str, int]] | None = None
         """Of a program that runs: how often the contour at a line of a file was wrong. In a loop, each pass may be."""
-        self.queue = Queue(self.dialect or DIALECTS["yasnac-lx3"], together, self._examine_once, goes_on=goes_on)
+        self.queue = Queue(self.dialect, together, self._examine_once, goes_on=goes_on) if self.dialect else None
 
     def steps(self, blocks: Iterable[Line]) -> Iterator[Step]:
         """Every block and every contour, in order; without a dialect, only what is found."""
@@ -380,7 +381,8 @@ class Examiner:
 
     def _told(self, window: Sequence[Step | Pending]) -> Iterator[Step]:
         """Some steps in a row, solved, with those findings outside contours that are told."""
-        self.queue.settle()
+        if self.queue is not None:
+            self.queue.settle()
         for each in window:
             step = each.step if isinstance(each, Pending) else each
             held: Sequence[Line] = [step.passage] if step.passage else step.blocks
@@ -530,8 +532,7 @@ class Examiner:
             # One line is enough: with that mended, the control is known.
             is_shown = is_shown or (is_torn and self._check_letters_of_any(blocks, index))
         self.diagnostics += self.marks.finish()
-        none = DIALECTS["yasnac-lx3"].initial_state(self.asked.unit)
-        return Step((), none, findings=self._findings())
+        return Step((), unread_state(self.asked.unit), findings=self._findings())
 
     def _walk(self, blocks: Iterable[Line]) -> Iterator[Step | Pending]:
         """Every block and every contour, in order, contours as they are found."""
@@ -607,9 +608,10 @@ class Examiner:
             self._check_arc_before(view)
             self._check_units(found)
             step = Step(blocks, state, findings=self._findings())
-            pending = self.queue.add(found, step, view, after, self.previous)
+            queue = cast("Queue", self.queue)
+            pending = queue.add(found, step, view, after, self.previous)
             self.previous = found.blocks, state
-            return pending, partial(self.queue.leave, pending)
+            return pending, partial(queue.leave, pending)
         behind = advance(state, block, modes)
         if isinstance(found, ParsedContour):
             ends = behind.motion in _ARCS and any(map(block.find, (*behind.plane.axes, *behind.plane.centers)))

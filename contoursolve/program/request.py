@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import COMMON_RULES, DIALECTS
 from contoursolve.diagnosis import Depth, Policy
 from contoursolve.diagnostics import choice_of
 from contoursolve.execution import ALONE, Surroundings, check_names, surroundings_of
@@ -53,8 +53,8 @@ class Request(Struct, frozen=True):
 
     @property
     def rules(self) -> tuple[Rule, ...]:
-        """The rules by which findings are told."""
-        return (self.dialect or DIALECTS["yasnac-lx3"]).rules
+        """The rules by which findings are told: where nothing tells the control, those of all controls."""
+        return self.dialect.rules if self.dialect is not None else COMMON_RULES
 
 
 def request_for(  # noqa: PLR0913 - takes what `solve` takes

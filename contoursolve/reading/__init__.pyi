@@ -70,6 +70,7 @@ from .modal_state import (
     not_read as not_read,
     plain_lines as plain_lines,
     positions as positions,
+    unread_state as unread_state,
     words_of as words_of,
 )
 from .parsed_contour import (

@@ -211,6 +211,11 @@ class State(Struct, frozen=True):
         return self.move({axis: Position(None, reason, span) for axis in axes})
 
 
+def unread_state(unit: Length) -> State:
+    """The state of a program whose control is not known: there are no axes, and nothing is in force."""
+    return State({}, None, Plane("", ("", ""), ("", "")), unit, is_incremental=False, compensation=40)
+
+
 _UNREAD = (Bearing.UNREAD, Bearing.END)
 
 

@@ -227,3 +227,16 @@ def test_no_public_class_name_has_two_meanings():
     shared = {name: set(files) for name, files in homes.items() if len(files) > 1}
     allowed = {name: set(files.split()) for name, files in TWO_MEANINGS.items()}
     assert {name: files for name, files in shared.items() if not files <= allowed.get(name, set())} == {}
+
+
+def test_no_control_stands_in_where_none_is_named():
+    """Who needs one says which; where nothing tells it, what holds for all of them counts."""
+    by_name = [
+        (str(module.relative_to(HOUSE)), ast.unparse(node))
+        for module in MODULES
+        for node in ast.walk(ast.parse(module.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Subscript)
+        and ast.unparse(node.value).endswith("DIALECTS")
+        and isinstance(node.slice, ast.Constant)
+    ]
+    assert by_name == []
