@@ -1,2 +1,2 @@
-from . import bundle as bundle
 from .explore import explore as explore
+from .mime_bundle import bundle as bundle
