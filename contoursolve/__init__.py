@@ -25,9 +25,9 @@ __getattr__, __dir__, __all__ = attach_stub(__name__, __file__)
 
 
 def _renderer() -> "Renderer":
-    from contoursolve.notebook import bundle  # noqa: PLC0415 - when something is shown
+    from contoursolve.notebook import mime_bundle  # noqa: PLC0415 - when something is shown
 
-    return bundle
+    return mime_bundle
 
 
 register_renderer(_renderer)
