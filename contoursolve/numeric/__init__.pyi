@@ -54,7 +54,6 @@ from .formulas import (
     SIGN as SIGN,
     TURNED as TURNED,
     ZERO as ZERO,
-    Affine as Affine,
     formulas_of as formulas_of,
 )
 from .functions import FLOATS as FLOATS, Created as Created, Functions as Functions
@@ -100,6 +99,7 @@ from .newton import (
     finder_of as finder_of,
 )
 from .terms import (
+    Affine as Affine,
     Apply as Apply,
     Constant as Constant,
     Indexed as Indexed,

@@ -1,7 +1,6 @@
 """Instructions of CasADi as formulas of a macro language: sympy folds them and names what they have in common."""
 
 from collections.abc import Mapping, Sequence
-from decimal import Decimal
 from math import sqrt
 from typing import Any
 
@@ -11,7 +10,7 @@ from msgspec import Struct
 from contoursolve.numeric.expressions import Tape
 from contoursolve.numeric.given_angle import COSINE, SINE, direction
 from contoursolve.numeric.interpreter import Replay
-from contoursolve.numeric.terms import Apply, Constant, Term, Variable
+from contoursolve.numeric.terms import Affine, Apply, Constant, Term, Variable
 
 ZERO = 1e-6
 """mm, or the sine of an angle. What is not larger is zero for a control, whose cosine of 90 degrees is not; the sine of
@@ -26,13 +25,6 @@ COMMON = "common:"
 
 _LONGEST = 40
 """Operations of an expression that has no name."""
-
-
-class Affine(Struct, frozen=True):
-    """A value that follows variables: so much of each, by its name, and what is added."""
-
-    factors: Mapping[str, Decimal]
-    constant: Decimal
 
 
 class Formulas(Struct, frozen=True):

@@ -1,5 +1,8 @@
 """Expressions of a program as trees: constants, variables, functions."""
 
+from collections.abc import Mapping
+from decimal import Decimal
+
 from msgspec import Struct
 
 
@@ -39,3 +42,10 @@ class Apply(Struct, frozen=True, tag=True):
 
 
 Term = Constant | Quoted | Variable | Indexed | Apply
+
+
+class Affine(Struct, frozen=True):
+    """A value that follows variables: so much of each, by its name, and what is added."""
+
+    factors: Mapping[str, Decimal]
+    constant: Decimal

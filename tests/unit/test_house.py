@@ -178,6 +178,14 @@ MANY = r"contoursolve.solve('G0 X40. Z0.\n' + 'G111 X100. A180. K-30. B120.\nG0 
 HEAVY = {"anywidget", "htpy", "matplotlib", "pyarrow", "scipy", "sympy", "xarray", "contoursolve.families"}
 
 
+IN_A_BROWSER = "import sys; sys.modules |= dict.fromkeys({}); import contoursolve.notebook.conversation"
+
+
+def test_the_page_that_solves_in_the_browser_needs_neither_sympy_nor_what_a_terminal_needs():
+    lacking = ["sympy", "click", "anywidget", "matplotlib", "scipy", "packaging"]
+    subprocess.run([sys.executable, "-c", IN_A_BROWSER.format(lacking)], check=True)
+
+
 USES = {
     "importing the package": "pass",
     "solving G111": f"{G111.format('B120. P5.')}.contour.end",
