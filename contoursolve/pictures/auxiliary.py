@@ -1,5 +1,5 @@
-"""What stands around the path of a contour: the lines and circles from which its points come, the places through which
-facts lead it, what can slide, and what is wrong."""
+"""Everything drawn around the path: construction lines and circles, places that facts name, free movement and
+faults."""
 
 from collections.abc import Callable, Iterator, Mapping
 
@@ -103,8 +103,8 @@ def _led(subject: Subject) -> Iterator[Thin]:
 
 
 def _open_elements(subject: Subject) -> Iterator[Part]:
-    """What is known of the elements of a chain for which there are too few data: the line of one of known direction
-    through a known point, the chord of an arc. The circles of arcs are drawn as circles."""
+    """The known parts of elements that have too few data: a line through a known point, or the chord of an arc. Circles
+    of arcs are drawn as circles."""
     reach = _reach(subject)
     role = Role.OPEN if subject.answer.status is Status.UNDERDETERMINED else Role.CONFLICTING
     for element in subject.profile.figure.path:
@@ -136,7 +136,7 @@ def _way_of(subject: Subject, line: Line) -> Point | None:
 
 
 def _reach(subject: Subject) -> float:
-    """How far open lines are drawn: half as far as what is known reaches, mm."""
+    """Length to which open lines are drawn, mm: half the extent of what is known."""
     known = [*subject.known.points.values()]
     for each in subject.profile.figure.path:
         circle = subject.circle(each.center, each.radius) if isinstance(each, Arc) else None
@@ -150,7 +150,7 @@ _ALONE = 10.0
 
 
 def _slides(subject: Subject) -> Iterator[Slide]:
-    """What can still move, and how."""
+    """The points that can still move, each with its direction, or None if it moves freely."""
     profile, known = subject.profile, subject.known
     if subject.answer.contour is not None or not known.placed:
         return
@@ -187,7 +187,7 @@ def _places(subject: Subject) -> Iterator[Part]:
 
 
 def _faults(subject: Subject) -> Iterator[Part]:
-    """What speaks against a contour, and what words say that are ignored."""
+    """Drawings of the refusals, and of the facts that are ignored."""
     for refusal in subject.known.refusals:
         if refusal.kind in _OF_REFUSALS:
             yield from _OF_REFUSALS[refusal.kind](subject, refusal)
@@ -198,7 +198,7 @@ def _faults(subject: Subject) -> Iterator[Part]:
 def _gap(
     subject: Subject, one: Point, other: Point, role: Role = Role.CONFLICTING, told: str = "off", times: int = 1
 ) -> Iterator[Aligned]:
-    """How far apart two places are, if they are not one; twice as far (`times`) along an axis of diameters."""
+    """The gap between two places, if they are not one; `times` is 2 along an axis of diameters."""
     if distance(one, other) > SAME:
         yield Aligned(one, other, f"{number(times * distance(one, other), subject.profile.unit)} {told}", role)
 
@@ -219,7 +219,7 @@ def _disagreeing(subject: Subject, refusal: Refusal) -> Iterator[Part]:
 
 
 def _both_places(subject: Subject, fact: Fact, role: Role) -> Iterator[Part]:
-    """Where the other words put a point, where this one puts it, and the gap."""
+    """The point as the other words put it, the point as this word puts it, and the gap."""
     given = subject.profile.givens[fact.given]
     if given.word is None:
         return
@@ -342,4 +342,4 @@ _OF_REFUSALS: Mapping[RefusalKind, Callable[[Subject, Refusal], Iterator[Part]]]
     RefusalKind.LINE_REVERSED: _reversed,
     RefusalKind.CORNER_SIGN: _reversed,
 }
-"""How each refusal is drawn; the others have nothing to be shown."""
+"""Drawing of each refusal; the other refusals have nothing to be shown."""

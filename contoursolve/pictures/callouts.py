@@ -1,4 +1,4 @@
-"""What stands in the drawing itself: angles, radii, gaps, points with their names, and what can still slide."""
+"""Signs in the drawing itself: angles, radii, gaps, points with their names, and free movements."""
 
 from collections.abc import Iterator, Mapping
 from math import cos, fmod, hypot, pi, radians, sin

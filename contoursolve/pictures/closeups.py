@@ -52,10 +52,10 @@ _SHARE = 0.4
 """1. How much of a detail its subject takes."""
 
 _TIMES = (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0)
-"""How many times as large as the drawing a detail is, and ten times, a hundred times ... as much."""
+"""Round magnifications of a detail; ten times, a hundred times ... as much as well."""
 
 _LEAST = 2.0
-"""How many times as large as the drawing a detail must be, to be worth its room."""
+"""Least magnification for which a detail is worth its room."""
 
 _LARGEST = 100_000
 _CLEAR = 7.0
@@ -63,7 +63,7 @@ _CLEAR = 7.0
 
 
 class Detail(Struct, frozen=True):
-    """What is shown enlarged: its names, where it is on the drawing, and so many times as large."""
+    """An enlarged part of a drawing: its names, its box on the drawing, and its magnification."""
 
     names: tuple[str, ...]
     box: Box
@@ -76,7 +76,8 @@ class Detail(Struct, frozen=True):
 
 
 def choose_details(closeups: Iterable[Closeup], view: Viewport) -> tuple[list[Detail], list[str]]:
-    """What is too small in a drawing, with neighbours in one detail; and the names of what has no room any more."""
+    """The details for all closeups that are too small, neighbours in one detail. Also the names of those without
+    room."""
     small: list[tuple[tuple[str, ...], Box]] = []
     boxes = [(each, _box_of(each.segments, view)) for each in closeups]
     tiny = [(each, box) for each, box in boxes if max(box.right - box.left, box.bottom - box.top) < each.least]
@@ -111,7 +112,7 @@ def _around(one: Box, other: Box) -> Box:
 
 
 def _times(box: Box) -> float:
-    """How many times a detail can be as large as the drawing, as a round number."""
+    """Largest round magnification at which a box fits a detail."""
     sizes = ((_WIDE, box.right - box.left), (_HIGH, box.bottom - box.top))
     most = min((room * _SHARE / size for room, size in sizes if size > 0), default=1.0)
     power, best = 1.0, 1.0
@@ -206,7 +207,7 @@ def _within(segment: Segment, view: Viewport, frame: Box) -> Iterator[tuple[Spot
 
 
 def _crossings(center: Spot, radius: float, begin: float, sweep: float, frame: Box) -> Iterator[float]:
-    """How far an arc has turned (radians, without sign) where it meets the lines of a frame's edges."""
+    """Turned angles (radians, without sign) at which an arc meets the lines of a frame's edges."""
     sign = 1.0 if sweep > 0 else -1.0
     for axis, level in ((0, frame.left), (0, frame.right), (1, frame.top), (1, frame.bottom)):
         off = level - center[axis]

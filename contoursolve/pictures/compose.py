@@ -27,7 +27,7 @@ MOST_LABELS = 120
 MOST_REMARKS = 3
 
 _REMARKS = {Severity.ERROR: Role.CONFLICTING, Severity.WARNING: Role.IGNORED, Severity.INFO: Role.MUTED}
-"""What findings are written as."""
+"""Colour role of a finding's text, by severity."""
 
 MOST_SOLUTIONS = 6
 """Other solutions that are drawn."""
@@ -73,7 +73,7 @@ def _corners(trails: Sequence[Trail]) -> Iterator[Closeup]:
 
 
 def title_of(answer: Answer) -> str:
-    """What a contour is, where it stands, and what became of it."""
+    """The title of a picture: name of the form, program lines and status of the contour."""
     form = answer.claim.form
     lines = answer.lines
     where = f"program line {lines[0]}" if len(lines) == 1 else f"program lines {lines[0]} to {lines[-1]}"
@@ -103,7 +103,7 @@ def _ghosts(subject: Subject) -> tuple[list[Trail], Others]:
 
 
 def _meanings(subject: Subject) -> Mapping[Role, str]:
-    """What the legend says of other contours."""
+    """Legend text for other contours, by role."""
     if subject.known.others:
         return {Role.GHOST: "other values"}
     form = subject.answer.claim.form
@@ -183,8 +183,8 @@ def remarks_of(diagnostics: Sequence[Diagnostic]) -> Iterator[tuple[TextRun, ...
 
 
 def describe(answer: Answer) -> str:
-    """What the picture of a contour shows, for those who do not see it: every element of its path, or what keeps it
-    from having one."""
+    """Description for readers who cannot see the picture: each element of the path, or the findings that prevent
+    one."""
     first, second = answer.plane.axes
     diameter = " as a diameter" if answer.plane.diameters[SECOND] else ""
     sentences = [f"{first} to the right, {second} up{diameter}, in {answer.unit.value}."]

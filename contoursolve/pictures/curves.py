@@ -82,7 +82,7 @@ def spots_of(curves: Sequence[Curve]) -> Array:
 
 
 def near(curves: Sequence[Curve], rows: int, columns: int) -> NDArray[numpy.bool_]:
-    """Which cells of a plane that is divided into some are on a line, or beside one that is."""
+    """Mask of the cells of a divided plane that lie on a curve or beside such a cell, shape (rows, columns)."""
     mask = numpy.zeros((rows + 2, columns + 2), dtype=bool)
     for curve in curves:
         row = numpy.clip(((curve.spots[:, 1] - TOP) / HIGH * rows).astype(int), 0, rows - 1)

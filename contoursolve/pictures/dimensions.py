@@ -108,7 +108,8 @@ def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
 
 
 def dimension_of(subject: PartialDrawing, fact: Fact, text: str, role: Role, value: float) -> Dimension | None:
-    """How a fact with a value stands on a drawing; None where its points are not known, or it has no such form."""
+    """The dimension that shows a fact with a value; None for points that are not known, and for facts without a
+    dimension."""
     from contoursolve.geometry import Distance  # noqa: PLC0415 - see `constraints`
 
     known, figure = subject.known, subject.profile.figure
@@ -193,7 +194,7 @@ def _way(subject: PartialDrawing, of: Along | Tangent | Chord) -> float | None:
 
 
 def _begin(subject: PartialDrawing, of: Along | Tangent | Chord) -> Point | None:
-    """Where an element or a chord begins to run in its direction."""
+    """The point at which a line, a tangent or a chord begins to run in its direction."""
     if isinstance(of, Along):
         return next((subject.at(each.tail) for each in subject.profile.figure.path if each.name == of.line), None)
     return subject.at(of.tail if isinstance(of, Chord) else of.point)
@@ -204,7 +205,7 @@ def _degrees(way: Point) -> float:
 
 
 def _apart(subject: PartialDrawing, fact: TangentLine | PointBeside, text: str, role: Role) -> Dimension | None:
-    """How far a point is from a line or a circle, which a circle about the point touches that is not drawn."""
+    """The distance between a centre that is not drawn and a line or circle that touches its circle."""
     center, radius = (fact.center, fact.radius) if isinstance(fact, TangentLine) else fact.first
     figure = subject.profile.figure
     at = subject.known.points.get(center, place_of(subject.profile, center))
@@ -297,7 +298,7 @@ def _corners(subject: Subject, elements: Mapping[str, Segment], measured: set[Sp
 # Points ------------------------------------------------------------------------------------------------------
 
 BETWEEN = "  "
-"""What parts the pieces of a label."""
+"""Separator of the pieces of a label."""
 
 Others = Mapping[str, Sequence[tuple[Point, str]]]
 """By the name of a point, where it is in other solutions, with the words that select each."""
@@ -342,7 +343,7 @@ def list_marks(subject: Subject, noted: Noted, others: Others) -> Iterator[Mark]
 
 
 def _end(subject: Subject) -> Point | None:
-    """Where the path ends, if it is drawn as far as that, with the corner at its end."""
+    """The end of the path with its corner; None if the path is not drawn that far."""
     figure, known = subject.profile.figure, subject.known
     if not subject.trails:
         return None

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from contoursolve.solving import Drawings, Drawn, Sketch
 
 Drawable: TypeAlias = "Answer | Result | Family | Feasible | Region | Sketch | Drawings | Drawn"
-"""What has a picture."""
+"""Types that `draw` accepts."""
 
 
 def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None = None) -> Picture:

@@ -47,7 +47,7 @@ def name_all(shown: Outcomes, curves: Sequence[Curve], taken: Sequence[Box]) -> 
 
 
 def _boxes(named: Named) -> list[Box]:
-    """What names cover, with a margin."""
+    """Boxes that the texts of a name cover, with a margin."""
     return [each.box.grow(_MARGIN) for each in named[0]]
 
 

@@ -15,7 +15,7 @@ from contoursolve.pictures.value_axes import HIGH, LEFT, TOP, WIDE
 from contoursolve.solving import REASONS, StatusCode
 
 Outcomes = NDArray[numpy.int64]
-"""What became of each cell of a plane, the uppermost row first: its status and the reason against it, as one number."""
+"""Outcome of each cell of a plane, the uppermost row first: status and reason encoded as one number."""
 
 Mask = NDArray[numpy.bool_]
 
@@ -24,7 +24,7 @@ _FIELDS = {
     StatusCode.OVERDETERMINED: Role.SOLVED_FIELD,
     StatusCode.NO_SOLUTION: Role.REFUSED_FIELD,
 }
-"""How an outcome without a reason against it is painted; with one, there is no contour."""
+"""Colour role of an outcome without a reason against it; with a reason there is no contour."""
 
 _OVER = 0.6
 """Pixels by which a field reaches under the next, so that the paper does not shine through between them."""
@@ -45,7 +45,7 @@ def words_of(outcome: int) -> list[str]:
 
 
 def role_of(outcome: int) -> Role:
-    """How an outcome is painted."""
+    """The colour role of an outcome."""
     code, reason = divmod(outcome, len(REASONS))
     role = _FIELDS.get(StatusCode(code), Role.OTHER_FIELD)
     return Role.REFUSED_FIELD if reason and role is Role.SOLVED_FIELD else role
@@ -107,7 +107,7 @@ def boundaries(shown: Outcomes, curves: Sequence[Curve]) -> list[Stroke]:
 
 
 def solved_in(shown: Outcomes) -> Mask:
-    """Which cells have a contour."""
+    """Mask of the cells with a contour."""
     return numpy.isin(shown, [each for each in numpy.unique(shown) if role_of(int(each)) is Role.SOLVED_FIELD])
 
 

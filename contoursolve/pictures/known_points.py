@@ -1,4 +1,4 @@
-"""What can be drawn of a contour without its solution: what its words say one after the other, and completions.
+"""The points of a contour that can be drawn without its solution: from its words one by one, and by completions.
 
 A contour whose words leave something free is completed: that is put somewhere, and the rest solved as any other block.
 """
@@ -62,7 +62,7 @@ MOST_GHOSTS = 3
 """Completions that are shown."""
 
 _STEPS = (0.6, 1.0, 0.35, 1.5, -0.6, -1.0, -0.35, -1.5)
-"""Where a free coordinate is put, from where the line begins, in lengths of the drawing."""
+"""Trial positions of a free coordinate, from the beginning of its line, in lengths of the drawing."""
 
 _TURNED = (0.6, -0.6, 1.0, -1.0)
 """The same, with backwards as likely as onwards: a line at 180 deg leads to lower Z."""
@@ -114,7 +114,7 @@ def place_beside(profile: Profile, fact: Fact) -> Point | None:
 
 
 def start_of(profile: Profile) -> Point:
-    """Where a contour begins; 0 for what is not known."""
+    """The start point of a contour, with 0 for a coordinate that is not known."""
     first, second = (float(value or 0) for value in profile.start.values)
     return first, second
 
@@ -152,7 +152,7 @@ def by_point(names: Iterable[str], values: Mapping[str, float]) -> tuple[dict[st
 
 
 def in_part(profile: Profile) -> Known:
-    """What the facts say one after the other, without solving anything: coordinates, and the circles about known
+    """Values that follow from one fact after the other, without solving. They are coordinates, and circles about known
     centres through known points."""
     system = assemble(profile)
     figure = system.figure
@@ -174,7 +174,7 @@ def in_part(profile: Profile) -> Known:
 
 
 def _derive(fact: Fact, profile: Profile, stated: Mapping[str, float], values: dict[str, float]) -> None:
-    """What one fact adds to the values that are known, besides those of the start and of places."""
+    """Add to `values` those that one fact gives; the start and the places have theirs in `stated`."""
 
     def get(point: str, axis: int) -> float | None:
         name = scalar(point, axis)
@@ -197,9 +197,8 @@ def _derive(fact: Fact, profile: Profile, stated: Mapping[str, float], values: d
 
 
 def in_chain(profile: Profile, items: Sequence["Alternative"] = (), blamed: Set[Word] = frozenset()) -> Known:
-    """What is determined of a chain without a contour: `items` are the solutions that it has. Of one that lacks data,
-    those of the part that its data fix are worked out; of one without a solution, what comes before the words that
-    are `blamed`."""
+    """The determined part of a chain without a contour; `items` are the solutions that it has. With too few data it is
+    the part that they fix. Without a solution it is the part before the words that are `blamed`."""
     from contoursolve.solving import (  # noqa: PLC0415 - as above
         before,
         find_alternatives,
@@ -298,7 +297,7 @@ def _is_placeable(name: str, profile: Profile) -> bool:
 
 
 def _moves(profile: Profile) -> dict[str, float]:
-    """How much each coordinate changes when what is free moves by 1; 1 for what is not known."""
+    """Change of each coordinate of a freedom that moves by 1 in its direction, by name, without sign."""
     affine = affine_facts(profile, profile.facts)
     freedoms = affine.freedoms() if affine is not None else ()
     return {
@@ -310,7 +309,8 @@ def _moves(profile: Profile) -> dict[str, float]:
 
 
 def _lead(profile: Profile, known: Known, values: Mapping[str, float], point: str, axis: int) -> tuple[float, float]:
-    """Where the element to a point comes from, on an axis, and the way (+1 or -1) in which the path leads on."""
+    """The coordinate, on an axis, from which the element to a point comes, and the sign with which the path leads
+    on."""
 
     def get(name: str) -> float | None:
         return values.get(scalar(name, axis), known.coordinate(name, axis))
@@ -336,7 +336,7 @@ def _with(profile: Profile, values: Mapping[str, float]) -> Profile:
 
 
 def _drawing_size(profile: Profile) -> float:
-    """How large a drawing is, by its words alone, mm."""
+    """Size of a drawing, by its words alone, mm."""
     start, sizes = start_of(profile), []
     for fact in profile.facts:
         if isinstance(fact, Coordinate | Offset | Radius):

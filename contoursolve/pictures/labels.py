@@ -31,7 +31,7 @@ from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import along, distance, minus
 
 PATH_WEIGHT, THIN_WEIGHT, FAINT_WEIGHT = 40.0, 4.0, 1.5
-"""How little a label likes to stand on a path, on a thin line of a word, and on a line of construction."""
+"""Costs of a cell under a label: on a path, on a thin line of a word, and on a construction line."""
 
 _PIECES = 10
 
@@ -49,13 +49,13 @@ _TURNS = tuple(
 """Cosine and sine of the turns from the wanted direction that are tried, and their sizes (radians), in order."""
 
 _PER_PIXEL = 0.35
-"""What a pixel of distance weighs."""
+"""Cost of a pixel of distance."""
 
 _BACKWARDS, _ELSEWHERE = 6.3, 5.0
-"""What weighs a label on the other side of its place, and one that points at a further place."""
+"""Costs of a label on the other side of its place, and of one that points at a further place."""
 
 _ILLEGIBLE = 400.0
-"""What a label would cover that nobody could read: ten cells of a path."""
+"""Cost above which a label would hide something illegibly: ten cells of a path."""
 
 _TOUCHING = 20.0
 """Pixels. A label that is no farther needs no leader."""
@@ -99,8 +99,8 @@ def _boxes_around(at: Spot, width: float, height: float, away: Spot) -> Iterable
 def _place_label(
     canvas: "Canvas", at: Spot, sizes: Sequence[tuple[float, float]], away: Spot, leads: bool
 ) -> tuple[int, Box] | None:
-    """Where a label of one of these sizes stands best near a place, the first size if there is any room; None if there
-    is none. `leads` for a label that always has a leader."""
+    """The best box for a label near a place, with the index of its size; the first size is preferred. None without
+    room. `leads` tells that the label always has a leader."""
     for index, (width, height) in enumerate(sizes):
         best: tuple[float, Box] | None = None
         for box, far, turned in _boxes_around(at, width, height, away):
@@ -157,20 +157,20 @@ def _boxes_on_ray(at: Spot, width: float, height: float, way: Spot) -> Iterator[
 
 
 class LabelSpot(Struct, frozen=True):
-    """Where a label stands beside its place, in pixels: the way to its nearer edge across and down, and on which side
-    that edge is (-1, 1; 0 for a label that lies over the place, by its middle)."""
+    """Position of a label beside its place, pixels: `way` is the distance to its nearer edge, across and down. `sides`
+    tells on which side that edge is (-1, 1; 0 for a label over the place, by its middle)."""
 
     way: Spot
     sides: tuple[int, int]
 
     def box(self, at: Spot, width: float, height: float) -> Box:
-        """Where a label of another size stands beside another place."""
+        """The box of a label of another size beside another place."""
         x, y = (at[axis] + self.way[axis] + self.sides[axis] * size / 2 for axis, size in enumerate((width, height)))
         return Box(x - width / 2, y - height / 2, x + width / 2, y + height / 2)
 
 
 class Grip(Struct, frozen=True):
-    """Where a word can be taken hold of on a page: the tip of its arrow, and the centre about which that turns."""
+    """The handle of a word on a page: the tip of its arrow, and the centre about which that turns."""
 
     word: str
     at: Spot
@@ -178,7 +178,7 @@ class Grip(Struct, frozen=True):
 
 
 def spot_of(at: Spot, box: Box) -> LabelSpot:
-    """Where a label stands beside a place."""
+    """The position of a label's box relative to a place."""
     middles, sizes = (
         ((box.left + box.right) / 2, (box.top + box.bottom) / 2),
         (box.right - box.left, box.bottom - box.top),
@@ -218,7 +218,7 @@ class Canvas:
 
     @contextmanager
     def about(self, named: About) -> Iterator[None]:
-        """What is drawn within shows this."""
+        """Mark everything drawn within as showing `named`."""
         self.named = named
         yield
         self.named = ANYTHING
@@ -309,7 +309,7 @@ class Canvas:
     def _best_on_ray(
         self, places: Sequence[tuple[Spot, Spot]], size: tuple[float, float]
     ) -> tuple[Box, Spot, Spot] | None:
-        """Where a label on a ray stands best."""
+        """The cheapest box for a label on one of several rays, with the end of its leader and the place."""
         best: tuple[float, Box, Spot, Spot] | None = None
         for number, (at, way) in enumerate(places):
             if not self.frame.holds(Box(*at, *at)):
@@ -331,13 +331,13 @@ class Canvas:
         self._add(Text(at, runs, SIZE, Anchor.MIDDLE), box)
 
     def _next_name(self) -> tuple[About, int]:
-        """What the next label shows, and its number of those that show the same."""
+        """The name of the next label, and the count of labels with the same name so far."""
         return self.named, sum(about == self.named for about, _ in self.labels)
 
     def _place_as_before(
         self, at: Spot, sizes: Sequence[tuple[float, float]], name: tuple[About, int]
     ) -> tuple[int, Box] | None:
-        """Where a label stands that stood on that side of its place before, if nothing else is there now."""
+        """The box of a label on the side where it stood before, if nothing is there now; else None."""
         if name not in self.held:
             return None
         boxes = (self.held[name].box(at, *size) for size in sizes)
@@ -361,7 +361,7 @@ class Canvas:
                 self.cells[place] = max(self.cells[place], weight)
 
     def cost(self, box: Box) -> float:
-        """How much a text would cover; infinite where another text is, or outside the page."""
+        """The cost of a text in a box; infinite over another text, or outside the page."""
         if not self.frame.holds(box):
             return inf
         for boxes in (self.taken, self.signs):
@@ -375,7 +375,7 @@ class Canvas:
         return total
 
     def crossings(self, a: Spot, b: Spot) -> float:
-        """What a line to a place `b` runs over, without what is right there."""
+        """The cost of a line to a place `b`, without the cells right beside it."""
         length, step = distance(b, a), minus(b, a)
         total = 0.0
         for number in range(int((length - CELL * 1.5) / CELL)):

@@ -142,7 +142,7 @@ def _pointed(segments: tuple[Segment, ...], view: Viewport) -> list[Segment]:
 
 
 def _ends_of(canvas: Canvas, thin: Thin) -> tuple[Spot, Spot] | None:
-    """Where a line begins and ends on the page, if it is there at all."""
+    """The ends of a thin line on the page; None if none of it is there."""
     a, b = canvas.view.place(thin.start), canvas.view.place(thin.end)
     if not thin.is_endless:
         return a, b

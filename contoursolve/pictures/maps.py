@@ -1,5 +1,4 @@
-"""What becomes of a block over two of its words, as a map: a field for each outcome with its name in it, and the lines
-that bound where the contour exists."""
+"""Map of the outcomes of a block over two of its words: a named field for each outcome, and the bounds of existence."""
 
 from collections.abc import Mapping, Sequence
 
@@ -35,7 +34,7 @@ Remark = tuple[str, Role]
 
 
 def map_title(statuses: Mapping[Status, int], words: Sequence[str]) -> str:
-    """What a map shows."""
+    """The title of a map: its words, and the count of each status."""
     told = ", ".join(f"{number:,} {status.value}" for status, number in statuses.items())
     return f"{' and '.join(words)}: {told}"
 
@@ -98,7 +97,7 @@ def _solve_cells(region: Region) -> Family:
 
 
 def _region_title(region: Region) -> str:
-    """What a region shows."""
+    """The title of a region: its words, where a contour exists, and whether the lines are proven complete."""
     words = " and ".join(region.words)
     if not region.boundaries:
         return f"{words}: {'a' if region.exists else 'no'} contour everywhere"
@@ -149,7 +148,7 @@ def _curves(family: Family, ranges: Ranges, words: tuple[str, str], chart: Value
 
 
 def picks(values: Array, most: int) -> NDArray[numpy.int64]:
-    """Which values are shown, in rising order: of too many, the one in the middle of each cell."""
+    """Indices of the values to be shown, in rising order; of too many, the one in the middle of each cell."""
     order = numpy.argsort(values, kind="stable")
     if order.size <= most:
         return order

@@ -1,4 +1,4 @@
-"""How large a drawing is on its page, and what stands around it: distances in rows, coordinates at the edges."""
+"""Size and surroundings of a drawing on its page: rows of distances, and coordinates at the edges."""
 
 from collections.abc import Mapping, Sequence
 
@@ -49,7 +49,7 @@ class DrawingEdge(Struct, frozen=True):
         return self.sign if self.axis != FIRST else -self.sign
 
     def spot(self, level: float, place: float) -> Spot:
-        """What is so far out, and at a place along the edge, both on the page."""
+        """The spot on the page at a distance `level` outwards and at a `place` along the edge."""
         return (place, level) if self.axis == FIRST else (level, place)
 
 
@@ -60,8 +60,8 @@ Row = tuple[LinearDimension, int]
 
 
 class Placement(Struct, frozen=True):
-    """How a drawing stands on its page, so that the next one of a contour that is moved can stand alike: what part of
-    the plane it shows, its edges, the rows of distances, and the labels, by what they show."""
+    """Layout of a drawing on its page, kept so that the next drawing of a moved contour looks alike. It has the visible
+    part of the plane, the edges, the rows of distances, and the labels by what they show."""
 
     view: Viewport
     frame: Box
@@ -77,7 +77,7 @@ class Placement(Struct, frozen=True):
 
 
 class Arrangement(Struct, frozen=True):
-    """Where the drawing is, its rows of distances, and its coordinates with the edges at which they are written.
+    """Layout of the margins: the drawing, its rows of distances, and its coordinates with their edges.
 
     `outer` is where each edge of the drawing is on the page.
     """
@@ -129,7 +129,7 @@ def _arranged_as(scene: Scene, held: Placement) -> Arrangement:
 
 
 def placement_of(margins: Arrangement, canvas: Canvas, foot: float, height: float) -> Placement:
-    """How a drawing stands, for the next one."""
+    """The layout of a drawing, for the next one."""
     rows = {each.about: (side, row) for side, several in margins.rows.items() for each, row in several}
     edges = {side.axis: side for side, several in margins.coordinates.items() if several}
     grips = tuple(each for each in canvas.grips if each.word)

@@ -52,12 +52,12 @@ class DrawnContour(Struct, frozen=True):
 
     @property
     def start(self) -> Point:
-        """Where the path begins."""
+        """The start of the path."""
         return self.trails[0].segments[0].start
 
     @property
     def end(self) -> Point:
-        """Where it ends."""
+        """The end of the path."""
         return self.trails[-1].segments[-1].end
 
     @property
@@ -123,7 +123,7 @@ def _turned(scene: Scene, drawn: Sequence[DrawnContour], moves: Sequence[PlaneMo
 
 
 def describe_overview(result: Result) -> str:
-    """What the picture of a program shows: its contours, and what became of each."""
+    """Description of the picture of a program in words: its contours with the status of each."""
     shown = result.answers[:MOST_ELEMENTS]
     sentences = []
     for number, answer in enumerate(shown, 1):
@@ -180,7 +180,7 @@ def _contour_parts(drawn: Sequence[DrawnContour]) -> Iterator[Part]:
 
 
 def _remarks(drawn: Sequence[DrawnContour], total: int) -> Iterator[tuple[TextRun, ...]]:
-    """What is wrong with contours that have no path, and what cannot be seen in the picture."""
+    """Remarks on the errors of contours without a path, and on contours that are not drawn."""
     refused = [each for each in drawn if each.answer.contour is None]
     for each in refused[:MOST_REFUSED]:
         told = f"{each.number}, program line {each.answer.lines[0]}, {each.answer.status.value}{_fault(each.answer)}"
@@ -271,7 +271,7 @@ def plain_trail(result: Result, like: Answer) -> list[Trail]:
 
 
 def _meaning_of(moves: Sequence[PlaneMove]) -> Mapping[Role, str]:
-    """What thin lines are, where there are any."""
+    """Legend of thin lines, if any of the moves is a feed move."""
     return {} if all(move.is_rapid for move in moves) else {Role.INK: "feed move"}
 
 

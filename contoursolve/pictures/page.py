@@ -44,8 +44,8 @@ class Sweep(Struct, frozen=True):
 
 
 class About(Struct, frozen=True):
-    """What an item shows: a word by its key, an element of the path by its name, points by their names, and findings by
-    their numbers in the contour (from 1); several have blanks between. A page finds items by it."""
+    """Subject of an item, by which a page finds it: a word's key, an element's or points' names, numbers of findings.
+    Findings count in the contour, from 1; several names are separated by blanks."""
 
     word: str = ""
     point: str = ""
@@ -54,7 +54,7 @@ class About(Struct, frozen=True):
 
 
 ANYTHING = About()
-"""What an item is about that shows nothing that has a name."""
+"""Subject of an item that shows nothing with a name."""
 
 
 class Stroke(Struct, frozen=True):
@@ -87,7 +87,7 @@ class Dot(Struct, frozen=True):
 
 
 class Anchor(Enum):
-    """Which place of a text its position is; the values are those of SVG."""
+    """Part of a text that lies at its position; the values are those of SVG."""
 
     START = "start"
     MIDDLE = "middle"
@@ -156,7 +156,7 @@ class Text(Struct, frozen=True):
 
     @property
     def box(self) -> Box:
-        """What it covers."""
+        """The box that the text covers."""
         wide = width_of(self.words, self.size, is_bold=self.is_bold, is_mono=self.is_mono)
         before = {Anchor.START: 0.0, Anchor.MIDDLE: wide / 2, Anchor.END: wide}[self.anchor]
         up, down = ASCENT * self.size, DESCENT * self.size

@@ -1,5 +1,4 @@
-"""What a picture shows, in mm in the plane's axes: the path, what holds it, and every word where it belongs; and which
-part of it is shown, and how large.
+"""Content of a picture, in mm in the plane's axes: the path, its surroundings, every word, and the part that is shown.
 
 Nothing here knows where a label finds room.
 """
@@ -18,14 +17,14 @@ from contoursolve.solving import Point, Segment
 
 
 class Weight(Enum):
-    """How much a picture is about a path."""
+    """Importance of a path in a picture."""
 
     MAIN = "main"
     """Drawn thick, with its direction."""
     BESIDE = "beside"
     """One of many."""
     GHOST = "ghost"
-    """What might be instead; drawn where it does not make the others small."""
+    """An alternative; drawn if it does not make the others small."""
     MIRRORED = "mirrored"
     """The other half of a turned part."""
     PASSING = "passing"
@@ -59,7 +58,7 @@ class Ring(Struct, frozen=True):
 
 
 class MarkKind(Enum):
-    """How a point is marked."""
+    """Kind of mark at a point."""
 
     START = "start"
     END = "end"
@@ -67,7 +66,7 @@ class MarkKind(Enum):
     PLACE = "place"
     CENTER = "center"
     OTHER = "other"
-    """Where a word puts a point that others put elsewhere."""
+    """A place that one word gives to a point, other than the one that the others give."""
 
 
 class Mark(Struct, frozen=True):
@@ -77,7 +76,7 @@ class Mark(Struct, frozen=True):
     kind: MarkKind
     label: tuple[TextRun, ...] = ()
     short: tuple[TextRun, ...] = ()
-    """What may stand there where the label finds no room."""
+    """A shorter text for a label without room."""
     role: Role = Role.INK
     about: About = ANYTHING
 
@@ -147,7 +146,7 @@ class Leader(Struct, frozen=True):
 
 
 class Slide(Struct, frozen=True):
-    """What can still move: both ways along a direction, or anywhere without one."""
+    """A free movement: both ways along a direction, or anywhere without one."""
 
     at: Point
     direction: Point | None
@@ -163,7 +162,7 @@ class Closeup(Struct, frozen=True):
 
 Dimension = LinearDimension | Aligned | Ordinate | Angle | Leader
 Part = Trail | Thin | Ring | Mark | Slide | Dimension
-"""What a drawing is made of."""
+"""Parts of a drawing."""
 
 _Kind = TypeVar("_Kind", bound=Part)
 
@@ -179,7 +178,7 @@ class Scene(Struct, frozen=True):
     lines: tuple[tuple[TextRun, ...], ...] = ()
     remarks: tuple[tuple[TextRun, ...], ...] = ()
     meanings: Mapping[Role, str] = field(default_factory=dict)
-    """What the legend says of a role, where that is not what it says of a contour's words."""
+    """Legend texts of roles that differ from those for the words of a contour."""
     has_turning_axis: bool = False
     """Whether the second axis begins at the axis about which the work turns."""
     is_one_contour: bool = False
@@ -203,7 +202,7 @@ class Scene(Struct, frozen=True):
 # From mm to pixels ------------------------------------------------------------------------------------------
 
 MOST_TIMES = 3.0
-"""How many times as large as what it is about a picture may become for the sake of what stands beside."""
+"""Largest factor by which surroundings may enlarge a picture beyond its subject."""
 
 MOST_TIMES_WRONG = 12.0
 """The same for the sake of what is wrong, which is what such a picture is about."""
@@ -219,7 +218,7 @@ class Viewport(Struct, frozen=True):
     spot: Spot
 
     def place(self, at: Point) -> Spot:
-        """Where a point is on the page."""
+        """The spot of a point on the page."""
         return (
             self.spot[0] + (at[0] - self.middle[0]) * self.scale,
             self.spot[1] - (at[1] - self.middle[1]) * self.scale,
@@ -244,7 +243,8 @@ class Rectangle(Struct, frozen=True):
 
 
 def bounds_of(scene: Scene) -> Rectangle:
-    """What a picture must show: the path and its points, and as much else as does not make the path small."""
+    """The rectangle that a picture must show: the path and its points, and as much else as does not make the path
+    small."""
     must: list[Point] = []
     more: list[Point] = []
     wrong: list[Point] = []

@@ -18,7 +18,7 @@ class Sheet:
     drawing: tuple[Item, ...] = field(repr=False)
     around: tuple[Item, ...] = field(default=(), repr=False)
     placement: Placement | None = field(default=None, repr=False, compare=False)
-    """How the drawing stands, where there is one."""
+    """The layout of the drawing, if there is one."""
 
     @property
     def texts(self) -> tuple[Text, ...]:

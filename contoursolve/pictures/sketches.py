@@ -95,7 +95,7 @@ def _place(profile: Profile, at: Point) -> str:
 
 
 def _role(place: int | None) -> Role:
-    """How a solution is drawn: the only one, or one of several."""
+    """The colour role of a solution: the only one, or one of several."""
     return Role.INK if place is None else Role.CANDIDATE
 
 
@@ -176,7 +176,7 @@ def _dimensions(drawn: Drawn, stated: Stated) -> Iterator[Part]:
 
 
 def _remarks(drawings: Sequence[Drawn], count: int) -> Iterator[tuple[TextRun, ...]]:
-    """What tells the drawings apart, and the values that were asked for."""
+    """Remarks that name each drawing and list the values that were asked for."""
     for place, drawn in enumerate(drawings[:count], 1):
         told = [each for each in (drawn.name, *map(str, drawn.asked)) if each]
         if told and (len(drawings) > 1 or drawn.asked):

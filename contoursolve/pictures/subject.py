@@ -1,4 +1,4 @@
-"""What a picture is about: an answer with all that can be drawn of it, its path, and what became of each word.
+"""Subject of a picture: an answer with everything of it that can be drawn, its path, and the outcome of each word.
 
 A contour that is solved has all its points. One that is refused is worked out as far as its equations go, for a
 corner that does not fit has a place as well. What words leave free is put somewhere, and is said to be so.
@@ -92,19 +92,19 @@ class PartialDrawing(Struct, frozen=True):
 
     @property
     def elements(self) -> dict[str, Segment]:
-        """What is drawn of the path, by name; of an element that is drawn in several ways, the first."""
+        """The drawn elements of the path, by name; of an element that is drawn in several ways, the first."""
         return {segment.name: segment for trail in self.trails[::-1] for segment in trail.segments[::-1]}
 
     def at(self, point: str) -> Point | None:
-        """Where a point is."""
+        """The coordinates of a point; None if they are not known."""
         return self.known.points.get(point)
 
     def value(self, given: str) -> float:
-        """What a given states, mm or degrees."""
+        """The value that a given states, mm or degrees."""
         return float(self.profile.givens[given].value)
 
     def ends(self, fact: Through | TangentLine) -> tuple[Point, Point] | None:
-        """Where the line of a fact begins and ends, if it has a length."""
+        """The ends of the line of a fact; None if the line has no length or is not known."""
         line = next((each for each in self.profile.figure.path if each.name == fact.line), None)
         tail, head = (self.at(line.tail), self.at(line.head)) if isinstance(line, Line) else (None, None)
         return (tail, head) if tail is not None and head is not None and distance(tail, head) > SAME else None
@@ -161,17 +161,17 @@ class Subject(PartialDrawing, frozen=True):
     blamed: frozenset[Span]
     """The words and facts that errors are about."""
     named: Mapping[Span, About] = {}
-    """What shows a word or a fact is about, by its place."""
+    """Subjects of items that show a word or a fact, by its place."""
     counted: Mapping[Span, str] = {}
-    """What the words are read as that lack their decimal point, by their places."""
+    """Values as which words without their decimal point are read, by their places."""
 
     def role(self, given: str) -> Role:
-        """What became of a word."""
+        """The colour role of a word: given, ignored, conflicting, free or worked out."""
         return self.roles.get(given, Role.GIVEN)
 
     @property
     def other(self) -> Role:
-        """What other solutions are drawn as: as good as the one that is drawn, where nothing chooses."""
+        """The colour role of other solutions; it is that of a candidate where nothing chooses between them."""
         if not has_several(self.answer):
             return Role.GHOST
         return Role.SEVERAL if self.is_chain else Role.CANDIDATE
@@ -182,7 +182,7 @@ class Subject(PartialDrawing, frozen=True):
         return self.answer.claim.form.is_general
 
     def about(self, span: Span) -> About:
-        """What shows the word or the fact at a place is about."""
+        """The subject of items that show the word or fact at a place."""
         return self.named.get(span, ANYTHING)
 
     def about_given(self, given: str) -> About:
@@ -223,7 +223,7 @@ def subject_of(answer: Answer) -> Subject:
 
 
 def named_words(answer: Answer) -> dict[Span, About]:
-    """What shows a word or a fact is about: its key, and the errors and warnings that point at it."""
+    """Subjects of words and facts, by place: the key of each, and the errors and warnings that point at it."""
     keys = word_keys(answer.claim.words.values())
     numbers: dict[Span, list[str]] = {}
     for number, finding in enumerate(answer.diagnostics, 1):
@@ -237,7 +237,7 @@ def named_words(answer: Answer) -> dict[Span, About]:
 
 
 def _roles(answer: Answer, blamed: frozenset[Span]) -> dict[str, Role]:
-    """What became of each word, by the given that it states."""
+    """The colour role of each word, by the given that it states."""
     ignored = {fact.given for fact in answer.profile.ignored}
     roles: dict[str, Role] = {}
     for name, given in answer.profile.givens.items():

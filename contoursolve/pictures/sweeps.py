@@ -1,4 +1,4 @@
-"""What a picture of a sweep shows of all its values: the fan of contours of one word, or the map of two."""
+"""Selection of values for the picture of a sweep: the fan of contours of one word, or the map of two."""
 
 from collections.abc import Mapping, Sequence
 
@@ -28,7 +28,7 @@ Fan = tuple[str, Sequence[float], Sequence[Answer]]
 
 
 def solve_shown(ready: CompiledSweep) -> Fan | Family:
-    """What is drawn of a sweep, solved: no more values than there is room for, evenly chosen.
+    """The solved values of a sweep that are drawn: no more than there is room for, evenly chosen.
 
     Raises FamilyError where not one word or two vary, or where they are paired.
     """
@@ -49,7 +49,7 @@ def solve_shown(ready: CompiledSweep) -> Fan | Family:
 
 
 def count_statuses(ready: CompiledSweep) -> dict[Status, int]:
-    """How many of all rows of a sweep have each status: solves them all."""
+    """The number of rows of a sweep with each status; solves them all."""
     tally = Tally(tuple(ready.ranges.values))
     for part in pieces(ready):
         tally.add(part)
@@ -57,7 +57,7 @@ def count_statuses(ready: CompiledSweep) -> dict[Status, int]:
 
 
 def sweep_title(ranges: Ranges, statuses: Mapping[Status, int]) -> str:
-    """What the picture of a sweep shows, and what became of all its rows, drawn or not."""
+    """The title of the picture of a sweep: its values, and the statuses of all its rows, drawn or not."""
     varying = {name: numpy.unique(values) for name, values in ranges.values.items() if values.size > 1}
     if len(varying) > 1:
         return map_title(statuses, tuple(varying))

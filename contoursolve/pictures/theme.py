@@ -1,11 +1,11 @@
-"""How a picture is coloured and dashed: one table a theme, one dash a role."""
+"""Colours and dashes of pictures: one table a theme, one dash a role."""
 
 from collections.abc import Mapping
 from enum import Enum
 
 
 class Role(Enum):
-    """What a stroke or a text of a picture is; the value names it in a page's style sheet."""
+    """Function of a stroke or a text in a picture; the value names it in a page's style sheet."""
 
     PAPER = "paper"
     INK = "ink"
@@ -36,7 +36,7 @@ class Role(Enum):
 
 
 CHAINS = (Role.DETERMINED, Role.SEVERAL, Role.OPEN)
-"""What only elements of chains are."""
+"""Roles of elements of chains alone."""
 
 MEANINGS: Mapping[Role, str] = {
     Role.GIVEN: "given",
@@ -52,7 +52,7 @@ MEANINGS: Mapping[Role, str] = {
     Role.GHOST: "another solution",
     Role.MUTED: "construction",
 }
-"""What a legend says of a role."""
+"""Legend text of a role."""
 
 DASHES: Mapping[Role, tuple[float, ...]] = {
     Role.MUTED: (9.0, 2.5, 2.0, 2.5),

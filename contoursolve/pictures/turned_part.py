@@ -102,7 +102,7 @@ def _mirrored(segment: Segment) -> Segment:
 
 
 def _ends(segments: Sequence[Segment]) -> list[Point]:
-    """Where what is cut begins and ends: the places at which an odd number of elements meet, off the axis."""
+    """The ends of what is cut: the places at which an odd number of elements meet, off the axis."""
     places: dict[tuple[int, int], Point] = {}
     met: Counter[tuple[int, int]] = Counter()
     for segment in segments:

@@ -42,7 +42,7 @@ _NARROW = 36.0
 
 
 class Scale(Struct, frozen=True, eq=False):
-    """Where the values of a word are in the plane, from 0 to 1: of some of them, rising, and straight between."""
+    """Map of a word's values to shares of the plane from 0 to 1: some values, rising, and linear between them."""
 
     values: Array
     shares: Array
@@ -178,7 +178,7 @@ def lay_out_range(found: Feasible, title: str | None) -> Sheet:
 
 
 def _ends(found: Feasible) -> Iterator[tuple[End, str]]:
-    """Where the contour begins or ceases to exist, with which of both."""
+    """Values at which the contour begins or ceases to exist, each with "from" or "to"."""
     for each in found.intervals:
         if each.low.way is not Way.RANGE:
             yield each.low, "from"
@@ -187,7 +187,8 @@ def _ends(found: Feasible) -> Iterator[tuple[End, str]]:
 
 
 def _shown(found: Feasible) -> tuple[float, float]:
-    """What is shown: all ends and the value that the block has, as far as they were looked at, and a margin."""
+    """The range of values that is shown: all ends and the stated value, with a margin, within the range of the
+    search."""
     values = [end.value for end, _ in _ends(found)] or list(found.within)
     low, high = min(*values, found.stated), max(*values, found.stated)
     margin = _MARGIN * (high - low) or max(1.0, abs(low))

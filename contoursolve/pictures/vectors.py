@@ -26,7 +26,7 @@ def along(at: Point, way: Point, by: float) -> Point:
 
 
 def distance(a: Point, b: Point) -> float:
-    """How far apart two points are."""
+    """The distance between two points."""
     return hypot(a[0] - b[0], a[1] - b[1])
 
 

@@ -4,9 +4,11 @@ import ast
 import re
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 from graphlib import TopologicalSorter
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -248,3 +250,30 @@ def test_no_control_stands_in_where_none_is_named():
         and isinstance(node.slice, ast.Constant)
     ]
     assert by_name == []
+
+
+MOST_RIDDLES = 980
+"""It falls with each that is mended, and never rises."""
+
+
+def described(tree: ast.Module) -> Iterator[tuple[str, bool]]:
+    """The docstrings of a module, also those below a value, and whether each is that of a predicate."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+            is_bool = isinstance(node, ast.FunctionDef) and node.returns and ast.unparse(node.returns) == "bool"
+            yield ast.get_docstring(node) or "", bool(is_bool)
+        for before, after in pairwise(node.body) if isinstance(node, ast.Module | ast.ClassDef) else ():
+            if isinstance(before, ast.Assign | ast.AnnAssign) and isinstance(after, ast.Expr):
+                text = after.value.value if isinstance(after.value, ast.Constant) else None
+                is_bool = isinstance(before, ast.AnnAssign) and ast.unparse(before.annotation) == "bool"
+                yield text if isinstance(text, str) else "", is_bool
+
+
+def test_a_docstring_opens_with_the_thing_or_the_verb():
+    """Not with a question about it; "whether" is right for a predicate alone."""
+    riddles: Counter[str] = Counter()
+    for module in MODULES:
+        for text, is_predicate in described(ast.parse(module.read_text(encoding="utf-8"))):
+            opener = re.match(r"(What|Whether|Where|Which|How|Why)\b", text)
+            riddles[room_of(module)] += bool(opener and not (is_predicate and opener[1] == "Whether"))
+    assert riddles.total() <= MOST_RIDDLES, f"{riddles}"
