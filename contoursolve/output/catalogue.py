@@ -22,7 +22,7 @@ def catalogue_lines(dialects: Iterable[Dialect]) -> list[str]:
 
 
 def _setting_lines(dialect: Dialect) -> Iterator[str]:
-    """What the manual does not say: each setting with its values, the default one marked."""
+    """Lines of the settings, for what the manual leaves open: each with its values, the default one marked."""
     for setting in dialect.settings:
         name = f"{dialect.name}.{setting.name}"
         yield f"setting {name}: {setting.meaning} ({setting.source})"

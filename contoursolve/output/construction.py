@@ -37,7 +37,7 @@ from contoursolve.solving import (
 
 
 def construction_lines(answer: Answer) -> list[str]:
-    """How a contour is constructed, step by step, as `contoursolve solve --explain` prints it.
+    """The construction of a contour, step by step, as `contoursolve solve --explain` prints it.
 
     Args:
         answer: one of `Result.answers`.
@@ -109,7 +109,7 @@ def _names(group: Group) -> set[str]:
 
 
 def _things(group: Group, profile: Profile) -> str:
-    """What a step finds."""
+    """The unknowns that a step finds, as text without the names of axes."""
     shown = unknowns_text(group.unknowns, profile)
     axes = f" ({join(profile.plane.axes)})"
     return shown.replace(axes, "")
@@ -155,7 +155,7 @@ def _phrase(fact: Fact, group: Group, profile: Profile) -> str:
 
 
 def _choice(group: Group, system: System, sides: Mapping[str, str]) -> str:
-    """Which of several places is meant, and that a step has no closed form."""
+    """Text behind a step: the place that is chosen among several, and a search where there is no closed form."""
     names = _names(group)
     chosen = [f"the {side}" if side in ARCS else f"the one {side}" for name, side in sides.items() if name in names]
     kernel = make_kernel(system, group)
@@ -166,7 +166,7 @@ def _choice(group: Group, system: System, sides: Mapping[str, str]) -> str:
 
 
 def _place(group: Group, profile: Profile, scalars: Mapping[str, float]) -> str:
-    """Where the points of a step lie, and how large its radii are."""
+    """Coordinates of the points of a step, and sizes of its radii, as text."""
     texts = []
     for name in group.unknowns:
         thing, _, part = name.rpartition(".")

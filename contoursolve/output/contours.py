@@ -73,7 +73,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
 
 
 def _later_texts(answer: Answer) -> Iterator[str]:
-    """Which elements of a chain only a later block determines, in one line, if there are any."""
+    """A line that names elements of a chain which only a later block determines, each with that block; none without."""
     later = resolved_later(answer.profile) if answer.claim.form.is_general else {}
     if later:
         yield f"known by a later block: {', '.join(f'{name} by {other}' for name, other in later.items())}"
@@ -112,7 +112,7 @@ def _solution_lines(answer: Answer) -> list[str]:
 
 
 def count_text(listing: Listing) -> str:
-    """How many solutions there are, and whether these are all."""
+    """The count of solutions as text, and whether the list is complete."""
     number, shown = len(listing.solutions), f"by {listing.method}"
     told = "this is the only one" if number == 1 else "these are all"
     known = f"{told} ({shown})" if listing.is_complete else f"there may be more ({shown})"
@@ -179,7 +179,7 @@ def given_table(answer: Answer) -> Table:
 
 
 _FORMATS = {"mm": "z.4f", "in": "z.5f", "deg": ".4f", "": "+g"}
-"""How numbers are written, by their units."""
+"""Format of a number, by its unit."""
 
 
 def _cells(value: float | None, unit: str) -> tuple[str, str]:

@@ -1,4 +1,4 @@
-"""What a comparison of two paths found, as text and as JSON: schema contoursolve/diff/1."""
+"""The comparison of two paths as text and as JSON: schema contoursolve/diff/1."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence

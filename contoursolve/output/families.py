@@ -1,4 +1,4 @@
-"""What is asked about a family, as text and as plain data: ranges, regions, values that reach a goal, tolerances."""
+"""Answers about a family as text and as plain data: ranges, regions, values that reach a goal, tolerances."""
 
 from collections.abc import Iterator
 from math import isnan
@@ -34,7 +34,7 @@ def range_lines(found: Feasible) -> Iterator[str]:
 
 
 def range_notes(found: Feasible) -> Iterator[str]:
-    """What is not proven, and why the block has no contour as it stands, if it has none."""
+    """Notes of a search for ranges: doubts, the refusal of the block as it stands, and the premises."""
     yield from (f"not proven: {each}" for each in found.doubts)
     if found.refusal:
         yield f"as it stands, the block has none: {found.refusal}"
@@ -42,12 +42,12 @@ def range_notes(found: Feasible) -> Iterator[str]:
 
 
 def rest_lines(found: Feasible | Region | Found | Tolerances | CompiledSweep | Family) -> Iterator[str]:
-    """What the contours rest on beside the words."""
+    """Lines of the premises of an answer: settings and assumptions beside the words."""
     yield from resting_texts(found.resting, found.resting.control)
 
 
 def range_title(found: Feasible) -> str:
-    """What was looked at, and how many ranges there are."""
+    """The title of a search for ranges: the word, its limits, and the number of ranges with its proof."""
     low, high = (written(value, found.unit) for value in found.within)
     number, proof = count(len(found.intervals), "range"), _proof(is_complete=found.is_complete)
     if not found.intervals:
@@ -112,13 +112,13 @@ def region_lines(found: Region) -> Iterator[str]:
 
 
 def region_notes(found: Region) -> Iterator[str]:
-    """What is not proven, and what the contours rest on."""
+    """Notes of a region: doubts and premises."""
     yield from (f"not proven: {each}" for each in found.doubts)
     yield from rest_lines(found)
 
 
 def region_title(found: Region) -> str:
-    """What was looked at, and how many lines there are."""
+    """The title of a region: the words, their limits, and the number of lines with its proof."""
     spans = zip(found.words, found.within, found.units, strict=True)
     box = ", ".join(f"{word} from {written(low, unit)} to {written(high, unit)}" for word, (low, high), unit in spans)
     number = count(len(found.boundaries), "line") if found.boundaries else "no line"
@@ -172,7 +172,7 @@ def found_lines(found: Found) -> Iterator[str]:
 
 
 def found_title(found: Found) -> str:
-    """What was asked, and how many values there are."""
+    """The title of a search for values: the goal, the word with its limits, and the number of values with its proof."""
     low, high = (written(value, found.unit) for value in found.within)
     number = count(len(found.hits), "value") if found.hits else "no value"
     aim = "nearest to" if found.goal.is_nearest else "at"
@@ -236,7 +236,7 @@ def tolerances_title(found: Tolerances) -> str:
 
 
 def effect_table(found: Tolerances) -> Table:
-    """What each word does; all lengths in the unit of the program."""
+    """Table with a row for each word: its derivatives and what its tolerance moves, in the unit of the program."""
     has_tolerances = _has_tolerances(found)
     head = ["word", "value", *(f"{label} per unit" for label in axis_labels(found.plane))]
     head += ["tolerance", "moves it by"] if has_tolerances else []
@@ -245,7 +245,7 @@ def effect_table(found: Tolerances) -> Table:
 
 
 def spread_lines(found: Tolerances) -> Iterator[str]:
-    """What the tolerances come to, and what rounding does; first of all at which limits there is no contour."""
+    """Lines about tolerances: limits without a contour first, then the spread of the point, then rounding."""
     limits, unit = found.limits, found.length
     for missing in limits.missing if limits is not None else ():
         place = ", ".join(f"{word} {value:g}" for word, value in missing.values.items())
@@ -295,7 +295,7 @@ def _length(value: float, unit: Length) -> str:
 
 
 _NONE = "none"
-"""What stands where no derivative exists."""
+"""Text in place of a derivative that does not exist."""
 
 
 def tolerances_data(found: Tolerances) -> dict[str, Any]:

@@ -21,11 +21,11 @@ APPLICABILITY = {
     Applicability.CHANGES_CONTOUR: "changes the contour",
     Applicability.PLACEHOLDER: "fill in",
 }
-"""What applying a fix does, in words."""
+"""Effect of a fix, as text."""
 
 
 def effect_of(fix: Fix, finding: Diagnostic) -> str:
-    """What applying a fix does, in words; what could not be read was no contour that it could change."""
+    """The effect of a fix as text; a fix of text that is no word is a typing error, for it changes no contour."""
     if fix.effect:
         return fix.effect
     is_unread = isinstance(finding.about, FaultKind) or finding.about is ReadIssue.UNKNOWN_ADDRESS

@@ -115,7 +115,7 @@ def figure(record: Drawable, *, is_inline: bool = False) -> h.Element:
 
 
 def words_table(answer: Answer, *, identity: str = "") -> h.Element:
-    """What was given, as many words as there are."""
+    """The table of a contour's given words."""
     given = given_table(answer)
     names = given.names if identity else ()
     return table(given.caption, given.header, given.rows, numbers=given.numbers, names=names, identity=identity)
@@ -150,7 +150,7 @@ def checks_table(answer: Answer) -> h.Element | None:
 
 
 def remarks(answer: Answer, control: str) -> Iterator[h.Element]:
-    """What is proven of the path, what it rests on, and the block with what it asked for filled in."""
+    """Paragraphs below a path: the block with its asked values filled in, the certificate, and the premises."""
     if answer.filled:
         yield h.p[f"Filled in (the contour moves by {small(answer.filled.deviation)}):"]
         yield h.pre["\n".join(short(text.strip()) for text in answer.filled.blocks)]
@@ -258,16 +258,16 @@ _NOTEBOOK_COLORS = {
     Role.INK.value: "--jp-content-font-color1, var(--vscode-editor-foreground, {})",
     Role.PAPER.value: "--jp-layout-color0, var(--vscode-editor-background, {})",
 }
-"""What JupyterLab and VS Code call the colours of their themes."""
+"""Names that JupyterLab and VS Code give to the colours of their themes."""
 
 _LIGHT_PAGES = ('[data-jp-theme-light="true"]', ".vscode-light", '[data-theme="light"]')
 _DARK_PAGES = ('[data-jp-theme-light="false"]', ".vscode-dark", '[data-theme="dark"]', ".dark")
-"""How notebooks mark the theme that they show, whatever the reader's system prefers."""
+"""Selectors of a dark theme in notebooks, whatever the reader's system prefers."""
 
 
 @lru_cache
 def style_rules(name: str = "style.css") -> str:
-    """What everything inside an element of the class `contoursolve` looks like."""
+    """The style sheet for everything inside an element of the class `contoursolve`."""
     return files(__package__).joinpath(name).read_text(encoding="utf-8")
 
 

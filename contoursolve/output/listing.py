@@ -209,7 +209,8 @@ def closing_lines(result: Result, tally: "Totals | None" = None) -> Iterator[str
 
 
 def summary_line(result: Result, *, is_explained: bool = False) -> str:
-    """What was examined in a program and what was found; nothing examined is not the same as nothing found."""
+    """The last line of a listing: the contours examined and the findings. Nothing examined is not the same as nothing
+    found."""
     return _tally(result, is_explained=is_explained).line(1)
 
 
@@ -217,7 +218,7 @@ _UNEXAMINED = (ReadIssue.NO_CONTOUR, ReadIssue.CONTROL_UNKNOWN)
 
 
 class Totals(Struct, frozen=True):
-    """How many contours have each status, and how many findings each severity."""
+    """Counts of contours by status, of findings by severity, and of contours that were not examined or checked."""
 
     statuses: Counter[Status] = field(default_factory=Counter)
     severities: Counter[Severity] = field(default_factory=Counter)
@@ -258,7 +259,7 @@ class Totals(Struct, frozen=True):
         return bool(self.statuses or self.severities) and not (self.unexamined and not self.statuses)
 
     def line(self, programs: int) -> str:
-        """What was examined in some programs, and what was found."""
+        """The counts as one line, for a number of programs."""
         total, statuses = self.statuses.total(), statuses_text(self.statuses)
         found = ", ".join(count(self.severities[each], each.value) for each in Severity if self.severities[each])
         number = self.waiting.total()

@@ -27,7 +27,7 @@ def cells(text: str, begin: int, end: int) -> int:
 
 
 def _surplus(char: str) -> int:
-    """How many columns a character takes beyond one."""
+    """Columns that a character takes beyond one: 1, 0 or -1."""
     if unicodedata.east_asian_width(char) in "WF":
         return 1
     return -1 if unicodedata.category(char) in ("Mn", "Me") else 0
@@ -56,7 +56,7 @@ class Table(Struct, frozen=True):
     rows: Sequence[Sequence[str]]
     left: Sequence[int] = (0,)
     names: Sequence[Name] = ()
-    """What each row shows of a picture; without any, rows show nothing of one."""
+    """Names of items of a picture that each row shows; empty if rows show none."""
 
     def lines(self, indent: str = "  ", *, is_headed: bool = True) -> list[str]:
         """The rows as lines, below the header unless they explain themselves; nothing for no row."""

@@ -1,4 +1,4 @@
-"""What contours rest on beside their words, as text and as plain data."""
+"""Premises of contours, as text and as plain data."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -8,8 +8,7 @@ from contoursolve.reading import Convention, Premises
 
 
 def resting_texts(resting: Premises, control: str) -> Iterator[str]:
-    """What the manual does not say and a contour rests on, each in a line; what the control is taken to accept, in one
-    line, if there is anything."""
+    """Lines of the premises of contours: each setting on its own, and all assumptions together in the last one."""
     yield from (_convention_text(each, control) for each in resting.conventions)
     by_grade: dict[str, list[str]] = {}
     for each in resting.assumptions:

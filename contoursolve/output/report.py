@@ -240,7 +240,7 @@ def _line_link(line: int, places: PageAnchors) -> h.Node:
 
 
 def _others(result: Result, places: PageAnchors) -> h.Element | None:
-    """What was found outside contours."""
+    """The section with the findings outside contours; None without any."""
     own = {id(each) for answer in result.answers for each in answer.diagnostics}
     others = [finding for finding in result.diagnostics if id(finding) not in own]
     if not others:
@@ -262,7 +262,7 @@ def _program(result: Result, places: PageAnchors) -> h.Element:
 
 
 def _sources(result: Result) -> h.Element:
-    """Where every finding, every convention and every assumption comes from, and how well it is known."""
+    """The section with the source of every finding, setting and assumption, and its grade."""
     codes: dict[tuple[str, str, Evidence], set[str]] = {}
     for finding in result.diagnostics:
         source = finding.source

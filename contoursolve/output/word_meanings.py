@@ -12,12 +12,12 @@ from contoursolve.geometry import Length, Line, Unit
 
 
 def form_text(answer: Answer) -> str:
-    """What kind of contour it is, in the control's words."""
+    """Name and title of the contour's form, in the control's words."""
     return f"{answer.claim.form.name} ({answer.claim.form.title})"
 
 
 def end_text(answer: Answer) -> str:
-    """Where a contour ends, as the control writes it: `Z-50.2073 X100.0000`; empty where it has no path."""
+    """The end point of a contour, as the control writes it: `Z-50.2073 X100.0000`; empty without a path."""
     return coordinates(answer.contour.end, answer.plane, answer.unit) if answer.contour else ""
 
 
@@ -73,7 +73,7 @@ def stated_words(answer: Answer) -> tuple[StatedWord, ...]:
 
 
 def _fixed(name: str, answer: Answer) -> Iterator[str]:
-    """What the word of a name fixes: a point, a direction, a radius, a corner."""
+    """Names of the point, direction, radius or corner that a given fixes."""
     headings = {element.heading: element.name for element in answer.profile.figure.path if isinstance(element, Line)}
     for fact in answer.profile.facts:
         if fact.given == name:
@@ -86,13 +86,13 @@ def _fixed(name: str, answer: Answer) -> Iterator[str]:
 
 
 def meaning_of(name: str, word: Word, answer: Answer) -> str:
-    """What a word means that states the given of a name."""
+    """Meaning of the word that states a given."""
     row = answer.claim.lexicon.addresses.get(word.address)
     return answer.claim.form.meanings.get(name) or (row.meaning if row else "")
 
 
 def stated_value(word: Word, answer: Answer) -> tuple[float | None, str]:
-    """What a word states, as it is written, and its unit: mm, in, deg, or none where only the sign counts."""
+    """The value of a word as it is written, and its unit: mm, in, deg, or empty where only the sign counts."""
     lexicon = answer.claim.lexicon
     row = lexicon.addresses[word.address]
     return _as_written(lexicon.value(word, answer.unit), row.unit, answer.unit, is_diameter=row.is_diameter)

@@ -40,7 +40,7 @@ class WordJump(Struct, frozen=True):
     addresses: str
     where: Where = Where.OWN
     controls: tuple[str, ...] = ()
-    """How the names of the controls begin that have it; all without."""
+    """Beginnings of the names of the controls that have it; empty for all controls."""
 
 
 _PROFILES = frozenset(f"G{code}" for code in PROFILE_CYCLES)
@@ -271,7 +271,7 @@ class Number(Struct, frozen=True):
 
     @property
     def number(self) -> int:
-        """What the digits say."""
+        """The number that the digits write."""
         return int(self.digits)
 
     def spell(self, number: int) -> str:
@@ -280,7 +280,7 @@ class Number(Struct, frozen=True):
 
 
 class RenumberingObstacle(Struct, frozen=True):
-    """What keeps the blocks of a section from getting other numbers: the one with this number, or all (None)."""
+    """An obstacle to other numbers for the blocks of a section: it concerns this number, or all (None)."""
 
     message: str
     section: int

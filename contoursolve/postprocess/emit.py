@@ -22,8 +22,8 @@ LONGEST_BY_RADIUS = 120.0
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """How the words of one block are written: lengths in `unit` with so many decimals; centres and radii with at least
-    `arc_decimals`, so that controls find an arc as far from its centre at one end as at the other."""
+    """Format of the words of a block: the unit of lengths and their decimals. Centres and radii have at least
+    `arc_decimals`, so that controls find both ends of an arc equally far from its centre."""
 
     plane: Plane
     unit: Length
@@ -43,7 +43,7 @@ class Format:
     arc_step: float = field(init=False)
     """The same of a centre or a radius."""
     scales: tuple[int, int] = field(init=False)
-    """What a radius on each axis is multiplied by."""
+    """Factors of a radius on each axis."""
     spec: str = field(init=False)
     arc_spec: str = field(init=False)
 
@@ -205,7 +205,8 @@ class _Writer:
 
 
 def _arc_deviation(arc: ArcSegment, center: Point, radius: float) -> float:
-    """How far the points of an exact arc are from a circle at most, mm: at its ends, or in line with both centres."""
+    """The largest distance of the points of an exact arc from a circle, mm: at its ends, or in line with both
+    centres."""
     aside = center[0] - arc.center[0], center[1] - arc.center[1]
     angle = atan2(aside[1], aside[0])
     begin = atan2(arc.start[1] - arc.center[1], arc.start[0] - arc.center[0])

@@ -70,16 +70,16 @@ _TOLD = (
     ReadIssue.COMMA_MISSING,
     ReadIssue.COMMA_WORD_UNKNOWN,
 )
-"""What is told about lines that stay: they may be cut in another way than they are meant."""
+"""Findings that are told about lines that stay, because these may be read otherwise than they are meant."""
 
 
 class Expander:
     """One pass over one program."""
 
     has_motions = True
-    """Whether a motion stays in force."""
+    """Tells that a motion stays in force."""
     has_absolute_centers, center_decimals = False, 0
-    """How centres of arcs are written: as coordinates or not, and with how many more decimals."""
+    """Format of arc centres: coordinates or distances from the start, and the additional decimals."""
 
     def __init__(
         self, dialect: Dialect, options: ExpansionOptions, summary: Summary, lines: Lines, numbers: Numbers | None
@@ -198,7 +198,7 @@ class Expander:
         return (block if text == block.text else replace(block, text=text)), tuple(kept)
 
     def _syntax_of(self, block: Block) -> Syntax:
-        """How comments look that are written for a block."""
+        """Syntax of comments that are written for a block."""
         return self._other or block.syntax
 
     def _switches(self, block: Block) -> Iterator[tuple[Word, str]]:
@@ -214,8 +214,8 @@ class Expander:
             self.summary.left.append(Left((block.line,), reason, (), {block.line: block.text}))
 
     def _restore(self, block: Block, state: State) -> tuple[list[str], Block]:
-        """What goes before a block, and the block itself, so that the motion that it relies on is in force although a
-        contour before it has left another one."""
+        """Lines before a block, and the block itself, after a contour that left another motion in force. With them the
+        motion on which the block relies is in force again."""
         need, motion, before = reliance(block, self.modes), state.motion, []
         if need is Reliance.NONE:
             return [], block
@@ -230,7 +230,7 @@ class Expander:
         return before, block
 
     def _name(self, motion: int | None) -> str:
-        """How a motion is written."""
+        """Spelling of a motion on the target."""
         code = self.modes.codes.get(motion) if motion is not None else None
         return code.text if code else f"G{motion:02}"
 
@@ -259,7 +259,7 @@ class Expander:
             state = apply_modes(state, block, self.modes)
 
     def _obstacle(self, answer: Answer) -> str:
-        """Why a contour cannot be expanded; empty if it can."""
+        """The reason why a contour cannot be expanded; empty if it can."""
         errors = [each for each in answer.diagnostics if each.is_error]
         if errors or answer.contour is None:
             return f"{errors[0].code}: {errors[0].message}" if errors else "the contour is not known"
@@ -279,7 +279,7 @@ class Expander:
         return f"{beside[0]} moves an axis outside the plane: move it in a block of its own"
 
     def _miscounted(self, answer: Answer) -> str:
-        """Why the target would take X for a diameter, or for a radius, where it is none; empty if it does not."""
+        """The reason why the target would mistake X for a diameter or for a radius; empty if it reads X alike."""
         modes, diameter, counts = self.options.post.modes, answer.claim.before.diameter, any(answer.plane.diameters)
         if modes is None or diameter is None:
             return ""
@@ -298,8 +298,8 @@ class Expander:
         return ""
 
     def _relying(self, answer: Answer, steps: Iterator[Step], coming: deque[Step]) -> str:
-        """Why a contour has to stay because of a block behind it, for which the motion that is in force before it
-        cannot be put in force again; empty if there is none. What is read to see that is added to `coming`."""
+        """The reason why a contour must stay: a block behind it relies on the motion before it, which cannot be
+        restored. Empty if there is none; steps read in the search are added to `coming`."""
         motion = answer.claim.after.motion
         if motion in STANDING_ALONE:
             return ""
@@ -370,7 +370,8 @@ class Expander:
         return part.is_rapid
 
     def _ended(self, claim: ParsedContour, before: State) -> list[str]:
-        """What ends the words that stay in force before a contour or in it: it is written as they have made it."""
+        """Codes that end the words which stay in force before a contour or in it; the written contour contains their
+        effect."""
         stated = {word.address for block in claim.blocks for word in block.words} | before.memory.keys()
         return [off for address, off in self.lasting.items() if address in stated]
 
@@ -400,7 +401,7 @@ class Expander:
         return moves
 
     def _place(self, answer: Answer) -> Point:
-        """Where the tool is at the start of a contour, in the expanded program."""
+        """The position of the tool at the start of a contour, in the expanded program; mm, X as radius."""
         (first, second), (one, two) = answer.start.values, self.offsets.take(answer.plane.axes)
         return float(first or 0) + one, float(second or 0) + two
 

@@ -1,4 +1,4 @@
-"""What is asked of an expansion, and what became of the contours of the program."""
+"""Options of an expansion, and its account of the contours of the program."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -16,8 +16,8 @@ _KEPT_WARNINGS = 20
 
 
 class ExpansionOptions(Struct, frozen=True):
-    """What is asked of an expansion: the target, how it writes arcs, decimals (None: the target's own), whether the
-    original blocks are kept as comments, block numbers, and whether calls are written out."""
+    """Options of an expansion: the target, its arcs, its decimals (None: the target's own), and block numbers.
+    `has_comments` keeps the original blocks as comments, `is_inline` writes calls out."""
 
     post: Post = SAME
     arcs: Arcs = Arcs.CENTER
@@ -37,33 +37,33 @@ class Left(Struct, frozen=True):
 
 
 class Summary(Struct):
-    """What became of a program's contours, as far as it has been read; `deviation` is the largest distance of what
-    was written from the exact contours, mm."""
+    """Account of a program's contours, as far as it has been read; `deviation` is the largest distance of the written
+    path from the exact contours, mm."""
 
     replaced: int = 0
     in_words: int = 0
-    """How many of them are in the target's own words for contours."""
+    """Number of replaced contours that are in the target's own words for contours."""
     written_out: list[int] = field(default_factory=list)
     """The first lines of those that the target has no words for, where that was asked for."""
     warnings: int = 0
-    """How many warnings there are about contours that were replaced, and lines that may be meant otherwise."""
+    """Number of warnings about replaced contours, and about lines that may be meant otherwise."""
     warned: list[Diagnostic] = field(default_factory=list)
     """The first of them."""
     deviation: float = 0.0
     left: list[Left] = field(default_factory=list)
     concluded: list[Diagnostic] = field(default_factory=list)
-    """What was concluded about the control, where the program does not say it."""
+    """Conclusions about the control, where the program does not name it."""
     elsewhere: list[Diagnostic] = field(default_factory=list)
-    """What is found about contours of files that are called, which stay as they are."""
+    """Findings about contours of called files, which stay as they are."""
     unfamiliar: list[Unfamiliar] = field(default_factory=list)
     restated: int = 0
     """Blocks outside contours that were written in G codes, where the program is in other words."""
     unit: Length | None = None
     """The unit at its begin, where it says so itself."""
     counts_diameters: bool | None = None
-    """Whether X counted diameters in contours of a program that does not say it; None: there were none."""
+    """The use of X as a diameter in contours of a program that does not state it; None without such contours."""
     line_end: str = "\n"
-    """How the first line that has an end ends."""
+    """The end of the first line that has one."""
 
     @property
     def misread(self) -> list[Unfamiliar]:

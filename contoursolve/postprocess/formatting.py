@@ -21,7 +21,7 @@ _NAMED = re.compile(r"[A-Za-z]{2,}[ \t]+[-+\dA-Za-z]")
 """A word of Klartext whose name and number stand apart, as in `RX 13`."""
 _BLANK = re.compile(r"[ \t]+")
 _LABEL = re.compile(r"[A-Za-z_]\w+:|:\d+", re.ASCII)
-"""What is no word, and no blank either, in a syntax that has labels."""
+"""Labels, in a syntax that has them: neither a word nor a blank."""
 
 
 def format_program(
@@ -72,7 +72,7 @@ def format_program(
 
 
 def _addresses(dialect: Dialect | None) -> frozenset[str]:
-    """What begins a word on a control; on any if it is not known."""
+    """Addresses that begin a word on a control; those of all controls if it is not known."""
     known = [dialect] if dialect else DIALECTS.values()
     return frozenset(address for each in known for address in each.modes.lexicon.addresses)
 
@@ -104,7 +104,7 @@ def _same(one: Block, other: Block) -> bool:
 
 
 def _meanings(block: Block) -> list[tuple[object, ...]]:
-    """What the words of a block say, and how they are typed but for blanks."""
+    """The words of a block, each with its value and its text without blanks."""
     words = block.words
     return [(each.address, each.number, each.has_point, each.is_asked, _BLANK.sub("", each.text)) for each in words]
 

@@ -13,16 +13,16 @@ from contoursolve.reading import Code, Dialect, Effect, Modes, State, apply_mode
 from contoursolve.tolerance import ARC_START
 
 _NUMBER = re.compile(r"(?:[NPQ]|GOTO)[ \t]*([0-9]{1,5})(?![0-9])", re.IGNORECASE)
-"""What is a block number or may be the number of a block that is jumped to, in comments, too."""
+"""Block numbers, and numbers of blocks to which a program may jump; in comments, too."""
 
 
 def numbers_of(lines: Iterable[str], dialect: Dialect) -> "Numbers":
-    """Which block numbers a program has, as its control writes them."""
+    """The block numbers of a program, in the spelling of its control."""
     return Numbers(lines, dialect.writing.number if dialect.writing is not None else _NUMBER)
 
 
 class Numbers:
-    """Which block numbers of a program are taken."""
+    """The set of block numbers that a program has taken."""
 
     def __init__(self, lines: Iterable[str], number: re.Pattern[str] = _NUMBER) -> None:
         self._taken = bytearray(LONG + 1)
@@ -105,7 +105,7 @@ class Offsets:
         self._off |= {axis: at - exact for axis, at, exact in zip(axes, here, end, strict=True) if at != exact}
 
     def take(self, axes: Sequence[str]) -> list[float]:
-        """How far these axes are off; what follows puts them in their places."""
+        """Take the offsets of these axes, mm; the blocks that follow make up for them."""
         return [self._off.pop(axis, 0.0) for axis in axes]
 
     def keep(self, axes: Sequence[str]) -> None:

@@ -10,7 +10,7 @@ from contoursolve.reading import Code, Dialect, Effect, Modes, NumberFormat, Wit
 
 
 class Arcs(Enum):
-    """How the centre of an arc is told."""
+    """Statement of an arc's centre."""
 
     CENTER = "center"
     """By I J K, counted from where the arc begins."""
@@ -19,7 +19,7 @@ class Arcs(Enum):
 
 
 class Numbering(Enum):
-    """Which of the lines in the place of a block with a number have one."""
+    """Choice of the lines that get a number, among those in the place of a block with one."""
 
     FIRST = "first"
     """The first one has that of the block; in the last block of a profile that a cycle calls, the last one."""
@@ -28,14 +28,14 @@ class Numbering(Enum):
 
 
 class MachineKind(Enum):
-    """What a control is for; lathes of the family of G-code system A share their codes."""
+    """Kind of machine; lathes of the family of G-code system A share their codes."""
 
     LATHE = "lathe"
     MILL = "mill"
 
 
 class Risk(Enum):
-    """What comes of a word that a target reads in another way."""
+    """Consequence of a word that a target reads in another way."""
 
     TOLD = "told"
     """The tool goes the same way, or the target stops there with an alarm: it is told."""
@@ -45,7 +45,7 @@ class Risk(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Other:
-    """What a code or an address means on a target instead.
+    """Another meaning of a code or an address on a target.
 
     `effect` is what the code does there: on a source control on which it does the same, it is not read otherwise.
     """
@@ -57,7 +57,7 @@ class Other:
 
 @dataclass(frozen=True, slots=True)
 class SupportedCodes:
-    """What a target reads of a program as its own control does.
+    """Codes that a target reads as the program's own control does, and those that it reads otherwise.
 
     `g` and `m` are the codes that it knows and that mean the same there; `otherwise` says of a code (`G90`) or of an
     address (`U`) what it means there instead. At any other code it stops with an alarm.
@@ -92,8 +92,8 @@ class Post:
     """The tables of the target: its codes for units and for X as a diameter, and how its comments look."""
 
     def switch(self, code: Code) -> str:
-        """How the target writes a code for units or for X as a diameter; empty if it has none or the same, and for
-        another code."""
+        """The target's code for units, or for X as a diameter. Empty for another code, and if it has none or the same
+        one."""
         own = self.modes.codes.values() if self.modes and (code.unit or code.diameter) else ()
         same = [each for each in own if (each.unit, each.diameter) == (code.unit, code.diameter)]
         return same[0].text if same and all(each.text != code.text for each in same) else ""
@@ -244,7 +244,7 @@ POSTS = {post.name: post for post in (SAME, LINUXCNC, FANUC)}
 
 
 def machine_of(dialect: Dialect) -> MachineKind:
-    """What a control is for."""
+    """The kind of machine of a control."""
     return MachineKind.LATHE if dialect.plane.code == "G18" else MachineKind.MILL
 
 
@@ -254,7 +254,7 @@ _SINUMERIK_LATHE = {
     "G98": Other("is not known: write G94 for a feed a minute"),
     "G99": Other("is not known: write G95 for a feed a revolution"),
 }
-"""What SINUMERIK has instead of codes of the G-code system A."""
+"""Substitutes that SINUMERIK has for codes of the G-code system A."""
 
 _INSTEAD = {name: {MachineKind.LATHE: _SINUMERIK_LATHE} for name in ("siemens-840d", "siemens-808d")}
 

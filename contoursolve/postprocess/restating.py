@@ -34,7 +34,7 @@ UNITS = {Length.INCH: "G20", Length.MM: "G21"}
 
 
 class _Expander(Expander):
-    """What both have in common: no motion stays in force."""
+    """Base of both expanders: no motion stays in force."""
 
     has_motions = False
 
@@ -144,7 +144,8 @@ class InGCodes(_Expander):
         return "".join(self._say_left(block, said.reason)) + self._lines(block, said.says, moves, end)
 
     def _say_left(self, block: Block, reason: str) -> Iterator[str]:
-        """Why a block, or some of it, is not written; blocks in a row for the same reason are one."""
+        """Lines with the reason why a block, or some of it, is not written. Blocks in a row with the same reason are
+        one entry."""
         if not reason:
             return
         left = self.summary.left

@@ -25,7 +25,7 @@ Moves = Mapping[str, tuple[MotionBlock, ...]]
 
 
 def language_of(target: Dialect) -> Language | None:
-    """How a control writes lines and arcs in a row; None if it does not."""
+    """The language of a target that writes lines and arcs in a row; None for another target."""
     return target.find.language if isinstance(target.find, ChainFinder) else None
 
 

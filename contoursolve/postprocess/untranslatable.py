@@ -17,10 +17,10 @@ from contoursolve.reading import Code, Dialect, Effect, State, WithoutPoint, cod
 _NO_COMPENSATION = 40
 
 _RUN_AS = {0: "a rapid", 1: "a line", 2: "an arc", 3: "an arc"}
-"""What a target makes of coordinates by the motion that is in force there."""
+"""Motion that a target makes of coordinates, by the motion in force there."""
 
 _BESIDE_MOTION = (Effect.NONE, Effect.ABSOLUTE, Effect.INCREMENTAL, Effect.PLANE)
-"""What a code does that leaves the coordinates of its block to the motion that is in force."""
+"""Effects of codes that leave the coordinates of their block to the motion in force."""
 
 _CENTERS = frozenset("IJKR")
 """Of the words that are no coordinates, those that a path is made of."""
@@ -28,7 +28,7 @@ _CENTERS = frozenset("IJKR")
 
 _NOT_KNOWN = Other("is not known")
 _LONG = re.compile(r"=|^[ \t]*#|\d,")
-"""What words look like that are not a letter and a number with a point."""
+"""Words that are no letter with a plain number."""
 _PATH_WITHOUT_POINT = "path without point"
 
 
@@ -44,14 +44,14 @@ class Unfamiliar(Struct, frozen=True):
     risk: Risk = Risk.TOLD
     meant: str = ""
     runs: str = ""
-    """What the target would run as another motion than the control of the program: words of this block."""
+    """Words of this block that the target would run as another motion than the program's control."""
     run_as: str = ""
     followers: int = 0
-    """How many lines behind it rely on it."""
+    """Number of lines behind it that rely on it."""
     advice: str = ""
 
     def sentence(self, target: str) -> str:
-        """What is the matter, in words, on a target of this title."""
+        """The problem in words, on a target of this title."""
         meant = f" ({self.meant})" if self.meant else ""
         behind = f"{self.followers} line{'s' * (self.followers > 1)} behind it" if self.followers else ""
         runs = join([each for each in (self.runs, behind) if each])
@@ -134,7 +134,7 @@ class Watch:
             self._note("G19 compensation", Unfamiliar(f"G{state.compensation} in G19", "is not known", block.line))
 
     def _judge(self, word: Word, reading: SupportedCodes) -> Other | None:
-        """What a word is on the target instead; None if it is the same."""
+        """The meaning of a word on the target, if it is another one; else None."""
         if self.is_spelled_otherwise and _LONG.search(word.text) and word.address not in ("G", "M"):
             return _NOT_KNOWN
         if word.address not in ("G", "M"):
@@ -178,7 +178,7 @@ class Watch:
             self.found[place] = found
 
     def _follow(self, words: Sequence[Word], motion: int | None) -> None:
-        """What is in force on the target, which a cycle of the source control alone does not change there."""
+        """Update the motion in force on the target, where a cycle of the source control alone changes nothing."""
         codes = [int(word.number) for word in words if word.address == "G" and word.number in _RUN_AS]
         if codes or motion in _RUN_AS:
             self._motion = codes[-1] if codes else motion

@@ -22,7 +22,7 @@ from contoursolve.postprocess.formulas.word_dependence import (
 )
 
 OTHER = "ANOTHER KIND OF CONTOUR"
-"""What a machine says where a case cannot be written."""
+"""Alarm text of a machine for a case that cannot be written."""
 
 _LETTERS = 26
 """Of what a machine says."""
@@ -40,7 +40,7 @@ Case = Body | Fork
 
 
 class _Side(NamedTuple):
-    """Where a border value is in another case: between two numbers, or at one."""
+    """Values of a border at which another case holds: those between two numbers, or one number."""
 
     value: Affine
     low: Decimal | None
@@ -147,7 +147,7 @@ def _is_part_of(case: Case, other: Case) -> bool:
 
 
 def _message(code: str) -> str:
-    """What a machine says where a rule refuses."""
+    """Alarm text of a machine where a rule refuses."""
     return code if code == OTHER else code.partition("-")[2].replace("-", " ").upper()[:_LETTERS]
 
 

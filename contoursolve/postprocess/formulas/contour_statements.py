@@ -84,7 +84,7 @@ Statement = Assign | When | Stop | Leg | Choose | Said
 
 
 class BlockUnits(Struct, frozen=True):
-    """How a block counts: words of each axis for a mm, and whether its ends count from where its elements begin."""
+    """Units of a block: words for a mm on each axis, and whether its ends count from where its elements begin."""
 
     scales: tuple[float, float]
     is_incremental: bool
@@ -365,7 +365,7 @@ def length_of(term: Term) -> int:
 
 
 def depth_of(term: Term) -> int:
-    """How many brackets of a term lie in each other."""
+    """Depth of nested brackets in a term."""
     return 1 + max(map(depth_of, term.arguments)) if isinstance(term, Apply) else 0
 
 
@@ -391,11 +391,11 @@ MESSAGES: Mapping[RefusalKind, str] = {
     RefusalKind.ARC_EMPTY: "ARC HAS NO LENGTH",
     RefusalKind.CORNER_SIGN: "SIGN OF {} IS WRONG",
 }
-"""What a machine says where it stops; controls show 26 characters."""
+"""Alarm texts of a machine that stops; controls show 26 characters."""
 
 
 def message_of(check: Check, profile: Profile) -> str:
-    """What a machine says where a check fails."""
+    """The alarm text of a failing check."""
     sizes = [corner.size for corner in profile.figure.corners if check.subject in (corner.name, corner.at)]
     givens = (*sizes, check.fact, *check.givens)
     words = (profile.givens[name].word for name in givens if name in profile.givens)

@@ -88,7 +88,7 @@ class FormulaExpander(Expander):
         return self.lines.end.join([*([text.rstrip()] if text.strip() else []), *self.writer.lines(statements)])
 
     def _follow(self, block: Block, state: State) -> None:
-        """Where a block that is no contour leads, and what it changes."""
+        """Follow a block outside contours to its end, and note the values that it changes."""
         macro = self.lines.macros.get(block.line)
         slots = {slot.free.name: slot.free for slot in macro.slots} if macro else {}
         held = {axis: each for axis, each in self.axes.items() if each is not None}
@@ -194,7 +194,7 @@ class FormulaExpander(Expander):
         self.motion = NO_MOTION
 
     def _writing(self, part: ContourBlock, answer: Answer) -> BlockUnits:
-        """How the words of a block count."""
+        """The units of the words of a block."""
         mm = float(part.state.unit.in_mm)
         first, second = ((2 if is_diameter else 1) / mm for is_diameter in answer.plane.diameters)
         return BlockUnits((first, second), part.state.is_incremental)
@@ -233,7 +233,7 @@ class FormulaExpander(Expander):
                 raise FormulaError(f"{problem}, at {shown}")
 
     def _end(self, answer: Answer, reader: Reader, ends: Sequence[Term], writing: BlockUnits) -> None:
-        """What follows begins where the contour ends."""
+        """Set the position behind a contour to its end."""
         contour = answer.contour
         if contour is None:
             raise FormulaError("the example has no contour")
@@ -253,7 +253,8 @@ class FormulaExpander(Expander):
         return comment_out(block.text.strip(), self._syntax_of(block)) if self.options.has_comments else []
 
     def _beside(self, block: Block, part: ContourBlock) -> tuple[Sequence[str], Sequence[str]]:
-        """What else a block says: the lines before its path, and those behind. Raises FormulaError."""
+        """The lines before the path of a block and those behind it, for everything else that it says. Raises
+        FormulaError."""
         if block.is_skippable:
             raise FormulaError("its blocks begin with /")
         rest = carried(block, self.modes)
@@ -272,7 +273,7 @@ BESIDE = (0.95, 1.05)
 """Shares of the example at which formulas are checked as well."""
 
 END = Variable("end:0"), Variable("end:1")
-"""Where each of several cases ends."""
+"""Variables for the end of each of several cases."""
 
 
 def _of_block(case: Body, parts: Sequence[ContourBlock], number: int) -> list[Statement]:

@@ -29,7 +29,7 @@ class Free(Struct, frozen=True):
 
 
 class Slot(Struct, frozen=True):
-    """Where the value of a word stands in its line, and which value that is."""
+    """The place of a word's value in its line, and that value."""
 
     begin: int
     end: int
@@ -92,7 +92,7 @@ class FormulaLines(Lines):
         return self.macros[number].typed(block, {})[0]
 
     def _follow(self, statement: object) -> None:
-        """What a statement sets, whatever jumps lead there."""
+        """Set the values that a statement assigns, whatever jumps lead there."""
         if isinstance(statement, When) and evaluate(statement.condition, self._look_up) == 1:
             for each in statement.then:
                 self._follow(each)

@@ -1,4 +1,4 @@
-"""How a program is rewritten whose contours become formulas: what `postprocess.rewrite` takes for that."""
+"""Request for formulas: the parts that `postprocess.rewrite` takes for a program whose contours become formulas."""
 
 import re
 from collections.abc import Mapping

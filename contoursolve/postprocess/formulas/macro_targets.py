@@ -1,4 +1,4 @@
-"""How statements look on each control: assignments, conditions, alarms, and the words of a path."""
+"""Spelling of statements on each control: assignments, conditions, alarms, and the words of a path."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import count
@@ -24,14 +24,14 @@ class MacroTarget(Struct, frozen=True, eq=False):
     scratch: str
     fork: Fork
     stop: str
-    """What stops the machine with a text."""
+    """Pattern of the line that stops the machine with a text."""
     prefix: str = "#"
-    """What begins the names of its variables."""
+    """First characters of its variables' names."""
     equals: str = ""
-    """What stands between an address and an expression."""
+    """Text between an address and an expression."""
     assign: str = "{}={}"
     when: str = ""
-    """How a variable gets a value where a condition holds, if that is one line."""
+    """Pattern of a conditional assignment, if that is one line."""
     is_klartext: bool = False
     has_brackets: bool = False
     """Whether what a variable is set to has brackets if it is computed."""
@@ -90,7 +90,7 @@ TARGETS = {
 """Targets by the names of their languages."""
 
 PREFIXES = {"sinumerik": "R", "klartext": "Q"}
-"""What begins the names of variables in the language of a program, where it is no #."""
+"""First characters of variables' names in the language of a program, where they are no #."""
 
 _JUMPS = {"greater": ("FN 11", "GT"), LESS: ("FN 12", "LT")}
 """The conditions of Klartext."""

@@ -72,7 +72,7 @@ def names_of(term: Term) -> set[str]:
 
 
 def _uses(statements: Iterable[Statement]) -> Iterator[tuple[str, set[str]]]:
-    """What each statement writes and reads, one after the other."""
+    """The name that each statement writes, and the names that it reads, one after the other."""
     for each in statements:
         match each:
             case Assign(Variable(name), value):

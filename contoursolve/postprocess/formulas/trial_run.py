@@ -60,7 +60,7 @@ class Runner:
 def difference(
     statements: Iterable[Statement], values: Mapping[str, float], answer: Answer, writing: Mapping[str, BlockUnits]
 ) -> str:
-    """How statements, at some values of what they read, differ from a single solve there; empty if they do not."""
+    """The difference between statements, run at some values, and a single solve there; empty if they agree."""
     runner = Runner(values)
     try:
         runner.run(statements)

@@ -1,4 +1,4 @@
-"""How the values of a contour follow variables: found by reading its blocks at other values of each."""
+"""Dependence of a contour's values on variables, found by reading its blocks at other values of each."""
 
 from collections.abc import Iterator, Mapping
 from decimal import Decimal
@@ -61,7 +61,7 @@ class Reader(Struct, frozen=True, eq=False):
         )
 
     def answer(self, values: Values) -> Answer:
-        """What a single solve says at some values."""
+        """The answer of a single solve at some values."""
         known = {**self.example, **values}
         blocks = [
             self.macros[block.line].typed(block, known)[0] if block.line in self.macros else block
@@ -73,8 +73,8 @@ class Reader(Struct, frozen=True, eq=False):
         return examine(claim, self.dialect.rules, self.policy, depth=Depth.PATH)
 
     def follow(self, values: Values) -> dict[str, Affine]:
-        """How what the blocks state follows the values, near some: givens by their names, limits of the control's
-        reading with `limit:` before."""
+        """The stated values of the blocks as affine functions near some values, by name. Limits of the control's
+        reading have `limit:` before their names."""
         known = {**self.example, **values}
         base = self.answer(known)
         here = _stated(base)
@@ -110,7 +110,7 @@ class Reader(Struct, frozen=True, eq=False):
 
 
 def _stated(answer: Answer) -> dict[str, Decimal]:
-    """What the blocks of a contour state, in numbers."""
+    """The values that the blocks of a contour state, and their limits, by name."""
     limits = {f"limit:{name}": value for name, value in answer.claim.limits.items()}
     return {name: given.value for name, given in answer.profile.givens.items()} | limits
 
@@ -130,7 +130,7 @@ def is_same_case(one: Answer, other: Answer) -> bool:
 
 
 def refusal(answer: Answer) -> str:
-    """Why the rules refuse a contour whatever its other values are; empty if they do not."""
+    """The code of the rule that refuses a contour whatever its other values are; empty if none does."""
     try:
         is_refused = verdict_of(answer) is not None
     except FamilyError as error:
