@@ -109,7 +109,7 @@ FUNCTIONS: Mapping[str, Callable[..., float]] = {
     "bits_or": _bits(lambda a, b: a | b),
     "bits_exclusive_or": _bits(lambda a, b: a ^ b),
 }
-"""What each function and operation computes, angles in degrees; a condition that holds is 1."""
+"""Definitions of functions and operations, angles in degrees; a condition that holds is 1."""
 
 _TWO = (
     "add",
@@ -137,7 +137,7 @@ _TWO = (
     "bits_exclusive_or",
 )
 ARGUMENTS = dict.fromkeys(FUNCTIONS, 1) | dict.fromkeys(_TWO, 2) | {"pi": 0}
-"""How many arguments each takes."""
+"""Number of arguments of each."""
 CONDITIONS = ("equal", "unequal", "greater", "at_least", "less", "at_most", "and", "or", "exclusive_or", "not")
 """Functions whose value is 0 or 1."""
 
@@ -191,7 +191,7 @@ def is_true(value: float | str | Vacant) -> bool:
 
 
 _NUMBERED = ("#", "R", "P", "Q", "QL", "QR", "QS")
-"""What begins the name of a variable whose number follows without brackets."""
+"""First characters of variables' names whose number follows without brackets."""
 
 
 def name_of_indexed(prefix: str, indices: Sequence[Known], suffix: str = "") -> str | Unknown:

@@ -1,4 +1,4 @@
-"""What happens between two blocks of a program that runs."""
+"""Events between two blocks of a program that runs."""
 
 from enum import Enum
 
@@ -6,16 +6,16 @@ from msgspec import Struct
 
 
 class EventKind(Enum):
-    """What happens to what is known between two blocks."""
+    """Change of the knowledge about a program between two blocks."""
 
     FRESH = "fresh"
-    """What follows does not run from what stands before it: where the tool stands is not known, or was kept."""
+    """The next blocks do not run from those before: the tool's position is not known, or was kept."""
     LOST = "lost"
-    """Where the tool stands is not known any more."""
+    """The tool's position is lost."""
     ENTER = "enter"
-    """What follows begins here, and so does what comes behind it: the profile of a cycle."""
+    """The profile of a cycle begins here; the blocks behind it begin here as well."""
     LEAVE = "leave"
-    """What ENTER began has ended: all is as it was there."""
+    """The part since ENTER has ended: all is as it was there."""
     BARRIER = "barrier"
     """Nothing happens, but no contour goes on beyond this place."""
     STOPPED = "stopped"
@@ -25,18 +25,18 @@ class EventKind(Enum):
     PAUSE = "pause"
     """The way is kept here: another one follows."""
     MEET = "meet"
-    """What follows runs behind each of some ways that were kept; only in what all of them agree is anything known."""
+    """The next blocks run behind each of some kept ways; only the knowledge that all of them share is left."""
     HEAD = "head"
-    """What follows may run again, nobody knows how often: what is known is kept."""
+    """The next blocks may run again, nobody knows how often: the knowledge is kept."""
     AGAIN = "again"
     """It does, from what is known here and was known where it was kept; where nothing new follows from that, what
     follows has run. The last time, the way goes on instead: if anything new followed, nothing is known any more."""
 
     BEYOND = "beyond"
-    """What follows has run: it only shows what the last blocks before it are."""
+    """The next blocks have run: they only show how the last blocks before them are read."""
     CALLED = "called"
-    """What is not followed has run behind a move: where the tool stands is not known, as behind each move. A contour of
-    several moves goes on, and is refused for its start."""
+    """Blocks that are not followed have run behind a move: the tool's position is not known, as behind each move. A
+    contour of several moves goes on, and is refused for its start."""
 
     MAY_STOP = "may stop"
     """The program stops here, if a decision is taken of which nobody knows; what follows runs where it is not."""
@@ -62,8 +62,8 @@ _OPEN = frozenset(
 
 
 class ProgramEvent(Struct, frozen=True):
-    """What happens between two blocks, on which line, and why; `mark` is the number under which it is kept, or was,
-    what is known (see `Block`)."""
+    """An event between two blocks, with its line and its reason; `mark` is the number of the kept knowledge (see
+    `Block`)."""
 
     kind: EventKind
     line: int

@@ -40,7 +40,7 @@ from contoursolve.numeric import Apply, Term
 COMMENT = nested(r"\(", r"(?:\)|$)", "[^()]++", 4)
 """A comment in which others may be nested; each may stay open to the end of the line."""
 _MACHINES = ("V.A.", "V.E.", "V.G.", "V.SYS.")
-"""What begins the names of variables that belong to the machine, or to programs outside the control."""
+"""First characters of variables that belong to the machine, or to programs outside the control."""
 
 
 def _assign(line: LineReader, _: re.Match[str]) -> Iterator[MacroStatement]:

@@ -37,14 +37,14 @@ class LineReader:
         self._rest = list(typed)
 
     def take(self, pattern: str) -> re.Match[str] | None:
-        """What stands next, if it matches a pattern."""
+        """Take the next text, if it matches a pattern."""
         found = compiled(rf"[ \t]*+(?:{pattern})").match(self.text, self.at)
         if found is not None:
             self.at = found.end()
         return found
 
     def need(self, pattern: str) -> re.Match[str]:
-        """What stands next, where nothing else may."""
+        """Take the next text, which must match. Raises UnreadableTermError."""
         found = self.take(pattern)
         if found is None:
             raise UnreadableTermError(pattern)
@@ -129,7 +129,7 @@ class LineReader:
         return found
 
     def code(self) -> CodeLine:
-        """What the line says."""
+        """The line as it was read."""
         words = sorted(self.words, key=lambda word: word.begin)
         return CodeLine(
             "".join(self._rest),
@@ -147,7 +147,7 @@ _PLAIN = re.compile(r"[ \t]*+[+-]?+[ \t]*+[\d.,]++")
 
 
 def strange(text: str) -> Strange:
-    """What is said of a statement that cannot be read."""
+    """The statement that cannot be read."""
     shown = " ".join(text.split())
     return Strange(f"{shown if len(shown) <= _MOST_SHOWN else shown[:_MOST_SHOWN] + '...'} cannot be read")
 
@@ -160,7 +160,7 @@ be an IF of Macro B, which jumps or says THEN."""
 
 
 def o_word(line: "LineReader", found: re.Match[str]) -> Iterable[MacroStatement]:
-    """What is said of an O word of LinuxCNC, which no control reads that contoursolve reads."""
+    """The statement of an O word of LinuxCNC, which no supported control reads."""
     line.at = len(line.text)
     name = " ".join(found[0].split())
     yield Strange(f"contoursolve does not follow {name}: that is how LinuxCNC calls and branches", name)
@@ -188,19 +188,19 @@ def _has_o_word(text: str) -> bool:
 
 
 class LineForm(Struct, frozen=True, eq=False):
-    """How the lines of a language begin, what comments are, and its statements."""
+    """Form of the lines of a language: their beginnings, comments and statements."""
 
     notation: Notation
     head: str
-    """What a line begins with: groups `number` and `program`, and `part` for a subprogram."""
+    """Pattern of the beginning of a line: groups `number` and `program`, and `part` for a subprogram."""
     comment: str
     table: tuple[Spelling, ...]
     skip: str
-    """What says nothing here: words, names and signs, one at a time."""
+    """Pattern of words, names and signs that are no statement, one at a time."""
     behind_value: str
-    """What else than the end of the line may stand behind the value of a variable."""
+    """Pattern of text that may follow the value of a variable, besides the end of the line."""
     says: str
-    """What a line has that may say more than words."""
+    """Pattern of text that may be a statement."""
     names: frozenset[str] = frozenset()
     """Names that call no subprogram."""
 
@@ -209,7 +209,7 @@ class LineForm(Struct, frozen=True, eq=False):
         return compiled(self.says).search(text) is not None or (("O" in text or "o" in text) and _has_o_word(text))
 
     def read(self, line: str) -> CodeLine:
-        """What a line says. Never raises."""
+        """Read the statements of a line. Never raises."""
         head = compiled(self.head).match(line)
         number = number_of(head["number"]) if head and head["number"] else ""
         if not self.may_say(line):
@@ -226,7 +226,7 @@ class LineForm(Struct, frozen=True, eq=False):
 
 
 def nothing(_: LineReader, __: re.Match[str]) -> Iterable[MacroStatement]:
-    """What says nothing."""
+    """No statement."""
     return ()
 
 

@@ -48,7 +48,7 @@ MOST_BLOCKS = 5_000
 
 
 class Limit(Struct, frozen=True):
-    """How many blocks may run again, or in another file, and the name of the setting that says so."""
+    """Largest number of blocks that run again, or in another file, and the name of its setting."""
 
     blocks: int = MOST_BLOCKS
     setting: str = "most-blocks"
@@ -76,7 +76,7 @@ def machine_of(
     around: Surroundings,
     limit: Limit | None = None,
 ) -> "Machine | None":
-    """What runs a program; None for one that neither calls, jumps nor computes."""
+    """The machine that runs a program; None for one that neither calls, jumps nor computes."""
     lines = split_lines(program.text) or [block.text for block in program.blocks]
     if language is None or not needs_running(lines, language):
         return None
@@ -121,7 +121,7 @@ class _Taken(Struct, frozen=True):
 
 
 Place = tuple[tuple[float, float], ...]
-"""How far a way has come through a program: of two ways, the one that has come less far has to run first."""
+"""Progress of a way through a program: of two ways, the one that has come less far has to run first."""
 
 
 _Begun = tuple[str, int, int, frozenset[tuple[str, Known]]]
@@ -137,7 +137,7 @@ class _Frame(Struct):
     call: Call | None = None
     callers: tuple[Caller, ...] = ()
     left: int = 1
-    """How often it runs, this time included."""
+    """Number of runs left, this one included."""
     own: dict[str, Known] | None = None
     """Its local variables, if it has some of its own."""
     begun: _Begun | None = None
@@ -147,10 +147,11 @@ class _Frame(Struct):
     here: int = 0
     """The index of the line that runs."""
     rest: list[MacroStatement | _Taken] = field(default_factory=list)
-    """What that line says besides, and has not been carried out: it waits for what it calls."""
+    """Statements of that line that wait for a call on it to end."""
     heads: dict[int, _Head] = field(default_factory=dict)
     jumped: str = ""
-    """Why it is not known to which block it has jumped, if it has: any block with a number or a label may follow."""
+    """The reason why the target of a jump is not known: any block with a number or a label may follow. Empty without
+    one."""
     is_again: bool = False
     """Whether its next line runs again, nobody knows how often."""
 
@@ -171,7 +172,7 @@ class _Frame(Struct):
 
     @property
     def place(self) -> Place:
-        """How far it has come; what is left of a line comes before the next one."""
+        """Its progress; the rest of a line comes before the next one."""
         loops = ((each.lines.first, each.passes) for each in self.loops if each.lines.has(self.at))
         has_run = not self.branches or self.branches[-1].has_run
         # CASE names several blocks: ways to two of them do not meet on its line.
@@ -196,11 +197,11 @@ MOST_BEYOND = 200
 """Blocks that are looked at to see how a contour ends in lines that have run."""
 
 MOST_PASSES = 3
-"""How often it is run again what runs nobody knows how often, until nothing new follows."""
+"""Largest number of passes through lines that run nobody knows how often, until nothing new follows."""
 
 
 def _place(frames: Iterable[_Frame]) -> Place:
-    """How far a way has come."""
+    """The progress of a way."""
     return tuple(each for frame in frames for each in frame.place) + _BEHIND
 
 
@@ -259,8 +260,8 @@ class Machine:
             yield self.main.blocks[last]
 
     def _with_own_numbers(self, ran: Iterable[Block | ProgramEvent]) -> Iterator[Block | ProgramEvent]:
-        """What runs, no block number twice: a block of what is called, and one that runs again, goes without, unless
-        a jump leads to it that stays. It is told where the profile of a cycle would lose its number."""
+        """The blocks that run, no block number twice. A block of a call, and one that runs again, loses its number,
+        unless a jump leads to it that stays. It is told where the profile of a cycle would lose its number."""
         first = self._begin()
         last, taken = self.main.section_end(first), set[str]()
 
@@ -355,7 +356,7 @@ class Machine:
         return any(isinstance(each, ProgramEnd | Return) for each in said)
 
     def _unfollowed(self, first: int) -> Iterator[Block | ProgramEvent]:
-        """What has not run from a line on, as it is written."""
+        """The blocks from a line on that have not run, as they are written."""
         for index in range(first, len(self.main)):
             if index not in self._visited:
                 block = self.main.blocks[index]
@@ -396,7 +397,8 @@ class Machine:
         return {sections[name] for name in self.main.called() if name in sections}
 
     def _run_from(self, index: int) -> Iterator[Block | ProgramEvent]:
-        """What runs from a line of the main file on, up to the end of the program or what has run before."""
+        """The blocks that run from a line of the main file on, up to the end of the program or to blocks that have
+        run."""
         head = next((at for at in range(index, len(self.main)) if self._says_something(at)), index)
         last = self.main.section_end(head)
         if head < min(self.main.sections.values(), default=0) and last + 1 not in self._called():
@@ -433,7 +435,8 @@ class Machine:
                 yield ProgramEvent(EventKind.STOPPED, self._line(frame, frame.here), str(error))
 
     def _look_beyond(self, frame: _Frame) -> Iterator[Block | ProgramEvent]:
-        """What runs behind lines that have not run, although it has: a contour may go on there."""
+        """The next blocks behind lines that had not run, although they have run themselves: a contour may go on
+        there."""
         count, assigned = 0, len(self.variables.assigned)
         yield ProgramEvent(EventKind.BEYOND, frame.source.blocks[frame.at].line)
         while self._frames == [frame] and frame.at <= frame.last and count < MOST_BEYOND:
@@ -451,7 +454,7 @@ class Machine:
         del self.variables.assigned[assigned:]
 
     def _runs_in(self) -> object:
-        """What runs: repeated lines belong to what repeats them."""
+        """The call that runs; repeated lines belong to the call that repeats them."""
         frame = next(each for each in reversed(self._frames) if not _is_loop(each.call))
         return frame.source, frame.first, frame.callers
 
@@ -523,7 +526,8 @@ class Machine:
             self._visited.discard(index)
 
     def _if_not_skipped(self, code: CodeLine) -> CodeLine:
-        """What a line says that begins with /: nobody knows whether it sets, jumps, calls or ends anything."""
+        """The statements of a line that begins with /, in doubt: nobody knows whether it sets, jumps, calls or ends
+        anything."""
         said = code.statements
         if any(isinstance(each, When) and each.has_words for each in said):
             return code
@@ -753,7 +757,7 @@ class Machine:
         yield from _DO[type(statement)](self, frame, index, statement)
 
     def _named_twice(self, frame: _Frame, index: int, statement: Jump | Call) -> Iterator[str]:
-        """What to say of block numbers that a line jumps to or names, and that stand twice in its program."""
+        """Messages about block numbers that a line jumps to or names, and that stand twice in its program."""
         if isinstance(statement, Jump):
             is_off = statement.condition is not None and self.variables.truth(statement.condition) is False
             names = [] if is_off else [statement.target]
@@ -862,7 +866,7 @@ class Machine:
             yield ProgramEvent(EventKind.MAY_STOP, self._line(frame, index), told)
 
     def _lacks(self, frame: _Frame, index: int, jump: Jump) -> str:
-        """What to say of a jump whose target is not there, or not known: any block may be it then."""
+        """The message about a jump whose target is missing or not known; an unknown target may be any block."""
         line, where = self._line(frame, index), self.variables.resolve(jump.target)
         if isinstance(where, str):
             return f"program line {line} jumps to {where}, which is not there"
@@ -913,7 +917,7 @@ class Machine:
         return known
 
     def _values(self) -> frozenset[tuple[str, Known]]:
-        """What all variables hold."""
+        """The values of all variables."""
         return frozenset(self.variables.all().items())
 
     def _target(self, frame: _Frame, index: int, jump: Jump) -> int | None:
@@ -1142,8 +1146,8 @@ class Machine:
         yield from self._unclear(frame, index, why.reason, called)
 
     def _begun(self, line: int, source: ProgramFile, first: int, last: int, own: Mapping[str, Known] | None) -> _Begun:
-        """What a call runs, and with which values. Refuses to run what runs already with the same ones: it would call
-        itself for ever."""
+        """The identity of a call with its values. Raises _RefusedError for a call that runs already with the same ones:
+        it would call itself for ever."""
         begun = source.name, first, last, frozenset({**self.variables.values, **(own or {})}.items())
         if any(each.begun == begun for each in self._frames):
             raise _RefusedError(f"program line {line} calls itself again and again: nothing changes from call to call")
@@ -1269,7 +1273,7 @@ _DO: Mapping[type[MacroStatement | _Taken], Callable[..., Iterator[Block | Progr
 
 
 def _in_doubt(block: Block, statements: Sequence[MacroStatement]) -> str:
-    """Why it is not known what a line does; empty if that is clear."""
+    """The reason why the effect of a line is not known; empty if it is clear."""
     ends = {type(each) for each in statements if isinstance(each, ProgramEnd | Return)}
     does = [told for kind, told in _DOES.items() if any(isinstance(each, kind) for each in statements)]
     if not ends or len(does) == 1:
@@ -1301,7 +1305,7 @@ def _backwards(source: ProgramFile, first: int, last: int, index: int) -> str:
 
 
 _ADDRESS = re.compile(r",?[A-Z][ \t]*\Z", re.IGNORECASE)
-"""What stands before the value of a word."""
+"""Address before the value of a word."""
 
 
 def _unsigned(term: Term) -> Term:

@@ -1,4 +1,4 @@
-"""What the lines of a program say besides words with numbers: variables, jumps, loops and calls, for every control."""
+"""Statements of a program besides words with numbers: variables, jumps, loops and calls, for every control."""
 
 from collections.abc import Callable, Mapping
 from enum import Enum
@@ -9,13 +9,13 @@ from msgspec import Struct
 from contoursolve.numeric import Constant, Indexed, Term, Variable
 
 UNSET = " is set by nothing before"
-"""Why a variable of the user has no value."""
+"""Reason why a variable of the user has no value."""
 
 MACHINES = " is the machine's"
-"""Why one has none that only the machine knows."""
+"""Reason why a variable that only the machine knows has no value."""
 
 ARGUMENT = " is an argument of "
-"""Why one has none that each call of the program gives."""
+"""Reason why a variable that each call gives has no value."""
 
 
 class Unknown(Struct, frozen=True):
@@ -32,7 +32,7 @@ class Vacant(Struct, frozen=True):
 
 VACANT = Vacant()
 Known = float | str | Unknown | Vacant
-"""What a variable holds."""
+"""Value of a variable."""
 
 
 class WordFormula(Struct, frozen=True):
@@ -63,11 +63,11 @@ class Forget(Struct, frozen=True, tag=True):
 
 
 SKIP_SWITCH = Variable("/")
-"""Whether blocks that begin with / run: a switch at the machine decides, which no program reads."""
+"""Switch at the machine that decides if blocks with / run; no program reads it."""
 
 
 class JumpWay(Enum):
-    """Where a jump looks for its label."""
+    """Direction in which a jump looks for its label."""
 
     ANYWHERE = "anywhere"
     FORWARD = "forward"
@@ -84,7 +84,7 @@ class Jump(Struct, frozen=True, tag=True):
 
 
 class CallKind(Enum):
-    """What a call runs."""
+    """Target of a call."""
 
     PROGRAM = "program"
     """A subprogram by its number or name, in the same file or in one of its own: M98 P, `L10`, `NAME`, CALL PGM."""
@@ -127,7 +127,7 @@ class ProgramEnd(Struct, frozen=True, tag=True):
 
 
 class If(Struct, frozen=True, tag=True):
-    """What follows up to Else, ElseIf or EndIf runs if a condition holds."""
+    """Run the lines up to Else, ElseIf or EndIf if a condition holds."""
 
     condition: Term
 
@@ -139,7 +139,7 @@ class ElseIf(Struct, frozen=True, tag=True):
 
 
 class Else(Struct, frozen=True, tag=True):
-    """What follows runs where no condition before it held."""
+    """Run the next lines if no condition before them held."""
 
 
 class EndIf(Struct, frozen=True, tag=True):
@@ -147,14 +147,14 @@ class EndIf(Struct, frozen=True, tag=True):
 
 
 class Loop(Struct, frozen=True, tag=True):
-    """What follows up to its EndLoop of the same name runs while a condition holds; without one, for ever."""
+    """Run the lines up to its EndLoop of the same name while a condition holds; without one, for ever."""
 
     name: str = ""
     condition: Term | None = None
 
 
 class For(Struct, frozen=True, tag=True):
-    """What follows up to EndLoop runs with a variable that counts from `first` to `last`."""
+    """Run the lines up to EndLoop with a variable that counts from `first` to `last`."""
 
     variable: Variable | Indexed
     first: Term
@@ -218,7 +218,7 @@ MacroStatement = (
 
 
 class CodeLine(Struct, frozen=True):
-    """What one line says besides its words.
+    """Statements of one line besides its words.
 
     `rest` is the line with statements blanked out, each character of them a blank, so that columns stay: `G0 X40. M98
     P100` leaves `G0 X40.`. Values of `words` stand in it still.
@@ -244,23 +244,22 @@ class MacroLanguage(Struct, frozen=True, eq=False):
 
     name: str
     may_say: Callable[[str], bool]
-    """Whether a line may say anything but words with numbers; quick, for every line of every program."""
+    """Quick test that a line may have more than words with numbers; it is run on every line of every program."""
     read: Callable[[str], CodeLine]
-    """What a line says. Never raises: what cannot be read is Strange."""
+    """Read the statements of a line. Never raises: an unreadable statement is Strange."""
     files: Callable[[str], tuple[str, ...]]
     """The names of files in which a subprogram may be, without folder: 100 is in `O0100.nc`, `O100`, `0100.NC`, ..."""
     unknown: Callable[[str], str]
-    """Why a variable that nothing set has no value: `#5041 is the machine's position`, `#100 is set by nothing
-    before`."""
+    """The reason why a variable that nothing set has no value: `#5041 is the machine's position`, `#100 is set by
+    nothing before`."""
     jumps_to_numbers: bool = True
     """Whether a jump names a block number; Klartext knows labels alone."""
     declares: bool = False
     """Whether variables with names have to be declared: SINUMERIK's DEF."""
     variables: str = ""
-    """What the name of a variable looks like, in upper case, as a pattern; any name where it is empty."""
+    """Pattern of variables' names, in upper case; any name if it is empty."""
     declared: str = ""
-    """What the name of a variable may look like besides where a program declares it, as a pattern; none where it is
-    empty."""
+    """Pattern of further names that a program may declare; none if it is empty."""
     examples: str = ""
     """Names of variables, for a reader: the first one has a number."""
     always_empty: str = ""
@@ -270,10 +269,10 @@ class MacroLanguage(Struct, frozen=True, eq=False):
     with_names: "Callable[[tuple[str, ...]], MacroLanguage] | None" = None
     """The same where some more names are those of commands, which call no subprogram; None where a name calls none."""
     made_by: Callable[[], "MacroLanguage"] | None = None
-    """What makes it, by whose name it is sent to another process."""
+    """The function that makes it, by whose name it is sent to another process."""
 
     def value_of(self, name: str, values: Mapping[str, Known]) -> Known:
-        """What a variable holds, by its name, where others hold values."""
+        """The value of a variable by its name, given those of others."""
         if name == self.always_empty:
             return VACANT
         found = values.get(name)

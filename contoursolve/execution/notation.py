@@ -1,4 +1,4 @@
-"""How languages spell expressions: one table each, by which they are read and written."""
+"""Spelling of expressions in each language: one table each, by which they are read and written."""
 
 from collections.abc import Mapping
 from functools import cached_property
@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 
 class Notation(Struct, frozen=True, eq=False, dict=True):
-    """How a language spells expressions.
+    """Spelling of a language's expressions.
 
     `operators` are by how tightly they bind, the loosest first. Where several names mean the same, the first is
     written. `fields` is what its grammar says of variables and of functions.
@@ -23,7 +23,7 @@ class Notation(Struct, frozen=True, eq=False, dict=True):
     power: str = ""
     """The sign of a power."""
     inverts: str = ""
-    """What stands before a condition that must not hold."""
+    """Name of the operator that inverts a condition."""
     functions_need_brackets: bool = True
     has_quotient_of_arctangent: bool = False
     """Whether `ATAN[y]/[x]` is the direction of x and y."""
@@ -38,7 +38,7 @@ class Notation(Struct, frozen=True, eq=False, dict=True):
 
     @cached_property
     def meanings(self) -> Mapping[str, str]:
-        """What each sign and name means."""
+        """The meaning of each sign and name."""
         rows = (*self.operators, self.functions, {self.power: "power", self.inverts: "not"})
         return {sign: meaning for row in rows for sign, meaning in row.items()}
 
@@ -216,4 +216,4 @@ KLARTEXT = Notation(
 
 
 class UnreadableTermError(ValueError):
-    """What stands there is no expression."""
+    """The text is no expression."""

@@ -249,13 +249,13 @@ def _key(word: str) -> str:
 
 _MODAL_CALL = ModalCall("contoursolve does not read MCALL yet: it calls a subprogram behind each move", "MCALL")
 SYNCHRONOUS = r"(?:IDS?[ \t]*+=[ \t]*+\d++[ \t]*+)?(?:WHEN|WHENEVER|FROM|EVERY|DO)\b"
-"""What begins a synchronous action, which runs beside the program, whenever its condition holds."""
+"""Beginning of a synchronous action, which runs beside the program whenever its condition holds."""
 MOVES_BESIDE = r".*\b(?:(?:POSA?|MOV)[ \t]*+\[|DO\b.*(?<![A-Z_$\[])[XYZ][ \t]*+=?+[ \t]*+[-+.\d])"
-"""What stands in one that moves an axis."""
+"""Synchronous action that moves an axis."""
 
 
 def _synchronous(line: LineReader, found: re.Match[str]) -> Iterator[MacroStatement]:
-    """What it moves or sets is not known from here on."""
+    """Statements for a synchronous action: the axes and variables that it changes are not known from here on."""
     shown = strange(found[0]).reason.removesuffix(" cannot be read")
     line.hide(found.start(), found.end())
     if found["moves"]:

@@ -1,4 +1,4 @@
-"""Where subprograms are: sections of a program, files beside it, and files in other folders."""
+"""Places of subprograms: sections of a program, files beside it, and files in other folders."""
 
 from __future__ import annotations
 
@@ -32,8 +32,7 @@ from contoursolve.numeric import Constant, Term
 
 
 class Surroundings(Struct, frozen=True):
-    """What is stated apart from a program that runs: the values of variables by name, and the folders in which files
-    with its subprograms are."""
+    """Statements apart from a program that runs: values of variables by name, and folders with files of subprograms."""
 
     values: Mapping[str, float] = {}
     folders: tuple[Path, ...] = ()
@@ -55,7 +54,7 @@ def surroundings_of(
 
 
 class Absent(Unknown, frozen=True):
-    """What is named stands nowhere in the program itself."""
+    """The program itself has no such name."""
 
 
 class LineRange(Struct, frozen=True, order=True):
@@ -94,7 +93,7 @@ class ProgramFile:
         return len(self.blocks)
 
     def code(self, index: int) -> CodeLine:
-        """What a line says."""
+        """The statements of a line."""
         found = self._codes.get(index)
         if found is None:
             text = self.blocks[index].text
@@ -251,7 +250,7 @@ class Library:
     def find_called(
         self, call: Call, source: ProgramFile, index: int, main: ProgramFile, resolve: Resolve
     ) -> tuple[ProgramFile, int, int] | Unknown:
-        """What a call on a line of a file runs: a file, and the indices of its first and last line there."""
+        """The target of a call on a line of a file: a file, and the indices of its first and last line there."""
         text = source.blocks[index].text.strip()
         first = resolve(call.target)
         last = resolve(call.last) if call.last is not None else None

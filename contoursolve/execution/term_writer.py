@@ -65,7 +65,7 @@ _INSTEAD: Mapping[str, Callable[..., Term]] = {
     "power": _product,
     "not": lambda a: Apply("equal", (a, Constant(0.0))),
 }
-"""What to write for a function that a language lacks."""
+"""Terms in the place of a function that a language lacks."""
 
 
 def write_term(term: Term, target: str) -> str:

@@ -1,4 +1,4 @@
-"""What the variables of a program hold while it runs."""
+"""Values of a program's variables while it runs."""
 
 import re
 from collections import Counter
@@ -85,7 +85,7 @@ class Variables:
         return evaluate(term, self._look_up)
 
     def truth(self, condition: Term) -> bool | Unknown:
-        """Whether a condition holds."""
+        """The truth of a condition; Unknown with its reason if a variable has no value."""
         value = self.value(condition)
         return value if isinstance(value, Unknown) else is_true(value)
 
@@ -127,8 +127,8 @@ class Variables:
             self.assigned.append(name)
 
     def join(self, one: Mapping[str, Known], other: Mapping[str, Known], reason: str) -> dict[str, Known]:
-        """What is known of variables where two ways meet, on which they hold this and that; `reason` says what decides
-        between them."""
+        """The values of variables where two ways meet, given those on each; `reason` names what decides between the
+        ways."""
         both = dict.fromkeys([*one, *other])
         return {name: self._join(name, one.get(name), other.get(name), reason) for name in both}
 
@@ -156,7 +156,7 @@ class Variables:
         self.lose([*self.values], reason)
 
     def all(self) -> dict[str, Known]:
-        """What variables hold, those of the subprogram among them."""
+        """The values of all variables, those of the subprogram among them."""
         return self.values | (self._own() or {})
 
     def set_once(self) -> dict[str, Known]:

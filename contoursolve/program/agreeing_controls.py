@@ -27,7 +27,7 @@ from contoursolve.tolerance import ERROR_BOUND_WARNING
 
 
 class _Outcome(Struct, frozen=True):
-    """What a control makes of one contour: its lines, its status, the points of its path, and what a reader is told."""
+    """One contour as a control reads it: its lines, its status, the points of its path, and text for a reader."""
 
     lines: tuple[int | str, ...]
     """Behind the name of the file, if that is not the program's."""
@@ -45,7 +45,7 @@ class _Outcome(Struct, frozen=True):
 
 
 class _Reading(Struct, frozen=True):
-    """What a control makes of a program: its contours, and the places of the words without a comma that they take for
+    """A program as a control reads it: its contours, and the places of words without a comma that are taken for
     corners."""
 
     outcomes: tuple[_Outcome, ...]
@@ -108,7 +108,7 @@ def _choose(
 
 
 def _read(program: Program, dialect: Dialect, asked: Request) -> _Reading:
-    """What a control makes of a program."""
+    """Read a program as a control does."""
     own = asked.of(dialect, lambda: (block.text for block in program.blocks))
     running = Run(program, replace_fields(own, depth=Depth.VERDICT))
     found = (*running.collect().answers, *running.called)
@@ -161,7 +161,7 @@ def _differences(contour: Mapping[str, _Outcome | None], several: UnknownControl
 
 
 def _told_apart(made: Sequence[_Outcome | None]) -> list[str]:
-    """What controls make of a contour, each in words that the others do not share."""
+    """Descriptions of a contour as each control reads it, made different by the first point that differs."""
     told = ["no contour there" if each is None else each.told for each in made]
     points = [each.points for each in made if each is not None]
     if len({*told}) == len(told) or len(points) < len(made) or len({len(each) for each in points}) > 1:

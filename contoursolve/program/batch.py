@@ -114,7 +114,7 @@ class Batch(Struct):
             self.kinds[key] = kind
 
     def _key(self, claim: ParsedContour) -> Hashable:
-        """What contours of one kind have in common; None where more than the words and their values counts."""
+        """Key shared by contours of one kind; None where more than the words and their values counts."""
         if claim.unknown or claim.repeated or claim.doubts or not self._is_plain(claim):
             return None
         before, after = claim.before, claim.after
@@ -248,7 +248,7 @@ def _evaluate(kind: Kind, inputs: Sequence[Mapping[str, float]]) -> list[tuple[d
 
 
 def _examine(kind: Kind, out: Columns, rows: int) -> tuple[NDArray[numpy.bool_], NDArray[numpy.float64]]:
-    """Which rows are solved without anything to say of them, and bounds of the errors of those, mm."""
+    """Mask of the rows that are solved without any finding, and bounds of their errors, mm; both of shape (rows,)."""
     figure, plan = kind.system.figure, kind.machine.plan
     verdict = RowOutcome(kind.checks, out, rows)
     plain = (verdict.status == StatusCode.SOLVED) & (verdict.reason == 0) & ~verdict.again

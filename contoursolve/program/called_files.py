@@ -1,5 +1,4 @@
-"""What a program calls in other files, while it is not known for which control it is: in all languages that read calls
-in it."""
+"""Blocks of called files while the control of a program is not known, found in all languages that read calls in it."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -31,7 +30,7 @@ def blocks_of_called_files(lines: Iterable[str], around: Surroundings) -> list[B
 
 
 def _libraries(around: Surroundings) -> Sequence[tuple[MacroLanguage, Library]]:
-    """Where the subprograms of each language are."""
+    """A library of subprograms for each language."""
     languages: dict[str, tuple[MacroLanguage, Syntax]] = {}
     for dialect in DIALECTS.values():
         language = dialect.modes.language

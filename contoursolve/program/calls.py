@@ -23,7 +23,7 @@ _ALIKE = 6
 
 
 def machine_for(program: Program, dialect: Dialect, around: Surroundings) -> Machine | None:
-    """What runs a program; None for one that neither calls, jumps nor computes."""
+    """The machine that runs a program; None for one that neither calls, jumps nor computes."""
     limit = Limit(dialect.modes.most_blocks, f"{dialect.name}.{Limit().setting}")
     return machine_of(program, dialect.modes.language, dialect.modes.syntax, around, limit)
 
@@ -103,7 +103,7 @@ def _shared(steps: Iterable[Step], passed_over: Set[int]) -> set[int]:
 
 
 def _why_shared(lines: Sequence[int], shared: Set[int]) -> str:
-    """Why the blocks of a contour cannot be written anew, by their lines."""
+    """The reason why blocks of a contour cannot be written anew, by their lines; empty if they can."""
     if any(line <= before for before, line in pairwise(lines)):
         return "it goes on from one pass of a loop to the next, so that its blocks run several times"
     there = [str(line) for line in lines if line in shared]
@@ -182,7 +182,7 @@ def _with_calls(answers: Sequence[Answer]) -> Answer:
 
 
 def _result(answer: Answer) -> object:
-    """What makes two results of a contour the same."""
+    """Key by which two results of a contour are the same."""
     return answer.status, tuple(each.message for each in answer.diagnostics), answer.start.is_known, path_of(answer)
 
 
@@ -201,7 +201,7 @@ def path_of(answer: Answer) -> object:
 
 
 def _results(answers: Sequence[Answer]) -> str:
-    """What becomes of a contour in each of its calls, in words."""
+    """The results of a contour in each of its calls, in words."""
     told = list[str]()
     for answer in answers[:MOST_TOLD]:
         values = [None if value is None else float(value) for value in answer.start.values]
@@ -219,7 +219,7 @@ def _results(answers: Sequence[Answer]) -> str:
 
 
 def _of_other_file(answer: Answer, block: Block, rules: tuple[Rule, ...]) -> Iterator[Diagnostic]:
-    """What is wrong with a contour of another file, told at the block that calls it."""
+    """Errors of a contour of another file, told at the block that calls it."""
     caller = block.callers[0]
     context = Context(rules, answer.unit, place=Span(caller.line, 1, len(caller.text) + 1))
     for each in answer.diagnostics:
@@ -250,7 +250,7 @@ def _solved_elsewhere(called: Sequence[Answer], rules: tuple[Rule, ...]) -> Iter
 
 
 _Substituted = dict[int, tuple[Substitution, ...]]
-"""What stands for the variables of some lines of the main file, as they ran last."""
+"""Values that replace the variables of some lines of the main file, as they ran last."""
 
 
 def _substituted(blocks: Sequence[Block]) -> _Substituted:
@@ -284,7 +284,7 @@ def _checked(answer: Answer, here: _Substituted, rules: tuple[Rule, ...]) -> Ans
 
 
 _OF_VALUES = (ReadIssue.VARIABLE, ReadIssue.POSITION_UNKNOWN)
-"""What is wrong where a value is not known."""
+"""Findings about a value that is not known."""
 
 
 def _as_typed(

@@ -101,7 +101,7 @@ def _place(state: State) -> Point | None:
 
 
 def turns_back(profile: CycleProfile, rules: tuple[Rule, ...]) -> Iterator[Diagnostic]:
-    """Where the profile of a cycle turns back along an axis along which the cycle goes one way."""
+    """Findings where the profile of a cycle turns back along an axis along which the cycle goes one way."""
     axes = ONE_WAY.get(profile.caller.cycle, ()) if profile.has_contour else ()
     for axis in axes[:1] if profile.is_free else axes:
         values = [at[axis] for _, at in profile.path]

@@ -11,7 +11,7 @@ from contoursolve.program.recognise import several_controls, sign_against, sign_
 from contoursolve.reading import Dialect, plain_lines
 
 _USUAL = "\n"
-"""How a line ends of which nothing else is noted."""
+"""End of a line of which nothing else is noted."""
 
 
 _LONGEST = 1_000

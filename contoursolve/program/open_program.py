@@ -70,17 +70,17 @@ class _Part:
     """Some lines in a row: one contour, or blocks that are none. The last part has no lines."""
 
     known: Checkpoint
-    """What is known before it."""
+    """State and findings before the part."""
     count: int
     reach: int = 1
-    """How many lines from the first one on it rests on."""
+    """Number of lines, from its first one on, on which it rests."""
     answer: Answer | None = None
     beside: tuple[Diagnostic, ...] = ()
     """Findings that are not about the contour."""
     findings: tuple[Diagnostic, ...] = ()
     """Findings about the contour."""
     age: int = 0
-    """How many of the moves it knows of, and the answer of how many."""
+    """Number of moves that it knows of, and of moves that its answer knows of."""
     answer_age: int = 0
     is_stale: bool = False
 
@@ -191,7 +191,7 @@ class OpenProgram:
 
     @property
     def syntax(self) -> Syntax:
-        """How its blocks are spelled: as ISO 6983 has it where the control is not known."""
+        """Syntax of its blocks: that of its control, or ISO 6983 if the control is not known."""
         return self.dialect.modes.syntax if self.dialect is not None else ISO
 
     @property
@@ -211,7 +211,7 @@ class OpenProgram:
 
     @property
     def line_end(self) -> str:
-        """How its first line ends; a line feed if that has no end."""
+        """The end of its first line; a line feed if that line has no end."""
         first = self._lines.texts[0]
         return first[len(first.rstrip("\r\n")) :] or "\n"
 
@@ -515,7 +515,7 @@ def _is_plain(part: _Part) -> bool:
 
 
 _LINES = re.compile(r"(?<=program )lines? \d+(?:, \d+)*(?: and \d+)?")
-"""How messages name lines; `line 1` alone is an element of a contour."""
+"""Line numbers as messages name them; `line 1` alone is an element of a contour."""
 
 
 def _moved(record: Any, move: _Move) -> Any:

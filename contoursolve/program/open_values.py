@@ -19,14 +19,14 @@ _ANGLES = 15
 """Degrees between angles that are tried."""
 
 _EXACT = 1e-4
-"""How exactly the ends of a range are found."""
+"""Accuracy of the ends of a range, in the unit of the variable."""
 
 _MOST = 3
 """Ranges that are told."""
 
 
 class _Trial(Struct, frozen=True):
-    """What comes of one value: whether there is a contour, and what is wrong if there is none."""
+    """Outcome at one value: `message` is the error of a block without a contour."""
 
     value: float
     is_solved: bool
@@ -70,7 +70,7 @@ class _Search:
         self.answer, self.dialect, self.policy, self.name = answer, dialect, policy, name
 
     def told(self) -> list[str]:
-        """What to say of them."""
+        """Sentences on the values with a contour, and on the errors at the others."""
         trials = [self._try(value) for value in self._values()]
         runs = [list(group) for _, group in groupby(trials, lambda each: each.is_solved)]
         ranges, reasons = list[str](), list[str]()

@@ -1,4 +1,4 @@
-"""What is told about blocks outside contours: that on which a contour depends.
+"""Choice of findings about blocks outside contours: those on which a contour depends are told.
 
 Programs of other people hold much that no table knows and no contour minds. So a finding about a block outside contours
 waits. It is told
@@ -61,8 +61,8 @@ class Outside:
         answer: Answer | None,
         before: State,
     ) -> Iterator[Diagnostic]:
-        """What is told once the next lines are known, from one with this number: blocks outside contours, or a contour
-        with its answer; and the findings beside it. `before` is the state before them."""
+        """The findings to be told once the next lines are known, from line `line` on. They are blocks outside contours,
+        or a contour with its answer; `before` is the state before them."""
         if self.is_strict:
             yield from findings
             return

@@ -96,9 +96,9 @@ class Result(Shown, Struct, frozen=True):
     answers: tuple[Answer, ...]
     diagnostics: tuple[Diagnostic, ...]
     start: Program | None = None
-    """What stated the start point apart from the program; its line is line 0."""
+    """The block that stated the start point apart from the program; its line is line 0."""
     facts: tuple[Directive, ...] = ()
-    """What was stated apart from the program; their lines are -1, -2, ..."""
+    """Facts stated apart from the program; their lines are -1, -2, ..."""
     settings: Mapping[str, str] = field(default_factory=dict)
     """The settings of the control that are not the default ones, by name."""
     policy: Policy = Policy.ENFORCE
@@ -331,7 +331,7 @@ _WHOLE = 32_768
 
 
 class Checkpoint(Struct, frozen=True):
-    """What an examination knows of a program before one of its blocks."""
+    """Knowledge of an examination about a program before one of its blocks."""
 
     state: State
     previous: Previous | None
@@ -419,7 +419,7 @@ class Examiner:
         yield from self.steps(watched())
 
     def checkpoint(self, state: State) -> Checkpoint:
-        """What is known before a block, in a state."""
+        """The checkpoint before a block, in a state."""
         return Checkpoint(state, self.previous, copy(self.marks), self.start_unit, self.start_counts)
 
     def resume(self, blocks: Sequence[Block], index: int, known: Checkpoint) -> Iterator[tuple[Step, int, Checkpoint]]:
@@ -436,7 +436,7 @@ class Examiner:
             yield taken.step if isinstance(taken, Pending) else taken, view.reach, known
 
     def begin(self) -> Checkpoint:
-        """What is known before a program, behind the block that states its start point apart."""
+        """The checkpoint before a program, behind the block that states its start point apart."""
         return self.checkpoint(self._begin(cast("Dialect", self.dialect)))
 
     def _run(self, machine: Machine) -> list[Step | Pending]:
@@ -514,13 +514,13 @@ class Examiner:
         return state
 
     def _end(self, state: State) -> Iterator[Step]:
-        """What is told at the end of a program."""
+        """The last step of a program, with the findings at its end, if there are any."""
         self.diagnostics += self.marks.finish()
         if self.diagnostics:
             yield Step((), state, findings=self._findings())
 
     def _look_at_all(self, blocks: Sequence[Block]) -> Step:
-        """What is found without a control."""
+        """Examine blocks without a control: their characters, their facts, and signs of contours."""
         is_shown = False
         for index, block in enumerate(blocks):
             if self.outside.is_strict:
@@ -591,7 +591,7 @@ class Examiner:
             held, index = go_on(held, index, after)
 
     def _find(self, view: View, state: State) -> tuple[ParsedContour | None, int]:
-        """What begins at the first of some blocks, read as a contour is, and how many lines it has."""
+        """The contour that begins at the first of some blocks, if one does, and the number of lines that it has."""
         dialect = cast("Dialect", self.dialect)
         found = dialect.find(view, 0, state, dialect.modes)
         return found, reach_of(found, view) if isinstance(found, ParsedContour) else 1
@@ -625,7 +625,7 @@ class Examiner:
         return Step(blocks, state, findings=self._findings()), lambda: behind
 
     def _check_arc(self, found: ParsedContour, pending: Pending) -> None:
-        """What is read as a contour is, but is none."""
+        """Examine an arc that is read as a contour is, but is none, and keep the findings about its values."""
         answer = self._examine(found, pending)
         if not found.form.needs_values:
             self.diagnostics += (each for each in answer.diagnostics if each.about not in _ABOUT_VALUES)
@@ -646,7 +646,7 @@ class Examiner:
             self._check_arc(found, Pending(found, Step((), state), View(both, 0), 1))
 
     def _check_slips(self, blocks: Sequence[Block], states: tuple[State, State]) -> None:
-        """Whether the first of some lines would be a contour without a slip."""
+        """Add findings about slips in the first of some lines that would be a contour without them."""
         block, dialect = blocks[0], self.dialect
         if dialect is None or self.asked.depth is Depth.VERDICT:
             return
@@ -665,7 +665,7 @@ class Examiner:
             self._check_letters(dialect, blocks[:_NEAR], states[0])
 
     def _check_letters(self, dialect: Dialect, blocks: Sequence[Block], before: State) -> None:
-        """Whether the first of some lines would be a contour with digits for letters, as the control would read it."""
+        """Add findings about letters in the first of some lines that would be a contour with digits in their place."""
         from contoursolve.diagnosis import explain_letters  # noqa: PLC0415 - few programs need it
 
         block = blocks[0]
@@ -689,7 +689,7 @@ class Examiner:
         return True
 
     def _findings(self) -> tuple[Diagnostic, ...]:
-        """What was found since the last step."""
+        """Take the findings since the last step."""
         findings, self.diagnostics = tuple(self.diagnostics), []
         return findings
 
@@ -748,7 +748,8 @@ class Examiner:
         return self.faulty[first.file, first.line] <= MOST_EXPLAINED
 
     def _check_units(self, found: ParsedContour) -> None:
-        """Whether a contour is in the units in which the start point was stated apart from the program."""
+        """Add findings if a contour has other units, or other diameters, than the start point stated apart from the
+        program."""
         start = self.asked.start
         if start and found.after.unit is not self.start_unit:
             place = Context(self.rules, self.start_unit, place=start.blocks[0].span)
@@ -813,7 +814,7 @@ class Examiner:
         ]
 
     def conclusions(self, blocks: Iterable[Block]) -> Iterator[Diagnostic]:
-        """What was concluded about the control, at the first block that shows it."""
+        """Findings about the conclusions on the control, at the first block that shows it."""
         own = cast("Dialect", self.dialect)
         place = next((block.span for block in blocks if own.signs(block)), Span(1, 1, 2)) if own.taken else None
         for each in own.taken:
@@ -840,7 +841,7 @@ class Examiner:
                 yield from (each for each in found if each.fixes)
 
     def _check_block(self, block: Block, here: State | None = None) -> None:
-        """What there is to say of a block that is no contour; `here` is the state with its codes in force."""
+        """Add the findings about a block that is no contour; `here` is the state with its codes in force."""
         if (
             self.dialect
             and _is_clean(block, self.dialect, here)
@@ -902,7 +903,7 @@ class Examiner:
 
 
 _ABOUT_VALUES = (ReadIssue.VARIABLE, ReadIssue.POSITION_UNKNOWN)
-"""What matters only to what is calculated."""
+"""Findings that matter to calculated values alone."""
 
 _OF_ARCS = "IJK"
 """Words that most arcs have."""

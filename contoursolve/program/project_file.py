@@ -58,8 +58,7 @@ FIRST_LINES = 10
 
 
 def stated_settings(lines: Iterable[str]) -> dict[str, str]:
-    """What a comment among the first lines of a program states, as settings by `control.name`: its control, and
-    settings of that.
+    """Settings, by `control.name`, in a comment among the first lines of a program: its control, and settings of that.
 
     Raises SettingError, naming the line.
 
@@ -152,7 +151,7 @@ def _example() -> str:
 
 
 def _table(file: Path) -> dict[str, Any] | None:
-    """What a file says about contoursolve; None if nothing."""
+    """The table about contoursolve of a file; None if it has none."""
     import tomllib  # noqa: PLC0415 - most folders have no such file
 
     if file.is_dir():

@@ -110,9 +110,9 @@ def find_dialect(control: str) -> Dialect:
 
 
 def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
-    """What a block shows of its control: words that several controls have, axes of a lathe that move, `own` and `sign`
-    with the name of a control, and what tells a mill from a lathe. Of a control that is `known` by its own words
-    nothing more is looked for."""
+    """Signs of the control in a block: words of several controls, moving axes of a lathe, and marks of a mill or a
+    lathe. `own` and `sign` with the name of a control are words of it alone. A control that is `known` by its own words
+    is not looked for."""
     if _PLAIN.fullmatch(block.text):
         # Most lines only move: what they show is which axes there are.
         line = words_of(block.text)
@@ -292,12 +292,12 @@ def several_controls(
 
 
 def what_shows(blocks: Iterable[Block], dialect: Dialect) -> str:
-    """What first shows that blocks are for a control; empty if nothing does."""
+    """The first sign that blocks are for a control; empty if there is none."""
     return next((sign for block in blocks for sign in [sign_of(block, dialect)] if sign), "")
 
 
 def first_signs(blocks: Iterable[Block], own: str) -> dict[str, str]:
-    """What first shows each control but one, by its name; nothing else is looked for behind the begin of a program."""
+    """The first sign of each control but one, by its name; the search ends behind the begin of a program."""
     found, rest = dict[str, str](), dict(DIALECTS)
     for block in blocks:
         signs = {name: words for name, each in rest.items() if (words := each.signs(block))}
@@ -313,13 +313,13 @@ def first_signs(blocks: Iterable[Block], own: str) -> dict[str, str]:
 
 
 def sign_of(block: Block, dialect: Dialect) -> str:
-    """What shows that a block is for a control; empty if nothing does."""
+    """The sign that a block is for a control; empty if there is none."""
     words = dialect.signs(block)
     return _sign(words, block) if words else ""
 
 
 def sign_against(block: Block, dialect: Dialect, other: Dialect) -> str:
-    """What shows that a block is for another control, and is no word of this one; empty if nothing does."""
+    """The sign that a block is for another control and that is no word of this one; empty if there is none."""
     own = dialect.modes.lexicon.addresses
     foreign = [word for word in _signs(other, block) if word.address not in _SHARED or word.address not in own]
     return _sign(foreign, block) if foreign else ""

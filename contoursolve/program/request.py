@@ -1,4 +1,4 @@
-"""What is asked of a program besides its text: for which control it is, and how it is examined."""
+"""Request for the examination of a program: its control, and the options besides its text."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class Request(Struct, frozen=True):
-    """How a program is examined; made once for each program, where it comes in."""
+    """Options of an examination; made once for each program, where it comes in."""
 
     dialect: Dialect | None
     """Its control; None where nothing tells it, so that its characters alone are examined."""

@@ -53,7 +53,8 @@ class Step(Struct, frozen=True):
     others: tuple[Answer, ...] = ()
     """The answers to the contour where other calls lead to other ones."""
     shares: str = ""
-    """Why its blocks cannot be written anew, if some of them run outside of this contour, or several times in it."""
+    """The reason why its blocks cannot be written anew: some run outside of this contour, or several times in it. Else
+    empty."""
 
 
 class Together(Protocol):
@@ -162,7 +163,7 @@ class Queue:
         )
 
     def _end_of_fix(self, answer: Answer) -> End:
-        """Where a contour ends, mm: its own end, or with the first fix of its first error that leaves nothing open."""
+        """The end of a contour, mm: its own, or that with the first fix of its first error that leaves nothing open."""
         if answer.contour is not None:
             return answer.contour.end
         errors = (each for each in answer.diagnostics if each.is_error)
@@ -255,7 +256,7 @@ def _lost(claim: ParsedContour, modes: Modes, answer: Answer, origin: Position |
 
 
 def _awaited(claim: ParsedContour, answer: Answer) -> Position | None:
-    """What made the start of a contour unknown, if nothing else is wrong with it."""
+    """The position that makes the start of a contour unknown, if nothing else is wrong with it."""
     errors = [each.about for each in answer.diagnostics if each.is_error]
     places = [claim.before.axes[axis] for axis in claim.before.plane.axes]
     unknown = [each for each in places if each.value is None and each.span is not None]

@@ -37,7 +37,7 @@ class Marks:
     __hash__ = None  # type: ignore[assignment]
 
     def look(self, line: Block | Passage) -> Iterator[Diagnostic]:
-        """What the next line, or the next lines that only move, show to be outside."""
+        """Findings about text outside the %, as the next line, or the next lines that only move, show it."""
         if self.is_done or line.syntax is not ISO:
             return
         is_inside = self.first is not None and not self.closed and self.before is None
@@ -83,7 +83,7 @@ class Marks:
             self.opened = mark
 
     def finish(self) -> Iterator[Diagnostic]:
-        """What the end of the program shows to be outside."""
+        """Findings about text outside the %, at the end of the program."""
         if self.before is not None and self.after is not None:
             yield self._outside(self.after, "behind", "ends", self.before[1])
 
