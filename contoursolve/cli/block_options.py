@@ -1,4 +1,4 @@
-"""What the commands about one block share, and the values of a free word as they are written."""
+"""Options that the commands about one block share, and the values of a free word as they are written."""
 
 import csv
 import re

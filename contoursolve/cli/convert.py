@@ -90,7 +90,7 @@ def convert(
 
 
 def _report_failure(found: Conversion, name: str, to: str | Dialect) -> None:
-    """Why nothing was written, on standard error."""
+    """Print on standard error why nothing was written."""
     style = style_of_output()
     report_told(found.summary, _post(to))
     report_left(found.summary, name, style)
@@ -107,7 +107,7 @@ def _report_failure(found: Conversion, name: str, to: str | Dialect) -> None:
 
 
 def _report(found: Conversion, to: str | Dialect) -> None:
-    """What was done, on standard error."""
+    """Print on standard error what was converted, and how it was compared."""
     summary, post = found.summary, _post(to)
     report_told(summary, post)
     if not summary.replaced:

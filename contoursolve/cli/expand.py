@@ -253,7 +253,7 @@ def _post_of(post: str, options: Mapping[str, Any]) -> Post:
 
 
 def _wish(post: Post, options: Mapping[str, Any]) -> ExpansionOptions:
-    """How the options ask the contours to be written."""
+    """The options of an expansion, from those of the command."""
     arcs, numbering = Arcs(options["arcs"]), Numbering(options["block_numbers"])
     has_comments, is_inline = not options["no_comments"], options.get("is_inline", False)
     return ExpansionOptions(post, arcs, options["decimals"], has_comments, numbering, is_inline)
@@ -286,7 +286,7 @@ def _rewrite(
 
 
 def _formulas(tape: OpenFile, wish: ExpansionOptions, options: Mapping[str, Any]) -> Writer:
-    """What writes contours as formulas."""
+    """The writer of contours as formulas."""
     from contoursolve.postprocess import formulas_for  # noqa: PLC0415 - few programs need it
 
     return formulas_for(
@@ -320,7 +320,7 @@ def print_bytes(pieces: Iterable[bytes]) -> None:
 
 
 def report_left(summary: Summary, name: str, style: Style) -> None:
-    """Why contours were not expanded, on standard error."""
+    """Print on standard error why contours were not expanded."""
     for left in summary.left:
         if all(not finding.is_error for finding in left.diagnostics):
             say(f"{style('error', 'error')}: program line {left.lines[0]}: {left.reason}", err=True)
@@ -332,21 +332,21 @@ def report_left(summary: Summary, name: str, style: Style) -> None:
 
 
 def report_misread(summary: Summary, post: Post, style: Style, *, is_kept: bool) -> None:
-    """What the target would run along another path, on standard error."""
+    """Print on standard error the lines that the target would run along another path."""
     severity = "warning" if is_kept else "error"
     for each in summary.misread:
         say(f"{style(severity, severity)}: program line {each.line}: {each.sentence(post.title)}", err=True)
 
 
 def report_told(summary: Summary, post: Post) -> None:
-    """What the target stops at, or reads in another way on the same path, on standard error."""
+    """Print on standard error the lines at which the target stops, or that it reads otherwise on the same path."""
     for each in summary.unfamiliar:
         if each.risk is Risk.TOLD:
             say(f"program line {each.line}: {each.sentence(post.title)}", err=True)
 
 
 def _report_expansion(summary: Summary, post: Post, style: Style) -> None:
-    """What was done, and what is left to do, on standard error."""
+    """Print on standard error what was expanded, and what is left to do."""
     for finding in summary.concluded:
         say(f"{style('info', 'info')}[{finding.code}]: {finding.message}", err=True)
     for finding in summary.warned:

@@ -27,7 +27,8 @@ COMMANDS = {
     "explain": "catalogue:explain",
     "facts": "catalogue:facts",
 }
-"""Where each command is: a module of this room, and the name there. `contoursolve` itself adds what is beside it."""
+"""Place of each command: a module of this room, and the name there. `contoursolve` itself adds the commands beside
+it."""
 
 
 class _Commands(click.Group):

@@ -84,7 +84,7 @@ def _load(module: str, name: str) -> Dialect:
 
 
 def _where(module: str, error: Exception) -> str:
-    """What to do about a module that is not there."""
+    """Advice about a module that is not there; empty for another error."""
     if not isinstance(error, ModuleNotFoundError) or error.name not in (module, module.partition(".")[0]):
         return ""
     if module.endswith(".py"):
@@ -268,13 +268,13 @@ def _quoted(word: str) -> str:
 
 
 def print_findings(result: Result, program: str | None = None, *, err: bool = False, **instead: object) -> None:
-    """What was found in a program, of a command that does more than to tell it."""
+    """Print the findings in a program, for a command that has another purpose."""
     command = explaining(program, **instead)
     print_lines(lines_of_findings(result, short_findings(result), style_of_output(), explaining=command), err=err)
 
 
 def load(paths: Sequence[str], blocks: tuple[str, ...]) -> list[Callable[[], Program]]:
-    """How to get each program that is asked for; a file is read when its turn comes."""
+    """Functions that give each program that is asked for; a file is read when its turn comes."""
     if blocks and paths:
         raise click.UsageError("give either a PROGRAM or --block, not both")
     if blocks:

@@ -59,7 +59,7 @@ def _may_replace(target: Path, output: Path | None, *, is_forced: bool) -> bool:
 
 _BEGINNING = 1024
 _MARKS = (b'<svg xmlns="http://www.w3.org/2000/svg" id="cs-', b'<meta name="generator" content="contoursolve ')
-"""How the drawings and pages of this tool begin."""
+"""First bytes of drawings and pages of this tool."""
 
 _DXF = ".dxf"
 

@@ -1,4 +1,4 @@
-"""How far a long command is, and what tells it to stop."""
+"""Progress of a long command, and the signals that stop it."""
 
 import os
 import signal
@@ -23,8 +23,8 @@ STOPPED = 130
 
 @contextmanager
 def progress(total: int, *, is_quiet: bool) -> Iterator[Callable[[int], None]]:
-    """What takes the number of contours that were just solved: a bar on a terminal, else a line on standard error now
-    and then, or nothing."""
+    """A function that takes the number of contours just solved. It moves a bar on a terminal, else prints a line on
+    standard error now and then, or nothing."""
     begin = told = time.monotonic()
     done = 0
     with click.progressbar(

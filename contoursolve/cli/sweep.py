@@ -117,7 +117,7 @@ class _Task(Future[Any]):
         self.cluster, self.inner = cluster, inner
 
     def result(self, timeout: float | None = None) -> Any:
-        """What the task gives; `timeout` is not needed here."""
+        """The result of the task; `timeout` is not needed here."""
         while not wait([self.inner], PATIENCE).done:
             self.cluster.check()
         try:
@@ -313,7 +313,7 @@ def _run(tables: Iterator[dict[str, Any]], parts: Checkpoints | None, target: Pa
 
 
 def _stopped(parts: Checkpoints | None, tally: Tally | None) -> str:
-    """What is kept of a sweep that was told to stop."""
+    """The message about a sweep that was told to stop, with the finished contours that are kept."""
     if parts is None:
         done = int(tally.counts.sum()) if tally is not None else 0
         return f"stopped after {done:,} contours; nothing is kept without -o FILE"
@@ -325,7 +325,7 @@ def _stopped(parts: Checkpoints | None, tally: Tally | None) -> str:
 
 
 def _tell(parts: Checkpoints, target: Path) -> None:
-    """What is left of sweeps that were not finished."""
+    """Print the parts that are left of unfinished sweeps."""
     if parts.rows_done:
         say(f"going on after {parts.rows_done:,} of {parts.ready.ranges.count:,} contours", err=True)
     for folder in others(parts, target):
@@ -355,7 +355,7 @@ def _write(target: Path, parts: Checkpoints, tables: Iterator[dict[str, Any]], *
 
 
 def _kept(parts: Checkpoints) -> str:
-    """What is left of a sweep whose file cannot be written."""
+    """The message about finished contours that are kept although the file cannot be written; empty without any."""
     if not parts.rows_done:
         parts.remove()
         return ""
@@ -364,7 +364,7 @@ def _kept(parts: Checkpoints) -> str:
 
 
 def _summary(counts: Any, failures: FailureSummary | None) -> list[str]:
-    """How many contours have each status, and why."""
+    """Lines with the number of contours of each status, and the reasons."""
     rows = [(f"{counts.sum():,}", "contour" if counts.sum() == 1 else "contours")]
     for status, count, reasons in _counted(counts):
         rows.append((f"{count:,}", status))

@@ -1,4 +1,4 @@
-"""Whether two programs describe the same path.
+"""Comparison of two programs by their paths.
 
 Two programs come in, their first difference goes out. Begin with `compare`.
 """

@@ -66,7 +66,7 @@ class _Cursor(Struct):
         self.index, self.done = (self.index + 1, 0.0) if done >= 1 else (self.index, done)
 
     def place(self) -> Place | None:
-        """Where the tool is; None where that is not known."""
+        """The position of the tool; None if it is not known."""
         step = self.step
         if isinstance(step, Travel):
             return step.at(self.done)

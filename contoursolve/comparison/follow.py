@@ -57,7 +57,7 @@ class ToolPath(Struct, frozen=True):
 
     @property
     def unfollowed(self) -> tuple[Unfollowed, ...]:
-        """What is not followed."""
+        """The parts that are not followed."""
         return tuple(step for step in self.steps if isinstance(step, Unfollowed))
 
 
@@ -105,7 +105,7 @@ class _Follower:
                 yield from (each for block in step.blocks for each in self._beside(block))
 
     def _beside(self, block: Block) -> Iterator[Step]:
-        """What a block beside contours adds to the path."""
+        """The steps that a block beside contours adds to the path."""
         if block.words or block.macro or block.faults:
             yield from self._restated(self.plain, block) if self.plain else self._block(self._switch(block))
 
@@ -144,7 +144,7 @@ class _Follower:
         return self._travel(part.block, part.state, motion, (places[0], places[1]), bend)
 
     def _restated(self, plain: Plain, block: Block) -> Iterator[Step]:
-        """What a block adds to the path that is not programmed in G codes."""
+        """The steps of a block that is not programmed in G codes."""
         before, here = self.state, apply_modes(self.state, block, self.modes)
         self.state = advance(before, block, self.modes)
         said = plain.restate(block, before, self.state)
@@ -173,7 +173,7 @@ class _Follower:
         return replace(block, words=tuple(word for word in block.words if word not in found))
 
     def _block(self, block: Block) -> Iterator[Step]:
-        """What a block that is no contour adds to the path."""
+        """The steps of a block that is no contour."""
         before = self.state
         here = apply_modes(before, block, self.modes)
         self.state = advance(before, block, self.modes)

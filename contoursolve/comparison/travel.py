@@ -19,7 +19,7 @@ _SAMPLES = radians(10)
 
 
 class Motion(Enum):
-    """How the tool goes."""
+    """Kind of the tool's motion."""
 
     RAPID = "rapid"
     FEED = "feed"
@@ -29,8 +29,8 @@ class Motion(Enum):
 
 
 class Bend(Struct, frozen=True):
-    """What makes an element an arc: the indices of its plane's axes, its centre in them (mm), the directions from
-    there in which it begins (rad), and how far it turns (rad), counter-clockwise positive."""
+    """Arc of an element: the indices of its plane's axes, its centre in them (mm), and directions from there. It begins
+    at `begin` and turns by `sweep` (rad), counter-clockwise positive."""
 
     axes: tuple[int, int]
     center: tuple[float, float]
@@ -69,7 +69,7 @@ class Travel(Struct, frozen=True):
         return tuple(place)
 
     def length(self, begin: float = 0.0) -> float:
-        """How far it is from a fraction of the way to the end, mm; infinite where the start is not known."""
+        """The length from a fraction of the way to the end, mm; infinite if the start is not known."""
         if not self.is_bounded:
             return inf
         straight = [
@@ -134,7 +134,7 @@ def distance(one: Place, other: Place) -> float:
 
 
 def deviation(one: Travel, other: Travel, ways: Sequence[tuple[float, float]]) -> float:
-    """How far two parts are apart at most, mm; `ways` are the fractions where each begins and ends.
+    """The largest distance between two parts, mm; `ways` are the fractions at which each begins and ends.
 
     Arcs are compared point by point, at most 10 degrees apart: their distance changes too slowly to hide between.
     """

@@ -5,7 +5,7 @@ from typing import Any, Protocol
 
 
 class Renderer(Protocol):
-    """What shows records. A room far above has it, and the front door of the package registers it."""
+    """Renderer of records. A room far above has it, and the front door of the package registers it."""
 
     def text_of(self, record: "Shown") -> Iterable[str]:
         """The lines of a record, as a terminal prints them."""
@@ -28,7 +28,7 @@ class Shown:
     __slots__ = ()
 
     def __str__(self) -> str:
-        """What the terminal prints of this record; its `repr` has all its fields."""
+        """The text of this record as the terminal prints it; its `repr` has all its fields."""
         return "\n".join(_load[0]().text_of(self)).rstrip()
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 
 class UserError(Exception):
-    """What was asked for cannot be done; the message says why, and what to do."""
+    """A request that cannot be met; the message says why, and what to do."""
 
 
 class ProgramError(UserError):

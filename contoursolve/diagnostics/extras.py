@@ -15,7 +15,7 @@ class MissingExtraError(UserError, ImportError):
 
 @contextmanager
 def importing(extra: str, purpose: str) -> Iterator[None]:
-    """What is imported within needs the packages of an extra. Raises MissingExtraError without one of them."""
+    """Context for imports that need the packages of an extra. Raises MissingExtraError without one of them."""
     try:
         yield
     except ModuleNotFoundError as error:

@@ -11,7 +11,7 @@ from contoursolve.diagnostics.source import Evidence, Source, Span
 
 
 class Severity(Enum):
-    """How bad a finding is; only `ERROR` makes a command exit with 1."""
+    """Severity of a finding; only `ERROR` makes a command exit with 1."""
 
     ERROR = "error"
     WARNING = "warning"
@@ -19,12 +19,12 @@ class Severity(Enum):
 
 
 class Basis(Enum):
-    """What kind of reasoning a finding rests on."""
+    """Kind of reasoning on which a finding rests."""
 
     RULE = "rule"
     """Text or words alone: grammar, or a rule of the control's manual."""
     STRUCTURAL = "structural"
-    """Which equation mentions which unknown."""
+    """The structure of the equations: the unknowns that each mentions."""
     SYMBOLIC = "symbolic"
     """The equations for all values of the words."""
     NUMERICAL = "numerical"
@@ -32,7 +32,7 @@ class Basis(Enum):
 
 
 class Applicability(Enum):
-    """What applying a fix does to the contour."""
+    """Effect of a fix on the contour."""
 
     SAFE = "safe"
     CHANGES_CONTOUR = "changes-contour"
@@ -47,12 +47,12 @@ class Fix(Struct, frozen=True):
     replacement: str
     applicability: Applicability
     effect: str = ""
-    """What applying it does, in words, where `applicability` alone does not say it."""
+    """Effect of applying it, in words, where `applicability` alone does not say it."""
     example: str = ""
     """The replacement with numbers that make a contour, where it leaves gaps and such numbers are known."""
 
     def by_line(self, old: Mapping[int, str]) -> dict[int, str]:
-        """What to write for each of the lines that it replaces (`old`, their texts); nothing for one it drops."""
+        """The new text of each line that it replaces (`old`, their texts); a line that it drops is missing."""
         lines, before = [*old], [*old.values()]
         texts = [self.replacement] if len(lines) == 1 else self.replacement.split("\n")
         if len(texts) == len(lines):
@@ -115,7 +115,7 @@ class Diagnostic(Shown, Struct, frozen=True):
 
 
 class Verdict(Enum):
-    """What became of one check."""
+    """Outcome of one check."""
 
     PASSED = "passed"
     FOUND = "found"
@@ -131,7 +131,7 @@ class Layer(Struct, frozen=True):
 
 
 class Freedom(Struct, frozen=True):
-    """How far a point is from being fixed: with a `direction` it slides along it, without it lies anywhere.
+    """Freedom of a point: with a `direction` it slides along it, without it lies anywhere.
 
     `direction` is a unit vector in the plane's axes.
     """
@@ -160,8 +160,8 @@ class Tie(Struct, frozen=True):
 
 
 class Diagnosis(Shown, Struct, frozen=True):
-    """What the equations of one contour say: the checks it went through, what can still move, and which
-    words say the same.
+    """Findings of the equations of one contour: the checks it went through, its freedoms, and its ties, words that say
+    the same.
 
     `ties_complete` tells that the ties are all there are, found exhaustively; `repairs_complete` that all
     smallest sets of words to drop and to add were tried.

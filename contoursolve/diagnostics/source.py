@@ -1,4 +1,4 @@
-"""Where a statement comes from: the place in the user's program, and the evidence in a manual."""
+"""Sources of a statement: the place in the user's program, and the evidence in a manual."""
 
 from enum import Enum
 from typing import NamedTuple
@@ -7,7 +7,7 @@ from msgspec import Struct
 
 
 class Evidence(Enum):
-    """How well a fact about a control is known."""
+    """Grade of evidence for a fact about a control."""
 
     PRINTED = "printed"
     """Read on a page of the control's manual."""
@@ -43,15 +43,15 @@ class Book(NamedTuple):
     title: str
 
     def printed(self, place: str) -> Source:
-        """What stands on a page."""
+        """Source of a statement that is printed on a page."""
         return Source(self.title, place, Evidence.PRINTED)
 
     def derived(self, place: str) -> Source:
-        """What follows from a page."""
+        """Source of a statement that follows from a page."""
         return Source(self.title, place, Evidence.DERIVED)
 
     def assumed(self, place: str) -> Source:
-        """What is on no page seen."""
+        """Source of a statement that no page seen prints."""
         return Source(self.title, place, Evidence.ASSUMED)
 
 

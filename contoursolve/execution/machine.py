@@ -397,8 +397,7 @@ class Machine:
         return {sections[name] for name in self.main.called() if name in sections}
 
     def _run_from(self, index: int) -> Iterator[Block | ProgramEvent]:
-        """The blocks that run from a line of the main file on, up to the end of the program or to blocks that have
-        run."""
+        """The blocks that run from a line of the main file on, to its end or to blocks that have run."""
         head = next((at for at in range(index, len(self.main)) if self._says_something(at)), index)
         last = self.main.section_end(head)
         if head < min(self.main.sections.values(), default=0) and last + 1 not in self._called():

@@ -25,7 +25,7 @@ def comment_out(text: str, syntax: Syntax = ISO) -> list[str]:
 
 
 def remark(reason: str, syntax: Syntax = ISO) -> str:
-    """Why a contour is not expanded, as one comment."""
+    """A comment with the reason why a contour is not expanded."""
     text = LEFT_MARK + reason
     return comment_out(text if len(text) <= _LONGEST_COMMENT else text[: _LONGEST_COMMENT - 3] + "...", syntax)[0]
 

@@ -1,4 +1,5 @@
-"""What the bytes of a file are, if they are no program: by what it begins with, or by its control bytes."""
+"""Decoding of a program's bytes. Files that are no program are known by their first or their control bytes, and
+refused."""
 
 import codecs
 import re

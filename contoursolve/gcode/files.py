@@ -35,9 +35,9 @@ class OpenFile(Struct, frozen=True):
     mark: bytes
     """The byte order mark that it begins with, if any."""
     stamp: object = None
-    """What tells whether the file was changed since it was opened; None for what is no file."""
+    """Mark that changes when the file is changed after it was opened; None if there is no file."""
     errors: str = "strict"
-    """How what is no character of the encoding is read, as `codecs` names it."""
+    """Treatment of bytes that the encoding does not know, as `codecs` names it."""
 
     def lines(self) -> Iterator[str]:
         """Its lines from the first, each with its end, one at a time. Raises UnreadableProgramError at the last one if
@@ -65,7 +65,7 @@ class OpenFile(Struct, frozen=True):
 
     @property
     def share(self) -> float:
-        """How much of it has been read, from 0 to 1."""
+        """The part of it that has been read, from 0 to 1."""
         return self.data.tell() / self.size if self.size else 1.0
 
 

@@ -96,7 +96,8 @@ def _torn(block: Block) -> tuple[Lookalike, ...]:
 
 
 def _meant(block: Block, fault: Fault) -> Lookalike | None:
-    """What a fault is with digits for letters, and with an equals sign behind a long address."""
+    """The word that a fault was meant to be: digits for letters, and an equals sign behind a long address. None if that
+    is no word."""
     # A chamfer has no R: its size stands behind CHF.
     match = _LONG.fullmatch(_CHAMFER.sub(r"\1 ", fault.text))
     if match is None or fault.kind is not FaultKind.NUMBER_MALFORMED:
@@ -109,7 +110,7 @@ def _meant(block: Block, fault: Fault) -> Lookalike | None:
 
 
 _NAMES = {"RND": "ROUNDING", "CHF": "CHAMFER"}
-"""What the sizes are called that these words of Klartext state."""
+"""Names of the sizes that these words of Klartext state."""
 _CHAMFER = re.compile(r"\b(CHF)[ \t]*R[ \t]*(?=\d)", re.IGNORECASE)
 _LONG = re.compile(r"(?P<address>#?[A-Za-z_]\w*?)[ \t]*=?[ \t]*(?P<number>[+-]?\d[\d.,Ool|]*)", re.ASCII)
 
@@ -175,4 +176,4 @@ def _points(number: str, _: str) -> str:
 _SIGNS = re.compile(r"(?P<blank>[ \t]*+)(?P<before>[-+]*+)[ \t]*+(?P<digits>[0-9.,]++)(?P<behind>[-+]*+)")
 _IN_A_ROW = re.compile(r"\.{2,}")
 _MENDING: tuple[Callable[[str, str], str], ...] = (_equals, _sign, _comma, _points)
-"""What is mended in the text behind an address, one after the other."""
+"""Corrections of the text behind an address, applied one after the other."""

@@ -1,4 +1,4 @@
-"""How the blocks of a control are spelled: its tokens, its comments, and the names that stand for G codes."""
+"""Spelling of a control's blocks: its tokens, its comments, and the names that stand for G codes."""
 
 import re
 from collections.abc import Callable, Mapping
@@ -47,7 +47,7 @@ class Syntax:
     """The codes that have a name instead of G and a number, by that name in upper case: a number that no G code has."""
     parts: Callable[[re.Match[str]], tuple[str, str | None, bool]] = letter_parts
     skip: re.Pattern[str] = _SKIP
-    """What begins a block that a switch at the machine skips."""
+    """Beginning of a block that a switch at the machine skips."""
     bare_number: re.Pattern[str] | None = None
     """A block with its number alone, where none may be left with that."""
 
@@ -67,9 +67,9 @@ def nested(opening: str, closing: str, inside: str, depth: int = DEEPEST_BRACKET
 
 
 IN_BRACKETS = nested(r"\[", r"\]", r"[^\[\]]++")
-"""What stands in square brackets: an expression, or the index of a field."""
+"""Text in square brackets: an expression, or the index of a field."""
 IN_PARENTHESES = nested(r"\(", r"\)", r"[^()\"]++|\"[^\"]*+\"")
-"""What stands in parentheses: an expression, or arguments. Those in a text in quotes do not count."""
+"""Text in parentheses: an expression, or arguments. Parentheses in a text in quotes do not count."""
 ISO = Syntax(
     "iso",
     token=re.compile(

@@ -19,7 +19,8 @@ class UnreadableProgramError(UserError, ValueError):
 
 @contextmanager
 def opening(path: str, wanted: str) -> Iterator[None]:
-    """Where a file is opened: raises UnreadableProgramError if it cannot be; `wanted` is what should be there."""
+    """Context in which a file is opened. Raises UnreadableProgramError if that fails; `wanted` names the expected
+    content."""
     try:
         yield
     except FileNotFoundError:
@@ -41,7 +42,7 @@ def _is_folder(path: str) -> bool:
 
 
 _BLOCK = re.compile(r"(?:[Nn]\d+ ?)?[Gg]\d+ ?[A-Za-z,]|[A-Za-z],?-?\d+\.? [A-Za-z,]")
-"""How a block begins."""
+"""Beginning of a block."""
 
 
 def read_bytes(path: str, wanted: str = "a file") -> bytes:

@@ -27,7 +27,7 @@ class Word(Struct, frozen=True):
 
 
 FACT = "fact"
-"""What stands for the address of a fact that is no word."""
+"""Address of a fact that is no word."""
 
 
 class Directive(Struct, frozen=True):
@@ -42,7 +42,7 @@ class Directive(Struct, frozen=True):
 
 
 class FaultKind(Enum):
-    """What can be wrong with the characters of a block."""
+    """Fault in the characters of a block."""
 
     NUMBER_MISSING = "number-missing"
     NUMBER_MALFORMED = "number-malformed"
@@ -90,7 +90,7 @@ _BEFORE_NUMBER = {
     "ROUNDING": "RND R",
     "CHAMFER": "CHF ",
 }
-"""What Klartext writes before the numbers of words that have several letters: no equals sign."""
+"""Text that Klartext writes before the numbers of words with several letters; there is no equals sign."""
 
 _SIGN_ALONE = frozenset({"DR", "CLSD"})
 """Words of Klartext that are a sign and no number."""
@@ -144,8 +144,8 @@ class Caller(Struct, frozen=True):
 
 
 class Substitution(Struct, frozen=True):
-    """What stands in a line for a variable: the columns of the typed value, from 0, and the number; without one, the
-    reason why there is none."""
+    """Text that replaces a variable in a line: the columns of the typed value, from 0, and its number. Without a
+    number, `reason` says why."""
 
     begin: int
     end: int
@@ -173,7 +173,7 @@ class Block(Shown, Struct, frozen=True):
     file: str = ""
     """The file of the subprogram that it belongs to, if that is another file."""
     substituted: tuple[Substitution, ...] = ()
-    """What stands for variables in it, in the order of the line."""
+    """Texts that replace variables in it, in the order of the line."""
     mark: int = 0
     """Under which number is kept what is known before it; 0: it is not kept."""
 

@@ -1,4 +1,4 @@
-"""What a client asks for beyond the protocol: pictures, the plain program, other controls, reports, notebooks."""
+"""Commands of a client beyond the protocol: pictures, the plain program, other controls, reports, notebooks."""
 
 import json
 from collections.abc import Iterator, Mapping
@@ -18,7 +18,7 @@ NOT_OPEN = "the program is not open in this editor"
 Reply = Mapping[str, str | None]
 
 _LENSES = (("draw", "drawBeside"), ("explore", "exploreContour"), ("expand", "expandProgram"))
-"""What stands above a contour, and the client's own command for it."""
+"""Lenses above a contour, each with the client's own command for it."""
 
 
 def lenses_of(opened: Opened, *, of_client: bool) -> Iterator[types.CodeLens]:
@@ -91,7 +91,7 @@ def convert_program(opened: Opened | None, control: str) -> Reply:
 
 
 def _what_was_left(found: Expansion | Conversion, target: str) -> str:
-    """Why contours were left as they are, and what the target reads in another way; empty if there is nothing."""
+    """Reasons why contours were left as they are, and words that the target reads otherwise; empty without any."""
     left = [f"program line {each.lines[0]}: {each.reason}" for each in found.summary.left]
     left += [f"program line {each.line}: {each.sentence(target)}" for each in found.summary.unfamiliar]
     return "; ".join(left[:MOST_TOLD]) + (f"; and {len(left) - MOST_TOLD} more" if len(left) > MOST_TOLD else "")

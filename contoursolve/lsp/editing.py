@@ -15,7 +15,7 @@ _TOO_LONG = 9
 
 
 class EditRefusedError(JsonRpcException):
-    """What cannot be done, with the reason for the user."""
+    """A request that cannot be met, with the reason for the user."""
 
     def __init__(self, message: str) -> None:
         super().__init__(message, _REFUSED)

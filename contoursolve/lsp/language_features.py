@@ -1,4 +1,4 @@
-"""What a client shows about the program under the cursor: hovers, hints, completions, signatures, symbols, folds."""
+"""Language features at the cursor: hovers, hints, completions, signatures, symbols, folds."""
 
 import re
 from base64 import b64encode
@@ -38,7 +38,7 @@ _BLOCK_BEGUN = re.compile(r"\s*+/?+\s*+(?>(?:[Nn]\d++)?)\s*+(?P<code>(?>(?:[Gg]\
 
 
 def hover_of(opened: Opened, position: types.Position) -> types.Hover | None:
-    """What the word under the cursor means and fixes, or the whole contour; None where there is nothing to say."""
+    """The meaning of the word under the cursor and the points it fixes, or the whole contour; None elsewhere."""
     line, column = opened.places.place(position)
     answer, block = opened.program.contour_at(line), _block(opened, line)
     word = next((each for each in block.words if each.span.column <= column < each.span.end_column), None)
@@ -159,7 +159,7 @@ def hints_of(opened: Opened, wanted: types.Range) -> Iterator[types.InlayHint]:
 
 
 class Completer:
-    """What may be written at one place."""
+    """Completions at one place."""
 
     def __init__(self, opened: Opened, position: types.Position, *, has_snippets: bool) -> None:
         self.opened, self.has_snippets = opened, has_snippets

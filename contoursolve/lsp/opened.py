@@ -15,7 +15,7 @@ CONTROL = "control"
 
 
 class ClientSettings(Struct, frozen=True):
-    """What the client is set to, in its section `contoursolve`."""
+    """Settings of the client, in its section `contoursolve`."""
 
     control: str = ""
     settings: Mapping[str, str] = field(default_factory=dict)
@@ -88,18 +88,18 @@ class Opened:
 
     @property
     def troubles(self) -> list[str]:
-        """What is wrong with the project file, and why the control is not known."""
+        """Problems of the project file, and reasons why the control is not known."""
         project = self._project if isinstance(self._project, str) else ""
         return [*filter(None, (project, self.program.trouble))]
 
     @property
     def line_end(self) -> str:
-        """How its lines end."""
+        """The end of its lines."""
         return self.program.line_end
 
     @property
     def source(self) -> str:
-        """What names the control."""
+        """The source that names the control."""
         if self.program.dialect is None:
             return "none"
         if self.program.is_stated:

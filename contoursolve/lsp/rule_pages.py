@@ -16,7 +16,7 @@ class Pages:
         atexit.register(self._folder.cleanup)
 
     def uri(self, code: str, dialect: Dialect | None) -> str:
-        """Where the page about a rule is; empty if there is none."""
+        """The address of the page about a rule; empty if there is none."""
         controls = [dialect] if dialect is not None else [*DIALECTS.values()]
         name = f"{controls[0].name}-{code}.md" if dialect is not None else f"{code}.md"
         path = Path(self._folder.name) / name

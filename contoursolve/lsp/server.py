@@ -310,7 +310,7 @@ _REQUESTS: tuple[tuple[str, Any, Callable[[Opened, Any], Any]], ...] = (
     ),
     (types.TEXT_DOCUMENT_DEFINITION, None, lambda opened, params: target_of(opened, params.position)),
 )
-"""What a client asks about a program, with the options that it is told, and what answers."""
+"""Requests of a client about a program, with the options that it is told, and the functions that answer."""
 
 for _name, _options, _read in _REQUESTS:
     server.feature(_name, _options)(_of_program(_read))
@@ -331,7 +331,7 @@ _COMMANDS: Mapping[str, Callable[..., Any]] = {
     "report": commands.report_on,
     "explore": commands.notebook_of,
 }
-"""What a client has made of a program, by the name of the command."""
+"""Functions that make something of a program for a client, by the name of the command."""
 
 
 def _command(make: Callable[..., Any]) -> Callable[..., Any]:

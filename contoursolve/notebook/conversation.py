@@ -1,4 +1,4 @@
-"""What is said between an explorer and its front end, wherever that runs: actions come in, what is shown goes out."""
+"""Messages between an explorer and its front end, wherever that runs: actions come in, changed data go out."""
 
 from collections.abc import Callable, Mapping
 
@@ -14,7 +14,7 @@ _CHANGES: Mapping[str, Callable[[Exploration, Data], Exploration]] = {
     "write": lambda now, action: explorations.rewrite(now, str(action["text"])),
     "reset": lambda now, _: explorations.reset(now),
 }
-"""What the front end may do to the block. Each can be undone."""
+"""Actions of the front end that change the block. Each can be undone."""
 
 _FITTED = ("write", "reset", "undo", "redo")
 """After these the sliders are scaled anew."""
@@ -99,7 +99,7 @@ class Conversation:
         self._is_held = False
 
     def _shown(self, action: Data, before: Exploration) -> Data:
-        """What is shown after an action."""
+        """The data that change on the page after an action."""
         kind, is_held = action["do"], bool(action.get("is_held"))
         self._handle = action.get("handle", {}) if is_held else {}
         answer = self.exploration.answer
@@ -112,7 +112,8 @@ class Conversation:
         return {**self._viewed(is_new=kind in _FITTED), "asks": asks}
 
     def _ranged(self, key: str) -> Data:
-        """Where one word has a contour. It is worked out when nothing else is to do, and kept while it holds."""
+        """The ranges of one word with a contour. They are worked out when nothing else is to do, and kept while they
+        hold."""
         view, ranges = self.state["view"], self.state["ranges"]
         fields = {field["key"]: field for field in view["fields"]}
         frame = view["frames"].get(key)

@@ -41,11 +41,11 @@ class Exploration(Struct, frozen=True):
 
     text: str
     options: Mapping[str, Any]
-    """How it is read: the other arguments of `solve`."""
+    """Options of the reading: the other arguments of `solve`."""
     result: Result
     origin: str
     last: Mapping[str, str] = field(default_factory=dict)
-    """What a word was before it was freed, by its key."""
+    """Text of a word before it was freed, by its key."""
     is_recognised: bool = False
     """Whether the words told the control, so that others may tell another one."""
 

@@ -103,7 +103,7 @@ def picture_of(answer: Answer, like: Picture | None = None) -> Picture | None:
 
 
 def _frame_of(drawn: Picture | None) -> Data:
-    """How a picture shows the plane: where its origin is, pixels for each mm, and the size of the page."""
+    """The frame of a picture: its origin, pixels for each mm, and the size of the page."""
     if drawn is None or drawn.sheet.placement is None:
         return {}
     view = drawn.sheet.placement.view
@@ -147,7 +147,7 @@ def _fields(answer: Answer, pinned: Collection[str]) -> Iterator[Data]:
 
 
 def _size(answer: Answer) -> float:
-    """How large the contour is about, in the unit of the program."""
+    """The approximate size of the contour, in the unit of the program."""
     known = answer.claim.lexicon.addresses
     values = (stated_value(word, answer) for word in words_of(answer).values() if word.address in known)
     lengths = [value or 0.0 for value, unit in values if unit != "deg"]
@@ -231,8 +231,7 @@ def _path(answer: Answer) -> list[Sequence[str]]:
 
 
 def ghost_of(instead: Exploration, now: Answer, drawn: Picture) -> list[str]:
-    """What would stand in the picture of a contour instead: the elements of another path, as SVG writes them. Nothing
-    where nothing of it can be drawn."""
+    """Another path in the picture of a contour, as elements of SVG; empty if nothing of it can be drawn."""
     answer, placement = instead.answer, drawn.sheet.placement
     if placement is None:
         return []
@@ -384,7 +383,7 @@ def _stop(end: End, field: Mapping[str, Any], unit: str, way: int) -> float:
 
 
 def _end_text(end: End, unit: str) -> str:
-    """What stops a word there; empty where only the search ended."""
+    """The reason why a word cannot go on; empty if only the search ended."""
     if end.way is Way.RANGE:
         return ""
     return end.reason.text if end.reason is not None else written(end.value, unit)
@@ -400,6 +399,6 @@ def _end(end: End, rounded: Decimal, way: int) -> str:
 
 
 def _reasons(found: Feasible) -> list[str]:
-    """What fails beyond the ends."""
+    """Reasons beyond the ends of ranges, each once."""
     ends = (end for each in found.intervals for end in (each.low, each.high))
     return list(dict.fromkeys(end.reason.text for end in ends if end.reason is not None))

@@ -27,7 +27,7 @@ class Explorer(anywidget.AnyWidget):
     ghost = traitlets.Dict().tag(sync=True)
     number = traitlets.Int(0).tag(sync=True)
     action = traitlets.Dict().tag(sync=True)
-    """What the reader did last; the other traits are the state of `Conversation`."""
+    """Last action of the reader; the other traits are the state of `Conversation`."""
 
     def __init__(self, exploration: Exploration) -> None:
         self._conversation = Conversation(exploration)
@@ -40,7 +40,7 @@ class Explorer(anywidget.AnyWidget):
 
     @property
     def result(self) -> Result:
-        """What the block comes to."""
+        """The result for the block as it is now."""
         return self._conversation.exploration.result
 
     @traitlets.observe("action")

@@ -1,4 +1,4 @@
-"""What can be taken hold of on the picture of a contour: points, angles and sizes, each with the words that it moves.
+"""Handles on the picture of a contour: points, angles and sizes, each with the words that it moves.
 
 A contour and its picture come in, handles in pixels of the picture go out, with how far each word moves what is drawn
 (the derivatives of `sensitivity`). Begin with `handles_of`.
@@ -42,7 +42,7 @@ Slopes = Mapping[str, Point]
 
 
 class HandleKind(Enum):
-    """What a handle is at."""
+    """Part of a contour that a handle moves."""
 
     POINT = "point"
     ANGLE = "angle"
@@ -76,18 +76,18 @@ class Moving(Struct, frozen=True):
 
 
 class ContourDerivatives(Struct, frozen=True):
-    """How the words of a solved contour move its points and elements, in mm for each unit as written."""
+    """Derivatives of a solved contour's points and elements by its words, in mm for each unit as written."""
 
     answer: Answer
     slopes: Mapping[str, Mapping[str, float]]
 
     def of_point(self, name: str) -> Slopes:
-        """How words move a named point."""
+        """The derivatives of a named point by words; words that move it too little are missing."""
         first, second = (self.slopes.get(f"{name}.{axis}", {}) for axis in self.answer.plane.axes)
         return {key: (first[key], second[key]) for key in first if hypot(first[key], second[key]) > LEAST}
 
     def of_element(self, segment: Segment) -> tuple[Slopes, ...]:
-        """How words move the start, the end, and the centre of an element."""
+        """The derivatives of the start, the end, and the centre of an element by words."""
         figure = self.answer.profile.figure
         corners = {corner.at: corner.name for corner in figure.corners}
         element = next((each for each in figure.path if each.name == segment.name), None)
@@ -101,7 +101,7 @@ class ContourDerivatives(Struct, frozen=True):
 
 
 def motion_of(answer: Answer) -> ContourDerivatives | None:
-    """How the words of a contour move it; None where it has no path, or no derivatives."""
+    """The derivatives of a contour by its words; None if it has no path or no derivatives."""
     if answer.contour is None:
         return None
     try:
@@ -235,8 +235,8 @@ def _chosen(name: str, slopes: Slopes, words: Mapping[str, StatedWord]) -> Seque
 def _size_slope(
     answer: Answer, word: StatedWord, motion: ContourDerivatives | None, known: Known | None
 ) -> Point | None:
-    """How one unit of a word moves the middle of the element whose size it states, where its arrow points; of a refused
-    contour from what is known of it."""
+    """The movement of an element's middle for one unit of the word that states its size, at the arrow's tip. For a
+    refused contour it comes from the points that are known."""
     figure = answer.profile.figure
     corners = [corner for corner in figure.corners if corner.name in word.fixes]
     names = [each.name for each in (*corners, *figure.path) if each in corners or _is_arc_of(each, word)]

@@ -1,4 +1,4 @@
-"""What IPython is given of a record: text, HTML and a picture."""
+"""Data that IPython gets of a record: text, HTML and a picture."""
 
 import sys
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from contoursolve.solving import Drawings, Drawn, Sketch
 __all__ = ["bundle", "text_of"]
 
 _DRAWN = (Answer, Result, Family, Feasible, Region, Sketch, Drawings, Drawn)
-"""What has a picture."""
+"""Records with a picture."""
 
 MOST_CHARACTERS = 2_000_000
 """Of HTML or SVG; what is larger stays text."""
@@ -33,7 +33,7 @@ def bundle(record: Shown) -> dict[str, str]:
 
 
 def _made(make: Callable[[Any], str], record: object) -> str:
-    """What a function makes of a record; nothing where a package is missing or the record cannot be drawn."""
+    """The text that `make` gives for a record; empty if a package is missing or the record cannot be drawn."""
     try:
         return make(record)
     except Exception:  # the text says the same

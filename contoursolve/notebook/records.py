@@ -157,7 +157,8 @@ def _family(family: Family) -> Iterator[str]:
 
 
 def family_tables(family: Family) -> tuple[Table, Table]:
-    """How many values each free word has and how far they go, and how many contours have each status."""
+    """Tables of a family: the number and range of each free word's values, and the number of contours with each
+    status."""
     words = []
     for word, values in family.ranges.values.items():
         ends = (f"{values.min():.6g}", f"{values.max():.6g}") if values.size else ("", "")
