@@ -136,7 +136,7 @@ def _read(text: str, name: str) -> Program:
 
 
 _FILE = re.compile(r"[^\n]*\.(?:nc|ngc|cnc|tap|txt|mpf|spf|eia|min|h|gcode|iso)", re.IGNORECASE)
-"""What is meant to be the name of a program. No block ends so: what stands behind a point is a digit."""
+"""Text that is meant as the name of a program. No block ends so: behind a point there is a digit."""
 
 
 def check(

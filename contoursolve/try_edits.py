@@ -1,4 +1,4 @@
-"""What if: a block tried with words dropped, added, changed or completed."""
+"""Trial of edits: a block with words dropped, added, changed or completed."""
 
 from collections.abc import Iterable, Mapping
 

@@ -184,7 +184,7 @@ def center(value: Number) -> Number:
 
 
 def common(first: Number, second: Number) -> Number | None:
-    """What two balls have in common, or a little more; None if nothing."""
+    """A ball that holds the common part of two balls; None if they are apart."""
     try:
         return arb(first).intersection(arb(second))
     except ValueError:
@@ -208,7 +208,7 @@ def real_roots(coefficients: Sequence[Number]) -> list[Number] | None:
 
 
 HALVINGS = 64
-"""How often the ball about a root is made smaller; each time doubles its digits, once it is small."""
+"""Largest number of contractions of a ball about a root; each doubles its digits, once it is small."""
 
 
 def _sharpened(polynomial: Any, root: Number) -> Number:

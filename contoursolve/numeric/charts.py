@@ -33,15 +33,15 @@ class Following(Struct, frozen=True):
 
 
 class Bounds(Struct, frozen=True, eq=False):
-    """What outputs lie between in each of many boxes, by (output, box); and in which boxes every root has a value for
-    certain, and in which none has."""
+    """Bounds of outputs over many boxes, by (output, box). The masks tell the boxes in which every root, or no root,
+    has a value for certain."""
 
     low: Array
     high: Array
     is_defined: NDArray[numpy.bool_]
     is_undefined: NDArray[numpy.bool_]
     is_smooth: NDArray[numpy.bool_]
-    """Whether no output jumps in the box."""
+    """Mask of the boxes in which no output jumps."""
 
     def __getitem__(self, boxes: NDArray[numpy.bool_]) -> "Bounds":
         rest = (self.is_defined[boxes], self.is_undefined[boxes], self.is_smooth[boxes])
@@ -85,7 +85,7 @@ class _Enclosure(Replay):
         """The inputs that stay, as they were last, and all that follows from them alone."""
 
     def bounds(self, words: Sequence[Intervals], fixed: Sequence[float], count: int) -> Bounds:
-        """What the outputs lie between."""
+        """The bounds of the outputs over boxes of the words."""
         with numpy.errstate(all="ignore"):
             work = self._prepared(tuple(fixed)).copy()
             for source, target in self._inputs:
@@ -186,7 +186,7 @@ class Chart:
         return _run(self._slopes, words, fixed).reshape(self._words, len(self.outputs), -1)
 
     def between(self, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
-        """What the outputs lie between in boxes of the words."""
+        """The bounds of the outputs over boxes of the words."""
         return self._enclosure.bounds(words, fixed, words[0].low.size)
 
     def narrowed(self, bounds: Bounds, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
@@ -207,7 +207,7 @@ class Chart:
         return Bounds(low, high, bounds.is_defined, bounds.is_undefined, bounds.is_smooth)
 
     def slopes_between(self, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
-        """What the derivatives lie between, by (word and output, box)."""
+        """The bounds of the derivatives, by (word and output, box)."""
         if self._steepness is None:
             self._steepness = _Enclosure(self._derivative, self._words)
         return self._steepness.bounds(words, fixed, words[0].low.size)

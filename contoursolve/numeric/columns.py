@@ -23,7 +23,7 @@ instructions to stay in the processor's nearest caches (three quarters of the ti
 
 
 SIZES = (PART, 8 * PART, ROWS)
-"""How many rows are computed at once, so that few rows take little time."""
+"""Numbers of rows that are computed at once; the small ones save time where there are few rows."""
 
 
 class ColumnFunction(Struct, frozen=True, eq=False):
@@ -36,9 +36,9 @@ class ColumnFunction(Struct, frozen=True, eq=False):
     varied: tuple[str, ...]
     single: tuple[str, ...]
     many: Mapping[str, int]
-    """Which column of the results each is; several may be one."""
+    """Column of each result; several results may share one."""
     given: Mapping[str, int]
-    """Which input each is that is one."""
+    """Index of the input that each result repeats, for results that are inputs."""
 
 
 def compile_columns(tape: Tape, names: Collection[str]) -> ColumnFunction:
@@ -183,7 +183,7 @@ _WHOLE = 2.0**52
 
 
 class Rows:
-    """What is not arithmetic, for columns of which few rows are computed once: compiling would take longer."""
+    """Functions beyond arithmetic, for columns of which few rows are computed once: compiling would take longer."""
 
     root = staticmethod(numpy.sqrt)
     cosine = staticmethod(numpy.cos)
@@ -198,7 +198,7 @@ class Rows:
 
     @staticmethod
     def opposite(condition: Any) -> Any:
-        """Where a condition, a number or a truth value, does not hold."""
+        """The inverse of a condition, a number or a truth value."""
         return numpy.equal(condition, 0)
 
     @staticmethod

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Mapping
 from heapq import heapify, heappop, heappush
 
 Row = Mapping[int, float]
-"""What is not zero of a row, by column. What has a number below zero is no column: it goes along, as `CONSTANT` does in
-a row that is zero as an equation, and no row is solved for it."""
+"""Row without its zeros, by column. A number below zero is no column: it goes along, as `CONSTANT` does in a row that
+is zero as an equation. No row is solved for it."""
 
 CONSTANT = -1
 

@@ -132,12 +132,12 @@ def _if(condition: Any, value: Any) -> Expression:
 
 
 def at_most(first: Any, second: Any) -> Expression:
-    """Whether the first is not larger, 1 or 0; what is not a number is not."""
+    """1 if the first is not larger, else 0; also 0 for what is not a number."""
     return _binary(casadi.OP_LE, first, second)
 
 
 def below(first: Any, second: Any) -> Expression:
-    """Whether the first is smaller, 1 or 0; what is not a number is not."""
+    """1 if the first is smaller, else 0; also 0 for what is not a number."""
     return _binary(casadi.OP_LT, first, second)
 
 
@@ -165,7 +165,7 @@ def largest(values: Iterable[Any]) -> Expression:
 
 
 def is_zero(value: Any) -> Expression:
-    """Whether a value is exactly zero, as an expression."""
+    """1 if a value is exactly zero, else 0, as an expression."""
     return _binary(casadi.OP_EQ, value, 0)
 
 

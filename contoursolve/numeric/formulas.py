@@ -20,7 +20,7 @@ AT_MOST, LESS, SIGN, TURNED = "at_most", "less", "sign", "arctangent2"
 """Functions that are not written in the middle of an expression in all macro languages."""
 ROOT = "square_root"
 COMMON = "common:"
-"""What the names of common subexpressions begin with."""
+"""Beginning of the names of common subexpressions."""
 
 
 _LONGEST = 40

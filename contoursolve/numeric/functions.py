@@ -1,4 +1,4 @@
-"""What equations need beyond arithmetic, for any kind of number, and mappings that make what is asked for."""
+"""Functions of equations beyond arithmetic, for any kind of number, and mappings that make their values on demand."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -12,13 +12,13 @@ def _may_vanish(value: Any) -> bool:
 
 
 class Functions(Struct, frozen=True):
-    """What equations need beyond arithmetic, for one kind of number."""
+    """Functions of equations beyond arithmetic, for one kind of number."""
 
     root: Callable[[Any], Any] = math.sqrt
     cosine: Callable[[Any], Any] = math.cos
     sine: Callable[[Any], Any] = math.sin
     vanishes: Callable[[Any], bool] = _may_vanish
-    """Whether a number is zero; of a ball about one number, whether it may be."""
+    """Test that a number is zero, or, of a ball about one number, that it may be."""
 
 
 FLOATS = Functions()

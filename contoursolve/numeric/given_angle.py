@@ -5,7 +5,7 @@ from functools import lru_cache
 from math import cos, radians, sin, sqrt
 
 COSINE, SINE, SIDE = ":cos", ":sin", "side:"
-"""What the inputs for a given angle end with, and that for a side begins with."""
+"""Ends of the names of inputs for a given angle, and beginning of that for a side."""
 
 _HALF = Decimal(45)
 

@@ -49,7 +49,7 @@ class Narrower(Replay):
 
 
 def _meet(a: Intervals, b: Intervals) -> Intervals:
-    """What both allow; a bound that is not a number is none."""
+    """The intersection of intervals; a bound that is not a number is none."""
     return Intervals(numpy.fmax(a.low, b.low), numpy.fmin(a.high, b.high))
 
 
@@ -115,14 +115,14 @@ _OF_ONE: Mapping[int, Callable[..., Any]] = {
     casadi.OP_TWICE: _twice,
     casadi.OP_INV: _invert,
 }
-"""What a result tells of its operands; an operation without an entry tells nothing."""
+"""Inverses of operations: from a result to its operands; an operation without an entry tells nothing of them."""
 
 
 EPSILON = 2.0**-52
 """1. Relative distance of two doubles, twice the rounding of one operation."""
 
 TINY = 1e-290
-"""What is lost to underflow is less."""
+"""Bound of what underflow can lose."""
 
 OUTWARD = 2.0**-7
 """1. By how much of its width a box is inflated before the test: a solution on its edge, where it was divided, is
@@ -228,7 +228,7 @@ def contract(equations: Replay, boxes: Boxes, known: Sequence[Intervals], margin
 
 
 def approach(equations: Replay, starts: Boxes, known: Sequence[Intervals], steps: int) -> Boxes:
-    """Where Newton's method leads from many points at once, as far as it ends: each such place once, nothing proven."""
+    """Limits of Newton's method from many points at once, where it converges: each once, nothing proven."""
     if not len(starts):
         return starts
     size = starts.low.shape[1]

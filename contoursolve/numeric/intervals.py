@@ -157,18 +157,18 @@ def _truth(surely: Any, possibly: Any) -> Intervals:
 
 
 def equal(first: Intervals, second: Intervals) -> Intervals:
-    """Whether they are the same number."""
+    """Truth of both being the same number, as an interval from 0 to 1."""
     is_one = (first.low == first.high) & (second.low == second.high) & (first.low == second.low)
     return _truth(is_one, (first.low <= second.high) & (second.low <= first.high))
 
 
 def at_most(first: Intervals, second: Intervals) -> Intervals:
-    """Whether the first is not larger."""
+    """Truth of the first being not larger, as an interval from 0 to 1."""
     return _truth(first.high <= second.low, first.low <= second.high)
 
 
 def below(first: Intervals, second: Intervals) -> Intervals:
-    """Whether the first is smaller."""
+    """Truth of the first being smaller, as an interval from 0 to 1."""
     return _truth(first.high < second.low, first.low < second.high)
 
 

@@ -1,4 +1,4 @@
-"""What decomposes matrices, for numbers that are finite alone.
+"""Matrix decompositions, for finite numbers alone.
 
 LAPACK prints on standard output, or never returns, where an iteration of its meets NaN or infinity. Everything that
 iterates is called here, and nowhere else; what eliminates (`solve`, `inv`, `det`) takes any number.

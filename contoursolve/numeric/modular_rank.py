@@ -118,7 +118,7 @@ def _sine(angle: Residue) -> Residue:
 
 
 RESIDUES = Functions(_root, _cosine, _sine)
-"""What is not arithmetic: a root is any number; cosine and sine belong together."""
+"""Functions beyond arithmetic, modulo the prime: a root is any number; cosine and sine belong together."""
 
 
 class ExactRank(Struct, frozen=True):
@@ -136,7 +136,7 @@ class ExactRank(Struct, frozen=True):
 
 
 Row = dict[int, int]
-"""What is not zero of a row, by column."""
+"""Row without its zeros, by column."""
 
 
 def exact_rank(matrix: Sequence[Row], columns: int) -> ExactRank:
