@@ -17,12 +17,11 @@ from contoursolve.families.errors import NotClosedError
 from contoursolve.geometry import Choice, Fact, System
 from contoursolve.numeric import Array, Bounds, Chart, Following, Intervals
 from contoursolve.solving import (
-    ROOT,
     Check,
     Checks,
-    ClosedForm,
+    Construction,
     Need,
-    NoFormulaError,
+    NoClosedFormError,
     RefusalKind,
     Role,
     Source,
@@ -31,7 +30,7 @@ from contoursolve.solving import (
     check_facts,
     check_path,
     check_range,
-    close,
+    compile_branches,
     compile_checks,
     compile_system,
     input_values,
@@ -185,7 +184,7 @@ def _branches(case: CaseClass, words: Sequence[str]) -> tuple[Branch, ...]:
         return (Branch(case, tuple(words), margins, tuple(case.fixed(margins.chart.fixed))),)
     try:
         form, margins = _compile(case.system, len(words), follows, case.profile.choices)
-    except NoFormulaError as error:
+    except NoClosedFormError as error:
         blamed = _texts(case, _givens(case, error.facts, error.unknowns)) or "the block"
         raise NotClosedError(f"{blamed}: {error.why}; {INSTEAD}") from None
     margins = replace(margins, checks=tuple(_named(form, margins.checks, case)))
@@ -201,7 +200,7 @@ def _distinct(branches: Sequence[Branch], low: Sequence[float], high: Sequence[f
     half circle. Raises NotClosedError where what is divided by is zero for all of them."""
     if branches[0].case.is_closed:
         return tuple(branches)
-    form, found = close(branches[0].case.system), list[Branch]()
+    form, found = compile_branches(branches[0].case.system), list[Branch]()
     for branch in branches:
         values = branch.sample(low, high)[: len(form.conditions)]
         again = False
@@ -210,7 +209,7 @@ def _distinct(branches: Sequence[Branch], low: Sequence[float], high: Sequence[f
                 blamed = _texts(branch.case, _givens(branch.case, condition.facts, condition.unknowns))
                 raise NotClosedError(f"{blamed} do not fix what they speak about, whatever the value; {INSTEAD}")
             is_double = condition.need is Need.REAL and (numpy.abs(row) <= LEVEL).all()
-            again = again or (is_double and dict(branch.signs)[ROOT + ",".join(condition.unknowns)] < 0)
+            again = again or (is_double and dict(branch.signs)[condition.sign] < 0)
         if not again:
             found.append(branch)
     return tuple(found)
@@ -231,7 +230,7 @@ def _givens(case: CaseClass, facts: Sequence[Fact], unknowns: Sequence[str]) -> 
     return tuple(dict.fromkeys(found))
 
 
-def _named(form: ClosedForm, checks: Sequence[Check], case: CaseClass) -> Iterator[Check]:
+def _named(form: Construction, checks: Sequence[Check], case: CaseClass) -> Iterator[Check]:
     """The checks, with the values that their conditions are about."""
     count = len(form.conditions)
     for condition, check in zip(form.conditions, checks[:count], strict=True):
@@ -240,14 +239,13 @@ def _named(form: ClosedForm, checks: Sequence[Check], case: CaseClass) -> Iterat
 
 
 @lru_cache(maxsize=64)
-def _compile(system: System, words: int, follows: Follows, choices: tuple[Choice, ...]) -> tuple[ClosedForm, Margins]:
+def _compile(system: System, words: int, follows: Follows, choices: tuple[Choice, ...]) -> tuple[Construction, Margins]:
     """The closed form of a system, and the margins of all its branches as functions of some words."""
-    form = close(system)
-    tape = form.machine.tape.copy()
+    form = compile_branches(system)
+    tape = form.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
     source = Source(system.figure, tape, input_values(system, tape, known | at_origin(system.figure)))
-    plan = form.machine.plan
-    facts = check_facts(source, plan.checks, len(plan.basis))
+    facts = check_facts(source, form.checks, len(form.basis))
     found = [*_conditions(form), *_sides(form, choices), *facts, check_range(source), *check_path(source)]
     outputs = {str(number): expression for number, (_, expression) in enumerate(found)}
     return form, Margins(tuple(each for each, _ in found), Chart(tape, outputs, words, dict(follows)))
@@ -256,28 +254,28 @@ def _compile(system: System, words: int, follows: Follows, choices: tuple[Choice
 @lru_cache(maxsize=256)
 def _compile_target(system: System, follows: Follows, axes: tuple[tuple[str, int], ...], *, is_closed: bool) -> Chart:
     """How far outputs of a system are from a goal as a function of one word (see `Branch.target`)."""
-    tape = (compile_system(system) if is_closed else close(system).machine).tape.copy()
+    tape = (compile_system(system) if is_closed else compile_branches(system)).tape.copy()
     away = [tape.expression(name) + tape.input(f"{ORIGIN}{axis}") - tape.input(GOAL + name) for name, axis in axes]
     is_rate = len(away) > 1
     output = sum(each**2 for each in away) / 2 if is_rate else away[0]
     return Chart(tape, {"away": output}, 1, dict(follows), is_rate=is_rate)
 
 
-def _conditions(form: ClosedForm) -> Checks:
+def _conditions(form: Construction) -> Checks:
     for condition in form.conditions:
         test, limit = (Test.APART, REGULAR) if condition.need is Need.REGULAR else (Test.AT_LEAST, 0.0)
         if condition.need is Need.POSITIVE:
             limit = REGULAR
         margin = Check(RefusalKind.NO_POINT, ",".join(condition.unknowns), "", test, limit)
-        yield margin, form.machine.tape.expression(condition.output)
+        yield margin, form.tape.expression(condition.output)
 
 
-def _sides(form: ClosedForm, choices: Sequence[Choice]) -> Checks:
+def _sides(form: Construction, choices: Sequence[Choice]) -> Checks:
     """The sides that the words or the form choose."""
     for choice in choices:
         if choice.point in form.sides:
             output, positive = form.sides[choice.point]
-            value = form.machine.tape.expression(output)
+            value = form.tape.expression(output)
             givens = (choice.given,) if choice.given else ()
             yield (
                 Check(RefusalKind.NO_POINT, choice.point, "", Test.AT_LEAST, 0.0, givens),

@@ -25,11 +25,11 @@ from contoursolve.numeric import COSINE, SINE, Affine, Array, Following, differe
 from contoursolve.reading import ParsedContour, Premises, ReadIssue, all_resting
 from contoursolve.solving import (
     Check,
-    Machine,
+    Construction,
     NoteKind,
     Solution,
     Status,
-    TwoCirclesStep,
+    StepKind,
     analyse,
     axes_of,
     code_of,
@@ -117,7 +117,7 @@ class CaseClass(Struct, frozen=True, eq=False):
         return () if found is None or is_twice or len(found) > MOST_OPEN else found
 
     @property
-    def machine(self) -> Machine:
+    def machine(self) -> Construction:
         """The function of a single solve."""
         return compile_system(self.system)
 
@@ -501,7 +501,7 @@ def fill_row(case: CaseClass, values: Mapping[str, float], row: int, table: Resu
 
 def half_circles(case: CaseClass, out: Mapping[str, Any]) -> Iterator[tuple[int, Any]]:
     """The steps whose two centres of a half circle may be one, and where they are; `out` are outputs."""
-    for number, step in enumerate(case.machine.plan.steps):
-        if isinstance(step, TwoCirclesStep):
+    for number, step in enumerate(case.machine.steps):
+        if step.kind is StepKind.TWO_CIRCLES:
             gap = abs(out[f"radius:{number}"] - abs(out[f"offset:{number}"]))
             yield number, gap <= TOUCHING * out[f"scale:{number}"]

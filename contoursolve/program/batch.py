@@ -16,13 +16,11 @@ from contoursolve.reading import ContourForm, Dialect, ParsedContour, Rule, With
 from contoursolve.solving import (
     ROUNDING,
     Check,
-    LineCircleStep,
-    Machine,
+    Construction,
     Proof,
     RowOutcome,
     Status,
     StatusCode,
-    TwoCirclesStep,
     against_angles,
     certify,
     compile_checks,
@@ -56,7 +54,7 @@ class Kind(Struct, frozen=True, eq=False):
 
     answer: Answer
     system: System
-    machine: Machine
+    machine: Construction
     checks: tuple[Check, ...]
     function: Compiled
     """The function of the machine, with the margins of the checks."""
@@ -249,17 +247,17 @@ def _evaluate(kind: Kind, inputs: Sequence[Mapping[str, float]]) -> list[tuple[d
 
 def _examine(kind: Kind, out: Columns, rows: int) -> tuple[NDArray[numpy.bool_], NDArray[numpy.float64]]:
     """Mask of the rows that are solved without any finding, and bounds of their errors, mm; both of shape (rows,)."""
-    figure, plan = kind.system.figure, kind.machine.plan
+    figure, machine = kind.system.figure, kind.machine
     verdict = RowOutcome(kind.checks, out, rows)
     plain = (verdict.status == StatusCode.SOLVED) & (verdict.reason == 0) & ~verdict.again
     for element in figure.path:
         if isinstance(element, Line):
             plain &= numpy.abs(out[f"length:{element.name}"]) > LENGTH
-    for number, step in enumerate(plan.steps):
-        if isinstance(step, LineCircleStep | TwoCirclesStep):
+    for number, step in enumerate(machine.steps):
+        if step.has_two_places:
             gap = numpy.abs(numpy.abs(out[f"offset:{number}"]) - out[f"radius:{number}"])
             plain &= gap > TOUCHING * out[f"scale:{number}"]
-    for number in range(len(plan.basis), len(plan.basis) + len(plan.checks)):
+    for number in range(len(machine.basis), len(machine.basis) + len(machine.checks)):
         plain &= numpy.abs(out[f"residual:{number}"]) <= _FAR_BELOW * AGREEMENT
     bounds = numpy.zeros(rows)
     chosen = numpy.flatnonzero(plain)

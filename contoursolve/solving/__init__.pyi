@@ -6,11 +6,8 @@ from .affine import (
     affine_facts as affine_facts,
 )
 from .alternatives import (
-    ARCS as ARCS,
-    BOTH as BOTH,
     choose as choose,
     find_alternatives as find_alternatives,
-    sides_of as sides_of,
 )
 from .ambiguity import (
     before as before,
@@ -43,13 +40,6 @@ from .checks import (
     passed_rows as passed_rows,
     plain_checks as plain_checks,
 )
-from .closed_form_branches import (
-    ROOT as ROOT,
-    ClosedForm as ClosedForm,
-    Need as Need,
-    NoFormulaError as NoFormulaError,
-    close as close,
-)
 from .compare import (
     allowance as allowance,
     compare as compare,
@@ -60,9 +50,18 @@ from .compare import (
     runs_against as runs_against,
 )
 from .compile import (
-    Machine as Machine,
+    compile_branches as compile_branches,
     compile_path as compile_path,
     compile_system as compile_system,
+)
+from .construction import (
+    Construction as Construction,
+    ConstructionStep as ConstructionStep,
+    Need as Need,
+    NoClosedFormError as NoClosedFormError,
+    StepKind as StepKind,
+    is_closed as is_closed,
+    points_with_two_solutions as points_with_two_solutions,
 )
 from .contour import (
     ArcSegment as ArcSegment,
@@ -139,21 +138,17 @@ from .picks import (
     pick as pick,
     resolved_later as resolved_later,
 )
-from .plan import (
-    LineCircleStep as LineCircleStep,
-    NoClosedFormError as NoClosedFormError,
-    Plan as Plan,
-    TwoCirclesStep as TwoCirclesStep,
-    is_closed as is_closed,
-    make_plan as make_plan,
-    points_with_two_solutions as points_with_two_solutions,
-)
 from .row_outcome import (
     REASONS as REASONS,
     RowOutcome as RowOutcome,
     StatusCode as StatusCode,
     code_of as code_of,
     reason_of as reason_of,
+)
+from .sides import (
+    ARCS as ARCS,
+    BOTH as BOTH,
+    sides_of as sides_of,
 )
 from .sketch import (
     Sketch as Sketch,

@@ -29,13 +29,13 @@ from contoursolve.geometry import (
 from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.alternatives import decide, find_alternatives
 from contoursolve.solving.compare import compare_affine
+from contoursolve.solving.construction import is_closed
 from contoursolve.solving.determinacy import analyse, circuits_of, groups_of
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import enumerate_solutions
 from contoursolve.solving.identities import is_affine
 from contoursolve.solving.partition import Group
 from contoursolve.solving.picks import Alternative, Alternatives
-from contoursolve.solving.plan import is_closed
 from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind, Solution, Status
 from contoursolve.solving.solve import solve
 

@@ -49,12 +49,12 @@ from contoursolve.numeric import (
     true,
 )
 from contoursolve.solving.compare import allowance, is_directed
-from contoursolve.solving.compile import Machine, compile_plainly, compile_system
+from contoursolve.solving.compile import compile_plainly, compile_system
+from contoursolve.solving.construction import Construction, ConstructionStep, StepKind, is_closed
 from contoursolve.solving.corners import Pair
 from contoursolve.solving.determinacy import analyse
 from contoursolve.solving.inputs import input_values
 from contoursolve.solving.numbers import axes_of, inputs_of
-from contoursolve.solving.plan import AffineStep, DistanceStep, Step, TwoCirclesStep, is_closed, lines_through
 from contoursolve.solving.solution import RefusalKind
 from contoursolve.tolerance import LARGEST, LENGTH, REGULAR, RESIDUAL, TOUCHING
 
@@ -161,14 +161,14 @@ def compile_checks(system: System) -> Checked:
     """The checks of a determined system in closed form."""
     machine = compile_system(system)
     source = _source_of(system, machine)
-    plan, tape = machine.plan, source.tape
+    tape = source.tape
     basis = largest(tape.expression(name) for name in machine.residuals)
     corners = largest(tape.expression(name) for name in machine.corner_residuals)
     pairs = [
-        *check_steps(source, plan.steps),
+        *check_steps(source, machine.steps),
         check_range(source),
         check_residuals(basis),
-        *check_facts(source, plan.checks, len(plan.basis)),
+        *check_facts(source, machine.checks, len(machine.basis)),
         *check_path(source),
         check_residuals(corners),
     ]
@@ -178,7 +178,7 @@ def compile_checks(system: System) -> Checked:
     return Checked(checks, margins, tape, is_clear)
 
 
-def _source_of(system: System, machine: Machine) -> Source:
+def _source_of(system: System, machine: Construction) -> Source:
     """The expressions of a system in closed form, with a tape of their own."""
     tape = machine.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
@@ -188,9 +188,9 @@ def _source_of(system: System, machine: Machine) -> Source:
 def plain_checks(system: System) -> tuple[Source, list[tuple[Check, Any]]]:
     """The checks of a determined system that a control has to make by itself, and where their margins come from."""
     machine = compile_plainly(system)
-    source, plan = _source_of(system, machine), machine.plan
-    steps = (pair for pair in check_steps(source, plan.steps) if pair[0].role is not Role.TOUCHING)
-    return source, [*steps, *check_facts(source, plan.checks, len(plan.basis)), *check_path(source)]
+    source = _source_of(system, machine)
+    steps = (pair for pair in check_steps(source, machine.steps) if pair[0].role is not Role.TOUCHING)
+    return source, [*steps, *check_facts(source, machine.checks, len(machine.basis)), *check_path(source)]
 
 
 def add_checks(tape: Tape, pairs: Iterable[tuple[Check, Any]], first: int = 0) -> Any:
@@ -224,35 +224,32 @@ def is_passed(check: Check, margin: Any) -> Any:
             return below(check.limit, magnitude(margin))
 
 
-def check_steps(source: Source, steps: Sequence[Step]) -> Checks:
+def check_steps(source: Source, steps: Sequence[ConstructionStep]) -> Checks:
     """Whether each step of a construction has a solution."""
     for number, step in enumerate(steps):
         yield from _check_step(source, number, step)
 
 
-def _check_step(source: Source, number: int, step: Step) -> Checks:
+def _check_step(source: Source, number: int, step: ConstructionStep) -> Checks:
     out = source.out
-    for tail, through in lines_through(step):
+    for tail, through in step.lines_through():
         first, second = source.way(tail, through)
         yield Check(RefusalKind.POINT_IS_START, through, "", Test.ABOVE, LENGTH), sqrt(first**2 + second**2)
-    if isinstance(step, AffineStep):
+    if step.kind is StepKind.AFFINE:
         givens = tuple(fact.given for fact in step.facts if fact.given)
         kind, subject = RefusalKind.LINES_PARALLEL, ",".join(step.unknowns)
         yield Check(kind, subject, "", Test.APART, REGULAR, givens, is_doubtful=True), out(f"determinant:{number}")
         return
-    if isinstance(step, DistanceStep):
+    if step.kind is StepKind.RADIUS:
         # What is compared with a circle of no radius at all, a single solve tells.
-        kind, center = RefusalKind.CIRCLE_UNDEFINED, step.circle.center
-        yield Check(kind, center, "", Test.ABOVE, LENGTH, is_doubtful=True), out(step.circle.radius)
+        kind, (circle,) = RefusalKind.CIRCLE_UNDEFINED, step.circles
+        yield Check(kind, circle.center, "", Test.ABOVE, LENGTH, is_doubtful=True), out(circle.radius)
         return
-    kind, is_half = RefusalKind.CIRCLE_MISSED, False
-    if isinstance(step, TwoCirclesStep):
-        subject, is_half = step.point, step.is_equal
+    kind, subject, is_half = RefusalKind.CIRCLE_MISSED, step.point, step.is_equal
+    if step.kind is StepKind.TWO_CIRCLES:
         kind = RefusalKind.RADIUS_TOO_SMALL if is_half else RefusalKind.CIRCLES_APART
         undefined = RefusalKind.CIRCLE_UNDEFINED if is_half else kind
         yield Check(undefined, subject, "", Test.ABOVE, LENGTH), out(f"distance:{number}")
-    else:
-        subject = step.circle.point
     offset, radius = out(f"offset:{number}"), out(f"radius:{number}")
     give = out(f"scale:{number}") * TOUCHING
     meets = Check(kind, subject, "", Test.AT_LEAST, 0.0)

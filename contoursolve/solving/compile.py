@@ -1,7 +1,7 @@
 """One CasADi function for one combination of words: points, residuals, determinants and corner room."""
 
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
-from itertools import pairwise
 from math import tau
 from typing import Any
 
@@ -9,212 +9,85 @@ from msgspec import Struct
 
 from contoursolve.geometry import (
     FIRST,
-    INCREMENT_OF,
     SECOND,
     Arc,
-    Collinear,
+    ChamferLeg,
     Corner,
     Fact,
-    Heading,
     Line,
     OnCircle,
+    Parallel,
     Radius,
     System,
     Values,
+    moves_of,
     scalar,
 )
 from contoursolve.numeric import (
-    Compiled,
-    Functions,
+    SIDE,
     Replay,
-    Tape,
-    affine_parts,
     angle,
-    at_most,
     ball,
-    cosine as cosine_of,
     is_zero,
     jacobian_parts,
+    larger,
     magnitude,
     sign,
-    sine as sine_of,
     sqrt,
     symbol,
     where,
 )
-from contoursolve.solving.compare import half_circle_allowance
+from contoursolve.solving.construction import (
+    MOST_SIGNS,
+    Builder,
+    Construction,
+    ConstructionStep,
+    Need,
+    NoClosedFormError,
+    named_steps,
+    steps_of,
+)
 from contoursolve.solving.corners import Edge, Pair, build_corner, drop_straight, unit
-from contoursolve.solving.determinacy import spare_of
-from contoursolve.solving.inputs import given_directions, named_inputs
-from contoursolve.solving.plan import AffineStep, DistanceStep, LineCircleStep, Plan, Step, TwoCirclesStep, make_plan
+from contoursolve.solving.determinacy import basis_of, spare_of
+from contoursolve.solving.sides import side_values
 from contoursolve.tolerance import LENGTH, REGULAR, TOUCHING
 
-_FUNCTIONS = Functions(sqrt, cosine_of, sine_of)
 
+class _PathBuilder(Builder):
+    """The same with what follows from the points: residuals, the path and its corners."""
 
-class _Builder:
     def __init__(self, system: System, touching: float = TOUCHING) -> None:
-        self.system, self.touching = system, touching
-        self.tape = Tape()
-        self.scalars: dict[str, Any] = {}
-        for axis in (FIRST, SECOND):
-            name = scalar(system.figure.start, axis)
-            self.scalars[name] = self.tape.input(name)
+        super().__init__(system, touching)
         self.compared = {(fact.point, fact.center) for fact in spare_of(system) if isinstance(fact, OnCircle)}
         """Points that are compared with a circle that others determine, with its centre."""
-        self.short: dict[str, Any] = {}
-        """By how much stated radii of half circles are less than their points say."""
         self.rooms: dict[str, Any] = {}
         """What the corners leave of each element."""
-        self.amounts = named_inputs(self.tape)
-        self.directions = given_directions(self.tape)
 
-    def at(self, scalars: dict[str, Any]) -> Values:
-        return Values(scalars, self.amounts, self.directions, self.system.headed, functions=_FUNCTIONS)
-
-    def point(self, name: str) -> Pair:
-        return self.scalars[scalar(name, FIRST)], self.scalars[scalar(name, SECOND)]
-
-    def set_point(self, name: str, value: Pair) -> None:
-        self.scalars[scalar(name, FIRST)], self.scalars[scalar(name, SECOND)] = value
-
-    def run(self, step: Step, number: int) -> None:
-        match step:
-            case AffineStep():
-                self._affine(step, number)
-            case DistanceStep(circle):
-                (x, y), (cx, cy) = self.point(circle.point), self.point(circle.center)
-                self.scalars[circle.radius] = sqrt((x - cx) ** 2 + (y - cy) ** 2)
-            case LineCircleStep():
-                self._line_circle(step, number)
-            case TwoCirclesStep():
-                self._two_circles(step, number)
-
-    def _affine(self, step: AffineStep, number: int) -> None:
-        symbols = {name: symbol(name) for name in step.unknowns}
-        lookup = self.at({**self.scalars, **symbols})
-        matrix, constants = affine_parts(
-            [_affine(fact, step).residual(lookup) for fact in step.facts], [symbols[name] for name in step.unknowns]
-        )
-        if len(step.unknowns) == 1:
-            determinant = matrix[0][0]
-            solution = [-constants[0] / determinant]
-        else:
-            (a, b), (c, d) = matrix
-            determinant = a * d - b * c
-            solution = [
-                (b * constants[1] - d * constants[0]) / determinant,
-                (c * constants[0] - a * constants[1]) / determinant,
-            ]
-        self.scalars.update(zip(step.unknowns, solution, strict=True))
-        self.tape.output(f"determinant:{number}", determinant)
-        for row, constant in enumerate(constants):
-            self.tape.output(f"constant:{number}:{row}", constant)
-            for column, entry in enumerate(matrix[row]):
-                self.tape.output(f"entry:{number}:{row}:{column}", entry)
-
-    def _line_circle(self, step: LineCircleStep, number: int) -> None:
-        """Foot of the perpendicular from the centre, then half the chord forward or back."""
-        through, (first, second) = self._line_of(step)
-        center, radius = self.point(step.circle.center), self.scalars[step.circle.radius]
-        offset = (through[0] - center[0]) * -second + (through[1] - center[1]) * first
-        scale = radius + sum(magnitude(value) for value in (*center, *through))
-        root = self._root((radius - offset) * (radius + offset), offset, radius, scale, number)
-        half = self.tape.input(f"side:{step.circle.point}") * root
-        lines = (each for each in self.system.figure.path if isinstance(each, Line) and each.counts_length)
-        if any(step.circle.point in (line.tail, line.head) for line in lines):
-            # The longer line leads to the point beyond the foot of the perpendicular.
-            ahead = (center[0] - through[0]) * first + (center[1] - through[1]) * second
-            half = half * (2 * at_most(0, ahead) - 1)
-        self.set_point(
-            step.circle.point,
-            (center[0] - second * offset + first * half, center[1] + first * offset + second * half),
-        )
-
-    def _line_of(self, step: LineCircleStep) -> tuple[Pair, Pair]:
-        """A known point of a step's line, and the line's direction."""
-        if isinstance(step.line, Heading):
-            other = step.line.tail if step.line.head == step.circle.point else step.line.head
-            return self.point(other), self.directions[step.line.given]
-        tail, through = self.point(step.line.tail), self.point(step.line.through)
-        return tail, unit((through[0] - tail[0], through[1] - tail[1]))
-
-    def _two_circles(self, step: TwoCirclesStep, number: int) -> None:
-        """Along the line of centres to the common chord, then along it to the left or to the right."""
-        first, second = (self.point(center) for center in step.centers)
-        one, other = (self.scalars[circle.radius] for circle in (step.first, step.second))
-        chord = second[0] - first[0], second[1] - first[1]
-        length = sqrt(chord[0] ** 2 + chord[1] ** 2)
-        # With one radius, exactly the middle.
-        offset = length / 2 if step.is_equal else (length + (one - other) * (one + other) / length) / 2
-        scale = one + other + sum(magnitude(value) for value in (*first, *second))
-        if step.is_equal:
-            one = other = self._half_circle(step.first.radius, offset, chord, scale, number)
-        gap = self.tape.expression(f"gap:{number}") if f"gap:{number}" in self.tape.outputs else one - offset
-        root = self._root(gap * (one + offset), offset, one, scale, number)
-        along, rise = offset / length, self.tape.input(f"side:{step.point}") * self._sense(step) * root / length
-        self.set_point(
-            step.point,
-            (first[0] + along * chord[0] - rise * chord[1], first[1] + along * chord[1] + rise * chord[0]),
-        )
-        self.tape.output(f"distance:{number}", length)
-
-    def _sense(self, step: TwoCirclesStep) -> Any:
-        """+1 where the positive side of an intersection is the left one, -1 where it is the right one."""
-        for before, after in pairwise(self.system.figure.path):
-            if isinstance(after, Arc) and after.counts_clockwise and after.tail == step.point:
-                (a, b), (c, d) = self.point(before.tail), self.point(after.center)
-                return 2 * at_most(self.scalars[after.radius] ** 2, (c - a) ** 2 + (d - b) ** 2) - 1
-        return 1
-
-    def _half_circle(self, name: str, half: Any, chord: Pair, scale: Any, number: int) -> Any:
-        """The radius of a circle through two points, half of whose distance may be more than the radius by as little as
-        the words are exact to: then it is a half circle, and as large as the points say. By how much is `short`."""
-        radius = self.scalars[name]
-        given = next((fact.given for fact in self.system.facts if isinstance(fact, Radius) and fact.radius == name), "")
-        if not given:
-            return radius
-        give = half_circle_allowance(chord, 2 * half, given, lambda key: self.tape.input(INCREMENT_OF + key), magnitude)
-        # From where it is a touching one for floats as well, so that no value lies between.
-        rounding = self.touching * scale / 2
-        short = half - radius
-        is_short = magnitude(short - (give + rounding) / 2) <= (give - rounding) / 2
-        self.short[name] = where(is_short, short, 0)
-        self.tape.output(f"short:{number}", self.short[name])
-        self.tape.output(f"gap:{number}", where(is_short, 0, radius - half))
-        self.scalars[name] = where(is_short, half, radius)
-        return self.scalars[name]
-
-    def _root(self, discriminant: Any, offset: Any, radius: Any, scale: Any, number: int) -> Any:
-        """The root of a discriminant; 0 where floats cannot tell that a circle is more than touched."""
-        self.tape.output(f"discriminant:{number}", discriminant)
-        self.tape.output(f"offset:{number}", offset)
-        self.tape.output(f"scale:{number}", scale)
-        self.tape.output(f"radius:{number}", radius)
-        gap = f"gap:{number}"
-        apart = self.tape.expression(gap) if gap in self.tape.outputs else magnitude(offset) - radius
-        is_touching = magnitude(apart) <= self.touching * scale
-        return where(is_touching, 0, sqrt(discriminant))
-
-    def outputs(self, plan: Plan) -> tuple[tuple[int, int, str], ...]:
-        """The unknowns, the residuals of all facts, and the Jacobian of the basis."""
+    def outputs(self) -> None:
+        """The unknowns, and the residuals of all facts."""
         for name in self.system.unknowns:
             self.tape.output(name, self.scalars[name])
-        lookup = self.at(self.scalars)
-        for number, fact in enumerate((*plan.basis, *plan.checks)):
-            self.tape.output(f"residual:{number}", fact.residual(lookup))
+        at = self.at()
+        for number, fact in enumerate((*basis_of(self.system), *spare_of(self.system))):
+            self.tape.output(f"residual:{number}", fact.residual(at))
             if isinstance(fact, Radius) and fact.radius in self.short:
-                self.tape.output(f"excess:{number}", fact.residual(lookup) - self.short[fact.radius])
+                self.tape.output(f"excess:{number}", fact.residual(at) - self.short[fact.radius])
+
+    def slopes(self) -> tuple[tuple[int, int, str], ...]:
+        """The Jacobian of the basis."""
         symbols = {name: symbol(name) for name in self.system.unknowns}
         entries = jacobian_parts(
-            [fact.residual(self.at({**self.scalars, **symbols})) for fact in plan.basis],
+            [fact.residual(self.at(symbols)) for fact in basis_of(self.system)],
             list(symbols.values()),
             [self.scalars[name] for name in self.system.unknowns],
         )
-        slopes = tuple((row, column, f"slope:{row}:{column}") for row, column in entries)
-        for row, column, name in slopes:
-            self.tape.output(name, entries[row, column])
-        return slopes
+        for (row, column), entry in entries.items():
+            self.tape.output(f"slope:{row}:{column}", entry)
+        return tuple((row, column, f"slope:{row}:{column}") for row, column in entries)
+
+    def size_of(self, corner: Corner) -> Any:
+        """The size of a corner, mm."""
+        return self.tape.input(corner.size)
 
     def path(self) -> tuple[str, ...]:
         """Direction and length of each element, and every corner; the names of the corners' residuals."""
@@ -292,14 +165,14 @@ class _Builder:
         """The direction of a line beside the path, which is stated or leads to a place."""
         if line.heading is not None:
             return self._direction(line)
-        at = self.at(self.scalars)
+        at = self.at()
         tail, head = self.point(line.tail), (at.coordinate(line.head, FIRST), at.coordinate(line.head, SECOND))
         step = head[FIRST] - tail[FIRST], head[SECOND] - tail[SECOND]
         self.tape.output(f"length:{line.name}", sqrt(step[0] ** 2 + step[1] ** 2))
         return unit(step)
 
     def _corner(self, corner: Corner, before: Edge, after: Edge, quadrant: Pair) -> list[str]:
-        size, name = self.tape.input(corner.size), corner.name
+        size, name = self.size_of(corner), corner.name
         built = build_corner(corner.shape, self.point(corner.at), before, after, size, quadrant)
         if corner.guard:
             built = drop_straight(built, self.point(corner.at), corner.guard)
@@ -321,14 +194,6 @@ class _Builder:
         return list(residuals)
 
 
-def _affine(fact: Fact, step: AffineStep) -> Fact:
-    """A fact in the form in which it is affine in the unknowns of a step."""
-    if isinstance(fact, Collinear) and {scalar(fact.through, axis) for axis in (FIRST, SECOND)} & {*step.unknowns}:
-        # The same line, through the point that is known.
-        return Collinear(fact.tail, fact.point, fact.through)
-    return fact
-
-
 def _quadrant(edge: Edge, other: Edge) -> Pair:
     """The way an edge advances on each axis; a component that is zero is taken from the other edge."""
     first, second = (
@@ -348,56 +213,117 @@ def _quadrant_between(arriving: Pair, leaving: Pair) -> Pair:
     return first, second
 
 
-class Machine(Struct, frozen=True):
-    """The plan of a system with its function, and the names of those outputs that come in numbers."""
-
-    plan: Plan
-    function: Compiled
-    residuals: tuple[str, ...]
-    """Of the basis, but for what the words of a half circle are exact to."""
-    slopes: tuple[tuple[int, int, str], ...]
-    """(row, column, output) of the Jacobian of the basis by the unknowns."""
-    corner_residuals: tuple[str, ...]
-    tape: Tape
-    """All expressions, from which the proof makes a function of its own."""
-
-
 @lru_cache(maxsize=4096)
-def compile_system(system: System) -> Machine:
-    """The function of a determined system; one for each combination of words."""
-    return _compile(_Builder(system))
+def compile_system(system: System) -> Construction:
+    """The function of a determined system; one for each combination of words.
+
+    Raises NoClosedFormError if it has not one, ValueError if words are missing.
+    """
+    return _compile(_PathBuilder(system))
 
 
 @lru_cache(maxsize=64)
-def compile_plainly(system: System) -> Machine:
+def compile_plainly(system: System) -> Construction:
     """The same for formulas that a control evaluates: a line that touches a circle is nothing of its own."""
     return _compile(_PlainBuilder(system, touching=0.0))
 
 
-class _PlainBuilder(_Builder):
-    def _root(self, discriminant: Any, offset: Any, radius: Any, scale: Any, number: int) -> Any:
-        super()._root(discriminant, offset, radius, 0 * scale, number)
+class _PlainBuilder(_PathBuilder):
+    def _root(
+        self, discriminant: Any, offset: Any, radius: Any, scale: Any, step: ConstructionStep, number: int
+    ) -> Any:
+        return super()._root(discriminant, offset, radius, 0 * scale, step, number)
+
+    def _spread(self, discriminant: Any, _is_touching: Any) -> Any:
         return sqrt(discriminant)
 
 
-def _compile(builder: _Builder) -> Machine:
-    plan = make_plan(builder.system)
-    for number, step in enumerate(plan.steps):
+def _compile(builder: _PathBuilder) -> Construction:
+    system, steps = builder.system, named_steps(builder.system)
+    for number, step in enumerate(steps):
         builder.run(step, number)
-    slopes = builder.outputs(plan)
+    builder.outputs()
+    slopes, basis = builder.slopes(), basis_of(system)
     outputs = builder.tape.outputs
-    excesses = [f"excess:{number}" for number in range(len(plan.basis))]
+    excesses = [f"excess:{number}" for number in range(len(basis))]
     residuals = tuple(f"residual:{n}" if name not in outputs else name for n, name in enumerate(excesses))
-    corner_residuals = builder.path()
-    return Machine(plan, builder.tape.finish(), residuals, slopes, corner_residuals, builder.tape)
+    corners, signs = builder.path(), tuple(builder.signs)
+    function = builder.tape.finish()
+    return Construction(steps, basis, spare_of(system), function, residuals, slopes, corners, builder.tape, signs)
 
 
-class PathMachine(Struct, frozen=True):
-    """The path of a figure as a function of its points, whatever they were found from."""
+@lru_cache(maxsize=256)
+def compile_branches(system: System) -> Construction:
+    """The solutions of a determined system whatever its facts, one for each choice of the signs, with what must hold of
+    them. Raises NoClosedFormError."""
+    return _BranchBuilder(system, touching=0.0).construct()
 
-    function: Compiled
-    corner_residuals: tuple[str, ...]
-    tape: Tape
+
+class _BranchBuilder(_PathBuilder):
+    def construct(self) -> Construction:
+        system, steps = self.system, tuple(steps_of(self.system))
+        for number, step in enumerate(steps):
+            self.run(step, number)
+        self._check_senses()
+        basis, spare = basis_of(system), spare_of(system)
+        for fact in spare:
+            if any(SIDE + side not in self.signs for side in fact.sides()):
+                raise NoClosedFormError("on which side it touches follows from nothing else", (fact,), ())
+        self.outputs()
+        sides = dict(self._sides())
+        residuals = tuple(f"residual:{number}" for number in range(len(basis)))
+        corners = self.path()
+        if len(self.signs) > MOST_SIGNS:
+            raise NoClosedFormError(f"it has {2 ** len(self.signs):,} solutions to look at", basis, ())
+        signs, conditions, function = tuple(self.signs), tuple(self.conditions), self.tape.finish()
+        return Construction(steps, basis, spare, function, residuals, (), corners, self.tape, signs, conditions, sides)
+
+    def size_of(self, corner: Corner) -> Any:
+        name = f"{corner.name}.radius"
+        is_stated = any(isinstance(fact, Radius) and fact.given == corner.size for fact in self.system.facts)
+        return self.scalars[name] if name in self.scalars and not is_stated else super().size_of(corner)
+
+    def _spread(self, discriminant: Any, _is_touching: Any) -> Any:
+        # Of a half circle it is zero, and rounding may make it less.
+        return sqrt(larger(discriminant, 0))
+
+    def _must_be_positive(self, value: Any, facts: Sequence[Fact], unknowns: Sequence[str]) -> None:
+        output = f"sense:{len(self.conditions)}"
+        self.tape.output(output, value)
+        self._need(Need.POSITIVE, output, facts, unknowns)
+
+    def _check_senses(self) -> None:
+        """What must run in its stated sense, as `enumerate` says."""
+        at, figure = self.at(), self.system.figure
+        for fact in self.system.facts:
+            for value in self._senses(fact, at):
+                self._must_be_positive(value, (fact,), self.system.unknowns_among(fact.sense_reads()))
+        for line in (*figure.path, *figure.lines):
+            if not isinstance(line, Line) or line.name not in figure.carriers:
+                continue
+            if not line.tail:
+                raise NoClosedFormError(f"the sense of {line.name} is open", (), ())
+            if line.head:
+                cosine, sine = at.bearing(line.name)
+                first, second = (at.coordinate(line.head, axis) - at.coordinate(line.tail, axis) for axis in (0, 1))
+                self._must_be_positive(first * cosine + second * sine, (), (line.name,))
+
+    def _senses(self, fact: Fact, at: Values) -> Iterator[Any]:
+        """What must be positive; which of several lines tells how a path advances follows from the values."""
+        if not isinstance(fact, Parallel | ChamferLeg) or len(fact.advance) < 2:  # noqa: PLR2004 - several lines
+            yield from fact.senses(at)
+            return
+        way, *others = reversed(moves_of(at, fact.advance, fact.axis))
+        for move in others:
+            way = where(is_zero(move), way, move)
+        yield way * (at.bearing(fact.line)[fact.axis] if isinstance(fact, Parallel) else at.side(fact.side))
+
+    def _sides(self) -> Iterator[tuple[str, tuple[str, str]]]:
+        chosen = set(self.system.choices)
+        for point, (value, positive, _) in side_values(self.system, self.at(), chosen).items():
+            if point in chosen:
+                self.tape.output(f"beside:{point}", value)
+                yield point, (f"beside:{point}", positive)
 
 
 class ProofMachine(Struct, frozen=True):
@@ -423,8 +349,8 @@ def compile_proof(system: System) -> ProofMachine:
 def compile_decision(system: System, number: int) -> ProofMachine:
     """The discriminant of one step of a determined system for exact numbers and balls: whether a line or a circle that
     floats cannot tell from a touching one meets the circle."""
-    builder = _Builder(system, touching=0.0)
-    for each, step in enumerate(make_plan(system).steps[: number + 1]):
+    builder = Builder(system, touching=0.0)
+    for each, step in enumerate(compile_system(system).steps[: number + 1]):
         builder.run(step, each)
     tape = builder.tape.keep((), (f"discriminant:{number}",))
     return ProofMachine(Replay(tape.function(), _Deciding, ball.exact), tape.inputs, tuple(tape.outputs))
@@ -475,12 +401,12 @@ _PROOF_OUTPUTS = ("determinant:", "discriminant:", "radius:", "residual:", "begi
 
 
 @lru_cache(maxsize=1024)
-def compile_path(system: System) -> PathMachine:
+def compile_path(system: System) -> Construction:
     """The lines and corners of a path at given points; the same outputs as of `compile_system`."""
-    builder = _Builder(system)
+    builder = _PathBuilder(system)
     for name in system.unknowns:
         builder.scalars[name] = builder.tape.input(name)
     residuals = builder.path()
     # A path of arcs alone has no outputs of its own.
     builder.tape.output("start", builder.scalars[scalar(system.figure.start, FIRST)])
-    return PathMachine(builder.tape.finish(), residuals, builder.tape)
+    return Construction((), (), (), builder.tape.finish(), (), (), residuals, builder.tape)

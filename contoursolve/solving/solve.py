@@ -26,18 +26,10 @@ from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.certify import certify, decide_meeting
 from contoursolve.solving.compare import compare_affine, compare_fact, givens_of
 from contoursolve.solving.compile import compile_system
+from contoursolve.solving.construction import ConstructionStep, StepKind, is_closed
 from contoursolve.solving.determinacy import analyse
 from contoursolve.solving.numbers import inputs_of, lookup, scalars_of, sizes_of, solution_at
 from contoursolve.solving.path import check_path, check_range
-from contoursolve.solving.plan import (
-    AffineStep,
-    DistanceStep,
-    LineCircleStep,
-    Step,
-    TwoCirclesStep,
-    is_closed,
-    lines_through,
-)
 from contoursolve.solving.solution import (
     Certificate,
     Note,
@@ -117,7 +109,6 @@ class _Attempt:
         self.profile = profile
         self.system = system
         self.machine = compile_system(system)
-        self.plan = self.machine.plan
         self.out = self.machine.function(inputs_of(profile, system))
         self.refusals: list[Refusal] = []
         self.remarks: list[Note] = []
@@ -131,7 +122,7 @@ class _Attempt:
         return self.machine.function({**inputs_of(self.profile, self.system), **sizes})
 
     def answer(self, *, is_proven: bool) -> Solution:
-        for number, step in enumerate(self.plan.steps):
+        for number, step in enumerate(self.machine.steps):
             refusal = self._examine_step(number, step)
             if refusal:
                 self.refusals.append(refusal)
@@ -182,23 +173,24 @@ class _Attempt:
     def _absolute(self, point: Point) -> Point:
         return self.origin[FIRST] + point[FIRST], self.origin[SECOND] + point[SECOND]
 
-    def _examine_step(self, number: int, step: Step) -> Refusal | None:
-        for tail, through in lines_through(step):
+    def _examine_step(self, number: int, step: ConstructionStep) -> Refusal | None:
+        for tail, through in step.lines_through():
             ends = (self._point(name) for name in (tail, through))
             if not dist(*ends) > LENGTH:  # true for NaN
                 at = {scalar(through, axis) for axis in (FIRST, SECOND)}
                 facts = (fact for fact in self.system.facts if at & {*self.system.unknowns_of(fact)})
                 givens = tuple(fact.given for fact in facts if fact.given)
                 return Refusal(RefusalKind.POINT_IS_START, through, givens)
-        if isinstance(step, AffineStep):
+        if step.kind is StepKind.AFFINE:
             return self._examine_determinant(number, step)
-        if isinstance(step, DistanceStep):
-            no_radius = not self.out[step.circle.radius] > LENGTH  # true for NaN
-            givens = self._givens_of(step.circle)
-            return Refusal(RefusalKind.CIRCLE_UNDEFINED, step.circle.center, givens) if no_radius else None
+        if step.kind is StepKind.RADIUS:
+            (circle,) = step.circles
+            no_radius = not self.out[circle.radius] > LENGTH  # true for NaN
+            givens = self._givens_of(circle)
+            return Refusal(RefusalKind.CIRCLE_UNDEFINED, circle.center, givens) if no_radius else None
         return self._examine_discriminant(number, step)
 
-    def _examine_determinant(self, number: int, step: AffineStep) -> Refusal | None:
+    def _examine_determinant(self, number: int, step: ConstructionStep) -> Refusal | None:
         if abs(self.out[f"determinant:{number}"]) > REGULAR:
             return None
         self.stuck = frozenset(step.facts)
@@ -209,31 +201,32 @@ class _Attempt:
         used = {name for fact in step.facts for name in self.system.unknowns_of(fact)} - set(step.unknowns)
         earlier = [
             other.facts
-            for other in self.plan.steps[:number]
-            if isinstance(other, AffineStep) and used & set(other.unknowns)
+            for other in self.machine.steps[:number]
+            if other.kind is StepKind.AFFINE and used & set(other.unknowns)
         ]
         givens = tuple(fact.given for facts in (step.facts, *earlier) for fact in facts if fact.given)
         if abs(off) <= RESIDUAL:
             return Refusal(RefusalKind.NOT_FIXED, ",".join(step.unknowns), givens)
         return _refuse(RefusalKind.LINES_PARALLEL, ",".join(step.unknowns), givens, off_by_mm=abs(off))
 
-    def _examine_discriminant(self, number: int, step: LineCircleStep | TwoCirclesStep) -> Refusal | None:
+    def _examine_discriminant(self, number: int, step: ConstructionStep) -> Refusal | None:
         offset, radius = abs(self.out[f"offset:{number}"]), self.out[f"radius:{number}"]
-        is_center = isinstance(step, TwoCirclesStep) and step.is_equal
-        if isinstance(step, LineCircleStep):
-            kind, subject = RefusalKind.CIRCLE_MISSED, step.circle.point
+        is_center = step.is_equal
+        subject = step.point
+        if step.kind is StepKind.LINE_CIRCLE:
+            kind = RefusalKind.CIRCLE_MISSED
             is_stated = bool(self.profile.words_of([step.line])) or isinstance(step.line, Collinear)
-            givens = self._givens_of(step.line if is_stated else step.circle)
+            givens = self._givens_of(step.line if is_stated else step.circles[0])
             values = {"limit": radius, "actual": offset}
             values |= self._meeting_angles(step, radius) if is_stated else {}
         elif is_center:
-            kind, subject, givens = RefusalKind.RADIUS_TOO_SMALL, step.point, self._givens_of(step.first)
+            kind, givens = RefusalKind.RADIUS_TOO_SMALL, self._givens_of(step.circles[0])
             values = {"limit": offset, "actual": radius}
         else:
-            kind, subject = RefusalKind.CIRCLES_APART, step.point
-            givens = (*self._givens_of(step.first), *self._givens_of(step.second))
+            kind = RefusalKind.CIRCLES_APART
+            givens = tuple(given for circle in step.circles for given in self._givens_of(circle))
             values = self._reach(step, self.out[f"distance:{number}"])
-        if isinstance(step, TwoCirclesStep) and not self.out[f"distance:{number}"] > LENGTH:  # true for NaN
+        if step.kind is StepKind.TWO_CIRCLES and not self.out[f"distance:{number}"] > LENGTH:  # true for NaN
             if is_center:
                 return Refusal(RefusalKind.CIRCLE_UNDEFINED, subject, givens)
             return Refusal(kind, subject, givens, values)
@@ -253,31 +246,30 @@ class _Attempt:
             return Refusal(kind, subject, givens, {"off_by_mm": abs(offset - radius), **values})
         return None
 
-    def _reach(self, step: TwoCirclesStep, distance: float) -> dict[str, float]:
+    def _reach(self, step: ConstructionStep, distance: float) -> dict[str, float]:
         """How far apart the centres of two circles are, and the nearest distance at which they would meet, mm."""
-        one, other = self.out[step.first.radius], self.out[step.second.radius]
+        one, other = (self.out[circle.radius] for circle in step.circles)
         limit = one + other if distance >= max(one, other) else abs(one - other)
         return {"limit": limit, "actual": distance, "off_by_mm": abs(distance - limit)}
 
-    def _note_double(self, number: int, step: LineCircleStep | TwoCirclesStep) -> None:
+    def _note_double(self, number: int, step: ConstructionStep) -> None:
         """A double solution, as far as floats can tell: in the error bound, a row that holds the point where it
         is along the direction in which the two solutions part takes the place of its circle's, and how far
         apart they could be is added."""
-        if isinstance(step, LineCircleStep):
-            circle, point = step.circle, step.circle.point
+        circle, point = step.circles[-1], step.point
+        if step.kind is StepKind.LINE_CIRCLE:
             first, second = self._line_direction(step)
         else:
-            circle, point = step.second, step.point
             begin, end = (self._point(center) for center in step.centers)
             length = hypot(end[0] - begin[0], end[1] - begin[1])
             first, second = (begin[1] - end[1]) / length, (end[0] - begin[0]) / length
-        row = self.plan.basis.index(circle)
+        row = self.machine.basis.index(circle)
         self.doubles[row] = {scalar(point, FIRST): first, scalar(point, SECOND): second}
-        if not (isinstance(step, TwoCirclesStep) and self._is_half_circle(step, number)):
+        if not self._is_half_circle(step, number):
             radius, scale = self.out[f"radius:{number}"], self.out[f"scale:{number}"]
             self.split = max(self.split, (2 * radius * TOUCHING * scale) ** 0.5)
 
-    def _line_direction(self, step: LineCircleStep) -> Point:
+    def _line_direction(self, step: ConstructionStep) -> Point:
         if isinstance(step.line, Heading):
             return direction(self.profile.givens[step.line.given].value)
         tail, through = self._point(step.line.tail), self._point(step.line.through)
@@ -290,30 +282,32 @@ class _Attempt:
             values = {"limit": half, "actual": half - short, "off_by_mm": short}
             self.remarks.append(Note(NoteKind.HALF_CIRCLE, subject, givens, values))
 
-    def _is_half_circle(self, step: TwoCirclesStep, number: int) -> bool:
+    def _is_half_circle(self, step: ConstructionStep, number: int) -> bool:
         """Whether the radius is exactly half the chord from the start point, in decimals, or is taken to be."""
+        if not step.is_equal:
+            return False
         if self.out.get(f"short:{number}", 0.0):
             return True
         values: dict[tuple[str, int], Decimal] = {}
         radius = Decimal(0)
         for fact in self.system.facts:
             value = self.profile.givens[fact.given].value if fact.given else Decimal(0)
-            if isinstance(fact, Radius) and fact.radius == step.first.radius:
+            if isinstance(fact, Radius) and fact.radius == step.circles[0].radius:
                 radius = value
             elif isinstance(fact, Coordinate):
                 values[fact.point, fact.axis] = value - self.start[fact.axis]
             elif isinstance(fact, Offset) and fact.origin == self.system.figure.start:
                 values[fact.point, fact.axis] = value
-        if not step.is_equal or step.first.point != self.system.figure.start:
+        if step.circles[0].point != self.system.figure.start:
             return False
-        chord = [values.get((step.second.point, axis)) for axis in (FIRST, SECOND)]
+        chord = [values.get((step.circles[1].point, axis)) for axis in (FIRST, SECOND)]
         return None not in chord and sum(part**2 for part in chord if part is not None) == 4 * radius**2
 
-    def _meeting_angles(self, step: LineCircleStep, radius: float) -> dict[str, float]:
+    def _meeting_angles(self, step: ConstructionStep, radius: float) -> dict[str, float]:
         """Between which angles of travel a line through the known point of the heading meets the circle, degrees."""
         if not isinstance(step.line, Heading):
             return {}
-        line, circle = step.line, step.circle
+        line, (circle,) = step.line, step.circles
         (tail, head) = (circle.center, line.head) if line.tail == circle.point else (line.tail, circle.center)
         (a, b), (c, d) = self._point(tail), self._point(head)
         first, second = c - a, d - b
@@ -337,7 +331,7 @@ class _Attempt:
 
     def _compare_all(self) -> None:
         """The facts that were not needed, as far as what they speak about has a value."""
-        for number, fact in enumerate(self.plan.checks, len(self.plan.basis)):
+        for number, fact in enumerate(self.machine.checks, len(self.machine.basis)):
             off = abs(self.out[f"residual:{number}"])
             if isfinite(off):
                 self._compare(fact, off)

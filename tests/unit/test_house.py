@@ -215,10 +215,8 @@ def test_no_name_that_a_package_lists_is_that_of_another_of_its_modules():
 TWO_MEANINGS = {
     "Check": "solving/checks.py verification/receipt.py",
     "Circle": "geometry/figure.py verification/drawing.py",
-    "Condition": "reading/rules.py solving/closed_form_branches.py",
     "Element": "controls/chain/language.py controls/heidenhain/elements.py",
     "Found": "families/inverse.py solving/enumerate.py verification/status.py",
-    "Machine": "execution/machine.py solving/compile.py",
     "Place": "controls/heidenhain/elements.py verification/residuals.py",
     "Role": "pictures/theme.py solving/checks.py",
     "Source": "diagnostics/source.py solving/checks.py",
