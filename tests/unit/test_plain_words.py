@@ -22,14 +22,8 @@ FORBIDDEN = re.compile(
 )
 SOLVER = (
     "diagnosis/diagnose.py",
-<<<<<<< HEAD
     "diagnosis/legality_table.py",
-    "solving/closed_form_branches.py",
-    "solving/plan.py",
-=======
-    "diagnosis/table.py",
     "solving/construction.py",
->>>>>>> 2aa26a4 (One construction: plan, steps and the closed forms of branches are one builder)
     "solving/solve.py",
 )
 """The layers of `--explain`, the table of all sets of words, errors of programmers: these have the solver's words."""
