@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from contoursolve import gcode
 from contoursolve.diagnosis import Depth
 from contoursolve.diagnostics import Diagnostic, choice_of
-from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, UnreadableProgramError, decode, tape_in_memory
+from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, UnreadableProgramError, decode, file_in_memory
 from contoursolve.program import (
     Result,
     Run,
@@ -386,8 +386,8 @@ def expand(
     options = ExpansionOptions(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, numbering, inline)
     stated = {} if isinstance(control, Dialect) else stated_settings(gcode.split_lines(text))
     own = stated | dict(settings or {})
-    tape = tape_in_memory(text, name)
-    rewritten = rewrite(tape, BytesIO(), options, asked, control=control, settings=own, writer=writer)
+    source = file_in_memory(text, name)
+    rewritten = rewrite(source, BytesIO(), options, asked, control=control, settings=own, writer=writer)
     summary, written = rewritten.summary, b"".join(rewritten.pieces())
     is_whole = (keep_going or not summary.left) and (keep_untranslated or not summary.misread)
     return Expansion(written.decode(*ANY_TEXT) if is_whole else None, rewritten.control, summary)

@@ -16,7 +16,7 @@ from contoursolve.cli.options import (
 from contoursolve.cli.printing import say, style_of_output
 from contoursolve.controls import DIALECTS, ChainFinder
 from contoursolve.diagnosis import count, join
-from contoursolve.gcode import open_tape, write_whole
+from contoursolve.gcode import open_program_file, write_whole
 from contoursolve.postprocess import Conversion, Post, post_of
 from contoursolve.reading import Dialect
 
@@ -65,22 +65,22 @@ def convert(
     if to is None:
         raise click.UsageError(f"say for which control: --to {'|'.join(_TARGETS)}")
     target = target_of(program, output, is_forced=is_forced)
-    with open_tape(program) as tape, naming(tape.name):
+    with open_program_file(program) as source, naming(source.name):
         found = api.convert(
-            tape.read(),
+            source.read(),
             to,
             comments=not no_comments,
             control=control,
             units=units,
             rules=rules,
-            settings=settings_of(tape, assignments),
-            name=tape.name,
+            settings=settings_of(source, assignments),
+            name=source.name,
         )
     if found.text is None:
-        _report_failure(found, tape.name, to)
+        _report_failure(found, source.name, to)
         context.exit(FOUND_ERRORS)
     # In the encoding of the old program: what stays as it was does so byte for byte.
-    pieces = (tape.mark, tape.encode(found.text))
+    pieces = (source.mark, source.encode(found.text))
     if target is None:
         print_bytes(pieces)
     else:

@@ -25,7 +25,14 @@ from contoursolve.cli.options import (
 )
 from contoursolve.cli.printing import say, style_of_output
 from contoursolve.diagnosis import Policy, count
-from contoursolve.gcode import OpenFile, check_target, check_unprotected, open_tape, tape_of, write_whole
+from contoursolve.gcode import (
+    OpenFile,
+    check_target,
+    check_unprotected,
+    open_program_file,
+    program_file_of,
+    write_whole,
+)
 from contoursolve.output import Style, finding_lines, plain, without_repeated
 from contoursolve.postprocess import (
     POSTS,
@@ -158,7 +165,11 @@ def expand(
         raise click.UsageError("name a program (- for standard input), or give --block")
     target = program_itself(program, output) if is_in_place else target_of(program, output, is_forced=is_forced)
     wish = _wish(_post_of(post, options), options)
-    source = tape_of("".join(f"{block}\n" for block in blocks), "<block>") if blocks else open_tape(program or "-")
+    source = (
+        program_file_of("".join(f"{block}\n" for block in blocks), "<block>")
+        if blocks
+        else open_program_file(program or "-")
+    )
     with TemporaryFile() as body:
         with _progress_bar() as progress:
             rewritten = _rewrite(source, body, wish, start, options, progress)
@@ -207,7 +218,7 @@ def filter_(context: click.Context, /, program: str, **options: Any) -> None:
 
     with TemporaryFile() as body:
         wish = _wish(POSTS["linuxcnc"], options)
-        rewritten = _rewrite(open_tape(program), body, wish, None, options, progress)
+        rewritten = _rewrite(open_program_file(program), body, wish, None, options, progress)
         report_left(rewritten.summary, program, plain)
         report_misread(rewritten.summary, wish.post, plain, is_kept=False)
         if rewritten.summary.left or rewritten.summary.misread:
@@ -264,7 +275,7 @@ _ASKED = ("units", "rules", "facts", "variables", "folders")
 
 
 def _rewrite(
-    source: AbstractContextManager[OpenFile],
+    opening: AbstractContextManager[OpenFile],
     body: IO[bytes],
     wish: ExpansionOptions,
     start: str | None,
@@ -272,25 +283,25 @@ def _rewrite(
     progress: Callable[[float], None],
 ) -> Rewritten:
     """Expand a program."""
-    with source as tape, naming(tape.name):
+    with opening as source, naming(source.name):
         return rewrite(
-            tape,
+            source,
             body,
             wish,
-            request_for(tape.name, start=start, **{each: options[each] for each in _ASKED if each in options}),
+            request_for(source.name, start=start, **{each: options[each] for each in _ASKED if each in options}),
             control=options["control"],
-            settings=settings_of(tape, options["assignments"]),
+            settings=settings_of(source, options["assignments"]),
             progress=progress,
-            writer=_formulas(tape, wish, options) if options.get("has_formulas") else None,
+            writer=_formulas(source, wish, options) if options.get("has_formulas") else None,
         )
 
 
-def _formulas(tape: OpenFile, wish: ExpansionOptions, options: Mapping[str, Any]) -> Writer:
+def _formulas(source: OpenFile, wish: ExpansionOptions, options: Mapping[str, Any]) -> Writer:
     """The writer of contours as formulas."""
     from contoursolve.postprocess import formulas_for  # noqa: PLC0415 - few programs need it
 
     return formulas_for(
-        tape.read(), wish.post, options["scratch"], options["variables"] or {}, Policy(options["rules"])
+        source.read(), wish.post, options["scratch"], options["variables"] or {}, Policy(options["rules"])
     )
 
 

@@ -14,10 +14,10 @@ from .files import (
     OpenFile as OpenFile,
     check_target as check_target,
     check_unprotected as check_unprotected,
-    open_tape as open_tape,
+    file_in_memory as file_in_memory,
+    open_program_file as open_program_file,
     open_whole as open_whole,
-    tape_in_memory as tape_in_memory,
-    tape_of as tape_of,
+    program_file_of as program_file_of,
     write_whole as write_whole,
 )
 from .lexer import (

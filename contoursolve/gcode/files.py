@@ -70,7 +70,7 @@ class OpenFile(Struct, frozen=True):
 
 
 @contextmanager
-def open_tape(path: str | Path) -> Iterator[OpenFile]:
+def open_program_file(path: str | Path) -> Iterator[OpenFile]:
     """Open a file of UTF-8 or Latin-1 text; `-` is standard input.
 
     Raises UnreadableProgramError if there is no such file, or it is no program.
@@ -95,7 +95,7 @@ def _stamp_of(data: BinaryIO) -> object:
 
 
 @contextmanager
-def tape_of(text: str, name: str) -> Iterator[OpenFile]:
+def program_file_of(text: str, name: str) -> Iterator[OpenFile]:
     """A text as if it were in a file."""
     try:
         data = text.encode("utf-8", "surrogateescape")
@@ -106,7 +106,7 @@ def tape_of(text: str, name: str) -> Iterator[OpenFile]:
     yield OpenFile(name, io.BytesIO(data), len(data), encoding, b"")
 
 
-def tape_in_memory(text: str, name: str) -> OpenFile:
+def file_in_memory(text: str, name: str) -> OpenFile:
     """Any text as if it were in a file; its bytes are in `ANY_TEXT`."""
     data = text.encode(*ANY_TEXT)
     return OpenFile(name, io.BytesIO(data), len(data), ANY_TEXT[0], b"", errors=ANY_TEXT[1])

@@ -25,7 +25,7 @@ class ClientSettings(Struct, frozen=True):
     block_numbers: int = 0
 
 
-def read_options(section: Any, *, has_pictures: bool = False) -> ClientSettings:
+def read_client_settings(section: Any, *, has_pictures: bool = False) -> ClientSettings:
     """The options of a client's section; what is of another kind counts as not set.
 
     `has_pictures` tells whether pictures are shown where it does not say that: a terminal would show their data.

@@ -18,7 +18,7 @@ from contoursolve.lsp import commands
 from contoursolve.lsp.editing import block_number_under, formatted, renamed, target_of
 from contoursolve.lsp.findings import actions_of, diagnostics_of
 from contoursolve.lsp.language_features import Completer, folds_of, hints_of, hover_of, signatures_of, symbols_of
-from contoursolve.lsp.opened import ClientSettings, Opened, read_options
+from contoursolve.lsp.opened import ClientSettings, Opened, read_client_settings
 from contoursolve.lsp.rule_pages import Pages
 
 logger = logging.getLogger(__name__)
@@ -145,7 +145,7 @@ class Server(LanguageServer):
 
     def configure(self, section: Any) -> None:
         """Follow the client's options."""
-        self.options = read_options(section, has_pictures=self.has_client_commands)
+        self.options = read_client_settings(section, has_pictures=self.has_client_commands)
         self.follow_projects()
 
     def follow_projects(self) -> None:
@@ -194,7 +194,7 @@ def initialize(params: types.InitializeParams) -> None:
     table = given if isinstance(given, dict) else _table(given)
     server.has_client_commands = table.get("clientCommands") is True
     # Some clients send their whole configuration, with the name of its section.
-    server.options = read_options(table.get(SECTION, table), has_pictures=server.has_client_commands)
+    server.options = read_client_settings(table.get(SECTION, table), has_pictures=server.has_client_commands)
 
 
 def _table(record: Any) -> Mapping[str, Any]:

@@ -14,7 +14,7 @@ from contoursolve.families import End, FamilyError, Feasible, Interval, Way, fea
 from contoursolve.gcode import Word
 from contoursolve.geometry import Coordinate, Heading, Offset, Question, Unit
 from contoursolve.notebook.exploration import Exploration, free, is_movable, words_of
-from contoursolve.notebook.handles import Handle, HandleKind, handles_of, motion_of, moving_of
+from contoursolve.notebook.handles import Handle, HandleKind, derivatives_of, handles_of, moving_of
 from contoursolve.output import (
     bounded,
     count_text,
@@ -68,7 +68,7 @@ def view_of(
     words that no handle changes, and those of a handle that is held."""
     answer = exploration.answer
     drawn = drawn if drawn is not None or answer is None else picture_of(answer)
-    motion = motion_of(answer) if answer is not None and drawn is not None else None
+    motion = derivatives_of(answer) if answer is not None and drawn is not None else None
     handles = handles_of(answer, drawn, motion, pinned, held) if answer is not None and drawn is not None else []
     moved = {key for handle in handles for key in handle.keys}
     return {

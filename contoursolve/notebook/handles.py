@@ -100,7 +100,7 @@ class ContourDerivatives(Struct, frozen=True):
         return tuple(self.of_point(name) for name in names[: 3 if isinstance(segment, ArcSegment) else 2])
 
 
-def motion_of(answer: Answer) -> ContourDerivatives | None:
+def derivatives_of(answer: Answer) -> ContourDerivatives | None:
     """The derivatives of a contour by its words; None if it has no path or no derivatives."""
     if answer.contour is None:
         return None

@@ -24,7 +24,7 @@ from contoursolve.notebook.records import (
 from contoursolve.output import (
     check_table,
     checks_table,
-    effect_table,
+    contribution_table,
     figure,
     finding_element,
     form_text,
@@ -186,7 +186,7 @@ def _found(found: Found) -> Iterator[h.Node]:
 
 def _tolerances(found: Tolerances) -> Iterator[h.Node]:
     yield h.p[short(tolerances_title(found))]
-    yield table_of(effect_table(found))
+    yield table_of(contribution_table(found))
     yield from (h.p[short(f"{line}.")] for line in spread_lines(found))
 
 

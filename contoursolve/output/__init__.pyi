@@ -27,7 +27,7 @@ from .exchange import (
     to_sarif as to_sarif,
 )
 from .families import (
-    effect_table as effect_table,
+    contribution_table as contribution_table,
     found_data as found_data,
     found_lines as found_lines,
     found_table as found_table,

@@ -226,7 +226,7 @@ def _hit_data(hit: Hit) -> dict[str, Any]:
 def tolerances_lines(found: Tolerances) -> Iterator[str]:
     """The words, the one that moves the point most first, and what their tolerances come to."""
     yield tolerances_title(found)
-    yield from effect_table(found).lines()
+    yield from contribution_table(found).lines()
     yield from (f"  {line}" for line in spread_lines(found))
 
 
@@ -235,7 +235,7 @@ def tolerances_title(found: Tolerances) -> str:
     return f"{found.point}: {measured(found.place, found.plane, found.length)}; moved by each word, the most first"
 
 
-def effect_table(found: Tolerances) -> Table:
+def contribution_table(found: Tolerances) -> Table:
     """Table with a row for each word: its derivatives and what its tolerance moves, in the unit of the program."""
     has_tolerances = _has_tolerances(found)
     head = ["word", "value", *(f"{label} per unit" for label in axis_labels(found.plane))]

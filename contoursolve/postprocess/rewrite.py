@@ -68,7 +68,7 @@ class Rewritten(Struct, frozen=True):
 
 
 def rewrite(
-    tape: OpenFile,
+    source: OpenFile,
     body: IO[bytes],
     options: ExpansionOptions,
     asked: Request,
@@ -88,53 +88,53 @@ def rewrite(
     recogniser = Recogniser()
     named, dialect = named_control(control, settings), None
     with suppress(SeveralControlsError):
-        dialect = named or _recognise(recogniser, _blocks(tape, unread))
+        dialect = named or _recognise(recogniser, _blocks(source, unread))
     shows = recogniser.signs or recogniser.may_turn
-    if dialect is None and (shows or blocks_of_called_files(tape.lines(), asked.around)):
-        dialect = choose_alike(None, parse(tape.read(), tape.name), asked, settings)
+    if dialect is None and (shows or blocks_of_called_files(source.lines(), asked.around)):
+        dialect = choose_alike(None, parse(source.read(), source.name), asked, settings)
     summary = Summary()
-    body.write(tape.mark)
+    body.write(source.mark)
     if dialect is None:
         check_settings(settings or {})
         summary.left += unread
-        lines: Iterable[str | object] = tape.lines()
+        lines: Iterable[str | object] = source.lines()
     else:
         dialect = configure(dialect, settings)
         if not isinstance(control, Dialect):
-            dialect = for_machine(dialect, settings or {}, tape.lines())
-        asked = asked.of(dialect, tape.lines)
+            dialect = for_machine(dialect, settings or {}, source.lines())
+        asked = asked.of(dialect, source.lines)
         check_start(asked)
         summary.concluded += Examiner(asked).conclusions(())
-        places = lines_of_facts(parse(tape.read(), tape.name), asked) if asked.facts else {}
+        places = lines_of_facts(parse(source.read(), source.name), asked) if asked.facts else {}
         is_certain = bool(named or recogniser.begun) or not recogniser.is_sure
         lines = expand_lines(
-            (writer.lines if writer else Lines)(tape.lines(), dialect, places, is_certain=is_certain),
+            (writer.lines if writer else Lines)(source.lines(), dialect, places, is_certain=is_certain),
             dialect,
             asked,
             options,
             summary,
-            numbers=numbers_of(tape.lines(), dialect) if options.numbering is Numbering.ALL else None,
-            is_run=writer is None and needs_running(tape.lines(), dialect.modes.language),
+            numbers=numbers_of(source.lines(), dialect) if options.numbering is Numbering.ALL else None,
+            is_run=writer is None and needs_running(source.lines(), dialect.modes.language),
             expander=writer.expander if writer else None,
         )
     held: list[str] = []
-    size, place, told = 0, len(tape.mark), 0.0
+    size, place, told = 0, len(source.mark), 0.0
     for line in lines:
         if line is OPENING:
-            body.write(tape.encode("".join(held)))
+            body.write(source.encode("".join(held)))
             held, size, place = [], 0, body.tell()
             continue
         held.append(str(line))
         size += len(held[-1])
         if size >= _BATCH:
-            body.write(tape.encode("".join(held)))
+            body.write(source.encode("".join(held)))
             held, size = [], 0
-            if tape.share - told >= _REPORTED:
-                told = tape.share
+            if source.share - told >= _REPORTED:
+                told = source.share
                 progress(told)
-    body.write(tape.encode("".join(held)))
+    body.write(source.encode("".join(held)))
     opening = opening_of(options, dialect, asked.unit, summary) if dialect else ""
-    return Rewritten(body, place, tape.encode(opening), dialect.name if dialect else None, summary)
+    return Rewritten(body, place, source.encode(opening), dialect.name if dialect else None, summary)
 
 
 def _recognise(recogniser: Recogniser, blocks: Iterable[Block]) -> Dialect | None:
@@ -146,9 +146,9 @@ def _recognise(recogniser: Recogniser, blocks: Iterable[Block]) -> Dialect | Non
     return recogniser.find()
 
 
-def _blocks(tape: OpenFile, unread: list[Left]) -> Iterator[Block]:
+def _blocks(source: OpenFile, unread: list[Left]) -> Iterator[Block]:
     """The blocks of a program; those that are too long to be read are added to `unread`."""
-    for number, line in enumerate(tape.lines(), 1):
+    for number, line in enumerate(source.lines(), 1):
         block = parse_block(line.rstrip("\r\n"), number)
         unread += filter(None, [left_unread(block)])
         yield block
