@@ -5,6 +5,7 @@ lines. A block of code below `<!-- file: NAME -->` is a file that the commands o
 picture that a command writes is the one in `notebooks/pictures` if that has its name.
 """
 
+import doctest
 import re
 import shlex
 import shutil
@@ -82,6 +83,33 @@ def test_every_picture_is_drawn_by_a_command_but_the_one_that_shows_measurements
 def test_the_code_of_the_page_runs(page) -> None:
     for code in re.findall(r"```python\n(.*?)```", PAGES[page], re.DOTALL):
         exec(compile(code, page, "exec"), {})
+
+
+# --- the architecture page ------------------------------------------------------------------------------
+
+
+def test_the_architecture_page_shows_what_each_stage_makes() -> None:
+    page = ROOT / "docs" / "architecture.md"
+    assert len(page.read_text(encoding="utf-8").splitlines()) <= 400
+    failed, tried = doctest.testfile(str(page), module_relative=False)
+    assert not failed
+    assert tried >= 20
+
+
+def test_each_diff_of_the_architecture_page_stands_in_the_file_that_it_names() -> None:
+    (text,) = (text for page, text in PAGES.items() if page.endswith("architecture.md"))
+    shown = re.findall(r"^\+\+\+ b/(.*)\n((?:[ +].*\n|\n)+?)(?=---|```)", text, re.MULTILINE)
+    assert len(shown) == 6
+    for name, added in shown:
+        lines = iter((ROOT / name).read_text(encoding="utf-8").splitlines())
+        for line in added.splitlines():
+            assert line[1:] in lines, f"{name}: {line}"
+
+
+def test_each_file_that_the_architecture_page_names_is_there() -> None:
+    (text,) = (text for page, text in PAGES.items() if page.endswith("architecture.md"))
+    for name in set(re.findall(r"`((?:\w+/)+\w+(?:\.pyi?)?)`", text)):
+        assert (ROOT / name).exists() or (ROOT / "contoursolve" / name).exists(), name
 
 
 # --- the README -----------------------------------------------------------------------------------------
