@@ -37,14 +37,13 @@ def verify(
     format_: str,
     **options: Any,
 ) -> None:
-    """Check every element of RESULT.json against the words of PROGRAM (one of them may be -).
+    """Check RESULT.json against the words of PROGRAM (one of them may be -), without the solver.
 
-    RESULT.json is what solve printed with --format json. verify compares each point, radius and direction with the
-    words and further facts, and so each answer to a ? and each listed solution. It does not use the solver: one table
-    says what each kind of fact means, for every control, also of your own. The status follows from the words, and a
-    search looks for solutions that the result lacks. verify also names what it did not check. It reads the program with
-    the settings that RESULT.json names. Give --block, --start, --fact,
-    --let and --path as you gave them to solve.
+    RESULT.json is what solve printed with --format json. verify measures the value of each word at the points and
+    elements of the result: joints, tangency, senses, sizes, planes, and each answer to a ?. The rank of the equations
+    tells the status. verify solves nothing. It shares with solve which contours a program has and what their words
+    state. It also names what it did not check. It reads the program with the settings that RESULT.json
+    names. Give --block, --start, --fact, --let and --path as you gave them to solve.
 
     Exit status: 0 what was checked is right, 1 something is wrong, 2 could not run, or nothing could be checked.
 
@@ -53,7 +52,8 @@ def verify(
     contoursolve verify shaft.nc shaft.json
     contoursolve verify --block "G111 X100. A180. K-30. B120." --start "X40. Z0." block.json
     """
-    from contoursolve import verification  # noqa: PLC0415 - only here
+    from contoursolve import comparison  # noqa: PLC0415 - only here
+    from contoursolve.output import receipt_json, receipt_lines  # noqa: PLC0415 - only here
 
     if inputs.count("-") > 1:
         raise click.UsageError("only one of PROGRAM and RESULT.json can be standard input")
@@ -61,11 +61,11 @@ def verify(
         raise click.UsageError("with --block, name RESULT.json and no PROGRAM")
     if not blocks and len(inputs) != 2:  # noqa: PLR2004 - the two that the usage names
         raise click.UsageError("name PROGRAM and RESULT.json, or --block and RESULT.json")
-    program = verification.document_of_blocks(blocks) if blocks else verification.read_document(inputs[0])
-    receipt = verification.verify(program, verification.read_document(inputs[-1]), start=start, **options)
+    program = comparison.Document.of_blocks(blocks) if blocks else comparison.read_document(inputs[0])
+    receipt = comparison.verify(program, comparison.read_document(inputs[-1]), start=start, **options)
     if format_ == "json":
-        click.echo(verification.to_json(receipt))
+        click.echo(receipt_json(receipt))
     else:
-        print_lines(verification.report_lines(receipt))
-    verdict = verification.Verdict
+        print_lines(receipt_lines(receipt))
+    verdict = comparison.ReceiptVerdict
     context.exit({verdict.FAILED: FOUND_ERRORS, verdict.NOTHING_CHECKED: COULD_NOT_RUN}.get(receipt.verdict, 0))

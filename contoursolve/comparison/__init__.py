@@ -1,6 +1,7 @@
-"""Comparison of two programs by their paths.
+"""Comparison of two programs by their paths, and of a claimed result with its program.
 
-Two programs come in, their first difference goes out. Begin with `compare`.
+Two programs come in, their first difference goes out: begin with `compare`. A program and a result come in, a receipt
+goes out: begin with `verify`.
 """
 
 from lazy_loader import attach_stub

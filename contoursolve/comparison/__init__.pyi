@@ -1,3 +1,14 @@
+from .claims import (
+    CannotVerifyError as CannotVerifyError,
+    ClaimCheck as ClaimCheck,
+    ContourReceipt as ContourReceipt,
+    Document as Document,
+    Ledger as Ledger,
+    Outcome as Outcome,
+    Receipt as Receipt,
+    ReceiptVerdict as ReceiptVerdict,
+    read_document as read_document,
+)
 from .compare import (
     Comparison as Comparison,
     Difference as Difference,
@@ -13,4 +24,7 @@ from .travel import (
     Step as Step,
     Travel as Travel,
     Unfollowed as Unfollowed,
+)
+from .verify import (
+    verify as verify,
 )

@@ -42,12 +42,11 @@ from contoursolve.geometry import Length, Line, Plane, Profile, Question, Side, 
 from contoursolve.reading import (
     AT_ITS_LIMIT,
     Assumption,
-    Offence,
     ParsedContour,
     Premises,
     ReadIssue,
     Rule,
-    check,
+    offences_of,
     read,
     unused_words,
 )
@@ -201,7 +200,7 @@ def examine(
     is_readable = not notebook.statuses
     # Where characters could not be read, which words the block has is not known.
     is_whole = not any(block.faults for block in claim.blocks) and not (claim.unknown and meant_words(claim))
-    offences = _offences(claim, rules) if is_whole and policy is not Policy.OFF else ()
+    offences = offences_of(claim, rules) if is_whole and policy is not Policy.OFF else ()
     # What states or asks more than the control reads is not a block for the control yet.
     is_strict = policy is Policy.ENFORCE and not _is_extended(claim)
     for offence in offences:
@@ -308,20 +307,6 @@ def list_alternatives(answer: Answer) -> Alternatives | None:
     from contoursolve.solving import find_alternatives  # noqa: PLC0415 - see _solve
 
     return find_alternatives(answer.profile)
-
-
-def _offences(claim: ParsedContour, rules: tuple[Rule, ...]) -> tuple[Offence, ...]:
-    """The rules that hold for the stated words. A word that is asked for may fill a gap, but it is never one too
-    many: what refuses must do so without it as well, and what ignores another word must do so by itself."""
-    stated = claim.stated()
-    offences = tuple(check(rules, claim.form.roles, stated))
-    asked = {name for name, word in claim.words.items() if word.is_asked}
-    if not asked:
-        return offences
-    without = tuple(check(rules, claim.form.roles, {name: stated[name] for name in stated if name not in asked}))
-    codes = {offence.rule.code for offence in without}
-    refusing = tuple(each for each in offences if not each.rule.ignores and each.rule.code in codes)
-    return (*refusing, *(each for each in without if each.rule.ignores))
 
 
 def _is_extended(claim: ParsedContour) -> bool:

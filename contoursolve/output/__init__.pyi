@@ -95,6 +95,10 @@ from .plain_text import (
 from .premises import (
     resting_data as resting_data,
 )
+from .receipts import (
+    receipt_json as receipt_json,
+    receipt_lines as receipt_lines,
+)
 from .report import (
     report_page as report_page,
 )

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from functools import cache, partial
-from itertools import chain, islice
+from itertools import islice
 from typing import TYPE_CHECKING, Any, cast
 
 from msgspec import Struct, field
@@ -442,7 +442,7 @@ class Examiner:
     def _run(self, machine: Machine) -> list[Step | Pending]:
         """Every block and every contour of a program that runs, on each of its ways."""
         dialect, found = cast("Dialect", self.dialect), list[Step | Pending]()
-        ways, heads, last = self._ways(dialect), dict[int, int](), list[tuple[Sequence[Block], int]]()
+        ways, last = self._ways(dialect), list[tuple[Sequence[Block], int]]()
 
         def read(
             held: Sequence[Block], index: int, state: State, is_open: bool
@@ -461,23 +461,15 @@ class Examiner:
             found.append(taken)
             return after, leave
 
-        blocks = list[Block]()
-        for line in chain(machine.run(), (None,)):
-            if isinstance(line, Block):
-                blocks.append(line)
-                continue
-            ways.read_on(blocks, read, is_open=line is not None and line.kind.is_open)
-            blocks = []
-            if line is None:
-                break
-            if line.kind is EventKind.LEAVE:
+        def happen(event: ProgramEvent) -> bool:
+            if event.kind is EventKind.LEAVE:
                 # Where the profile of a cycle ended.
-                found += (Step((), way.state, findings=self._findings()) for way in ways.now)
-            if line.kind is EventKind.HEAD:
-                heads[line.mark] = len(found)
-            if self._happen(line, ways):
-                del found[heads[line.mark] :]
+                found.extend(Step((), way.state, findings=self._findings()) for way in ways.now)
+            is_anew = self._happen(event, ways)
             machine.settled = ways.settled
+            return is_anew
+
+        ways.follow(machine.run(), read, found, happen)
         found += self._end(dialect.initial_state(self.asked.unit))
         return found
 

@@ -1,9 +1,10 @@
 """The ways through a program that runs: nobody knows which of them it takes, and where they meet only what all of them
 agree on is known."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal
 from functools import partial, reduce
+from itertools import chain
 from typing import Any, overload
 
 from msgspec import Struct
@@ -99,6 +100,29 @@ class Ways:
             one.index += found[0]
             one.way = _behind(one.way, found[1](), one.blocks[one.index - 1].line)
         self.now = [] if self._is_beyond else _meet_all(stopped, self._reason, self.modes)
+
+    def follow(
+        self,
+        lines: Iterable[Block | ProgramEvent],
+        read: Read,
+        found: list[Any],
+        happen: Callable[[ProgramEvent], bool],
+    ) -> None:
+        """Follow each way through a program as it runs. What was `found` since a head is dropped where `happen` says
+        that it is found anew."""
+        heads, blocks = dict[int, int](), list[Block]()
+        for line in chain(lines, (None,)):
+            if isinstance(line, Block):
+                blocks.append(line)
+                continue
+            self.read_on(blocks, read, is_open=line is not None and line.kind.is_open)
+            blocks = []
+            if line is None:
+                return
+            if line.kind is EventKind.HEAD:
+                heads[line.mark] = len(found)
+            if happen(line):
+                del found[heads[line.mark] :]
 
     def happen(self, event: ProgramEvent) -> bool:
         """Take in what happens between two blocks; whether all that was found since its head is found anew."""

@@ -1,15 +1,19 @@
 """Following a program through its contours, one after the other, and a contour through its blocks."""
 
 from collections.abc import Callable, Iterator, Sequence
+from decimal import Decimal
 from operator import lt
+from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
 
+from contoursolve.execution import Machine, ProgramEvent
 from contoursolve.gcode import Block, Directive, Program, Word
+from contoursolve.reading.control_flow import Ahead, Ways
 from contoursolve.reading.lexicon import Effect
 from contoursolve.reading.modal_state import Modes, State, advance, apply_modes, codes_of
-from contoursolve.reading.parsed_contour import ParsedContour, leave
+from contoursolve.reading.parsed_contour import ParsedContour, leave, next_place
 
 Finder = Callable[[Sequence[Block], int, State, Modes], ParsedContour | None]
 """(blocks, index, state before the block, modes) to the contour that begins at this block, if any."""
@@ -42,6 +46,46 @@ def contours_of(
         else:
             state = advance(state, blocks[index], modes)
             index += 1
+
+
+def contours_as_run(
+    blocks: Sequence[Block],
+    machine: Machine | None,
+    find: Finder,
+    modes: Modes,
+    first: State,
+    end_of: Callable[[ParsedContour], End],
+) -> list[tuple[ParsedContour, tuple[Decimal, Decimal] | None]]:
+    """Every contour of a main program on each of its ways, each time that it runs, with where the line of the next
+    block ends, mm, if that is known; the next one begins where `end_of` says. `machine` runs what is not a row of
+    blocks."""
+    ways, met, reached = Ways(lambda: first, modes), list[Any](), set[int]()
+
+    def read(held: Sequence[Block], index: int, state: State, is_open: bool) -> tuple[int, Callable[[], State]] | None:
+        ahead, block = Ahead(held), held[index]
+        is_reached = all(each.is_reached for each in block.callers)
+        if is_reached and not block.file:
+            reached.add(block.line)
+        if block.mark:
+            ways.marked[block.mark] = state
+        found = find(ahead, index, state, modes)
+        if is_open and ahead.is_passed:
+            return None
+        if found is None or not found.form.is_contour:
+            return 1, lambda: advance(state, block, modes)
+        reach = reach_of(found, held, index)
+        if not block.file and (is_reached or block.line not in reached):
+            met.append((found, next_place(held[index + reach :], found, modes)))
+        return reach, lambda: leave(found, end_of(found), modes, "the contour before has no path")
+
+    def happen(event: ProgramEvent) -> bool:
+        is_anew = ways.happen(event)
+        if machine is not None:
+            machine.settled = ways.settled
+        return is_anew
+
+    ways.follow(machine.run() if machine is not None else blocks, read, met, happen)
+    return met
 
 
 def reach_of(contour: ParsedContour, blocks: Sequence[Block], index: int = 0) -> int:

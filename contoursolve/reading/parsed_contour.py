@@ -14,6 +14,7 @@ from contoursolve.geometry import Choice, Fact, Given, Layout, Line, Pick, Plane
 from contoursolve.reading.contour_form import Assumption, ContourForm, Convention, lay_out
 from contoursolve.reading.lexicon import TURNED, Lexicon
 from contoursolve.reading.modal_state import Mode, Modes, Position, State, apply_modes, axis_words, positions
+from contoursolve.reading.rules import Offence, Rule, check
 
 
 class ReadIssue(Enum):
@@ -198,6 +199,20 @@ def read(claim: ParsedContour, ignored: frozenset[str]) -> Profile:
         is_extended=bool(asked or claim.directives or claim.form.is_general),
         travel=claim.before.travel,
     )
+
+
+def offences_of(claim: ParsedContour, rules: tuple[Rule, ...]) -> tuple[Offence, ...]:
+    """The rules that hold for the words of a contour. A word that is asked for may fill a gap, but it is never one too
+    many: what refuses must do so without it as well, and what ignores another word must do so by itself."""
+    stated = claim.stated()
+    offences = check(rules, claim.form.roles, stated)
+    asked = {name for name, word in claim.words.items() if word.is_asked}
+    if not asked:
+        return offences
+    without = check(rules, claim.form.roles, {name: stated[name] for name in stated if name not in asked})
+    codes = {offence.rule.code for offence in without}
+    refusing = tuple(each for each in offences if not each.rule.ignores and each.rule.code in codes)
+    return (*refusing, *(each for each in without if each.rule.ignores))
 
 
 def stating(claim: ParsedContour, names: Iterable[str]) -> ParsedContour:

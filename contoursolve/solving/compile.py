@@ -389,11 +389,11 @@ class Exactly:
 
     @staticmethod
     def at_most(value: ball.Number, limit: ball.Number) -> bool:
-        """Whether a value is at most so large: here, whether it is zero."""
-        if ball.is_exact(value) and value == 0:
-            return True
+        """Whether a value is at most so large: below that, only zero is told from it."""
         if ball.sign(value - limit) == 1:
             return False
+        if ball.is_exact(value) and value == 0:
+            return True
         raise ArithmeticError("two solutions are too close for floats")
 
 

@@ -9,10 +9,10 @@ import pytest
 from examples import few_and_many
 
 import contoursolve
+from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.families import family
 from contoursolve.output.document import to_json
 from contoursolve.solving import StatusCode
-from contoursolve.verification import Document, Verdict, verify
 
 
 def answer_to(block, start=None, **options):
@@ -98,7 +98,7 @@ def test_a_rounded_half_circle_is_verified():
         text, size, _ = half_circle(draw)
         result = contoursolve.solve(text.format(size))
         documents = (Document(name, each.encode()) for name, each in (("p", text.format(size)), ("r", to_json(result))))
-        assert verify(*documents).verdict is Verdict.VERIFIED, text.format(size)
+        assert verify(*documents).verdict is ReceiptVerdict.VERIFIED, text.format(size)
 
 
 def test_words_that_agree_within_their_increments_agree_in_the_text_and_in_the_tie():
@@ -209,4 +209,4 @@ def test_a_contour_farther_away_than_words_reach_is_none():
     assert [StatusCode(status).status for status in found["status"]] == singles
     program = f"G0 X40. Z0.\n{FAR}"
     result = to_json(contoursolve.solve(program))
-    assert verify(*(Document("", each.encode()) for each in (program, result))).verdict is not Verdict.FAILED
+    assert verify(*(Document("", each.encode()) for each in (program, result))).verdict is not ReceiptVerdict.FAILED

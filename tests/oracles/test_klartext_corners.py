@@ -8,10 +8,10 @@ from examples import some_of
 
 import contoursolve
 from contoursolve import ArcSegment
+from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.families import family
 from contoursolve.output.document import to_json
 from contoursolve.solving import StatusCode
-from contoursolve.verification import Document, Verdict, verify
 
 BEGIN, END = "0 BEGIN PGM A MM\n", "99 END PGM A MM\n"
 
@@ -132,7 +132,7 @@ def test_a_full_circle_rests_on_an_assumption_and_is_verified():
     half = contoursolve.solve(text.replace("C X+80", "C X+20"))
     assert [each.name for each in half.answers[0].assumptions] == []
     documents = Document("program", text.encode()), Document("result", to_json(result).encode())
-    assert verify(*documents).verdict is Verdict.VERIFIED
+    assert verify(*documents).verdict is ReceiptVerdict.VERIFIED
 
 
 PATHS = {

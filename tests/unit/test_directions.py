@@ -9,9 +9,9 @@ from click.testing import CliRunner
 
 from contoursolve import Diagnostic, Result, family, solve
 from contoursolve.cli import main
+from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.diagnostics.finding import Tie
 from contoursolve.solving import StatusCode
-from contoursolve.verification import Document, Verdict, verify
 
 G111 = "G111 {A} I12. K-12. B180. Z-40."
 CASES: dict[str, dict[str, Any]] = {
@@ -167,4 +167,4 @@ def test_what_is_said_of_it_is_verified(tmp_path, name):
     )
     assert json.loads(shown.stdout)["contours"]
     documents = Document("program", program.read_bytes()), Document("result", shown.stdout.encode())
-    assert verify(*documents).verdict is not Verdict.FAILED
+    assert verify(*documents).verdict is not ReceiptVerdict.FAILED

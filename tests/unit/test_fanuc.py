@@ -32,11 +32,11 @@ from oracle_fanuc import Machine, run
 
 from contoursolve import Result, UnknownControlError, check, expand, solve
 from contoursolve.cli import main
+from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.families import family
 from contoursolve.output.document import to_json
 from contoursolve.solving import StatusCode
-from contoursolve.verification import Document, Verdict, verify
 
 
 def errors(result: Result) -> list[Diagnostic]:
@@ -71,7 +71,7 @@ def test_a_worked_example_comes_out_as_the_sheet_prints_it(name):
     assert {answer.status.value for answer in result.answers} == {"solved"}
     assert gap(drawn(expected, 0.5 if is_lathe else 1), path(result)) < 1.1e-4
     documents = Document("program", text.encode()), Document("result", to_json(result).encode())
-    assert verify(*documents).verdict is Verdict.VERIFIED
+    assert verify(*documents).verdict is ReceiptVerdict.VERIFIED
 
 
 def test_the_program_of_the_lathe_tells_its_control_and_that_of_the_mill_asks():
@@ -142,7 +142,7 @@ def test_what_the_sheets_call_an_error_is_one_finding_with_their_alarm(control, 
     for sentence in re.split(r"[.:;]\s", f"{finding.message}. {finding.help}. "):
         assert len(sentence.split()) <= 20 or code == "address-unknown", sentence
     documents = Document("program", text.encode()), Document("result", to_json(result).encode())
-    assert verify(*documents).verdict is not Verdict.FAILED
+    assert verify(*documents).verdict is not ReceiptVerdict.FAILED
 
 
 @pytest.mark.parametrize("control", [LATHE, MILL, HAAS_LATHE, HAAS_MILL])
@@ -436,7 +436,7 @@ def test_a_corner_on_a_tangent_arc_is_left_out_and_the_others_are_cut():
     names = [each.name for each in result.answers[0].contour.elements]
     assert names == ["line 1", "arc", "corner 2", "line 2", "line 3"]
     documents = Document("program", text.encode()), Document("result", to_json(result).encode())
-    assert verify(*documents, control=MILL).verdict is Verdict.VERIFIED
+    assert verify(*documents, control=MILL).verdict is ReceiptVerdict.VERIFIED
     many = solve("\n".join([text.replace("G00", "M5\nG00")] * 20), control=MILL)
     assert len(many.diagnostics) == 40
 
@@ -445,13 +445,13 @@ def test_verify_tells_corners_that_are_left_out_from_those_that_are_forgotten():
     lines = [f"G01 X{20 * each}. Y{each % 3 / 10} ,C2." for each in range(1, 10)]
     text = "\n".join(("G17 G90 G00 X0 Y0", *lines, "X200. Y30."))
 
-    def verdict(of: str) -> Verdict:
+    def verdict(of: str) -> ReceiptVerdict:
         result = to_json(solve(of, control=MILL)).encode()
         return verify(Document("program", text.encode()), Document("result", result), control=MILL).verdict
 
     assert len(check(text, control=MILL)) == 8
-    assert verdict(text) is Verdict.VERIFIED
-    assert verdict(text.replace("Y0.0 ,C2.\nX200.", "Y0.0\nX200.")) is not Verdict.VERIFIED
+    assert verdict(text) is ReceiptVerdict.VERIFIED
+    assert verdict(text.replace("Y0.0 ,C2.\nX200.", "Y0.0\nX200.")) is not ReceiptVerdict.VERIFIED
 
 
 def test_a_sweep_across_the_guard_says_what_solve_says():
@@ -544,7 +544,7 @@ def test_a_corner_between_two_axes_is_made_as_its_sign_says(control, text, setti
     assert result.diagnostics == ()
     assert gap(drawn(expected, 0.5 if control.endswith("lathe") else 1), path(result)) < 1e-4
     documents = Document("program", text.encode()), Document("result", to_json(result).encode())
-    assert verify(*documents).verdict is Verdict.VERIFIED
+    assert verify(*documents).verdict is ReceiptVerdict.VERIFIED
 
 
 @pytest.mark.parametrize(
@@ -658,7 +658,7 @@ def test_a_corner_within_the_guard_may_be_refused(control):
         assert (refused.answers[0].contour is None) is (end != beyond)
         assert [each.code for each in errors(refused)] == [f"{control.split('-')[0]}-corner-straight"] * (end != beyond)
         documents = Document("program", text.encode()), Document("result", to_json(refused).encode())
-        assert verify(*documents).verdict is not Verdict.FAILED
+        assert verify(*documents).verdict is not ReceiptVerdict.FAILED
     values = [-2.0, -0.53, -0.52, 0.0, 0.3, 0.53]
     if control == MILL:
         named = {"fanuc-mill.guard-corner": "error"}

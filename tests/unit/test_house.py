@@ -22,7 +22,7 @@ FLOORS = (
     "reading solving",
     "diagnosis controls",
     "program",
-    "comparison families verification",
+    "comparison families",
     "postprocess pictures",
     "api output",
     "notebook try_edits",
@@ -213,15 +213,10 @@ def test_no_name_that_a_package_lists_is_that_of_another_of_its_modules():
 
 
 TWO_MEANINGS = {
-    "Check": "solving/checks.py verification/receipt.py",
-    "Circle": "geometry/figure.py verification/drawing.py",
     "Element": "controls/chain/language.py controls/heidenhain/elements.py",
-    "Found": "families/inverse.py solving/enumerate.py verification/status.py",
-    "Place": "controls/heidenhain/elements.py verification/residuals.py",
+    "Found": "families/inverse.py solving/enumerate.py",
     "Role": "pictures/theme.py solving/checks.py",
     "Source": "diagnostics/source.py solving/checks.py",
-    "Tie": "diagnostics/finding.py verification/rank.py",
-    "Verdict": "diagnostics/finding.py verification/receipt.py",
 }
 """Names of classes in files that are being rewritten; whoever writes one of these gives it a name of its own."""
 

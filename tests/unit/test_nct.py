@@ -15,13 +15,13 @@ from oracle_nct import Settings, runs
 
 from contoursolve import Result, check, expand, solve
 from contoursolve.cli import main
+from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics.finding import Diagnostic
 from contoursolve.families import family
 from contoursolve.output.document import to_json
 from contoursolve.program.project_file import SettingError
 from contoursolve.solving import StatusCode
-from contoursolve.verification import Document, Verdict, verify
 
 FROM_CIRCLE = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
 TO_CIRCLE = "N10 G17 G42 G0 X100 Y20 D0 S200 M3\nN20 G1 X-30 Y-20\nN30 G3 X20 Y40 I20 J-10 R50"
@@ -112,7 +112,7 @@ def test_an_arc_of_a_lathe_with_centre_and_radius_does_not_show_a_mill(arc):
 def test_what_is_refused_here_is_verified(text, rules):
     result = solve(text, control="nct-99m", rules=rules)
     documents = Document("program", text.encode()), Document("result", to_json(result).encode())
-    assert verify(*documents).verdict is not Verdict.FAILED
+    assert verify(*documents).verdict is not ReceiptVerdict.FAILED
 
 
 # Where compensation is on (3) -------------------------------------------------------------------------------
@@ -222,7 +222,7 @@ def test_programs_are_read_as_the_settings_say_and_the_check_of_results_agrees(s
             is_off = any(each.code == "nct-radius-differs" for each in result.diagnostics)
             assert miss(expected.elements, expected.points, contour) < (0.5 if is_off else 1e-8), text
             documents = Document("program", text.encode()), Document("result", to_json(result).encode())
-            assert verify(*documents).verdict is not Verdict.FAILED, text
+            assert verify(*documents).verdict is not ReceiptVerdict.FAILED, text
     assert statuses["solved"] >= count / 5
 
 
@@ -302,7 +302,7 @@ def test_a_line_by_one_coordinate_and_its_angle_takes_one_word_of_another_axis()
         "G91 G01 X1 Y0 Z-1",
     ]
     documents = Document("program", BESIDE.encode()), Document("result", to_json(result).encode())
-    assert verify(*documents).verdict is not Verdict.FAILED
+    assert verify(*documents).verdict is not ReceiptVerdict.FAILED
 
 
 @pytest.mark.parametrize("axis", ["Z", "U", "V", "W"])
@@ -429,7 +429,7 @@ def test_a_parallel_axis_stands_for_that_of_the_plane_where_a_line_by_its_angle_
     expanded = expand(text).text
     assert "G01 U30 Y22 Z-5" in expanded
     documents = Document("program", text.encode()), Document("result", to_json(result).encode())
-    assert verify(*documents).verdict is not Verdict.FAILED
+    assert verify(*documents).verdict is not ReceiptVerdict.FAILED
     old, new = tmp_path / "old.nc", tmp_path / "new.nc"
     old.write_text(text)
     new.write_text(expanded)

@@ -9,11 +9,11 @@ from examples_heidenhain import PROGRAMS
 
 from contoursolve import Status, check, expand, parse, solve, solve_file
 from contoursolve.cli import main
+from contoursolve.comparison import Document, ReceiptVerdict, verify
 from contoursolve.controls import DIALECTS
 from contoursolve.execution.subprograms import Surroundings
 from contoursolve.output.document import to_json
 from contoursolve.program.calls import machine_for
-from contoursolve.verification import Document, Verdict, verify
 
 LATHE, MILL = "fanuc-lathe", "fanuc-mill"
 TAPER = "G01 X60. ,A120."
@@ -201,7 +201,7 @@ def test_a_part_that_does_not_run_begins_where_the_decision_was_made(control):
         ]
     for value, result in enumerate((one, two), 1):
         documents = Document("", BRANCHES[control].format(value).encode()), Document("", to_json(result).encode())
-        assert verify(*documents).verdict is Verdict.VERIFIED
+        assert verify(*documents).verdict is ReceiptVerdict.VERIFIED
 
 
 def test_decisions_in_another_file_are_made_as_well(tmp_path):

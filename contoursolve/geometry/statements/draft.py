@@ -8,7 +8,18 @@ from msgspec.structs import replace
 
 from contoursolve.gcode import Word
 from contoursolve.geometry.figure import FIRST, SECOND, Arc, Circle, Corner, CornerShape, Fact, Figure, Line, scalar
-from contoursolve.geometry.lines import Along, ChamferLeg, Foot, Parallel, Tangent, TangentLine, Through, UnitDirection
+from contoursolve.geometry.lines import (
+    Along,
+    ChamferLeg,
+    Distance,
+    EqualDistances,
+    Foot,
+    Parallel,
+    Tangent,
+    TangentLine,
+    Through,
+    UnitDirection,
+)
 from contoursolve.geometry.points import OnCircle, Radius
 from contoursolve.geometry.profile import Given, Layout, Unit
 from contoursolve.geometry.touching import ArcContact, ChordSetback, Setback, TangentArc
@@ -171,8 +182,9 @@ class Draft:
             if not (isinstance(fact, OnCircle) and (fact.point, fact.center) == (point, arc.center))
         ]
 
-    def corner(self, name: str) -> None:
-        """Make a corner's own points and its size unknowns, tied to its lines."""
+    def corner(self, name: str, *, is_solved: bool = True) -> None:
+        """Make a corner's own points and its size unknowns, tied to its lines. Raises StatementError for a chamfer by
+        its face, or at 45 degrees beside an arc, whose equations are not solved."""
         corner = self.element(name)
         if not isinstance(corner, Corner) or f"{name}.begin" in self.figure.points:
             return
@@ -190,14 +202,18 @@ class Draft:
                 self._touch(element, corner, point, way)
             elif corner.shape is CornerShape.CHAMFER_SETBACK:
                 self._set_back(element, corner, point, way)
-            elif corner.shape is CornerShape.CHAMFER_FACE:
+        if corner.shape is CornerShape.CHAMFER_FACE:
+            if is_solved:
                 raise StatementError(f"{name} is a chamfer by the length of its face: its size must be a number")
+            self.add(Distance(corner.size, begin, end), EqualDistances("", (begin, corner.at), (corner.at, end)))
         share = corner.shape.share
         if share:
-            if any(isinstance(element, Arc) for element, *_ in meeting):
+            is_beside_arc = any(isinstance(element, Arc) for element, *_ in meeting)
+            if is_beside_arc and is_solved:
                 raise StatementError(f"{name} is a bevel beside an arc: its size must be a number")
-            advance = () if corner.lands_on else self._advance(corner)
-            between = tuple(element.name for element, *_ in meeting) if corner.lands_on else ()
+            advance = () if corner.lands_on or is_beside_arc else self._advance(corner)
+            is_between = bool(corner.lands_on) and not is_beside_arc
+            between = tuple(element.name for element, *_ in meeting) if is_between else ()
             self.add(
                 *(
                     ChamferLeg(begin, end, size, f"{name}.{axis}", axis, advance, between, share=share)
