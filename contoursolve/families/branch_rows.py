@@ -29,7 +29,6 @@ from contoursolve.solving import (
     Kernel,
     RefusalKind,
     RowOutcome,
-    Source,
     StatusCode,
     add_checks,
     at_origin,
@@ -43,6 +42,7 @@ from contoursolve.solving import (
     input_values,
     make_kernel,
     reason_of,
+    source_of,
     spare_of,
 )
 from contoursolve.tolerance import LENGTH
@@ -103,9 +103,9 @@ class BranchRows:
         self.solved = [f"residual:{number}" for number in range(len(basis))]
         """The outputs of the equations that are solved."""
         equations = check_residuals(largest(tape.expression(name) for name in self.solved))
-        stated = check_facts(Source(self.system.figure, tape, at), spare, len(basis))
-        self.corners = compile_path(self.system).corner_residuals
-        """The outputs of the equations of the corners."""
+        stated = check_facts(source_of(self.system, tape, {}), spare, len(basis))
+        self.path = compile_path(self.system).path
+        """The names of the outputs of the path."""
         checks = [equations, *stated, *add_path(tape, self.system, case.profile.givens)]
         add_checks(tape, checks)
         self.function = Columns(compile_columns(tape, tape.inputs))
@@ -187,7 +187,7 @@ class BranchRows:
         known = {name: each if each.size == 1 else each[pairs.rows] for name, each in given.items()} | {**pairs.signs}
         scalars, is_bad = self._follow(pairs, known)
         size = pairs.rows.size
-        verdict = RowOutcome(self.checks, _run(self.function, {**known, **scalars}, size), size)
+        verdict = RowOutcome(self.checks, _run(self.function, {**known, **scalars}, size), size, self.path)
         status, reason = verdict.status, verdict.reason
         settled.again |= count(is_bad | verdict.again | (reason == reason_of(RefusalKind.NOT_VERIFIED))) > 0
         status[(status == StatusCode.OVERDETERMINED) & (reason != 0)] = StatusCode.NO_SOLUTION
@@ -269,7 +269,7 @@ class BranchRows:
             signs = {name: numpy.where(each[rows] == 0, sign, each[rows]) for name, each in settled.signs.items()}
             out = _run(self.function, {**known, **signs}, rows.size)
             tried.append([numpy.abs(out[name]) for name in self.solved])
-        worst = numpy.maximum.reduce([numpy.zeros(rows.size), *(numpy.abs(out[name]) for name in self.corners)])
+        worst = numpy.maximum.reduce([numpy.zeros(rows.size), *(numpy.abs(out[name]) for name in self.path.residuals)])
         for one, other in zip(*tried, strict=True):
             numpy.maximum(worst, numpy.minimum(one, other), out=worst)
         asked = asked_of(self.case.profile).items()
@@ -297,9 +297,8 @@ def add_path(tape: Tape, system: System, givens: Container[str]) -> list[tuple[C
     which sizes of corners are stated."""
     figure, machine = system.figure, compile_path(system)
     path = machine.tape.copy()
-    source = Source(figure, path, input_values(system, path, at_origin(figure)))
-    corners = largest(path.expression(name) for name in machine.corner_residuals)
-    checks = [check_range(source), *check_path(source), check_residuals(corners)]
+    source = source_of(system, path, at_origin(figure), machine.path)
+    checks = [check_range(source), *check_path(source), check_residuals(largest(source.path.residuals))]
     radii = {each.size: f"{each.name}.radius" for each in figure.corners if each.size not in givens}
     inputs: dict[str, Any] = {name: tape.input(radii.get(name, name)) for name in path.inputs}
     # Inside a path counts from its start point.

@@ -23,8 +23,7 @@ from contoursolve.solving import (
     Need,
     NoClosedFormError,
     RefusalKind,
-    Role,
-    Source,
+    Stage,
     Test,
     at_origin,
     check_facts,
@@ -33,9 +32,9 @@ from contoursolve.solving import (
     compile_branches,
     compile_checks,
     compile_system,
-    input_values,
     orders_of,
     settled_by,
+    source_of,
 )
 from contoursolve.tolerance import REGULAR
 
@@ -44,8 +43,8 @@ Bits = NDArray[numpy.bool_]
 GOAL = "goal:"
 """What the inputs for the goals of coordinates begin with."""
 
-_ROLES = (Role.CONTOUR, Role.FACT)
-"""Checks that tell whether there is a contour."""
+_OF_FLOATS = (Stage.TOUCHING, Stage.EQUATIONS)
+"""Checks that do not tell whether there is a contour, but what floats know of it."""
 
 
 class Margins(Struct, frozen=True, eq=False):
@@ -91,7 +90,7 @@ class Margins(Struct, frozen=True, eq=False):
 def compile_margins(system: System, words: int, follows: Follows) -> Margins:
     """The margins of a system that has a closed form as functions of some words."""
     checked = compile_checks(system)
-    kept = {number: check for number, check in enumerate(checked.checks) if check.role in _ROLES}
+    kept = {number: check for number, check in enumerate(checked.checks) if check.stage not in _OF_FLOATS}
     outputs = {str(number): checked.margins[number] for number in kept}
     return Margins(tuple(kept.values()), Chart(checked.tape, outputs, words, dict(follows)))
 
@@ -244,7 +243,7 @@ def _compile(system: System, words: int, follows: Follows, choices: tuple[Choice
     form = compile_branches(system)
     tape = form.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
-    source = Source(system.figure, tape, input_values(system, tape, known | at_origin(system.figure)))
+    source = source_of(system, tape, known | at_origin(system.figure), form.path)
     facts = check_facts(source, form.checks, len(form.basis))
     found = [*_conditions(form), *_sides(form, choices), *facts, check_range(source), *check_path(source)]
     outputs = {str(number): expression for number, (_, expression) in enumerate(found)}

@@ -34,6 +34,7 @@ from contoursolve.solving import (
     axes_of,
     code_of,
     compile_checks,
+    compile_path,
     compile_system,
     inputs_of,
     is_closed,
@@ -451,7 +452,7 @@ def sides_of_choice(case: CaseClass) -> dict[str, int]:
 
 def results_of(case: CaseClass) -> dict[str, Behind]:
     """What is behind each result."""
-    figure = case.system.figure
+    figure, path = case.system.figure, compile_path(case.system).path
     axes = list(zip((FIRST, SECOND), case.profile.plane.axes, strict=True))
     found: dict[str, Behind] = {}
     for point in figure.points:
@@ -460,8 +461,8 @@ def results_of(case: CaseClass) -> dict[str, Behind]:
     for corner in figure.corners:
         for place in ("begin", "end", *(("center",) if corner.shape is CornerShape.FILLET else ())):
             for axis, letter in axes:
-                found[f"{corner.name}.{place}.{letter}"] = f"{place}:{corner.name}.{axis}", axis
-    return found | {f"{element.name}.room": (f"room:{element.name}", None) for element in figure.path}
+                found[f"{corner.name}.{place}.{letter}"] = getattr(path.corners[corner.name], place)[axis], axis
+    return found | {f"{element.name}.room": (path.rooms[element.name], None) for element in figure.path}
 
 
 def asked_of(profile: Profile) -> dict[str, Question]:

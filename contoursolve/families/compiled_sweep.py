@@ -44,7 +44,7 @@ Table = dict[str, NDArray[Any]]
 Target = slice | Places
 Bits = NDArray[numpy.bool_]
 
-_NEEDED = ("passed", "margin:", "cosine:", "worst")
+_NEEDED = ("passed", "margin:", "worst")
 """What the verdict reads."""
 
 _HALVES = ("offset:", "radius:", "scale:")
@@ -191,7 +191,7 @@ class _ClassRows:
         if not isinstance(target, slice):
             for output, name in names.items():
                 table[name][target] = out[output]
-        verdict = RowOutcome(self.case.checks, out, rows)
+        verdict = RowOutcome(self.case.checks, out, rows, self.case.machine.path)
         self._note(verdict.is_clear, verdict.status, verdict.reason, target, table)
         again = numpy.flatnonzero(verdict.again)
         at = again + target.start if isinstance(target, slice) else target[again]
@@ -226,7 +226,7 @@ class _ClassRows:
         for signs in product((1.0, -1.0), repeat=len(sides)):
             function.fix(sides, signs)
             out = function.evaluate(rows)
-            verdict = RowOutcome(self.case.checks, out, rows)
+            verdict = RowOutcome(self.case.checks, out, rows, self.case.machine.path)
             is_path = verdict.is_clear
             again |= verdict.again
             for _, is_one in half_circles(self.case, out):
@@ -276,11 +276,12 @@ def _compile(system: System, varied: frozenset[str], shown: tuple[Behind, ...], 
     """The function of a system for columns: what the verdict reads, and the results as they are shown."""
     checked = compile_checks(system)
     tape = checked.tape
-    kept = tape.keep(_NEEDED + _HALVES if is_open else _NEEDED, ())
-    gap = where(checked.is_clear, 0.0, nan)
+    bends = [corner.cosine for corner in checked.path.corners.values()]
+    kept = tape.keep(_NEEDED + _HALVES if is_open else _NEEDED, bends)
+    gap, rooms = where(checked.is_clear, 0.0, nan), set(checked.path.rooms.values())
     for output, axis in shown:
         value = tape.expression(output)
-        if not output.startswith("room:"):
+        if output not in rooms:
             value += gap if axis is None else kept.input(f"{ORIGIN}{axis}") + gap
         kept.output(shown_as(output), value)
     return compile_columns(kept, varied)

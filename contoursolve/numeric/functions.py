@@ -1,6 +1,7 @@
 """Functions of equations beyond arithmetic, for any kind of number, and mappings that make their values on demand."""
 
 import math
+import operator
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -11,6 +12,11 @@ def _may_vanish(value: Any) -> bool:
     return bool(value != 0) is False
 
 
+def _larger(first: Any, second: Any) -> Any:
+    """The larger of two; of one that is not a number, the other."""
+    return second if first != first else first if second != second else max(first, second)
+
+
 class Functions(Struct, frozen=True):
     """Functions of equations beyond arithmetic, for one kind of number."""
 
@@ -19,6 +25,12 @@ class Functions(Struct, frozen=True):
     sine: Callable[[Any], Any] = math.sin
     vanishes: Callable[[Any], bool] = _may_vanish
     """Test that a number is zero, or, of a ball about one number, that it may be."""
+    magnitude: Callable[[Any], Any] = abs
+    larger: Callable[[Any, Any], Any] = _larger
+    """The larger of two; of one that is not a number, the other."""
+    at_most: Callable[[Any, Any], Any] = operator.le
+    below: Callable[[Any, Any], Any] = operator.lt
+    opposite: Callable[[Any], Any] = operator.not_
 
 
 FLOATS = Functions()

@@ -321,7 +321,9 @@ def _worked_out(profile: Profile) -> Known:
     figure = system.figure
     # One of two places where nothing chooses.
     sides = {f"side:{point}": 1.0 for point in points_with_two_solutions(system)}
-    out = dict(compile_system(system).function({**sides, **inputs_of(profile, system)}))
+    machine = compile_system(system)
+    out = machine.function({**sides, **inputs_of(profile, system)})
+    path = machine.path.read(out.__getitem__)
     origin = start_of(profile)
 
     def absolute(at: Point) -> Point:
@@ -336,7 +338,7 @@ def _worked_out(profile: Profile) -> Known:
     corners = {}
     for corner in figure.corners:
         if corner.size in profile.givens and profile.givens[corner.size].value > 0:
-            built = corner_of(corner, float(profile.givens[corner.size].value), out, absolute)
+            built = corner_of(path.corners[corner.name], float(profile.givens[corner.size].value), absolute)
             places = (built.begin, built.end, *([built.center] if built.center else []))
             if all(is_usable(value) for place in places for value in place) and isfinite(built.turn):
                 corners[corner.name] = built

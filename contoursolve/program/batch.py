@@ -39,9 +39,6 @@ Columns = Mapping[str, NDArray[numpy.float64]]
 FEWEST = 3
 """Contours of one kind below which columns take longer than one by one."""
 
-_MADE_OF = ("begin:", "end:", "center:", "turn:")
-"""Outputs that place the corners."""
-
 _FAR_BELOW = 0.25
 """Share of a limit up to which a value is within it, however the limit is rounded or measured."""
 
@@ -105,8 +102,9 @@ class Batch(Struct):
         if answer.status is Status.SOLVED and not answer.diagnostics and answer.contour and not answer.alternatives:
             system = assemble(answer.profile)
             machine = compile_system(system)
-            unknowns, outputs = frozenset(system.unknowns), machine.function.outputs
-            wanted = (name for name in outputs if name in unknowns or name.startswith(_MADE_OF))
+            corners = machine.path.corners.values()
+            wanted = [*system.unknowns, *(name for each in corners for name in (*each.begin, *each.end, each.turn))]
+            wanted += [name for each in corners if each.center is not None for name in each.center]
             checked = compile_checks(system)
             kind = Kind(answer, system, machine, checked.checks, checked.tape.finish(), tuple(wanted))
             self.kinds[key] = kind
@@ -186,7 +184,8 @@ class Batch(Struct):
         certificate = certify(profile, kind.system, out, bound) if self.is_proven else None
         if certificate is not None and certificate.proof not in (Proof.EXACT, Proof.UNIQUE):
             return None
-        solution = solution_at(kind.system, profile.start, sizes_of(profile), out)
+        corners = kind.machine.path.read(out.get).corners
+        solution = solution_at(kind.system, profile.start, sizes_of(profile), out, corners)
         contour = trace(profile, solution)
         told = chain(against_angles(profile, contour), dropped_corners(profile, solution))
         if contour.crossing is not None or any(True for _ in told):
@@ -248,11 +247,11 @@ def _evaluate(kind: Kind, inputs: Sequence[Mapping[str, float]]) -> list[tuple[d
 def _examine(kind: Kind, out: Columns, rows: int) -> tuple[NDArray[numpy.bool_], NDArray[numpy.float64]]:
     """Mask of the rows that are solved without any finding, and bounds of their errors, mm; both of shape (rows,)."""
     figure, machine = kind.system.figure, kind.machine
-    verdict = RowOutcome(kind.checks, out, rows)
+    verdict = RowOutcome(kind.checks, out, rows, machine.path)
     plain = (verdict.status == StatusCode.SOLVED) & (verdict.reason == 0) & ~verdict.again
     for element in figure.path:
         if isinstance(element, Line):
-            plain &= numpy.abs(out[f"length:{element.name}"]) > LENGTH
+            plain &= numpy.abs(out[machine.path.lengths[element.name]]) > LENGTH
     for number, step in enumerate(machine.steps):
         if step.has_two_places:
             gap = numpy.abs(numpy.abs(out[f"offset:{number}"]) - out[f"radius:{number}"])

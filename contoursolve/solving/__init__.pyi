@@ -26,8 +26,8 @@ from .checks import (
     NO_PLACE as NO_PLACE,
     Check as Check,
     Checks as Checks,
-    Role as Role,
     Source as Source,
+    Stage as Stage,
     Test as Test,
     add_checks as add_checks,
     agreement_rows as agreement_rows,
@@ -39,6 +39,7 @@ from .checks import (
     compile_checks as compile_checks,
     passed_rows as passed_rows,
     plain_checks as plain_checks,
+    source_of as source_of,
 )
 from .compare import (
     allowance as allowance,

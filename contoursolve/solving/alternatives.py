@@ -28,9 +28,10 @@ from contoursolve.solving.determinacy import analyse, groups_of, spare_of
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import Doubt, Found, enumerate_solutions
 from contoursolve.solving.exact_inputs import ground_of
+from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range
 from contoursolve.solving.krawczyk import Prover, radius_of
 from contoursolve.solving.numbers import corner_of, sizes_of
-from contoursolve.solving.path import check_path
+from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.solving.picks import Alternative, Alternatives, pick
 from contoursolve.solving.sides import BOTH, sides_of
 from contoursolve.solving.solution import (
@@ -107,20 +108,18 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: Found)
     scalars = {name: ball.middle(value) for name, value in boxes.items()}
     machine = compile_path(system)
     values, points = _path_values(profile, system, boxes)
-    out = machine.function(values)
     at = prover.ground.values(boxes, found.signs, system)
+    measures = machine.path.read(machine.function(values).__getitem__)
     refusals, remarks = _compare(profile, system, at, scalars)
     if not refusals:
-        more, about = check_path(
-            profile,
-            machine.corner_residuals,
-            points,
-            out,
-            _sizes(profile, scalars),
-            lambda sizes: machine.function({**values, **sizes}),
+        sizes = _sizes(profile, scalars)
+        path = MeasuredPath(
+            profile, points, sizes, lambda sizes: machine.path.read(machine.function({**values, **sizes}).__getitem__)
         )
-        refusals += more
-        remarks += about
+        refusals += judge_range(path)
+        if not refusals:
+            refusals, notes = judge_path(path, measures)
+            remarks += notes
     sides = sides_of(system, at, {choice.point for choice in profile.choices})
     # A circle about the middle of two of its points is an ordinary half circle.
     centers = {element.center for element in system.figure.path if isinstance(element, Arc)}
@@ -139,7 +138,7 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: Found)
         _status(refusals, remarks),
         points=absolute if not refusals else {},
         radii={name: scalars[name] for name in system.figure.radii} if not refusals else {},
-        corners=_corners(system, values, out, starts) if not refusals else {},
+        corners=_corners(system, values, measures, starts) if not refusals else {},
         refusals=tuple(refusals),
         remarks=tuple(remarks),
         error_bound=radius,
@@ -193,14 +192,15 @@ def _path_values(
 
 
 def _corners(
-    system: System, values: Mapping[str, float], out: Mapping[str, float], starts: list[float]
+    system: System, values: Mapping[str, float], measures: PathOutputs, starts: list[float]
 ) -> dict[str, CornerSolution]:
     """The corners of a path in numbers."""
 
     def absolute(point: Point) -> Point:
         return point[FIRST] + starts[FIRST], point[SECOND] + starts[SECOND]
 
-    return {corner.name: corner_of(corner, values[corner.size], out, absolute) for corner in system.figure.corners}
+    corners = {corner.name: values[corner.size] for corner in system.figure.corners}
+    return {name: corner_of(measures.corners[name], size, absolute) for name, size in corners.items()}
 
 
 def _sizes(profile: Profile, scalars: Mapping[str, float]) -> dict[str, float]:

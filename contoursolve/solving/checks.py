@@ -1,6 +1,6 @@
 """What must hold of a contour, as one table of margins; and which of many values of some words pass it."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from functools import lru_cache, reduce
 from typing import Any
@@ -15,7 +15,6 @@ from contoursolve.geometry import (
     Arc,
     Coordinate,
     Corner,
-    Distance,
     Fact,
     Figure,
     Heading,
@@ -34,27 +33,24 @@ from contoursolve.numeric import (
     COSINE,
     SINE,
     Array,
+    Functions,
     Replay,
     Tape,
-    at_most,
-    below,
     difference,
     directions,
-    larger,
     largest,
     magnitude,
-    opposite,
     replay_rows,
-    sqrt,
     true,
 )
-from contoursolve.solving.compare import allowance, is_directed
+from contoursolve.solving.compare import Increments, agreement
 from contoursolve.solving.compile import compile_plainly, compile_system
 from contoursolve.solving.construction import Construction, ConstructionStep, StepKind, is_closed
 from contoursolve.solving.corners import Pair
 from contoursolve.solving.determinacy import analyse
-from contoursolve.solving.inputs import input_values
+from contoursolve.solving.inputs import EXPRESSIONS, input_values
 from contoursolve.solving.numbers import axes_of, inputs_of
+from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.solving.solution import RefusalKind
 from contoursolve.tolerance import LARGEST, LENGTH, REGULAR, RESIDUAL, TOUCHING
 
@@ -72,17 +68,27 @@ class Test(Enum):
     """The margin is farther from zero than the limit, on either side."""
 
 
-class Role(Enum):
-    """What a check is about."""
+class Stage(Enum):
+    """What a check is about, in the order in which a contour is judged: where checks of one fail, those that follow are
+    not looked at."""
 
-    CONTOUR = "contour"
-    """Whether there is a contour."""
-    FACT = "fact"
-    """Whether a fact that was not needed agrees with the others."""
+    CONSTRUCTION = "construction"
+    """Whether a step of the construction has a solution."""
     TOUCHING = "touching"
     """Whether two solutions are apart, as far as floats can tell. There is a contour in either case."""
-    EQUATION = "equation"
-    """Whether the equations are satisfied, as they are by construction but for rounding."""
+    RANGE = "range"
+    """Whether words reach every point."""
+    EQUATIONS = "equations"
+    """Whether the equations are satisfied, as they are by construction but for rounding. Those of corners come last,
+    because a corner that does not fit may be huge."""
+    FACTS = "facts"
+    """Whether a fact that was not needed agrees with the others."""
+    ELEMENTS = "elements"
+    """Whether each element runs the way that is stated."""
+    CORNERS = "corners"
+    """Whether each corner is one."""
+    ROOM = "room"
+    """Whether the corners fit on the elements."""
 
 
 class Check(Struct, frozen=True):
@@ -95,7 +101,7 @@ class Check(Struct, frozen=True):
     limit: float
     givens: tuple[str, ...] = ()
     """The values of the facts that it is about."""
-    role: Role = Role.CONTOUR
+    stage: Stage = Stage.CONSTRUCTION
     is_doubtful: bool = False
     """Whether floats cannot tell what is wrong where it fails, but only the exact arithmetic of a single solve."""
     fact: str = ""
@@ -118,30 +124,41 @@ Checks = Iterator[tuple[Check, Any]]
 """Checks with their margins, mm but for turns and landings (1)."""
 
 
+NO_PATH = PathOutputs({}, {}, {}, {})
+
+
 class Source(Struct, frozen=True, eq=False):
-    """Where the expressions come from of which margins are made: the outputs of a tape, and what stands for the
-    coordinates, radii and angles of a figure."""
+    """What margins are made of, expressions or numbers: the coordinates, radii and angles of a figure, the measures of
+    its path, the outputs of the construction by name, and the least increment of a coordinate by its axis, or of a
+    value by its name, mm or degrees."""
 
     figure: Figure
-    tape: Tape
     at: Values
-
-    def out(self, name: str) -> Any:
-        """An output of the tape."""
-        return self.tape.expression(name)
+    path: PathOutputs
+    out: Callable[[str], Any]
+    increment: Increments
 
     def point(self, name: str) -> Pair:
         """The coordinates of a point, mm."""
         return self.at.coordinate(name, FIRST), self.at.coordinate(name, SECOND)
 
-    def increment(self, name: str) -> Any:
-        """The least increment of a coordinate by its axis, or of a value by its name, mm or degrees."""
-        return self.tape.input(INCREMENT_OF + name)
-
     def way(self, tail: str, head: str) -> Pair:
         """From one point to another, mm."""
         (a, b), (c, d) = self.point(tail), self.point(head)
         return c - a, d - b
+
+    def distance(self, tail: str, head: str) -> Any:
+        """How far two points are apart, mm."""
+        first, second = self.way(tail, head)
+        return self.at.root(first**2 + second**2)
+
+
+def source_of(system: System, tape: Tape, known: Mapping[str, Any], path: PathOutputs = NO_PATH) -> Source:
+    """The expressions of a tape, whose outputs measure a path; scalars that are not `known` are inputs."""
+    at = input_values(system, tape, known)
+    return Source(
+        system.figure, at, path.read(tape.expression), tape.expression, lambda name: tape.input(INCREMENT_OF + name)
+    )
 
 
 class Checked(Struct, frozen=True, eq=False):
@@ -149,6 +166,8 @@ class Checked(Struct, frozen=True, eq=False):
 
     checks: tuple[Check, ...]
     margins: tuple[Any, ...]
+    path: PathOutputs
+    """The names of the outputs that measure the path."""
     tape: Tape
     """The outputs of the system, of its checks (see `add_checks`), and `worst`: the largest residual of the equations
     that were solved (mm; NaN if any is)."""
@@ -160,10 +179,9 @@ class Checked(Struct, frozen=True, eq=False):
 def compile_checks(system: System) -> Checked:
     """The checks of a determined system in closed form."""
     machine = compile_system(system)
-    source = _source_of(system, machine)
-    tape = source.tape
+    tape, source = _source_of(system, machine)
     basis = largest(tape.expression(name) for name in machine.residuals)
-    corners = largest(tape.expression(name) for name in machine.corner_residuals)
+    corners = largest(source.path.residuals)
     pairs = [
         *check_steps(source, machine.steps),
         check_range(source),
@@ -175,22 +193,22 @@ def compile_checks(system: System) -> Checked:
     is_clear = add_checks(tape, pairs)
     tape.output("worst", largest([basis, corners]))
     checks, margins = zip(*pairs, strict=True)
-    return Checked(checks, margins, tape, is_clear)
+    return Checked(checks, margins, machine.path, tape, is_clear)
 
 
-def _source_of(system: System, machine: Construction) -> Source:
-    """The expressions of a system in closed form, with a tape of their own."""
+def _source_of(system: System, machine: Construction) -> tuple[Tape, Source]:
+    """The expressions of a system in closed form, and a tape of their own."""
     tape = machine.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
-    return Source(system.figure, tape, input_values(system, tape, known | at_origin(system.figure)))
+    return tape, source_of(system, tape, known | at_origin(system.figure), machine.path)
 
 
-def plain_checks(system: System) -> tuple[Source, list[tuple[Check, Any]]]:
+def plain_checks(system: System) -> tuple[Tape, Source, list[tuple[Check, Any]]]:
     """The checks of a determined system that a control has to make by itself, and where their margins come from."""
     machine = compile_plainly(system)
-    source = _source_of(system, machine)
-    steps = (pair for pair in check_steps(source, machine.steps) if pair[0].role is not Role.TOUCHING)
-    return source, [*steps, *check_facts(source, machine.checks, len(machine.basis)), *check_path(source)]
+    tape, source = _source_of(system, machine)
+    steps = (pair for pair in check_steps(source, machine.steps) if pair[0].stage is not Stage.TOUCHING)
+    return tape, source, [*steps, *check_facts(source, machine.checks, len(machine.basis)), *check_path(source)]
 
 
 def add_checks(tape: Tape, pairs: Iterable[tuple[Check, Any]], first: int = 0) -> Any:
@@ -198,9 +216,9 @@ def add_checks(tape: Tape, pairs: Iterable[tuple[Check, Any]], first: int = 0) -
     until one is not, and as `margin:0` and so on the margins of facts. Whether all are passed, as 1 or 0."""
     is_clear, passed = true(), 0 * true()
     for number, (check, margin) in enumerate(pairs, first):
-        is_clear *= is_passed(check, margin)
+        is_clear *= is_passed(check, margin, EXPRESSIONS)
         passed += is_clear
-        if check.role is Role.FACT:
+        if check.stage is Stage.FACTS:
             tape.output(f"margin:{number}", margin)
     tape.output("passed", passed)
     return is_clear
@@ -211,17 +229,17 @@ def at_origin(figure: Figure) -> dict[str, float]:
     return {scalar(figure.start, axis): 0.0 for axis in (FIRST, SECOND)}
 
 
-def is_passed(check: Check, margin: Any) -> Any:
-    """Whether a check is passed, as an expression of its margin."""
+def is_passed(check: Check, margin: Any, functions: Functions) -> Any:
+    """Whether a check is passed by its margin, a number or an expression."""
     match check.test:
         case Test.AT_LEAST:
-            return at_most(check.limit, margin)
+            return functions.at_most(check.limit, margin)
         case Test.ABOVE:
-            return below(check.limit, margin)
+            return functions.below(check.limit, margin)
         case Test.NOT_BELOW:
-            return opposite(below(margin, check.limit))
+            return functions.opposite(functions.below(margin, check.limit))
         case Test.APART:
-            return below(check.limit, magnitude(margin))
+            return functions.below(check.limit, functions.magnitude(margin))
 
 
 def check_steps(source: Source, steps: Sequence[ConstructionStep]) -> Checks:
@@ -233,8 +251,7 @@ def check_steps(source: Source, steps: Sequence[ConstructionStep]) -> Checks:
 def _check_step(source: Source, number: int, step: ConstructionStep) -> Checks:
     out = source.out
     for tail, through in step.lines_through():
-        first, second = source.way(tail, through)
-        yield Check(RefusalKind.POINT_IS_START, through, "", Test.ABOVE, LENGTH), sqrt(first**2 + second**2)
+        yield Check(RefusalKind.POINT_IS_START, through, "", Test.ABOVE, LENGTH), source.distance(tail, through)
     if step.kind is StepKind.AFFINE:
         givens = tuple(fact.given for fact in step.facts if fact.given)
         kind, subject = RefusalKind.LINES_PARALLEL, ",".join(step.unknowns)
@@ -253,26 +270,25 @@ def _check_step(source: Source, number: int, step: ConstructionStep) -> Checks:
     offset, radius = out(f"offset:{number}"), out(f"radius:{number}")
     give = out(f"scale:{number}") * TOUCHING
     meets = Check(kind, subject, "", Test.AT_LEAST, 0.0)
-    gap = f"gap:{number}"
-    yield meets, (out(gap) if gap in source.tape.outputs else radius - offset) + give
+    yield meets, out(f"gap:{number}") + give
     yield meets, radius + offset + give
     if not is_half:
         # A circle about the middle of two points is an ordinary half circle.
         apart = magnitude(radius - magnitude(offset)) - give
-        yield Check(kind, subject, "", Test.ABOVE, 0.0, role=Role.TOUCHING, is_doubtful=True), apart
+        yield Check(kind, subject, "", Test.ABOVE, 0.0, stage=Stage.TOUCHING, is_doubtful=True), apart
 
 
 def check_residuals(worst: Any) -> tuple[Check, Any]:
     """Whether equations that were solved are satisfied, by their largest residual (mm)."""
-    return Check(RefusalKind.NOT_VERIFIED, "", "", Test.AT_LEAST, -RESIDUAL, role=Role.EQUATION), -worst
+    return Check(RefusalKind.NOT_VERIFIED, "", "", Test.AT_LEAST, -RESIDUAL, stage=Stage.EQUATIONS), -worst
 
 
 def check_range(source: Source) -> tuple[Check, Any]:
     """Whether words reach every point from the start."""
-    start = source.figure.start
+    start, functions = source.figure.start, source.at.functions
     ways = (way for name in source.figure.points for way in source.way(start, name))
-    farthest: Any = reduce(larger, map(magnitude, ways))
-    return Check(RefusalKind.OUT_OF_RANGE, "", "", Test.NOT_BELOW, 0.0), LARGEST - farthest
+    farthest: Any = reduce(functions.larger, map(functions.magnitude, ways))
+    return Check(RefusalKind.OUT_OF_RANGE, "", "", Test.NOT_BELOW, 0.0, stage=Stage.RANGE), LARGEST - farthest
 
 
 def check_facts(source: Source, facts: Sequence[Fact], first: int) -> Checks:
@@ -280,93 +296,70 @@ def check_facts(source: Source, facts: Sequence[Fact], first: int) -> Checks:
     others give."""
     for number, fact in enumerate(facts, first):
         is_doubtful = bool(fact.given) and not isinstance(fact, Coordinate | Offset | Radius | Heading)
-        for kind, subject, margin in _compare(source, fact, source.out(f"residual:{number}")):
-            agrees = Test.NOT_BELOW
-            yield Check(kind, subject, "", agrees, 0.0, (), Role.FACT, is_doubtful, fact.given), margin
-
-
-def _compare(source: Source, fact: Fact, off: Any) -> Iterator[tuple[RefusalKind, str, Any]]:
-    """What is refused, about what, and the margins."""
-    kind, subject = RefusalKind.WORDS_DISAGREE, fact.given
-    limit = allowance(fact, source.at, source.increment)
-    if isinstance(fact, OnCircle) and not fact.given:
-        # The residual is the difference of the radii to first order only.
-        first, second = source.way(fact.center, fact.point)
-        off = sqrt(first**2 + second**2) - source.at.radius(fact.radius)
-        kind, subject, limit = RefusalKind.RADIUS_DIFFERENCE, fact.point, fact.slack
-    elif isinstance(fact, Distance):
-        # To first order the residual is the excess; where either is small, the lengths agree.
-        first, second = source.way(fact.tail, fact.head)
-        excess = sqrt(first**2 + second**2) - source.at.amount(fact.given)
-        yield kind, subject, larger(limit - off, limit - excess)
-        yield kind, subject, larger(limit + off, limit + excess)
-        return
-    elif isinstance(fact, Heading) and is_directed(fact, source.figure):
-        (first, second), (cosine, sine) = source.way(fact.tail, fact.head), source.at.direction(fact.given)
-        yield kind, subject, first * cosine + second * sine + LENGTH
-    elif not fact.given:
-        kind = RefusalKind.FACT_DISAGREES
-    yield kind, subject, limit - off
-    yield kind, subject, limit + off
+        kind, subject = RefusalKind.WORDS_DISAGREE, fact.given
+        if not fact.given:
+            kind = RefusalKind.FACT_DISAGREES
+            if isinstance(fact, OnCircle):
+                kind, subject = RefusalKind.RADIUS_DIFFERENCE, fact.point
+        check = Check(kind, subject, "", Test.NOT_BELOW, 0.0, (), Stage.FACTS, is_doubtful, fact.given)
+        for margin in agreement(fact, source.out(f"residual:{number}"), source.at, source.increment, source.figure):
+            yield check, margin
 
 
 def check_path(source: Source) -> Checks:
     """Whether the control can make the path: the direction of travel, and the room for each corner."""
-    figure, out = source.figure, source.out
+    figure = source.figure
     for element in figure.path:
         if not (isinstance(element, Arc) and element.may_be_full):
             yield _check_element(source, element)
     for corner in figure.corners:
         yield from _check_corner(source, corner)
-    for corner in figure.corners:
-        for name, way in zip(_elements(source, corner), ("in", "out"), strict=False):
-            setback = out(f"setback-{way}:{corner.name}")
-            fits = Check(RefusalKind.CORNER_TOO_LARGE, corner.name, name, Test.AT_LEAST, -LENGTH)
-            yield fits, setback
-            yield fits, out(f"length:{name}") - setback
-    for element in figure.path if figure.corners else ():
-        overlap = Check(RefusalKind.CORNERS_OVERLAP, element.name, element.name, Test.NOT_BELOW, -LENGTH)
-        yield overlap, out(f"room:{element.name}")
+    yield from check_room(source)
 
 
 def _check_element(source: Source, element: Line | Arc) -> tuple[Check, Any]:
     name = element.name
     if isinstance(element, Arc):
-        first, second = source.way(element.tail, element.head)
-        return Check(RefusalKind.ARC_EMPTY, name, name, Test.ABOVE, LENGTH), sqrt(first**2 + second**2)
+        check = Check(RefusalKind.ARC_EMPTY, name, name, Test.ABOVE, LENGTH, stage=Stage.ELEMENTS)
+        return check, source.distance(element.tail, element.head)
     told = RefusalKind.CORNER_SIGN if element.is_signed else RefusalKind.LINE_REVERSED
     kind = RefusalKind.LINE_BACKWARDS if element.heading is None else told
-    return Check(kind, name, name, Test.AT_LEAST, -LENGTH), source.out(f"length:{name}")
+    return Check(kind, name, name, Test.AT_LEAST, -LENGTH, stage=Stage.ELEMENTS), source.path.lengths[name]
 
 
 def _check_corner(source: Source, corner: Corner) -> Checks:
-    out, name = source.out, corner.name
-    for element in _elements(source, corner):
-        yield Check(RefusalKind.CORNER_TOO_LARGE, name, element, Test.ABOVE, LENGTH), out(f"length:{element}")
-    if f"landing:{name}" in source.tape.outputs:
-        yield Check(RefusalKind.LANDING_UNKNOWN, name, "", Test.APART, 0.5), out(f"landing:{name}")
-    reverses = RefusalKind.CORNER_REVERSES
-    turn = out(f"turn:{name}")
+    path, name, functions = source.path, corner.name, source.at.functions
+
+    def check(kind: RefusalKind, test: Test, limit: float, on: str = "", opposite: RefusalKind | None = None) -> Check:
+        return Check(kind, name, on, test, limit, stage=Stage.CORNERS, opposite=opposite)
+
+    for element in elements_at(corner, path):
+        yield check(RefusalKind.CORNER_TOO_LARGE, Test.ABOVE, LENGTH, element), path.lengths[element]
+    if name in path.landings:
+        yield check(RefusalKind.LANDING_UNKNOWN, Test.APART, 0.5), path.landings[name]
+    built = path.corners[name]
+    size = functions.magnitude(built.turn)
     if corner.guard:
         # Where the path goes on, the control leaves the corner out.
-        yield Check(reverses, name, "", Test.ABOVE, REGULAR), larger(magnitude(turn), below(0, out(f"cosine:{name}")))
+        ahead = functions.below(0, built.cosine)
+        yield check(RefusalKind.CORNER_REVERSES, Test.ABOVE, REGULAR), functions.larger(size, ahead)
     else:
-        yield Check(RefusalKind.CORNER_STRAIGHT, name, "", Test.APART, REGULAR, opposite=reverses), turn
+        straight, back = RefusalKind.CORNER_STRAIGHT, RefusalKind.CORNER_REVERSES
+        yield check(straight, Test.APART, REGULAR, opposite=back), built.turn
     if corner.least:
-        is_back = below(out(f"cosine:{name}"), 0)
-        yield Check(RefusalKind.CORNER_STRAIGHT, name, "", Test.ABOVE, corner.least), larger(magnitude(turn), is_back)
+        back = functions.below(built.cosine, 0)
+        yield check(RefusalKind.CORNER_STRAIGHT, Test.ABOVE, corner.least), functions.larger(size, back)
     if corner.shape.share:
-        for margin in _inside(source, corner):
-            yield Check(RefusalKind.BEVEL_OUTSIDE, name, "", Test.NOT_BELOW, -LENGTH), margin
-        for way in ("in", "out"):
+        for axis, margin in _inside(source, corner):
+            yield check(RefusalKind.BEVEL_OUTSIDE, Test.NOT_BELOW, -LENGTH, str(axis)), margin
+        for setback in (built.setback_in, built.setback_out):
             # Not a number is a bevel that is too large for its arc.
-            in_band = Check(RefusalKind.BEVEL_IN_BAND, name, "", Test.NOT_BELOW, -LENGTH)
-            yield in_band, out(f"setback-{way}:{name}")
+            yield check(RefusalKind.BEVEL_IN_BAND, Test.NOT_BELOW, -LENGTH), setback
 
 
-def _inside(source: Source, corner: Corner) -> Iterator[Any]:
-    """How far a corner lies inside the rectangle spanned by the ends of its two lines, mm."""
-    path = {element.name: element for element in source.figure.path}
+def _inside(source: Source, corner: Corner) -> Iterator[tuple[int, Any]]:
+    """How far a corner lies inside the rectangle spanned by the ends of its two lines along each axis, mm."""
+    path, larger = {element.name: element for element in source.figure.path}, source.at.functions.larger
     before, after = path[corner.before], path.get(corner.after or "")
     if after is None or isinstance(before, Arc) or isinstance(after, Arc):
         return
@@ -374,14 +367,37 @@ def _inside(source: Source, corner: Corner) -> Iterator[Any]:
     for axis in (FIRST, SECOND):
         # Either coordinate is exact to half its increment.
         give = source.increment(str(axis))
-        yield larger(at[axis] - tail[axis], at[axis] - head[axis]) + give
-        yield larger(tail[axis] - at[axis], head[axis] - at[axis]) + give
+        yield axis, larger(at[axis] - tail[axis], at[axis] - head[axis]) + give
+        yield axis, larger(tail[axis] - at[axis], head[axis] - at[axis]) + give
 
 
-def _elements(source: Source, corner: Corner) -> list[str]:
+def check_room(source: Source) -> Checks:
+    """Whether each element is as long as the setbacks of the corners at its two ends. A setback on an arc that is not a
+    number belongs to a corner that cannot touch the arc at all; a negative one would leave the arc beyond its end."""
+    figure, path = source.figure, source.path
+    for corner in figure.corners:
+        for name, setback in setbacks_of(corner, path).items():
+            fits = Check(RefusalKind.CORNER_TOO_LARGE, corner.name, name, Test.AT_LEAST, -LENGTH, stage=Stage.ROOM)
+            yield fits, setback
+            yield fits, path.lengths[name] - setback
+    for element in figure.path if figure.corners else ():
+        name = element.name
+        yield (
+            Check(RefusalKind.CORNERS_OVERLAP, name, name, Test.NOT_BELOW, -LENGTH, stage=Stage.ROOM),
+            path.rooms[name],
+        )
+
+
+def setbacks_of(corner: Corner, path: PathOutputs) -> dict[str, Any]:
+    """The length that a corner takes of each element that has two ends, mm."""
+    built = path.corners[corner.name]
+    return dict(zip(elements_at(corner, path), (built.setback_in, built.setback_out), strict=False))
+
+
+def elements_at(corner: Corner, path: PathOutputs) -> list[str]:
     """The elements that a corner joins, as far as they have two ends."""
     after = corner.after or corner.lands_on
-    return [corner.before, *([after] if after and f"length:{after}" in source.tape.outputs else [])]
+    return [corner.before, *([after] if after and after in path.lengths else [])]
 
 
 def passed_rows(profile: Profile, values: Mapping[str, Array]) -> numpy.ndarray | None:
@@ -428,6 +444,6 @@ def _compile(system: System) -> tuple[tuple[str, ...], Replay]:
     tape = checked.tape.keep((), ())
     tape.output("clear", checked.is_clear)
     for number, (check, margin) in enumerate(zip(checked.checks, checked.margins, strict=True)):
-        if check.role is Role.FACT:
+        if check.stage is Stage.FACTS:
             tape.output(f"margin:{number}", margin)
     return tape.inputs, replay_rows(tape)

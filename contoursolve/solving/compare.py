@@ -11,6 +11,7 @@ from contoursolve.geometry import (
     INCREMENT_OF,
     SECOND,
     Coordinate,
+    Distance,
     Fact,
     Figure,
     Heading,
@@ -31,7 +32,7 @@ from contoursolve.solving.affine import AffineFacts, Circuit, IndependentFacts
 from contoursolve.solving.determinacy import analyse, circuits_of
 from contoursolve.solving.numbers import lookup
 from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind
-from contoursolve.tolerance import AGREEMENT, RESIDUAL
+from contoursolve.tolerance import AGREEMENT, LENGTH, RESIDUAL
 
 QUARTER_TURN, FULL_TURN = 90.0, 360.0
 """Degrees."""
@@ -57,6 +58,33 @@ def allowance(fact: Fact, at: Values, increment: Increments) -> Any:
     else:
         return AGREEMENT
     return reach / 2 + RESIDUAL
+
+
+def agreement(fact: Fact, off: Any, at: Values, increment: Increments, figure: Figure) -> Iterator[Any]:
+    """What is not below 0 (mm) where a fact agrees that was not needed and is off by so much at these points; numbers
+    or expressions."""
+    limit = allowance(fact, at, increment)
+    larger = at.functions.larger
+    if isinstance(fact, OnCircle) and not fact.given:
+        # The residual is the difference of the radii to first order only.
+        excess = _length(fact.center, fact.point, at) - at.radius(fact.radius)
+        yield from (fact.slack - excess, fact.slack + excess)
+        return
+    if isinstance(fact, Distance):
+        # To first order the residual is the excess; where either is small, the lengths agree.
+        excess = _length(fact.tail, fact.head, at) - at.amount(fact.given)
+        yield from (larger(limit - off, limit - excess), larger(limit + off, limit + excess))
+        return
+    if isinstance(fact, Heading) and is_directed(fact, figure):
+        # The equation alone is true of the opposite direction, too.
+        (first, second), (cosine, sine) = step(at, fact.tail, fact.head), at.direction(fact.given)
+        yield first * cosine + second * sine + LENGTH
+    yield from (limit - off, limit + off)
+
+
+def _length(tail: str, head: str, at: Values) -> Any:
+    first, second = step(at, tail, head)
+    return at.root(first**2 + second**2)
 
 
 def size(value: Any, at: Values) -> Any:
@@ -144,7 +172,7 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
         distance, radius = hypot(*away), float(at.radius(fact.radius))
         off = abs(distance - radius)
         values = {"limit": fact.slack, "actual": off, "off_by_mm": off, "radius": radius, "distance": distance}
-        if not off <= fact.slack:
+        if not _agrees(fact, off, profile, at):
             return Refusal(RefusalKind.RADIUS_DIFFERENCE, fact.point, givens_of(fact, system), values)
         if off > AGREEMENT:
             return Note(NoteKind.RADIUS_DIFFERS, fact.point, givens_of(fact, system), values)
@@ -157,12 +185,15 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
     # The equation alone is true of the opposite direction, too.
     is_opposite = any(float(sense) < -AGREEMENT for sense in fact.senses(at))
     # So is one part of a radius along one of its axes.
-    has_direction = isinstance(fact, Spoke) or is_directed(fact, system.figure)
-    is_against = is_opposite or (has_direction and opposes(values, Unit.DEGREE))
-    if not is_against and (off <= allowance(fact, at, increments_of(profile)) or gap <= AGREEMENT):
+    is_against = is_opposite or (isinstance(fact, Spoke) and opposes(values, Unit.DEGREE))
+    if not is_against and (_agrees(fact, off, profile, at) or gap <= AGREEMENT):
         return Note(NoteKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
     kind = RefusalKind.WORDS_DISAGREE if "expected" in values else RefusalKind.FACT_DISAGREES
     return Refusal(kind, name, givens, values)
+
+
+def _agrees(fact: Fact, off: float, profile: Profile, at: Values) -> bool:
+    return all(margin >= 0 for margin in agreement(fact, off, at, increments_of(profile), profile.figure))
 
 
 def compare_affine(profile: Profile, affine: AffineFacts) -> Iterator[Refusal | Note]:

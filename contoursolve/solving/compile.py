@@ -47,8 +47,9 @@ from contoursolve.solving.construction import (
     named_steps,
     steps_of,
 )
-from contoursolve.solving.corners import Edge, Pair, build_corner, drop_straight, unit
+from contoursolve.solving.corners import CornerPath, Edge, Pair, build_corner, drop_straight, unit
 from contoursolve.solving.determinacy import basis_of, spare_of
+from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.solving.sides import side_values
 from contoursolve.tolerance import LENGTH, REGULAR, TOUCHING
 
@@ -60,6 +61,7 @@ class _PathBuilder(Builder):
         super().__init__(system, touching)
         self.compared = {(fact.point, fact.center) for fact in spare_of(system) if isinstance(fact, OnCircle)}
         """Points that are compared with a circle that others determine, with its centre."""
+        self.lengths: dict[str, Any] = {}
         self.rooms: dict[str, Any] = {}
         """What the corners leave of each element."""
 
@@ -89,9 +91,9 @@ class _PathBuilder(Builder):
         """The size of a corner, mm."""
         return self.tape.input(corner.size)
 
-    def path(self) -> tuple[str, ...]:
-        """Direction and length of each element, and every corner; the names of the corners' residuals."""
-        residuals: list[str] = []
+    def path(self) -> PathOutputs:
+        """The names of the outputs of the path: direction and length of each element, and every corner."""
+        corners, landings = dict[str, CornerPath](), dict[str, Any]()
         path = self.system.figure.path
         leaving = {element.name: self._edge(element, element.tail) for element in path}
         arriving = {element.name: self._edge(element, element.head) for element in path}
@@ -116,11 +118,9 @@ class _PathBuilder(Builder):
                 quadrant = _quadrant(before, earlier)
                 along = FIRST if corner.lands_parallel_to == FIRST else SECOND
                 after = Edge((quadrant[FIRST], 0) if along == FIRST else (0, quadrant[SECOND]))
-                self.tape.output(f"landing:{corner.name}", quadrant[along])
-            residuals += self._corner(corner, before, after, quadrant)
-        for element in path:
-            self.tape.output(f"room:{element.name}", self.rooms[element.name])
-        return tuple(residuals)
+                landings[corner.name] = quadrant[along]
+            corners[corner.name] = self._corner(corner, before, after, quadrant)
+        return PathOutputs(self.lengths, self.rooms, corners, landings).named(self.tape.output)
 
     def _edge(self, element: Line | Arc, at: str) -> Edge:
         """How an element passes one of its ends."""
@@ -151,8 +151,7 @@ class _PathBuilder(Builder):
             if element.may_be_full:
                 chord = sqrt((head[0] - tail[0]) ** 2 + (head[1] - tail[1]) ** 2)
                 length = where(chord > LENGTH, length, edge.radius * tau)
-        self.tape.output(f"length:{element.name}", length)
-        self.rooms[element.name] = length
+        self.lengths[element.name] = self.rooms[element.name] = length
 
     def _direction(self, line: Line) -> Pair:
         if line.heading is not None:
@@ -168,30 +167,18 @@ class _PathBuilder(Builder):
         at = self.at()
         tail, head = self.point(line.tail), (at.coordinate(line.head, FIRST), at.coordinate(line.head, SECOND))
         step = head[FIRST] - tail[FIRST], head[SECOND] - tail[SECOND]
-        self.tape.output(f"length:{line.name}", sqrt(step[0] ** 2 + step[1] ** 2))
+        self.lengths[line.name] = sqrt(step[0] ** 2 + step[1] ** 2)
         return unit(step)
 
-    def _corner(self, corner: Corner, before: Edge, after: Edge, quadrant: Pair) -> list[str]:
-        size, name = self.size_of(corner), corner.name
-        built = build_corner(corner.shape, self.point(corner.at), before, after, size, quadrant)
+    def _corner(self, corner: Corner, before: Edge, after: Edge, quadrant: Pair) -> CornerPath:
+        at = self.point(corner.at)
+        built = build_corner(corner.shape, at, before, after, self.size_of(corner), quadrant)
         if corner.guard:
-            built = drop_straight(built, self.point(corner.at), corner.guard)
-        self.tape.output(f"setback-in:{name}", built.setback_in)
-        self.tape.output(f"setback-out:{name}", built.setback_out)
+            built = drop_straight(built, at, corner.guard)
         self.rooms[corner.before] -= built.setback_in
         if corner.after is not None:
             self.rooms[corner.after] -= built.setback_out
-        self.tape.output(f"turn:{name}", built.turn)
-        self.tape.output(f"cosine:{name}", built.cosine)
-        for axis in (FIRST, SECOND):
-            self.tape.output(f"begin:{name}.{axis}", built.begin[axis])
-            self.tape.output(f"end:{name}.{axis}", built.end[axis])
-            if built.center is not None:
-                self.tape.output(f"center:{name}.{axis}", built.center[axis])
-        residuals = {f"corner-residual:{name}:{number}": each for number, each in enumerate(built.residuals)}
-        for output, residual in residuals.items():
-            self.tape.output(output, residual)
-        return list(residuals)
+        return built
 
 
 def _quadrant(edge: Edge, other: Edge) -> Pair:
@@ -247,9 +234,9 @@ def _compile(builder: _PathBuilder) -> Construction:
     outputs = builder.tape.outputs
     excesses = [f"excess:{number}" for number in range(len(basis))]
     residuals = tuple(f"residual:{n}" if name not in outputs else name for n, name in enumerate(excesses))
-    corners, signs = builder.path(), tuple(builder.signs)
+    path, signs = builder.path(), tuple(builder.signs)
     function = builder.tape.finish()
-    return Construction(steps, basis, spare_of(system), function, residuals, slopes, corners, builder.tape, signs)
+    return Construction(steps, basis, spare_of(system), function, residuals, slopes, path, builder.tape, signs)
 
 
 @lru_cache(maxsize=256)
@@ -272,11 +259,11 @@ class _BranchBuilder(_PathBuilder):
         self.outputs()
         sides = dict(self._sides())
         residuals = tuple(f"residual:{number}" for number in range(len(basis)))
-        corners = self.path()
+        path = self.path()
         if len(self.signs) > MOST_SIGNS:
             raise NoClosedFormError(f"it has {2 ** len(self.signs):,} solutions to look at", basis, ())
         signs, conditions, function = tuple(self.signs), tuple(self.conditions), self.tape.finish()
-        return Construction(steps, basis, spare, function, residuals, (), corners, self.tape, signs, conditions, sides)
+        return Construction(steps, basis, spare, function, residuals, (), path, self.tape, signs, conditions, sides)
 
     def size_of(self, corner: Corner) -> Any:
         name = f"{corner.name}.radius"
@@ -406,7 +393,7 @@ def compile_path(system: System) -> Construction:
     builder = _PathBuilder(system)
     for name in system.unknowns:
         builder.scalars[name] = builder.tape.input(name)
-    residuals = builder.path()
+    path = builder.path()
     # A path of arcs alone has no outputs of its own.
     builder.tape.output("start", builder.scalars[scalar(system.figure.start, FIRST)])
-    return Construction((), (), (), builder.tape.finish(), (), (), residuals, builder.tape)
+    return Construction((), (), (), builder.tape.finish(), (), (), path, builder.tape)

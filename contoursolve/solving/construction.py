@@ -36,17 +36,14 @@ from contoursolve.numeric import (
     SIDE,
     Compiled,
     Expression,
-    Functions,
     Tape,
     affine_parts,
     at_most,
-    cosine as cosine_of,
     is_affine,
     is_number,
     larger,
     magnitude,
     quadratic_parts,
-    sine as sine_of,
     sqrt,
     symbol,
     where,
@@ -67,8 +64,9 @@ from contoursolve.solving.conics import (
 )
 from contoursolve.solving.corners import Pair, unit
 from contoursolve.solving.determinacy import analyse, groups_of
-from contoursolve.solving.inputs import given_directions, input_values, named_inputs
+from contoursolve.solving.inputs import EXPRESSIONS, given_directions, input_values, named_inputs
 from contoursolve.solving.partition import Group
+from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.tolerance import TOUCHING
 
 MOST_SIGNS = 6
@@ -173,7 +171,8 @@ class Construction(Struct, frozen=True, eq=False):
     """Of the basis, but for what the words of a half circle are exact to."""
     slopes: tuple[tuple[int, int, str], ...]
     """(row, column, output) of the Jacobian of the basis by the unknowns."""
-    corner_residuals: tuple[str, ...]
+    path: PathOutputs
+    """The names of the outputs that measure the path."""
     tape: Tape
     """All expressions, from which balls, columns and formulas are made."""
     signs: tuple[str, ...] = ()
@@ -281,9 +280,6 @@ def _is_affine(fact: Fact, unknowns: set[str], system: System) -> bool:
     return is_affine([fact.residual(input_values(system, tape, {}))], [tape.input(name) for name in sorted(unknowns)])
 
 
-_FUNCTIONS = Functions(sqrt, cosine_of, sine_of)
-
-
 class Builder:
     """The expressions of a system under construction: `run` takes a step, from the values of those before."""
 
@@ -304,7 +300,7 @@ class Builder:
     def at(self, symbols: Mapping[str, Any] | None = None) -> Values:
         """What is known so far, with symbols for what is not."""
         scalars, sides = {**self.scalars, **(symbols or {})}, named_inputs(self.tape, prefix=SIDE)
-        return Values(scalars, self.amounts, self.directions, self.system.headed, sides, _FUNCTIONS)
+        return Values(scalars, self.amounts, self.directions, self.system.headed, sides, EXPRESSIONS)
 
     def point(self, name: str) -> Pair:
         """The coordinates of a point, mm."""
@@ -443,6 +439,8 @@ class Builder:
         self.tape.output(f"radius:{number}", radius)
         gap = f"gap:{number}"
         apart = self.tape.expression(gap) if gap in self.tape.outputs else magnitude(offset) - radius
+        if gap not in self.tape.outputs:
+            self.tape.output(gap, radius - offset)
         is_touching = magnitude(apart) <= self.touching * scale
         sign = self._sign(SIDE + step.point, step, number)
         return sign * self._spread(discriminant, is_touching)

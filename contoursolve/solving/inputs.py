@@ -7,7 +7,17 @@ from typing import Any, Protocol
 from contoursolve.geometry import System, Values
 from contoursolve.numeric import COSINE, SIDE, SINE, Created, Functions, expressions
 
-_SYMBOLS = Functions(expressions.sqrt, expressions.cosine, expressions.sine)
+EXPRESSIONS = Functions(
+    expressions.sqrt,
+    expressions.cosine,
+    expressions.sine,
+    magnitude=expressions.magnitude,
+    larger=expressions.larger,
+    at_most=expressions.at_most,
+    below=expressions.below,
+    opposite=expressions.opposite,
+)
+"""Of expressions of CasADi."""
 
 
 class InputSource(Protocol):
@@ -28,7 +38,7 @@ def given_directions(tape: InputSource) -> Created:
 
 
 def input_values(
-    system: System, tape: InputSource, symbols: Mapping[str, Any], functions: Functions = _SYMBOLS
+    system: System, tape: InputSource, symbols: Mapping[str, Any], functions: Functions = EXPRESSIONS
 ) -> Values:
     """A lookup whose values are symbols, or inputs of a tape."""
     return Values(

@@ -9,7 +9,6 @@ from contoursolve.geometry import (
     FIRST,
     SECOND,
     Coordinate,
-    Corner,
     Profile,
     Start,
     System,
@@ -19,6 +18,7 @@ from contoursolve.geometry import (
     scalar,
 )
 from contoursolve.numeric import COSINE, SINE, direction
+from contoursolve.solving.corners import CornerPath
 from contoursolve.solving.solution import CornerSolution, Point, Solution, Status
 
 Kind = TypeVar("Kind")
@@ -70,9 +70,15 @@ def axes_of(system: System) -> Mapping[str, int]:
     return places | {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
 
 
-def solution_at(system: System, start: Start, sizes: Mapping[str, float], out: Mapping[str, float]) -> Solution:
-    """The values among the outputs of a compiled system, which count coordinates from the start point; `sizes` are
-    those of the corners by the words that state them, mm."""
+def solution_at(
+    system: System,
+    start: Start,
+    sizes: Mapping[str, float],
+    out: Mapping[str, float],
+    corners: Mapping[str, CornerPath],
+) -> Solution:
+    """The values among the outputs of a compiled system, and of its corners, which count coordinates from the start
+    point; `sizes` are those of the corners by the words that state them, mm."""
     figure, (first, second) = system.figure, start.values
     one, other = float(first or 0), float(second or 0)
 
@@ -85,20 +91,16 @@ def solution_at(system: System, start: Start, sizes: Mapping[str, float], out: M
         Status.SOLVED,
         points=points,
         radii={name: out[name] for name in figure.radii},
-        corners={corner.name: corner_of(corner, sizes[corner.size], out, absolute) for corner in figure.corners},
+        corners={
+            corner.name: corner_of(corners[corner.name], sizes[corner.size], absolute) for corner in figure.corners
+        },
     )
 
 
-def corner_of(
-    corner: Corner, size: float, out: Mapping[str, float], absolute: Callable[[Point], Point]
-) -> CornerSolution:
-    """A corner in numbers, from the outputs of a compiled path."""
-
-    def pair(kind: str) -> Point:
-        return absolute((out[f"{kind}:{corner.name}.{FIRST}"], out[f"{kind}:{corner.name}.{SECOND}"]))
-
-    center = pair("center") if f"center:{corner.name}.{FIRST}" in out else None
-    return CornerSolution(pair("begin"), pair("end"), center, size, out[f"turn:{corner.name}"])
+def corner_of(built: CornerPath, size: float, absolute: Callable[[Point], Point]) -> CornerSolution:
+    """A corner in numbers, which count from the start point."""
+    center = None if built.center is None else absolute(built.center)
+    return CornerSolution(absolute(built.begin), absolute(built.end), center, size, built.turn)
 
 
 def lookup(profile: Profile, scalars: dict[str, float]) -> Values:

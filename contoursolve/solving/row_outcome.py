@@ -7,7 +7,8 @@ import numpy
 from numpy.typing import NDArray
 
 from contoursolve.numeric import Array
-from contoursolve.solving.checks import Check, Role
+from contoursolve.solving.checks import Check, Stage
+from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.solving.solution import RefusalKind, Status
 
 Mask = NDArray[numpy.bool_]
@@ -54,10 +55,10 @@ class RowOutcome:
     """What the checks found, row by row: `status` and `reason` as numbers; and the rows `again` that need the exact
     arithmetic of a single solve: a step that is singular, a line that touches its circle.
 
-    `out` has the outputs of `checks.add_checks`, and the cosines at the corners.
+    `out` has the outputs of `checks.add_checks`, and the cosines at the corners by their names in `path`.
     """
 
-    def __init__(self, checks: Sequence[Check], out: Out, rows: int) -> None:
+    def __init__(self, checks: Sequence[Check], out: Out, rows: int, path: PathOutputs) -> None:
         passed = numpy.broadcast_to(out["passed"], rows)
         self.is_clear: Mask = passed == len(checks)
         """Where every check is passed."""
@@ -69,11 +70,11 @@ class RowOutcome:
         self._conflicts: Mask = numpy.zeros(rows, bool)
         rest = numpy.flatnonzero(~self.is_clear)
         if rest.size:
-            self._note_first(checks, rest, passed[rest].astype(numpy.intp), out)
-        facts = {number: check for number, check in enumerate(checks) if check.role is Role.FACT}
+            self._note_first(checks, rest, passed[rest].astype(numpy.intp), path.read(out.get))
+        facts = {number: check for number, check in enumerate(checks) if check.stage is Stage.FACTS}
         if facts:
             # The first such check is about the points; that of the corners comes last.
-            points = next(number for number, check in enumerate(checks) if check.role is Role.EQUATION)
+            points = next(number for number, check in enumerate(checks) if check.stage is Stage.EQUATIONS)
             is_solved = passed != points
             for number, check in facts.items():
                 self._compare(check, out[f"margin:{number}"], is_solved)
@@ -87,14 +88,14 @@ class RowOutcome:
         status[self._conflicts] = StatusCode.CONFLICTING
         return status
 
-    def _note_first(self, checks: Sequence[Check], rows: Places, failed: Places, out: Out) -> None:
+    def _note_first(self, checks: Sequence[Check], rows: Places, failed: Places, path: PathOutputs) -> None:
         """Rows with the first check that each fails."""
         self.again[rows] = numpy.array([check.is_doubtful for check in checks])[failed]
         self.reason[rows] = numpy.array([_reason_where(check) for check in checks], numpy.uint8)[failed]
         for number, check in enumerate(checks):
             if check.opposite is not None:
                 bent = rows[failed == number]
-                cosine = numpy.broadcast_to(out[f"cosine:{check.subject}"], self.reason.size)[bent]
+                cosine = numpy.broadcast_to(path.corners[check.subject].cosine, self.reason.size)[bent]
                 self.reason[bent[~(cosine > 0)]] = reason_of(check.opposite)
 
     def _compare(self, check: Check, margin: Array, is_solved: Mask) -> None:
@@ -111,4 +112,4 @@ class RowOutcome:
 
 def _reason_where(check: Check) -> int:
     """The reason against rows of which it is the first check that fails."""
-    return reason_of(None if check.is_doubtful and check.role is not Role.FACT else check.kind)
+    return reason_of(None if check.is_doubtful and check.stage is not Stage.FACTS else check.kind)

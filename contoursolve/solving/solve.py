@@ -28,8 +28,9 @@ from contoursolve.solving.compare import compare_affine, compare_fact, givens_of
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.construction import ConstructionStep, StepKind, is_closed
 from contoursolve.solving.determinacy import analyse
+from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range
 from contoursolve.solving.numbers import inputs_of, lookup, scalars_of, sizes_of, solution_at
-from contoursolve.solving.path import check_path, check_range
+from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.solving.solution import (
     Certificate,
     Note,
@@ -109,7 +110,8 @@ class _Attempt:
         self.profile = profile
         self.system = system
         self.machine = compile_system(system)
-        self.out = self.machine.function(inputs_of(profile, system))
+        self.inputs = inputs_of(profile, system)
+        self.out = self.machine.function(self.inputs)
         self.refusals: list[Refusal] = []
         self.remarks: list[Note] = []
         self.doubles: dict[int, dict[str, float]] = {}
@@ -117,9 +119,9 @@ class _Attempt:
         self.stuck: frozenset[Fact] = frozenset()
         """The facts of the step that is singular at these values, if one is."""
 
-    def _resize(self, sizes: Mapping[str, float]) -> Mapping[str, float]:
-        """The outputs for other sizes of corners."""
-        return self.machine.function({**inputs_of(self.profile, self.system), **sizes})
+    def _resize(self, sizes: Mapping[str, float]) -> PathOutputs:
+        """The measures of the path for other sizes of corners."""
+        return self.machine.path.read(self.machine.function({**self.inputs, **sizes}).__getitem__)
 
     def answer(self, *, is_proven: bool) -> Solution:
         for number, step in enumerate(self.machine.steps):
@@ -129,16 +131,16 @@ class _Attempt:
                 self._compare_all()
                 return self._refused()
         points = {name: self._point(name) for name in (self.system.figure.start, *self.system.figure.points)}
-        self.refusals += check_range(self.system.figure, points)
+        sizes = sizes_of(self.profile)
+        path = MeasuredPath(self.profile, points, sizes, self._resize)
+        measures = self.machine.path.read(self.out.__getitem__)
+        self.refusals += judge_range(path)
         if self.refusals:
             self._compare_all()
         else:
             self._check_equations()
-        sizes = sizes_of(self.profile)
         if not self.refusals:
-            refusals, remarks = check_path(
-                self.profile, self.machine.corner_residuals, points, self.out, sizes, self._resize
-            )
+            refusals, remarks = judge_path(path, measures)
             self.refusals += refusals
             self.remarks += remarks
         if self.refusals:
@@ -148,7 +150,7 @@ class _Attempt:
             self.remarks.append(Note(NoteKind.SENSITIVE, "", (), {"limit": ERROR_BOUND_WARNING, "actual": bound}))
         agrees = any(remark.kind is NoteKind.WORDS_AGREE for remark in self.remarks)
         return replace(
-            solution_at(self.system, self.profile.start, sizes, self.out),
+            solution_at(self.system, self.profile.start, sizes, self.out, measures.corners),
             status=Status.OVERDETERMINED if agrees else Status.SOLVED,
             remarks=tuple(self.remarks),
             error_bound=bound,

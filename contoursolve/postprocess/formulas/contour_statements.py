@@ -20,6 +20,7 @@ from contoursolve.numeric import (
     Affine,
     Apply,
     Constant,
+    Tape,
     Term,
     Variable,
     at_most,
@@ -116,9 +117,9 @@ def body_of(reader: Reader, profile: Profile, stated: Mapping[str, Affine], writ
     loose = [point for point in points_with_two_solutions(system) if point not in chosen]
     if loose:
         raise FormulaError(f"nothing chooses between the two places of {loose[0]}")
-    source, checks = plain_checks(system)
+    tape, source, checks = plain_checks(system)
     absent = {
-        corner.name: LARGEST * at_most(magnitude(source.tape.input(corner.size)), ZERO)
+        corner.name: LARGEST * at_most(magnitude(tape.input(corner.size)), ZERO)
         for corner in profile.figure.corners
         if corner.size in free_sizes(profile, stated)
     }
@@ -127,12 +128,12 @@ def body_of(reader: Reader, profile: Profile, stated: Mapping[str, Affine], writ
         _failing(check, margin, absent.get(check.subject) if check.kind in _ABOUT_CORNERS else None)
         for check, margin in checks
     ]
-    path = list(_path(source, profile, writing))
+    path = list(_path(tape, source, profile, writing))
     outputs = [margin for margin, *_ in margins]
     for leg in path:
         outputs += leg.values
     inputs, signs = _inputs(reader, profile, stated)
-    formulas = formulas_of(source.tape, outputs, inputs, signs)
+    formulas = formulas_of(tape, outputs, inputs, signs)
     results = iter(formulas.results)
     maker = _Maker(formulas.steps, formulas.rooted)
     for (check, _), (_, kind, limit) in zip(checks, margins, strict=True):
@@ -180,9 +181,9 @@ class _Way(Struct, frozen=True):
     values: tuple[Any, ...]
 
 
-def _path(source: Source, profile: Profile, writing: Mapping[str, BlockUnits]) -> Iterator[_Way]:
+def _path(tape: Tape, source: Source, profile: Profile, writing: Mapping[str, BlockUnits]) -> Iterator[_Way]:
     """The elements and corners of a path, as `solving.contour.trace` has them."""
-    figure, tape = profile.figure, source.tape
+    figure = profile.figure
     corners = {corner.at: corner for corner in figure.corners}
     origin = tape.input(f"{ORIGIN}0"), tape.input(f"{ORIGIN}1")
     here = source.point(figure.start)
@@ -206,19 +207,16 @@ def _path(source: Source, profile: Profile, writing: Mapping[str, BlockUnits]) -
         corner = corners.get(element.head)
         end = source.point(element.head)
         if corner is not None:
-            end = source.out(f"begin:{corner.name}.0"), source.out(f"begin:{corner.name}.1")
+            end = source.path.corners[corner.name].begin
         if isinstance(element, Arc):
             yield way(element.name, end, source.point(element.center), element.turn.sign)
         else:
             yield way(element.name, end)
         here = end
         if corner is not None:
-            end = source.out(f"end:{corner.name}.0"), source.out(f"end:{corner.name}.1")
-            if f"center:{corner.name}.0" in tape.outputs:
-                center = source.out(f"center:{corner.name}.0"), source.out(f"center:{corner.name}.1")
-                yield way(corner.name, end, center, source.out(f"turn:{corner.name}"))
-            else:
-                yield way(corner.name, end)
+            built = source.path.corners[corner.name]
+            end = built.end
+            yield way(corner.name, end, built.center, built.turn)
             here = end
 
 
