@@ -62,8 +62,9 @@ def range_(
     """Tell for which values of WORD the contour of a block exists, and what ends each range of them.
 
     range finds every range: it divides the values until each part is proven to have the contour or to have none. It
-    solves the block on both sides of each end. For two words it finds the lines that bound the region, each with what
-    fails beyond it; --format json has their points. With facts or ? it follows all solutions: the contour exists where
+    solves the block on both sides of each end. For two words it samples the region: it solves values all over it, more
+    where the outcome changes, and says how finely. It names what fails beyond each line; --format json has their
+    points. With facts or ? it follows all solutions: the contour exists where
     one alone can be made. Where these leave no closed form, sweep solves the block value by value.
 
     Exit status: 0 the contour exists for some value, 1 for none, 2 could not run.

@@ -59,10 +59,16 @@ from .range_pieces import (
     LEAST_GAP as LEAST_GAP,
 )
 from .regions import (
-    Boundary as Boundary,
     Region as Region,
     region as region,
-    region_of as region_of,
+)
+from .sampled_lines import (
+    Boundary as Boundary,
+    Outcomes as Outcomes,
+    boundaries_of as boundaries_of,
+    crossings_of as crossings_of,
+    is_contour as is_contour,
+    outcomes_of as outcomes_of,
 )
 from .sensitivities import (
     Sensitivity as Sensitivity,

@@ -112,8 +112,8 @@ def region_lines(found: Region) -> Iterator[str]:
 
 
 def region_notes(found: Region) -> Iterator[str]:
-    """Notes of a region: doubts and premises."""
-    yield from (f"not proven: {each}" for each in found.doubts)
+    """Notes of a region: how finely it was sampled, and premises."""
+    yield found.fineness
     yield from rest_lines(found)
 
 
@@ -122,9 +122,8 @@ def region_title(found: Region) -> str:
     spans = zip(found.words, found.within, found.units, strict=True)
     box = ", ".join(f"{word} from {written(low, unit)} to {written(high, unit)}" for word, (low, high), unit in spans)
     number = count(len(found.boundaries), "line") if found.boundaries else "no line"
-    whole = "" if found.boundaries else f"; there is {'a' if found.exists else 'no'} contour everywhere"
-    proof = _proof(is_complete=found.is_complete)
-    return f"{box}: {number} between where the contour exists and where not ({proof}){whole}"
+    whole = "" if found.boundaries else f"; {'all' if found.exists else 'none'} of the values sampled have a contour"
+    return f"{box}: {number} between where the contour exists and where not (sampled, not proven){whole}"
 
 
 def region_table(found: Region) -> Table:
@@ -132,10 +131,8 @@ def region_table(found: Region) -> Table:
     rows = []
     for place, each in enumerate(found.boundaries, 1):
         first, last = (_pair(point, found) for point in (each.points[0], each.points[-1]))
-        where = "on it" if each.is_gap else "beyond it"
-        doubt = f"; {each.unverified} points not confirmed on both sides" if each.unverified else ""
         points = f"{len(each.points)} points"
-        rows.append((f"{place}.", f"{first} to {last}", points, f"{where}: {each.reason.text}{doubt}"))
+        rows.append((f"{place}.", f"{first} to {last}", points, f"beyond it: {each.reason.text}"))
     header = ("line", "from and to", "points", "where there is no contour")
     return Table("The lines that bound it", header, rows, left=(0, 1, 3))
 
@@ -146,13 +143,15 @@ def _pair(point: tuple[float, float], found: Region) -> str:
 
 
 def region_data(found: Region) -> dict[str, Any]:
-    """The region of two words as plain data: schema contoursolve/region/1. Values are as the words are written."""
-    names = "found_by=way gap=is_gap inside outside unverified points"
+    """The region of two words as plain data: schema contoursolve/region/2. Values are as the words are written."""
     return {
-        "schema": "contoursolve/region/1",
-        **members(found, "words units stated within exists complete=is_complete doubts cell"),
+        "schema": "contoursolve/region/2",
+        **members(found, "words units stated within exists"),
+        "sampled": members(found, "edges_within=cell narrower_may_be_missing=seen"),
         **resting_data(found.resting),
-        "boundaries": [{"reason": _reason_data(each.reason), **members(each, names)} for each in found.boundaries],
+        "boundaries": [
+            {"reason": _reason_data(each.reason), **members(each, "outside points")} for each in found.boundaries
+        ],
     }
 
 

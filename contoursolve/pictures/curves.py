@@ -1,27 +1,24 @@
-"""The exact lines that bound a region of two words, as they run on the page."""
+"""The lines that bound where a contour exists in two words, as they run on the page."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from contoursolve.families import Boundary, Region
+from contoursolve.families import Boundary
 from contoursolve.numeric import Array
 from contoursolve.pictures.page import Spot, Stroke
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.value_axes import HIGH, LEFT, TOP, WIDE, ValuePlane
 
 _LINE = 3.0
-"""Pixels of an exact line; it covers the steps of the cells under it."""
-
-_GAP = (3.0, 3.0)
-"""Pixels on and off of a line on which alone there is no contour."""
+"""Pixels of a line; it covers the steps of the cells under it."""
 
 
 class Curve(Struct, frozen=True, eq=False):
-    """A boundary on the page: its points, places on it a pixel apart, and the unit directions to its failing side there
-    (to either side for a gap)."""
+    """A boundary on the page: its points, places on it a pixel apart, and the unit directions to its failing side
+    there."""
 
     boundary: Boundary
     points: Array
@@ -34,9 +31,9 @@ class Curve(Struct, frozen=True, eq=False):
         return float(numpy.hypot(*numpy.diff(self.spots, axis=0).T).sum())
 
 
-def curves_of(region: Region, chart: ValuePlane) -> list[Curve]:
-    """The boundaries of a region as they run on the page, the longest first."""
-    found = [_curve(each, chart) for each in region.boundaries]
+def curves_of(boundaries: Iterable[Boundary], chart: ValuePlane) -> list[Curve]:
+    """Boundaries as they run on the page, the longest first."""
+    found = [_curve(each, chart) for each in boundaries]
     return sorted((each for each in found if each.length > 0), key=lambda each: -each.length)
 
 
@@ -49,31 +46,17 @@ def _curve(boundary: Boundary, chart: ValuePlane) -> Curve:
     sizes = numpy.hypot(ways[:, 0], ways[:, 1])
     ways = ways / numpy.where(sizes > 0, sizes, 1.0)[:, None]
     normals = numpy.stack([-ways[:, 1], ways[:, 0]], axis=1)
-    if boundary.inside is not None and boundary.outside is not None and not boundary.is_gap:
-        # Both are too close to the line to be told apart on the page, so that values are compared instead.
-        middle = numpy.array(boundary.points[len(boundary.points) // 2])
-        away = numpy.array(boundary.outside) - numpy.array(boundary.inside)
-        size = numpy.ptp(numpy.stack([chart.across.values[[0, -1]], chart.up.values[[0, -1]]]), axis=1)
-        away = 1e-3 * size * away / max(float(numpy.max(numpy.abs(away / size))), 1e-300)
-        there = chart.spots(numpy.stack([middle, middle + away]))
-        nearest = int(numpy.argmin(numpy.hypot(*(spots - there[0]).T)))
-        if float((there[1] - there[0]) @ normals[nearest]) < 0:
-            normals = -normals
+    middle = numpy.array(boundary.points[len(boundary.points) // 2])
+    there = chart.spots(numpy.stack([middle, numpy.array(boundary.outside)]))
+    nearest = int(numpy.argmin(numpy.hypot(*(spots - there[0]).T)))
+    if float((there[1] - there[0]) @ normals[nearest]) < 0:
+        normals = -normals
     return Curve(boundary, rough, spots, normals)
 
 
 def strokes(curves: Sequence[Curve]) -> list[Stroke]:
-    """The lines; dotted where there is no contour on the line alone."""
-    return [
-        Stroke(
-            _spot(each.points[0]),
-            tuple(map(_spot, each.points[1:])),
-            Role.INK,
-            _LINE,
-            _GAP if each.boundary.is_gap else (),
-        )
-        for each in curves
-    ]
+    """The lines."""
+    return [Stroke(_spot(each.points[0]), tuple(map(_spot, each.points[1:])), Role.INK, _LINE) for each in curves]
 
 
 def spots_of(curves: Sequence[Curve]) -> Array:

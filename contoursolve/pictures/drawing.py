@@ -108,8 +108,8 @@ def draw_family_fan(
 def draw_family_map(
     family: Family, words: tuple[str, str] | None = None, *, theme: Theme = Theme.LIGHT, title: str | None = None
 ) -> Picture:
-    """The picture of what becomes of a block over two of its words: a field for each status, and the boundaries, where
-    the contour begins to exist as exact lines with what fails beyond them (a tenth of a second for most blocks).
+    """The picture of what becomes of a block over two of its words: a field for each status, and the lines between the
+    values with a contour and without, with what fails beyond them.
 
     `words` go to the right and up; without them, the two words of the family. Raises ValueError where these are not
     two words of a grid.
@@ -128,7 +128,7 @@ def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None
 
 def draw_region(region: Region, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
     """The picture of the values of two words with which a block has a contour: the lines that bound them, each with
-    what fails beyond it, and a field for each status, from a solve in each of many cells (a tenth of a second)."""
+    what fails beyond it, and a field for each status, as they were sampled."""
     from contoursolve.pictures.maps import lay_out_region  # noqa: PLC0415 - as above
 
     return finish(lay_out_region(region, title), theme)

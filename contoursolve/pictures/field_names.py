@@ -5,9 +5,10 @@ from itertools import product
 
 import numpy
 
+from contoursolve.families import Outcomes
 from contoursolve.numeric import Array
 from contoursolve.pictures.curves import Curve, near, spots_of
-from contoursolve.pictures.fields import Mask, Outcomes, cell_at, cell_size, holds, role_of, words_of
+from contoursolve.pictures.fields import Mask, cell_at, cell_size, holds, role_of, words_of
 from contoursolve.pictures.page import SIZE, Anchor, Box, Spot, Text, TextRun, visible, width_of, wrap
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.value_axes import LEFT, TOP
@@ -136,12 +137,12 @@ def _deepest(mask: Mask, across: int, up: int) -> Spot:
 
 
 def _name_lines(curves: Sequence[Curve], shown: Outcomes, taken: Sequence[Box]) -> Named:
-    """The names of lines beside them, each in the field beyond its line. A gap has no field beyond it, and no name."""
+    """The names of lines beside them, each in the field beyond its line."""
     spots = spots_of(curves)
     texts: list[Text] = []
     boxes, named = list(taken), set[str]()
     missing: list[str] = []
-    for curve in (each for each in curves if not each.boundary.is_gap):
+    for curve in curves:
         name = visible(curve.boundary.reason.text)
         if name in named and curve.length < _LEAST:
             continue

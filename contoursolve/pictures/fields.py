@@ -7,15 +7,12 @@ from math import floor
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.families import Family
+from contoursolve.families import Outcomes, is_contour
 from contoursolve.pictures.curves import Curve, near
 from contoursolve.pictures.page import Box, Item, Spot, Stroke
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.value_axes import HIGH, LEFT, TOP, WIDE
 from contoursolve.solving import REASONS, StatusCode
-
-Outcomes = NDArray[numpy.int64]
-"""Outcome of each cell of a plane, the uppermost row first: status and reason encoded as one number."""
 
 Mask = NDArray[numpy.bool_]
 
@@ -30,12 +27,6 @@ _OVER = 0.6
 """Pixels by which a field reaches under the next, so that the paper does not shine through between them."""
 
 _MOST_RUNS = 9_000
-
-
-def outcomes_of(family: Family) -> Outcomes:
-    """The outcomes of a family, by its words."""
-    found: Outcomes = family["status"].astype(numpy.int64) * len(REASONS) + family["reason"]
-    return found
 
 
 def words_of(outcome: int) -> list[str]:
@@ -91,10 +82,10 @@ def paint(shown: Outcomes) -> list[Item]:
 
 
 def boundaries(shown: Outcomes, curves: Sequence[Curve]) -> list[Stroke]:
-    """Lines between fields, each as long as it is straight; where an exact line says the same, only that."""
+    """Lines between fields, each as long as it is straight; where a curve says the same, only that."""
     wide, high = cell_size(shown)
     close = near(curves, *shown.shape)
-    has_contour = solved_in(shown)
+    has_contour = is_contour(shown)
     role, width = (Role.MUTED, 1.0) if curves else (Role.INK, 1.4)
     items: list[Stroke] = []
     for row, first, last in _edges(shown, close, has_contour):
@@ -106,15 +97,10 @@ def boundaries(shown: Outcomes, curves: Sequence[Curve]) -> list[Stroke]:
     return items[:_MOST_RUNS]
 
 
-def solved_in(shown: Outcomes) -> Mask:
-    """Mask of the cells with a contour."""
-    return numpy.isin(shown, [each for each in numpy.unique(shown) if role_of(int(each)) is Role.SOLVED_FIELD])
-
-
 def _edges(shown: Outcomes, close: Mask, has_contour: Mask) -> Iterator[tuple[int, int, int]]:
-    """Between each row of cells and the next one, from where to where they differ and no exact line is close that parts
+    """Between each row of cells and the next one, from where to where they differ and no curve is close that parts
     cells with a contour from others."""
-    is_exact = (close[1:] | close[:-1]) & (has_contour[1:] != has_contour[:-1])
-    for row, edges in enumerate((shown[1:] != shown[:-1]) & ~is_exact):
+    is_drawn = (close[1:] | close[:-1]) & (has_contour[1:] != has_contour[:-1])
+    for row, edges in enumerate((shown[1:] != shown[:-1]) & ~is_drawn):
         ends = numpy.flatnonzero(numpy.diff(edges.astype(numpy.int8), prepend=0, append=0)).tolist()
         yield from ((row, first, last) for first, last in zip(ends[::2], ends[1::2], strict=True))

@@ -1,24 +1,22 @@
-"""Map of the outcomes of a block over two of its words: a named field for each outcome, and the bounds of existence."""
+"""Map of the outcomes of a block over two of its words: a named field for each outcome, and lines around existence."""
 
 from collections.abc import Mapping, Sequence
 
 import numpy
 from numpy.typing import NDArray
 
-from contoursolve.families import Family, FamilyError, Ranges, Region, compile_sweep, region_of, solve_sweep
+from contoursolve.families import Family, Outcomes, Ranges, Region, boundaries_of, crossings_of, outcomes_of
 from contoursolve.numeric import Array
 from contoursolve.pictures.curves import Curve, curves_of, spots_of, strokes
 from contoursolve.pictures.field_names import is_free, name_all
-from contoursolve.pictures.fields import Outcomes, boundaries, outcomes_of, paint
-from contoursolve.pictures.page import SIZE, Anchor, Box, Dot, Item, Text, TextRun, visible
+from contoursolve.pictures.fields import boundaries, paint
+from contoursolve.pictures.page import SIZE, Anchor, Dot, Item, Text, TextRun, visible
 from contoursolve.pictures.sheet import Sheet
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.value_axes import (
     BELOW,
     HIGH,
-    LEFT,
     TOP,
-    WIDE,
     ValuePlane,
     axis_text,
     over_cells,
@@ -31,6 +29,7 @@ COLUMNS, ROWS = 305, 200
 """Cells of a map; of more values, the one nearest to the middle of each cell is shown."""
 
 Remark = tuple[str, Role]
+Places = NDArray[numpy.int64]
 
 
 def map_title(statuses: Mapping[Status, int], words: Sequence[str]) -> str:
@@ -52,57 +51,47 @@ def lay_out_map(
         raise ValueError(f"a map needs a grid of two words; this family has {' and '.join(own)}, not {words!r}")
     first, second = words
     # The other words have one value each.
-    outcomes = outcomes_of(family).reshape([family.ranges.values[word].size for word in own])
+    outcomes = outcomes_of(family["status"], family["reason"]).reshape(
+        [family.ranges.values[word].size for word in own]
+    )
     outcomes = outcomes if own == list(words) else outcomes.T
     columns, rows = picks(family.ranges.values[first], COLUMNS), picks(family.ranges.values[second], ROWS)
-    shown = outcomes[numpy.ix_(columns, rows)].T[::-1]
+    drawn = outcomes[numpy.ix_(columns, rows)]
+    shown = drawn.T[::-1]
     scales = (over_cells(numpy.sort(ranges.values[word])) for word in words)
     chart = ValuePlane(_axes(family, words), *scales)
     remarks: list[Remark] = []
-    drawn = zip(words, shown.shape[::-1], strict=True)
     thinned = [
         f"{count:,} of {ranges.values[word].size:,} values of {word}"
-        for word, count in drawn
+        for word, count in zip(words, drawn.shape, strict=True)
         if count < ranges.values[word].size
     ]
     if thinned:
         remarks.append((f"drawn: {' and '.join(thinned)}; the title counts all contours", Role.MUTED))
     named = title if title is not None else map_title(family.summary(), words)
-    return _page(named, chart, shown, _curves(family, ranges, (first, second), chart), [], remarks)
+    return _page(named, chart, shown, _curves(family, (first, second), (columns, rows), drawn, chart), [], remarks)
 
 
 def lay_out_region(region: Region, title: str | None) -> Sheet:
-    """The page of a region, with the outcome in the middle of each of many cells."""
-    chart_of = (over_range(low, high) for low, high in region.within)
-    try:
-        family = _solve_cells(region)
-    except FamilyError:  # every value in the box is refused, or the cells cannot be told from each other
-        chart = ValuePlane(region.words, *chart_of)
-        items = [Box(LEFT, TOP, LEFT + WIDE, TOP + HIGH).filled(Role.REFUSED_FIELD)] if not region.exists else []
-        return page_of(title or _region_title(region), [*items, *chart.axes()], [], TOP + HIGH + BELOW)
-    shown = outcomes_of(family).reshape(COLUMNS, ROWS).T[::-1]
-    chart = ValuePlane(_axes(family, region.words), *chart_of)
-    curves = curves_of(region, chart)
+    """The page of a region."""
+    first, second = (
+        axis_text(word, unit, is_diameter=is_diameter)
+        for word, unit, is_diameter in zip(region.words, region.units, region.diameters, strict=True)
+    )
+    chart = ValuePlane((first, second), *(over_range(low, high) for low, high in region.within))
+    curves = curves_of(region.boundaries, chart)
     stated = _stated(region, chart, curves)
-    return _page(title if title is not None else _region_title(region), chart, shown, curves, stated, [])
-
-
-def _solve_cells(region: Region) -> Family:
-    """The block of a region, solved in the middle of each cell of its picture."""
-    shares = ((numpy.arange(count) + 0.5) / count for count in (COLUMNS, ROWS))
-    spans = zip(region.words, region.within, shares, strict=True)
-    cells = {word: low + share * (high - low) for word, (low, high), share in spans}
-    others = {word: numpy.array([value]) for word, value in region.fixed.items()}
-    return solve_sweep(compile_sweep(region.spec, Ranges({**others, **cells}, is_paired=False)))
+    remarks: list[Remark] = [(region.fineness, Role.MUTED)]
+    told = title if title is not None else _region_title(region)
+    return _page(told, chart, region.outcomes.T[::-1], curves, stated, remarks)
 
 
 def _region_title(region: Region) -> str:
-    """The title of a region: its words, where a contour exists, and whether the lines are proven complete."""
+    """The title of a region: its words, and where a contour exists."""
     words = " and ".join(region.words)
     if not region.boundaries:
-        return f"{words}: {'a' if region.exists else 'no'} contour everywhere"
-    proof = "" if region.is_complete else " (that these are all lines is not proven)"
-    return f"{words}: where the contour exists{proof}"
+        return f"{words}: {'a' if region.exists else 'no'} contour at every value sampled"
+    return f"{words}: where the contour exists"
 
 
 def _axes(family: Family, words: Sequence[str]) -> tuple[str, str]:
@@ -125,29 +114,24 @@ def _page(
     """The page of a plane with its outcomes, and of what is marked in it."""
     taken = [each.box for each in marks if isinstance(each, Text)]
     names, narrow, unnamed = name_all(shown, curves, taken)
-    gaps = dict.fromkeys(visible(each.boundary.reason.text) for each in curves if each.boundary.is_gap)
-    told = (
-        ("too narrow to be named", narrow),
-        ("lines without room for a name", unnamed),
-        ("dotted: there is no contour on the line alone", gaps),
-    )
+    told = (("too narrow to be named", narrow), ("lines without room for a name", unnamed))
     items = [*paint(shown), *boundaries(shown, curves), *strokes(curves), *chart.axes(), *marks, *names]
     more = [(f"{what}: {'; '.join(names)}", Role.MUTED) for what, names in told if names]
     return page_of(title, items, [*remarks, *more], TOP + HIGH + BELOW, 4.0)
 
 
-def _curves(family: Family, ranges: Ranges, words: tuple[str, str], chart: ValuePlane) -> list[Curve]:
-    """The exact lines between where the contour exists and where not; none where they cannot be told, as for facts that
-    leave no closed form."""
-    if any(scale.values[0] == scale.values[-1] for scale in (chart.across, chart.up)):
-        return []
-    try:
-        return curves_of(region_of(family.spec, ranges, words), chart)
-    except FamilyError:
-        return []
+def _curves(
+    family: Family, words: tuple[str, str], places: Sequence[Places], drawn: Outcomes, chart: ValuePlane
+) -> list[Curve]:
+    """The lines between the values that are drawn with a contour and without; `places` are theirs in the family."""
+    values = family.ranges.values
+    axes = [values[word][each] for word, each in zip(words, places, strict=True)]
+    fixed = {word: float(column[0]) for word, column in values.items() if word not in words}
+    template = family.spec.template().filled(fixed).with_words(words)
+    return curves_of(boundaries_of(template, drawn, crossings_of(axes, drawn)), chart)
 
 
-def picks(values: Array, most: int) -> NDArray[numpy.int64]:
+def picks(values: Array, most: int) -> Places:
     """Indices of the values to be shown, in rising order; of too many, the one in the middle of each cell."""
     order = numpy.argsort(values, kind="stable")
     if order.size <= most:

@@ -10,8 +10,7 @@ from examples import few_and_many
 from generate_families import BLOCKS, ROWS, draw
 
 from contoursolve import FamilyError, family, find_word, sensitivity, solve, tolerances
-from contoursolve.families import feasible, region
-from contoursolve.families.sampled_regions import SampledField
+from contoursolve.families import feasible, is_contour, region, regions
 from contoursolve.families.spec import name_of, spec_of
 from contoursolve.families.traced_reading import Traced
 from contoursolve.output.families import rest_lines
@@ -182,30 +181,30 @@ def test_a_value_is_found_on_either_side_of_where_an_arc_turns_over(goal, value)
 
 
 @pytest.mark.parametrize(
-    ("block", "words", "within", "options", "doubt"),
+    ("block", "words", "within", "options"),
     [
-        (BENT, ("1:X", "2:Y"), ((5, 25), (-5, 5)), SINUMERIK, "each value of X of block 1 and Y of block 2 decides"),
+        (BENT, ("1:X", "2:Y"), ((5, 25), (-5, 5)), SINUMERIK),
         (
             "G00 X50. Z50.\nG01 ,A30. ,R5.\nX0. Z150. ,A-45.",
             ("2:,A", "3:,A"),
             ((15, 30), (10, 25)),
             {"control": "fanuc-lathe"},
-            "each value of ,A of block 2 and ,A of block 3 decides",
         ),
     ],
 )
-def test_a_region_of_words_that_each_decide_is_sampled_row_by_row(monkeypatch, block, words, within, options, doubt):
-    monkeypatch.setattr(SampledField, "count", 9)
+def test_a_region_of_words_that_each_decide_is_sampled_row_by_row(monkeypatch, block, words, within, options):
+    monkeypatch.setattr(regions, "BY_ROW", regions.Lattice(17, 17, 2))
     found = region(block, words, within, **options)
     assert found.exists
-    assert not found.is_complete
-    assert found.doubts[0].startswith(doubt)
+    assert found.boundaries
     for each in found.boundaries:
         assert each.reason.text
-        for at, is_solved in ((each.inside, True), (each.outside, False)):
-            if at is not None:
-                assert (alone(block, dict(zip(words, at, strict=True)), **options).contour is not None) is is_solved
-    assert any(each.inside and each.outside for each in found.boundaries)
+        assert alone(block, dict(zip(words, each.outside, strict=True)), **options).contour is None
+    axes = [np.linspace(*ends, 17) for ends in within]
+    for i, j in ((0, 0), (4, 8), (8, 8), (12, 2), (16, 16)):
+        values = dict(zip(words, (axes[0][i], axes[1][j]), strict=True))
+        is_solved = alone(block, values, **options).contour is not None
+        assert bool(is_contour(found.outcomes)[i, j]) is is_solved
 
 
 def test_derivatives_by_a_direction_that_is_handed_on_count_all_that_it_turns():

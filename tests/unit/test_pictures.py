@@ -625,7 +625,7 @@ def test_a_map_names_every_outcome_with_its_boundary():
 
 
 def lines_of(picture, width):
-    """The exact lines of a map or a region, as places on the page."""
+    """The lines of a map or a region, as places on the page."""
     return [
         numpy.array([item.start, *item.steps])
         for item in picture.sheet.drawing
@@ -642,56 +642,40 @@ def spot_of(values, within):
 PAIR = CIRCLE + "G1 X-50 Y42.857 ,A171.87 Q-1"
 REGIONS = {
     "too large": (BLOCK, {"A": (150.0, 210.0), "P": (1.0, 60.0)}, {"start": START}),
-    "a gap": (BLOCK, {"A": (91.0, 269.0), "B": (90.0, 200.0)}, {"start": START}),
+    "two angles": (BLOCK, {"A": (91.0, 269.0), "B": (90.0, 200.0)}, {"start": START}),
     "a rule": (BLOCK, {"P": (-10.0, 60.0), "Q": (-10.0, 60.0)}, {"start": START}),
     "a circle": (PAIR, {"R": (40.0, 80.0), ",A": (150.0, 179.0)}, {}),
 }
 
 
-TWO_REGIONS = [pytest.param(n, marks=[pytest.mark.slow] * (n != "a gap")) for n in REGIONS]
+TWO_REGIONS = [pytest.param(n, marks=[pytest.mark.slow] * (n != "two angles")) for n in REGIONS]
 
 
 @pytest.mark.parametrize("name", TWO_REGIONS)
-def test_the_exact_lines_of_a_map_part_single_solves_that_have_a_contour_from_those_that_have_none(name):
+def test_the_lines_of_a_map_part_values_that_have_a_contour_from_those_that_have_none(name):
     block, within, options = REGIONS[name]
     axes = {word: numpy.linspace(*ends, 61) for word, ends in within.items()}
     family = contoursolve.family(block, vary=axes, **options)
     picture = draw_family_map(family)
     check(picture)
     drawn = lines_of(picture, width=3.0)
-    found = contoursolve.families.region(block, tuple(within), tuple(within.values()), **options)
-    assert len(drawn) == len(found.boundaries) > 0
-    told = " ".join(labels(picture))
-    assert all(each.reason.text in told or each.reason.text.split()[0] in told for each in found.boundaries)
+    assert drawn
     # The middles of the outer cells are half a cell from the frame.
     half = {word: (high - low) / 120 for word, (low, high) in within.items()}
     whole = [(low - half[word], high + half[word]) for word, (low, high) in within.items()]
-    for each in found.boundaries:
-        expected = numpy.array([spot_of(point, whole) for point in each.points])
-        assert any(line.shape == expected.shape and abs(line - expected).max() < 1e-6 for line in drawn)
     # Where cells beside each other are not alike, a line runs between their middles.
     spots = numpy.concatenate([dense(line) for line in drawn])
     has_contour = family.has_contour
     first, second = axes.values()
     for row, column in zip(*numpy.nonzero(has_contour[:-1] != has_contour[1:]), strict=True):
         middle = spot_of(((first[row] + first[row + 1]) / 2, second[column]), whole)
-        assert numpy.hypot(*(spots - middle).T).min() < 5.5, (first[row], second[column])
+        assert numpy.hypot(*(spots - middle).T).min() < 1.5, (first[row], second[column])
 
 
 def dense(line):
     steps = numpy.concatenate([[0], numpy.cumsum(numpy.hypot(*numpy.diff(line, axis=0).T))])
     along = numpy.linspace(0, steps[-1], int(steps[-1]) + 2)
     return numpy.stack([numpy.interp(along, steps, line[:, axis]) for axis in (0, 1)], axis=1)
-
-
-def test_where_no_exact_line_can_be_told_the_cells_have_their_boundaries():
-    facts = ["length of line 1 = 35", "angle from line 1 to line 2 = -50"]
-    vary = {"X": numpy.arange(80, 121, 20.0), "K": numpy.arange(-55, -10, 15.0)}
-    told = contoursolve.family("G111 X100. A? K-30. B?", start=START, vary=vary, facts=facts)
-    picture = draw_family_map(told)
-    check(picture)
-    assert lines_of(picture, width=3.0) == []
-    assert lines_of(picture, width=1.4)
 
 
 def fields_of(picture):
@@ -788,7 +772,7 @@ def test_where_every_value_is_refused_a_region_says_so():
     found = contoursolve.region(BLOCK, ("P", "Q"), ((-9.0, -5.0), (-9.0, -5.0)), start=START)
     picture = draw_region(found)
     check(picture)
-    assert picture.title == "P and Q: no contour everywhere"
+    assert picture.title == "P and Q: no contour at every value sampled"
     assert {role for _, role in fields_of(picture)} <= {Role.REFUSED_FIELD, Role.OTHER_FIELD}
 
 

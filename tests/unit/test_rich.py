@@ -245,7 +245,7 @@ def test_families_rules_and_paths_show_themselves():
 QUESTIONS = {
     "range": lambda block, options: contoursolve.families.feasible(block, "P", **options),
     "region": lambda block, options: contoursolve.families.region(block, ("A", "P"), ((150, 210), (1, 60)), **options),
-    "region of gaps": lambda block, options: contoursolve.families.region(
+    "region of two angles": lambda block, options: contoursolve.families.region(
         block, ("A", "B"), ((90, 270), (90, 200)), **options
     ),
     "found": lambda block, options: contoursolve.families.find_word(block, "B", "end Z-50.", **options),
