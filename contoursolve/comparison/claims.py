@@ -1,4 +1,4 @@
-"""What a result claims, as records of schema solve/1, and what became of each claim: the receipt."""
+"""Claims of a result, as records of schema solve/1, and the outcome of each claim: the receipt."""
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
@@ -76,7 +76,7 @@ class ClaimedArc(Struct, frozen=True, tag="arc", tag_field="kind"):
 
 
 class ClaimedCertificate(Struct, frozen=True):
-    """How well the result says its points are known: `radius` in mm, None where it names none."""
+    """Claimed accuracy of points: `radius` in mm, None if the result names none."""
 
     kind: str
     radius: Number | None
@@ -94,7 +94,7 @@ class ClaimedAnswer(Struct, frozen=True):
 
 
 class ClaimedPath(Struct, frozen=True):
-    """Where a path ends, its named points, its elements, what it answers; all empty where there is none."""
+    """Claimed path: its end, its named points, its elements and its answers; all empty if there is none."""
 
     end: Point | None
     points: dict[str, Point]
@@ -127,7 +127,7 @@ class ClaimedSolution(ClaimedPath, frozen=True):
 
 
 class ClaimedCount(Struct, frozen=True):
-    """How many solutions there are said to be, and how many of them are paths."""
+    """Claimed number of solutions, and the number of paths among them."""
 
     solutions: LineNumber
     contours: LineNumber
@@ -209,7 +209,7 @@ def _unambiguous(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 class Outcome(Enum):
-    """What became of one claim."""
+    """Outcome of one claim."""
 
     HOLDS = "holds"
     BROKEN = "broken"
@@ -223,7 +223,7 @@ class ReceiptVerdict(Enum):
     """The status was worked out, and the path was measured if there is one; everything that was checked is right."""
     FAILED = "failed"
     PARTLY_VERIFIED = "partly-verified"
-    """What was measured is right, and the status (of a program: that of some contours) was not worked out."""
+    """The measured claims are right; the status (of a program: that of some contours) was not worked out."""
     NOTHING_CHECKED = "nothing-checked"
 
 
@@ -297,12 +297,12 @@ class ContourReceipt(Struct, frozen=True):
 
     @property
     def checks(self) -> list[ClaimCheck]:
-        """What was checked."""
+        """The claims that were checked."""
         return [each for each in self.told if each.outcome is not Outcome.NOT_CHECKED]
 
     @property
     def omissions(self) -> list[ClaimCheck]:
-        """What was not checked."""
+        """The claims that were not checked."""
         return [each for each in self.told if each.outcome is Outcome.NOT_CHECKED]
 
 

@@ -68,7 +68,7 @@ MOST_WAYS = 32
 
 
 class Case(Struct, frozen=True):
-    """What the words of a contour state, read with the tables of its control, and what is claimed of it.
+    """Words of a contour, read with the tables of its control, and the claims about it.
 
     `blank` has the values of givens alone, counted from `origin`, the start point. Reading alone tells that words are
     `unreadable`, that they leave it `loose`, that a rule has `rejected` it; rules that may have are `hints`.
@@ -96,14 +96,15 @@ class Case(Struct, frozen=True):
         return [word.text for word in given if word]
 
     def name(self, fact: Fact) -> str:
-        """What checks call a fact."""
+        """The name of a fact in checks."""
         fields = {name: getattr(fact, name) for name in type(fact).__struct_fields__}  # type: ignore[attr-defined]
         axis = self.profile.plane.axes[fields["axis"]] if "axis" in fields else ""
         told = MEANINGS[type(fact)][0].format_map({**fields, "axis": axis})
         return "the fact holds" if fact.given.startswith("fact ") else told
 
     def allowance(self, fact: Fact, at: MeasuredFigure) -> float:
-        """How far a fact may miss what others say, mm: coordinates and words are exact to half of their increments."""
+        """The allowed difference of a fact from the others, mm: coordinates and words are exact to half of their
+        increments."""
         steps = self.profile.increments
         own = steps.get(INCREMENT_OF + fact.given, 0.0)
         if isinstance(fact, OnCircle) and not fact.given:
@@ -124,7 +125,7 @@ def prepare(
     rules: str,
     next_end: tuple[Decimal, Decimal] | None,
 ) -> Case:
-    """What the words and facts of a contour state."""
+    """Read the words and facts of a contour into a case."""
     is_faulty, refusals = any(block.faults for block in claim.blocks), list[str]()
     offences = () if rules == "off" or is_faulty else offences_of(claim, dialect.rules)
     plain = read(claim, frozenset(each.ignored for each in offences if each.ignored))
@@ -165,7 +166,8 @@ def _unknowns(figure: Any) -> tuple[str, ...]:
 
 
 def _unreadable(claim: ParsedContour) -> Iterator[str]:
-    """What has no meaning, whatever the rules are: characters, words, numbers beyond all travel, idle questions."""
+    """Reasons why words have no meaning, whatever the rules are: characters, words, numbers beyond all travel, idle
+    questions."""
     names = {*claim.form.choices, *(row.fact.given for row in claim.form.facts)}
     names |= {name for row in claim.form.corners for name in row.shapes}
     askable = [word for name, word in claim.words.items() if name in names]
@@ -195,7 +197,7 @@ class Measured(Struct, frozen=True, dict=True):
     limit: float
 
     def off(self, fact: Fact) -> tuple[float, float]:
-        """How far a fact is from being true, and how far it may be, mm."""
+        """The error of a fact, and its limit, mm."""
         off = residual(fact, self.at)
         allowed = max(self.limit, self.case.allowance(fact, self.at)) if fact in self.spare else self.limit
         if isinstance(fact, Radius) and self.limit < off <= self.case.allowance(fact, self.at):
@@ -225,7 +227,7 @@ class Measured(Struct, frozen=True, dict=True):
 
     @cached_property
     def rank(self) -> "Rank":
-        """What the derivatives of the words tell there."""
+        """The rank of the facts' derivatives at the path."""
         return rank_at(self)
 
 
@@ -331,7 +333,7 @@ def _measure(
 
 
 def _check_words(own: Measured, ledger: Ledger) -> None:
-    """What words, forms and corners say is true of the points."""
+    """Measure what words, forms and corners state about the points."""
     for fact in own.facts:
         ledger.measure(own.case.name(fact), own.case.words(fact), *own.off(fact))
 
@@ -421,7 +423,7 @@ PATH_CHECKS: Mapping[str, Callable[[Measured, Ledger], None]] = {
     "sides": _check_sides,
     "answers": _check_answers,
 }
-"""What is checked of each claimed path, by its kind."""
+"""Checks of each claimed path, by their kind."""
 
 
 # --- What the derivatives tell -----------------------------------------------------------------------
@@ -435,7 +437,7 @@ miss each other, which central differences do not tell from zero."""
 
 
 class Rank(Struct, frozen=True):
-    """What the derivatives of facts tell at claimed values.
+    """Rank of the derivatives of facts at claimed values.
 
     `open` is how many unknowns they leave free, `surplus` are the stated facts that follow from others; None where that
     is not told. `off` and `unsure` are how far values are from where the facts are true, to first order, and how far
@@ -451,7 +453,7 @@ class Rank(Struct, frozen=True):
 
 
 def rank_at(own: Measured) -> Rank:
-    """What the derivatives of the words tell at a claimed path."""
+    """The rank of the words' derivatives at a claimed path."""
     case, names, facts, values = own.case, own.case.unknowns, own.case.profile.facts, own.at.scalars
     exact, most = [fact for fact in facts if abs(own.off(fact)[0]) <= own.limit], len(names)
     if most > MOST_UNKNOWNS:
@@ -524,7 +526,7 @@ def _free_cuts(own: Measured) -> Array:
 
 
 class ContourEvidence(Struct, frozen=True):
-    """What was measured of a contour: at its path, and at each path of its list that is none of the others."""
+    """Measurements of a contour: at its path, and at each other path of its list."""
 
     case: Case
     own: Measured | None
@@ -532,12 +534,12 @@ class ContourEvidence(Struct, frozen=True):
 
     @property
     def claimed(self) -> ClaimedContour:
-        """What is claimed of it."""
+        """The claims about it."""
         return self.case.claimed
 
 
 def _check_block(of: ContourEvidence, ledger: Ledger) -> None:
-    """Where the contour is, and what its blocks say apart from its geometry."""
+    """Check the contour's lines, form, plane, settings and facts against its blocks."""
     claim, claimed = of.case.claim, of.claimed
     conventions = [f"{each.setting.name}={each.value}" for each in claim.conventions]
     others = [f"{each.get('setting')}={each.get('value')}" for each in claimed.conventions]
@@ -666,7 +668,7 @@ def _check_status(of: ContourEvidence, ledger: Ledger) -> None:
 
 
 def _judge_path(of: ContourEvidence, rank: Rank, ledger: Ledger) -> None:
-    """Whether the words are as many as it takes to fix a path, or more."""
+    """Check the status of a path: its words are as many as it takes to fix it, or more."""
     words = of.case.words(*(rank.surplus or ()))
     if rank.open is None or rank.surplus is None:
         ledger.omit("the status", "the rank of the equations does not tell it, see above")
@@ -678,7 +680,7 @@ def _judge_path(of: ContourEvidence, rank: Rank, ledger: Ledger) -> None:
 
 
 def _judge_open(case: Case, ledger: Ledger) -> None:
-    """Whether the words leave numbers open: by reading alone, or by the rank at arbitrary points. Where an equation
+    """Check that the words leave numbers open: by reading alone, or by the rank at arbitrary points. Where an equation
     follows from others, words may contradict each other as well, which is another status."""
     facts, names, ranks, name = case.profile.facts, case.unknowns, list[int](), "the words leave numbers open"
     rng, corners = numpy.random.default_rng(16), [corner.name for corner in case.profile.figure.corners]
@@ -702,14 +704,14 @@ CONTOUR_CHECKS: Mapping[str, Callable[[ContourEvidence, Ledger], None]] = {
     "list": _check_list,
     "status": _check_status,
 }
-"""What is checked of each contour besides its paths, by its kind."""
+"""Checks of each contour besides its paths, by their kind."""
 
 NOT_CHECKED = {
     "filled": ("the filled blocks", "they are not read anew"),
     "diagnosis": ("the diagnosis", "what can move, and what says the same, is not worked out again"),
     "solutions": ("what selects each solution, and why others are no paths", "it is not worked out again"),
 }
-"""What a contour may claim and no check is about: fields of the result, what receipts call them, and why."""
+"""Claims of a contour that no check is about: fields of the result, their names in receipts, and the reasons."""
 
 
 def check_contour(case: Case, ledger: Ledger) -> None:

@@ -1,4 +1,4 @@
-"""What each kind of constraint and element says of claimed points: one table, formulas of its own.
+"""Formulas for each kind of constraint and element at claimed points: one table, without the package's equations.
 
 A point is a complex number, mm from the start point: real is the plane's first axis, imaginary its second.
 """
@@ -29,7 +29,7 @@ INDEPENDENT = 1e-7
 """1 (share of the largest). A singular value below this is zero: an angle of 0.001 degrees gives 100 times that."""
 
 SWEEPS, SETTLED = 20, 1e-12
-"""How often what a result does not list is put in its place, and from what step on it stays there, mm."""
+"""Number of passes that restore values missing in the result, and the step below which they are settled, mm."""
 
 
 class Move(Struct, frozen=True):
@@ -69,7 +69,7 @@ class MeasuredFigure(Struct, frozen=True):
         return complex(self.scalars[f"{line}.cos"], self.scalars[f"{line}.sin"])
 
     def left(self, line: str, point: str) -> float:
-        """How far to the left of a line a point lies, mm."""
+        """The distance of a point from a line, mm; positive to its left."""
         if line in self.headed:
             return cross(self.bearing(line), self.way(self.headed[line][1], point))
         return cross(self.bearing(line), self.point(point)) - self.scalars[f"{line}.off"]
@@ -86,7 +86,8 @@ class MeasuredFigure(Struct, frozen=True):
         return complex(of.turn.sign * 1j * unit(self.way(of.center, of.point)))
 
     def advance(self, own: Any) -> float:
-        """How a path advances along an axis: by the lines between which it is, or by its first part that does."""
+        """The advance of a path along an axis: by the lines between which it is, or by its first part that moves along
+        it."""
         if getattr(own, "between", ()):
             return sum(part(self.bearing(line), own.axis) for line in own.between)
         ways = (self.way(*each) if len(each) > 1 else self.bearing(each[0]) for each in own.advance)
@@ -139,20 +140,20 @@ def _touching(f: Any, at: MeasuredFigure) -> float:
 
 
 def _beside(f: Any, at: MeasuredFigure) -> float:
-    """How far a point is from lying beside a circle as far as the other circle, which is about it, is large."""
+    """The error of a point beside a circle, mm; the circle about the point has the distance as its radius."""
     between = abs(at.way(f.first[0], f.second[0]))
     return between - at.radius(f.second[1]) - at.side(f.side) * at.radius(f.first[1])
 
 
 def _in_line(f: Any, at: MeasuredFigure) -> float:
-    """How far a point is off the line through two centres, or where these are almost one, how far the second is off the
-    line from the first to the point."""
+    """The distance of a point from the line through two centres, mm. For centres that are almost one it is that of the
+    second centre from the line through the first and the point."""
     spoke, between = at.way(f.first, f.point), at.way(f.first, f.second)
     return cross(between, unit(spoke)) if abs(between) <= LENGTH else cross(unit(between), spoke)
 
 
 def _inside(f: Any, at: MeasuredFigure) -> float:
-    """How far the centre of a rounding lies from that of its arc; negative where beyond it."""
+    """The distance between the centres of a rounding and its arc, mm; negative beyond that of the arc."""
     return float(at.radius(f.arc[1]) - f.turn.sign * at.side(f.side) * at.radius(f.radius))
 
 
@@ -166,7 +167,7 @@ LENGTHS: Mapping[type, tuple[str, Formula]] = {
     kinds.Distance: ("distance from {tail} to {head}", lambda f, at: abs(at.way(f.tail, f.head))),
     kinds.Extent: ("length of {line}", lambda f, at: dot(at.bearing(f.line), at.way(f.tail, f.head))),
 }
-"""What checks call each kind of constraint that states a length, and the length that it has, mm."""
+"""Name in checks and measured length, mm, of each kind of constraint that states a length."""
 
 ANGLES: Mapping[type, tuple[str, Formula]] = {
     kinds.Heading: ("direction of the line from {tail} to {head}", lambda f, at: (1 + 0j, at.way(f.tail, f.head))),
@@ -266,11 +267,11 @@ SENSES: Mapping[type, Formula] = {
     kinds.Parallel: lambda f, at: part(at.bearing(f.line), f.axis) * at.advance(f),
     kinds.ChamferLeg: lambda f, at: at.side(f.side) * at.advance(f),
 }
-"""What must not be negative besides, because the formula alone is true of the opposite as well."""
+"""Quantities that must not be negative, because the formula alone is true of the opposite as well."""
 
 
 def residual(fact: Any, at: MeasuredFigure) -> float:
-    """How far a fact is from being true, mm (1 for a direction). Raises KeyError for a kind that the tables lack."""
+    """The error of a fact, mm (1 for a direction). Raises KeyError for a kind that the tables lack."""
     found = MEANINGS[type(fact)][1](fact, at)
     if type(fact) in ANGLES:
         return cross(found[0] * at.directions[fact.given], found[1])
@@ -278,7 +279,7 @@ def residual(fact: Any, at: MeasuredFigure) -> float:
 
 
 def measured(fact: Any, at: MeasuredFigure) -> tuple[float, float]:
-    """What a fact would have to state, mm or radians, and over what length (mm) an angle is known, 0 for a length."""
+    """The true value of a fact, mm or radians. With an angle comes the length over which it is known, mm; else 0."""
     if isinstance(fact, kinds.ArcLength):
         swept = fact.turn.sign * phase(at.way(fact.center, fact.head) / at.way(fact.center, fact.tail)) % tau
         return at.radius(fact.radius) * swept, 0.0
@@ -371,7 +372,7 @@ def with_sides(facts: Sequence[Any], at: MeasuredFigure) -> MeasuredFigure:
 # --- Elements, corners and sides ---------------------------------------------------------------------
 
 Found = Iterator[tuple[str, float]]
-"""What is measured, and how far it is off, mm; where a sense is wrong, by how much."""
+"""Names of measurements, each with its error, mm; for a wrong sense, the amount by which it is wrong."""
 
 
 def check_element(at: MeasuredFigure, element: Line | Arc, move: Move) -> Found:

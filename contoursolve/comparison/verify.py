@@ -179,7 +179,7 @@ def follow(
         return taken.setdefault(key, next(free, alike[-1]))
 
     def end_of(found: ParsedContour) -> tuple[float, float] | None:
-        """Where it ends by its claim; the same steps from another start are one claim."""
+        """The claimed end of a contour; the same steps from another start are one claim."""
         claimed = claimed_of(found)
         if claimed is None or claimed.end is None or not claimed.has_path:
             return None
@@ -202,7 +202,7 @@ def follow(
 
 
 def _distance(claimed: ClaimedContour, found: ParsedContour) -> float:
-    """How far two starts are from each other, mm; what one of them does not know is far."""
+    """The distance between two starts, mm; a coordinate that one of them does not know counts as far."""
     here = (None if value is None else float(value) for value in found.before.start().values)
     pairs = zip(claimed.start, here, strict=True)
     return sum(abs(a - b) if a is not None and b is not None else FARTHEST * (a is not b) for a, b in pairs)

@@ -215,7 +215,6 @@ def test_no_name_that_a_package_lists_is_that_of_another_of_its_modules():
 TWO_MEANINGS = {
     "Element": "controls/chain/language.py controls/heidenhain/elements.py",
     "Found": "families/inverse.py solving/enumerate.py",
-    "Role": "pictures/theme.py solving/checks.py",
     "Source": "diagnostics/source.py solving/checks.py",
 }
 """Names of classes in files that are being rewritten; whoever writes one of these gives it a name of its own."""
@@ -245,8 +244,9 @@ def test_no_control_stands_in_where_none_is_named():
     assert by_name == []
 
 
-MOST_RIDDLES = 578
-"""It falls with each that is mended, and never rises."""
+MENDED = ["cli", "comparison", "diagnostics", "execution", "gcode", "lsp", "notebook", "numeric", "output", "pictures", "postprocess", "program"]
+MOST_RIDDLES = 540
+"""In the other rooms. It falls with each that is mended, and never rises."""
 
 
 def described(tree: ast.Module) -> Iterator[tuple[str, bool]]:
@@ -264,9 +264,12 @@ def described(tree: ast.Module) -> Iterator[tuple[str, bool]]:
 
 def test_a_docstring_opens_with_the_thing_or_the_verb():
     """Not with a question about it; "whether" is right for a predicate alone."""
-    riddles: Counter[str] = Counter()
+    riddles, again = Counter[str](), list[str]()
     for module in MODULES:
         for text, is_predicate in described(ast.parse(module.read_text(encoding="utf-8"))):
             opener = re.match(r"(What|Whether|Where|Which|How|Why)\b", text)
-            riddles[room_of(module)] += bool(opener and not (is_predicate and opener[1] == "Whether"))
+            if opener and not (is_predicate and opener[1] == "Whether"):
+                riddles[room_of(module)] += 1
+                again += [f"{module.relative_to(HOUSE)}: {text}"] * (room_of(module) in MENDED)
+    assert again == []
     assert riddles.total() <= MOST_RIDDLES, f"{riddles}"
