@@ -244,7 +244,20 @@ def test_no_control_stands_in_where_none_is_named():
     assert by_name == []
 
 
-MENDED = ["cli", "comparison", "diagnostics", "execution", "gcode", "lsp", "notebook", "numeric", "output", "pictures", "postprocess", "program"]
+MENDED = [
+    "cli",
+    "comparison",
+    "diagnostics",
+    "execution",
+    "gcode",
+    "lsp",
+    "notebook",
+    "numeric",
+    "output",
+    "pictures",
+    "postprocess",
+    "program",
+]
 MOST_RIDDLES = 540
 """In the other rooms. It falls with each that is mended, and never rises."""
 
