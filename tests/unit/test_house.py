@@ -286,3 +286,18 @@ def test_a_docstring_opens_with_the_thing_or_the_verb():
                 again += [f"{module.relative_to(HOUSE)}: {text}"] * (room_of(module) in MENDED)
     assert again == []
     assert riddles.total() <= MOST_RIDDLES, f"{riddles}"
+
+
+def test_what_a_package_and_the_page_of_the_house_say_to_begin_with_is_there():
+    lost = []
+    for name, path in PATHS.items():
+        text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+        if path.name == "__init__.py":
+            first = re.findall(r"`(\w+)`", re.split("[Bb]egin with", text, maxsplit=1)[-1].partition(".")[0])
+            lost += [f"{name}.{each}" for each in first if "egin with" in text and f"{name}.{each}" not in PATHS]
+    page = (Path(__file__).parents[2] / "docs" / "architecture.md").read_text(encoding="utf-8")
+    for rooms_of_row, files in re.findall(r"^\| \d+ \| (.*?) \|.*\| (.*?) \|$", page, re.MULTILINE):
+        folders = [HOUSE / room for room in re.findall(r"`(\w+)`", rooms_of_row)]
+        for file in re.findall(r"`(\w+\.py)`", files):
+            lost += [] if any((folder / file).exists() for folder in folders) else [f"{rooms_of_row}: {file}"]
+    assert lost == []
