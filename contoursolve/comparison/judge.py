@@ -200,6 +200,9 @@ class Measured(Struct, frozen=True, dict=True):
         """The error of a fact, and its limit, mm."""
         off = residual(fact, self.at)
         allowed = max(self.limit, self.case.allowance(fact, self.at)) if fact in self.spare else self.limit
+        if fact not in self.case.profile.facts:
+            # A corner is cut in the stated direction, which is exact to its increment only.
+            allowed += self.beside.get(getattr(fact, "line", ""), 0.0)
         if isinstance(fact, Radius) and self.limit < off <= self.case.allowance(fact, self.at):
             # It may be too small for its half circle, by no more than words are exact to.
             ends = [each.point for each in self.facts if isinstance(each, OnCircle) and each.radius == fact.radius]
@@ -207,6 +210,14 @@ class Measured(Struct, frozen=True, dict=True):
             off = 0.0 if any(abs(span - 2 * self.at.radius(fact.radius)) <= 4 * self.limit for span in spans) else off
         wrong = SENSES[type(fact)](fact, self.at) if type(fact) in SENSES else 0.0
         return (wrong if wrong < -PRINTED else off), allowed
+
+    @cached_property
+    def beside(self) -> dict[str, float]:
+        """How far each line of a stated direction leads past its last point, mm."""
+        lines = (
+            each for each in self.case.profile.figure.path if isinstance(each, Line) and each.name in self.at.headed
+        )
+        return {each.name: abs(cross(self.at.bearing(each.name), self.at.way(each.tail, each.head))) for each in lines}
 
     @cached_property
     def spare(self) -> frozenset[Fact]:
@@ -327,8 +338,9 @@ def _measure(
     facts, unknowns = tuple(draft.facts), _unknowns(draft.figure)
     scalars = {**dict.fromkeys(unknowns, 0.0), **guessed, **case.blank.scalars, **told}
     place = replace(case.blank, figure=draft.figure, scalars=scalars, headed=headed_lines(draft.figure))
+    rest = [name for name in unknowns if name not in told]
     for _ in range(2):
-        place = settle(facts, with_sides(facts, place), [name for name in unknowns if name not in told])
+        place = settle(facts, with_sides(facts, place), rest)
     return Measured(case, path, named, with_sides(facts, place), facts, limit)
 
 
@@ -688,8 +700,8 @@ def _judge_open(case: Case, ledger: Ledger) -> None:
         values = dict(zip(names, rng.uniform(1, 2, len(names)).tolist(), strict=True))
         at = with_sides(facts, replace(case.blank, scalars={**values, **case.blank.scalars}))
         ranks.append(len(facts) - len(dependent(slopes(facts, at, names))))
-    if not ranks or max(ranks) < len(facts) or len(corners) > len({*corners}):
-        ledger.omit("the status", "equations follow from others: whether their words agree is not worked out")
+    if case.hints or not ranks or max(ranks) < len(facts) or len(corners) > len({*corners}):
+        ledger.omit("the status", "equations follow from others, or a rule refuses them: no rank tells what that means")
     elif case.loose or max(ranks) < len(names):
         ledger.require(name, (), holds=True)
     elif all(isinstance(each, Coordinate | Offset | Heading) for each in facts):

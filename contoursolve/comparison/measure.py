@@ -16,7 +16,19 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from contoursolve import geometry as kinds
-from contoursolve.geometry import FIRST, SECOND, Arc, Choice, Corner, CornerShape, Figure, Line, Side, scalar
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Arc,
+    Choice,
+    Corner,
+    CornerShape,
+    Figure,
+    Line,
+    Side,
+    line_scalars,
+    scalar,
+)
 from contoursolve.numeric import pinv
 from contoursolve.tolerance import LENGTH, RESIDUAL
 
@@ -98,6 +110,18 @@ class MeasuredFigure(Struct, frozen=True):
         if line.name in self.headed or f"{line.name}.cos" in self.scalars:
             return self.bearing(line.name)
         return unit(self.way(line.tail, line.toward or line.head))
+
+    def with_drawn_lines(self, limit: float) -> "MeasuredFigure":
+        """The same, where lines whose ends are off the stated direction, which is exact to its increment only, run from
+        one end to the other."""
+        scalars, headed = dict(self.scalars), dict(self.headed)
+        for line in (each for each in self.figure.path if isinstance(each, Line) and each.name in headed):
+            along = unit(self.way(line.tail, line.head))
+            if abs(cross(self.bearing(line.name), self.way(line.tail, line.head))) > limit:
+                values = along.real, along.imag, cross(along, self.point(line.tail))
+                scalars.update(zip(line_scalars(line.name), values, strict=True))
+                del headed[line.name]
+        return replace(self, scalars=scalars, headed=headed)
 
 
 def cross(a: complex, b: complex) -> float:

@@ -214,7 +214,7 @@ def test_overdetermined_contours_are_held_against_all_their_words(desk, words, s
     assert contour["status"] == status
     receipt = desk.receipt(result)
     assert failures(receipt) == []
-    assert receipt["verdict"] == "verified"
+    assert receipt["verdict"] == ("verified" if contour["end"] else "nothing-checked")
     if contour["end"]:
         for wrong in nudged(result):
             assert desk.is_wrong(alike(wrong))
@@ -1268,7 +1268,7 @@ def test_nothing_that_a_contour_claims_can_be_changed(desk, name):
     result = solved(desk, name)
     every = list(mutations(result))
     assert len(every) > 3
-    for place, wrong in Random(name).sample(every, MOST):
+    for place, wrong in Random(name).sample(every, min(MOST, len(every))):
         assert desk.is_refused(changed(result, place, wrong)), place
         if place[2] in ("end", "points", "elements", "asked"):
             assert desk.is_refused(alike(changed(result, place, wrong))), place
