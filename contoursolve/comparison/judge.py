@@ -372,7 +372,6 @@ def _check_place(own: Measured, ledger: Ledger) -> None:
     radius = inf if certificate.radius is None else certificate.radius
     is_right = radius >= 0 and certificate.kind in ("exact", "unique", "verified", "unknown")
     ledger.require("the certificate is of a known kind", (), is_right, f"{ascii(certificate.kind)[:40]}, {radius:g} mm")
-    ledger.omit("what the certificate proves", "that a box holds one solution is not proven again")
     if rank.open is None:
         why = "several solutions have become one there" if rank.fold is not None else "there are too many unknowns"
         ledger.omit("whether the words fix the points", f"the rank of the equations does not tell it: {why}")
@@ -649,6 +648,10 @@ def _check_list(of: ContourEvidence, ledger: Ledger) -> None:
         limit = 10 * RESIDUAL + 2 * max(each.certificate.radius or 0.0, claimed.certificate.radius or 0.0)
         ledger.measure("the solution that is chosen is the contour", (), off, min(limit, ERROR_BOUND_WARNING))
     ledger.omit("whether these are all solutions", "nothing was searched for")
+    if paths:
+        ledger.omit("what certificates prove", "that a box holds one solution is not proven again")
+    if len(listed) > 1:
+        ledger.omit("what selects each solution, and why others are no paths", "it is not worked out again")
 
 
 def _check_status(of: ContourEvidence, ledger: Ledger) -> None:
@@ -721,7 +724,6 @@ CONTOUR_CHECKS: Mapping[str, Callable[[ContourEvidence, Ledger], None]] = {
 NOT_CHECKED = {
     "filled": ("the filled blocks", "they are not read anew"),
     "diagnosis": ("the diagnosis", "what can move, and what says the same, is not worked out again"),
-    "solutions": ("what selects each solution, and why others are no paths", "it is not worked out again"),
 }
 """Claims of a contour that no check is about: fields of the result, their names in receipts, and the reasons."""
 

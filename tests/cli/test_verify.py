@@ -484,7 +484,7 @@ def test_a_certificate_covers_what_the_points_show(desk):
     assert desk.receipt(alike(changed(changed(result, at, value + NUDGE), place, 1.0)))["verdict"] == "failed"
     nothing = {"kind": "unknown", "radius": None, "reason": "none", "double": None}
     receipt = desk.receipt(changed(result, ("contours", 0, "certificate"), nothing))
-    assert "what the certificate proves" in [each["what"] for each in receipt["contours"][0]["not_checked"]]
+    assert "what certificates prove" in [each["what"] for each in receipt["contours"][0]["not_checked"]]
 
 
 @some_of(
