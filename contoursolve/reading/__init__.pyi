@@ -1,3 +1,6 @@
+from .contour_builder import (
+    ContourBuilder as ContourBuilder,
+)
 from .contour_form import (
     AT_ITS_LIMIT as AT_ITS_LIMIT,
     Assumption as Assumption,

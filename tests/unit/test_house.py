@@ -213,7 +213,6 @@ def test_no_name_that_a_package_lists_is_that_of_another_of_its_modules():
 
 
 TWO_MEANINGS = {
-    "Element": "controls/chain/language.py controls/heidenhain/elements.py",
     "Found": "families/inverse.py solving/enumerate.py",
     "Source": "diagnostics/source.py solving/checks.py",
 }

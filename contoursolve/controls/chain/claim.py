@@ -1,6 +1,7 @@
 """What the blocks of a contour state, with what the control supplies, and what their signs choose."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace as replace_fields
 from decimal import Decimal
 from itertools import pairwise
 
@@ -46,101 +47,75 @@ from contoursolve.controls.chain.language import (
 )
 from contoursolve.gcode import Block, Word, number_of, spell
 from contoursolve.geometry import Choice, Given, Side, Turn, Unit
-from contoursolve.reading import Bearing, ContourForm, Lexicon, Modes, ParsedContour, Selector, State
+from contoursolve.reading import Bearing, ContourBuilder, ContourForm, Lexicon, Modes, ParsedContour, Selector, State
 
 
 def claim_of(language: Language, members: Sequence[Member], before: State, modes: Modes) -> ParsedContour:
     """The contour of blocks in a row."""
     elements = tuple(member.element for member in members)
-    form = compose(language, elements, modes)
-    names = names_of(elements)
-    first = members[0].here
-    words: dict[str, Word] = {}
-    kept: dict[str, Word] = {}
-    repeated: list[Word] = []
-    givens: dict[str, Given] = {}
-    vocabulary: dict[str, tuple[str, int]] = {}
-    circumstances: set[str] = set()
-    blocks: list[Block] = []
-    resting: list[set[str]] = []
+    form, names = compose(language, elements, modes), names_of(elements)
+    first, last, builder = members[0].here, members[-1].here, ContourBuilder(modes)
     states = (before, *(each.here for each in members))
+    resting: list[set[str]] = []
     for index, member in enumerate(members):
-        called = _calls(language, member)
         prefix = f"{index + 1}:"
-        for address, name in called.items():
-            # Of several words for the same thing, the one that is there; else the plain one.
-            if prefix + name not in vocabulary or member.block.find(address):
-                vocabulary[prefix + name] = address, len(blocks)
-        own: dict[str, Word] = {}
-        blocks.append(member.block)
-        for word in member.block.words:
-            code = word.number if word.address == "G" else ""
-            name = called.get(word.address, f"{word.address}{code}")
-            if name in own and word.address != "M":
-                repeated.append(word)
-            own.setdefault(name, word)
-        sized, in_force = _kept_corner(language, own, member, modes)
-        angled, turned = _kept_angle(language, own, member, modes)
-        own_givens = _givens(language, own, member, modes) | sized | angled
-        if member.corner is not None:
-            sized, corner, in_force = _corner_of(language, member.corner, member.here, modes)
-            own_givens |= sized
-            if len(_shapes_of(language, member.corner)) > 1:
-                circumstances.add(prefix + CORNER_BOTH)
-            elif _is_crowded(language, member.corner):
-                circumstances.add(prefix + CORNER_CROWDED)
-            for name, word in corner.items():
-                if name in own:
-                    circumstances.add(prefix + CORNER_TWICE)
-                own.setdefault(name, word)
-                vocabulary[prefix + name] = (language.corner_size, len(blocks))
-            blocks.append(member.corner)
-        words |= {prefix + name: word for name, word in own.items()}
-        kept |= {prefix + name: word for name, word in (in_force | turned).items()}
-        givens |= {prefix + name: replace(given, name=prefix + name) for name, given in own_givens.items()}
-        since = states[max(index - 1, 0) : index + 2]
+        own, givens, kept = _stated(language, member, builder, prefix)
         holds = {
             *_circumstances(language, member, first, is_only=len(members) == 1, is_first=not index),
             *([BESIDE_ARC] if any(each.turn is not None for each in elements[index : index + 2]) else []),
-            *language.circumstances(member, since, modes),
+            *language.circumstances(member, states[max(index - 1, 0) : index + 2], modes),
             *(name for name, (setting, value) in language.where_set.items() if modes.has(setting, value)),
         }
-        circumstances |= {prefix + name for name in holds}
-        resting.append({*own, *own_givens, *holds, *_read_by(member, modes)})
-    unknown = [word for word in words.values() if not _is_known(word, form, modes.lexicon)]
+        builder.state(prefix, own, givens, holds, kept=kept)
+        resting.append({*own, *givens, *holds, *_read_by(member, modes)})
+    unknown = [word for word in builder.words.values() if not _is_known(word, form, modes.lexicon)]
     unread = [word for word in unknown if modes.lexicon.bearing(word.address) in (Bearing.UNREAD, Bearing.END)]
-    known = {name: word for name, word in words.items() if word.address in modes.lexicon.addresses}
-    return ParsedContour(
-        form=form,
-        lexicon=modes.words(members[-1].here),
-        blocks=tuple(blocks),
-        before=replace(before, plane=first.plane, unit=first.unit),
-        after=members[-1].here,
+    known = {name: word for name, word in builder.words.items() if word.address in modes.lexicon.addresses}
+    conventions = (
+        *language.conventions(form, builder.circumstances, modes),
+        *(modes.convention(row.setting) for row in language.resting if row.is_told(resting, modes)),
+    )
+    return replace_fields(
+        builder.build(form, replace(before, plane=first.plane, unit=first.unit), last),
         words=known,
-        givens=givens,
-        vocabulary=vocabulary,
         unknown=tuple(word for word in unknown if word not in unread),
         unread=tuple(dict.fromkeys((*unread, *filter(None, (member.unread for member in members))))),
-        repeated=tuple(repeated),
-        circumstances=frozenset(circumstances),
         choices=tuple(_choices(language, elements, names, known, modes)),
         selectors=tuple(_selectors(language, elements, names, known, modes)),
         is_end_absolute=elements[-1].is_over and language.joining is not Joining.PAIRED,
-        selected=language.planes.get(members[-1].here.plane.code),
-        conventions=tuple(
-            {
-                each.setting.name: each
-                for each in (
-                    *language.conventions(form, circumstances, modes),
-                    *(modes.convention(row.setting) for row in language.resting if row.is_told(resting, modes)),
-                )
-            }.values()
-        ),
-        makes=_makes(form, members) if len(blocks) > len(members) else (),
-        kept=kept,
+        selected=language.planes.get(last.plane.code),
+        conventions=tuple({each.setting.name: each for each in conventions}.values()),
+        makes=_makes(form, members) if len(builder.blocks) > len(members) else (),
         lasting=frozenset(name for name in known if name.partition(":")[2] in language.modal_corner),
         doubts={mode: why for member in members for mode, why in member.here.doubts.items()},
     )
+
+
+def _stated(
+    language: Language, member: Member, builder: ContourBuilder, prefix: str
+) -> tuple[dict[str, Word], dict[str, Given], dict[str, Word]]:
+    """The words of a block and of the one that states the corner behind it, their values, and the words of earlier
+    blocks that stay in force."""
+    modes, called = builder.modes, _calls(language, member)
+    index = builder.add(member.block)
+    addresses: dict[str, str] = {}
+    for address, name in called.items():
+        # Of several words for the same thing, the one that is there; else the plain one.
+        if name not in addresses or member.block.find(address):
+            addresses[name] = address
+    builder.name(prefix, index, addresses.items())
+    own = builder.gather(
+        (called.get(word.address, f"{word.address}{word.number if word.address == 'G' else ''}"), word)
+        for word in member.block.words
+    )
+    sized, in_force = _kept_corner(language, own, member, modes)
+    angled, turned = _kept_angle(language, own, member, modes)
+    givens = _givens(language, own, member, modes) | sized | angled
+    if member.corner is not None:
+        sized, corner, in_force = _corner_of(language, member.corner, member.here, modes)
+        builder.name(prefix, builder.add(member.corner), ((name, language.corner_size) for name in corner))
+        own, givens = own | {name: word for name, word in corner.items() if name not in own}, givens | sized
+    return own, givens, in_force | turned
 
 
 def _read_by(member: Member, modes: Modes) -> Iterator[str]:
@@ -180,8 +155,7 @@ def _corner_of(
     language: Language, block: Block, here: State, modes: Modes
 ) -> tuple[dict[str, Given], dict[str, Word], dict[str, Word]]:
     """The size that a block of its own gives a corner, with its word; the last one given if it has none."""
-    shapes = (language.corner_codes.get(int(word.number or 0)) for word in block.words if word.address == "G")
-    name = next(filter(None, shapes))
+    name = language.corner_codes[int(_shapes_of(language, block)[0].number or 0)]
     own, kept = block.find(language.corner_size), here.memory.get(language.corner_size)
     word = own or kept
     size = modes.words(here).given(name, word, here.unit) if word else None
@@ -189,11 +163,22 @@ def _corner_of(
     return givens, {name: own} if own else {}, {name: _put(kept, block)} if kept and not own else {}
 
 
-def _is_crowded(language: Language, block: Block) -> bool:
-    """Whether a block of its own that makes a corner says more about the path than the size, or says that twice."""
+def _crowding(language: Language, member: Member) -> dict[str, bool]:
+    """Whether the block of its own that makes the corner behind an element says that twice, more about the path than
+    the size, or what the block of the element says already."""
+    block = member.corner
+    if block is None:
+        return {}
+    codes = _shapes_of(language, block)
     sizes = [word for word in block.words if word.address == language.corner_size]
     others = [word for word in block.words if word.address not in (*"NGFSTMDH", language.corner_size)]
-    return len(_shapes_of(language, block)) > 1 or len(sizes) > 1 or bool(others)
+    size = language.corner_codes[int(codes[0].number or 0)]
+    return {
+        CORNER_BOTH: len(codes) > 1,
+        CORNER_CROWDED: len(codes) == 1 and (len(sizes) > 1 or bool(others)),
+        CORNER_TWICE: bool(sizes)
+        and any(_calls(language, member).get(word.address) == size for word in member.block.words),
+    }
 
 
 def _shapes_of(language: Language, block: Block) -> list[Word]:
@@ -329,7 +314,8 @@ def _circumstances(language: Language, member: Member, first: State, *, is_only:
         LAST: member.is_last,
         ONLY: is_only,
         SMOOTH: member.element.is_smooth,
-        CORNER_ALONE: any(word.address == "G" and word.number in language.corner_codes for word in member.block.words),
+        CORNER_ALONE: bool(_shapes_of(language, member.block)),
+        **_crowding(language, member),
         NO_TANGENT: member.element.is_smooth and is_first,
         ON_PARALLEL_AXES: member.here.plane.axes != _own_axes(language, member.here),
         ORDINARY: is_only and member.element.turn is not None,

@@ -62,7 +62,7 @@ LINE, ARC, PLAIN, POLE = "line", "arc", "plain", "pole"
 CORNERS = {ROUNDING: CornerShape.FILLET, CHAMFER: CornerShape.CHAMFER_SETBACK}
 
 
-class Element(Struct, frozen=True):
+class FkElement(Struct, frozen=True):
     """One element as far as its facts depend on it.
 
     `counted` are the increments that count from another block, each with the number of the element at whose end that
@@ -102,7 +102,7 @@ class Element(Struct, frozen=True):
         return LINE if self.is_line else ARC
 
 
-class Place(Struct, frozen=True):
+class PlacedElement(Struct, frozen=True):
     """The names of an element and of its points, and the element itself.
 
     `label` is the number of its block, by which programmers speak of it.
@@ -110,7 +110,7 @@ class Place(Struct, frozen=True):
 
     number: int
     label: str
-    element: Element
+    element: FkElement
     tail: str
     head: str
 
@@ -143,19 +143,19 @@ class Place(Struct, frozen=True):
 class Chain(Struct, frozen=True):
     """All elements with their names; `poles` are the names of the poles that blocks of the chain state."""
 
-    places: tuple[Place, ...]
+    places: tuple[PlacedElement, ...]
 
     def at(self, number: int) -> str:
         """Where the element of a number ends; of 0, where the chain begins."""
         return self.places[number - 1].head if number else START
 
-    def counted_from(self, place: Place, word: str) -> str:
+    def counted_from(self, place: PlacedElement, word: str) -> str:
         """The point from which an increment counts: where the element begins, or where another block ends."""
         counted = dict(place.element.counted)
         return self.at(counted[word]) if word in counted else place.tail
 
 
-Facts = Callable[[Chain, Place, str], Iterable[Fact]]
+Facts = Callable[[Chain, PlacedElement, str], Iterable[Fact]]
 """(chain, element, name of the word) to what the word states."""
 
 
@@ -169,13 +169,13 @@ def _placing(of: str, mark: str) -> Iterator[tuple[str, Facts]]:
     def step(axis: int, word: str) -> Facts:
         return lambda chain, place, given: [Offset(given, point(place), chain.counted_from(place, word), axis)]
 
-    def farther(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
+    def farther(chain: Chain, place: PlacedElement, given: str) -> Iterator[Fact]:
         pole, radii = place.element.pole, [f"{given} {each}" for each in ("from", "to")]
         yield OnCircle(chain.counted_from(place, f"I{mark}PR"), pole, radii[0])
         yield OnCircle(point(place), pole, radii[1])
         yield RadiusStep(given, radii[1], radii[0])
 
-    def turned(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
+    def turned(chain: Chain, place: PlacedElement, given: str) -> Iterator[Fact]:
         pole = place.element.pole
         before = Chord(pole, chain.counted_from(place, f"I{mark}PA"))
         yield TurnBetween(given, before, Chord(pole, point(place)))
@@ -189,39 +189,39 @@ def _placing(of: str, mark: str) -> Iterator[tuple[str, Facts]]:
     yield f"I{mark}PA", turned
 
 
-def _direction(_: Chain, place: Place, given: str) -> Iterator[Fact]:
+def _direction(_: Chain, place: PlacedElement, given: str) -> Iterator[Fact]:
     if place.element.is_line:
         yield Ray(given, place.tail, place.head)
     else:
         yield from _spokes(given, place, place.tail, -place.turn.sign)
 
 
-def _angle_to(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
+def _angle_to(chain: Chain, place: PlacedElement, given: str) -> Iterator[Fact]:
     number = dict(place.element.counted).get("IAN", place.number - 1)
     if number:
         other = chain.places[number - 1]
         yield TurnBetween(given, other.travel(other.head), place.travel(place.tail))
 
 
-def _length(_: Chain, place: Place, given: str) -> Iterator[Fact]:
+def _length(_: Chain, place: PlacedElement, given: str) -> Iterator[Fact]:
     if place.element.is_line:
         yield Extent(given, place.name, place.tail, place.head)
     else:
         yield Distance(given, place.tail, place.head)
 
 
-def _spokes(given: str, place: Place, point: str, quarters: int = 0) -> Iterator[Fact]:
+def _spokes(given: str, place: PlacedElement, point: str, quarters: int = 0) -> Iterator[Fact]:
     """The radius of an arc that leads to a point in a stated direction, along both axes."""
     yield from (Spoke(given, place.center, point, place.radius, axis, quarters) for axis in (FIRST, SECOND))
 
 
-def _closes(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
+def _closes(chain: Chain, place: PlacedElement, given: str) -> Iterator[Fact]:
     if place.element.closes:
         begin = chain.at(place.element.closes - 1)
         yield from (Level(place.head, begin, axis, given) for axis in (FIRST, SECOND))
 
 
-def _touches_before(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
+def _touches_before(chain: Chain, place: PlacedElement, given: str) -> Iterator[Fact]:
     """That an element begins in the direction in which the one before it ends."""
     if place.number == 1:
         return
@@ -249,7 +249,7 @@ def _touches_before(chain: Chain, place: Place, given: str) -> Iterator[Fact]:
         yield TurnBetween(given, Along(before.name), Along(place.name))
 
 
-def _is_aimed(chain: Chain, place: Place) -> bool:
+def _is_aimed(chain: Chain, place: PlacedElement) -> bool:
     """Whether a word states the direction in which an arc ends or begins, where it touches another element."""
     if place.number == 1 or place.element.function not in TANGENT:
         return False
@@ -257,7 +257,7 @@ def _is_aimed(chain: Chain, place: Place) -> bool:
     return before.element.is_ended or (place.element.is_entered and not place.element.is_line)
 
 
-def _goes_on(before: Place, place: Place) -> Iterator[Fact]:
+def _goes_on(before: PlacedElement, place: PlacedElement) -> Iterator[Fact]:
     """What the direction where two elements touch says of the other one: all of these are affine."""
     if before.element.is_ended:
         given = f"{before.prefix}CCA"
@@ -297,7 +297,7 @@ POINTS = ("P1", "P2", "P3")
 BESIDE = "PD"
 
 
-def _point_rows(place: Place) -> Iterator[FactRow]:
+def _point_rows(place: PlacedElement) -> Iterator[FactRow]:
     """Points on the element, each by two words, and one beside it, by three."""
     q, line = place.prefix, place.element.is_line
     for point in (POINTS[:2] if line else POINTS) + (BESIDE,):
@@ -317,7 +317,7 @@ def _point_rows(place: Place) -> Iterator[FactRow]:
             yield FactRow(Radius(distance, radius), needs)
 
 
-def _parallel_rows(chain: Chain, place: Place) -> Iterator[FactRow]:
+def _parallel_rows(chain: Chain, place: PlacedElement) -> Iterator[FactRow]:
     """A line parallel to another one, and at which distance."""
     number = place.element.parallel
     if not (number and place.element.is_line):
@@ -332,7 +332,7 @@ def _parallel_rows(chain: Chain, place: Place) -> Iterator[FactRow]:
     yield FactRow(Radius(distance, radius), (word, distance))
 
 
-def _aimed_by(chain: Chain, place: Place) -> tuple[str, ...]:
+def _aimed_by(chain: Chain, place: PlacedElement) -> tuple[str, ...]:
     """The words that state the direction in which an element begins."""
     if not _is_aimed(chain, place):
         return ()
@@ -365,7 +365,7 @@ def _rows(chain: Chain) -> Iterator[FactRow]:
                 yield FactRow(OnCircle(point, place.center, place.radius), ())
 
 
-def _is_met(chain: Chain, arc: Place, second: Place | None) -> bool:
+def _is_met(chain: Chain, arc: PlacedElement, second: PlacedElement | None) -> bool:
     """Whether that an arc passes its begin (`second` is itself) or its end follows from other facts: where a line
     touches it, or where its radius has a direction. Of an arc by its centre or radius and its end, all is known."""
     if arc.element.function not in (*FREE, *TANGENT):
@@ -381,7 +381,7 @@ def _is_met(chain: Chain, arc: Place, second: Place | None) -> bool:
     return other.element.is_line or _is_aimed(chain, second)
 
 
-def _heading(chain: Chain, place: Place) -> str | None:
+def _heading(chain: Chain, place: PlacedElement) -> str | None:
     """The given that states the direction of a line, if one does."""
     if place.element.is_entered:
         return f"{place.prefix}AN"
@@ -419,7 +419,7 @@ ASSUMPTIONS = tuple(
 _OF_DIRECTION = ("AN", "IAN")
 
 
-def _has_direction(element: Element) -> bool:
+def _has_direction(element: FkElement) -> bool:
     """Whether the direction of an arc is that of the element before it, which need not be said again."""
     return element.function in TANGENT and not element.is_line
 
@@ -432,11 +432,11 @@ _USUAL = (
 
 
 @lru_cache(maxsize=2048)
-def compose(elements: tuple[Element, ...], labels: tuple[str, ...]) -> ContourForm:
+def compose(elements: tuple[FkElement, ...], labels: tuple[str, ...]) -> ContourForm:
     """The form of a chain: everything that its words may state; `labels` are the numbers of its blocks."""
     points = [START, *(f"P{label}" for label in labels)]
     named = zip(labels, elements, points, points[1:], strict=False)
-    chain = Chain(tuple(Place(n, *each) for n, each in enumerate(named, 1)))
+    chain = Chain(tuple(PlacedElement(n, *each) for n, each in enumerate(named, 1)))
     places = chain.places
     rows = tuple(_rows(chain))
     path = tuple(
@@ -501,14 +501,14 @@ def compose(elements: tuple[Element, ...], labels: tuple[str, ...]) -> ContourFo
 _TITLES = {**TITLES, "free-contour": "free contour FK"}
 
 
-def _form_name(elements: Sequence[Element]) -> str:
+def _form_name(elements: Sequence[FkElement]) -> str:
     """What the form is called: by its free elements, or else as other controls call conventional moves in a row."""
     if any(each.function in FREE for each in elements):
         return "free-contour"
     return "tangent" if any(each.function in TANGENT for each in elements) else "corners"
 
 
-def _companions(places: tuple[Place, ...]) -> Iterator[tuple[str, str]]:
+def _companions(places: tuple[PlacedElement, ...]) -> Iterator[tuple[str, str]]:
     """Words that say from where another one counts, or that repeat what its fact says already."""
     for place in places:
         q = place.prefix

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import replace as replace_fields
 from decimal import Decimal
+from functools import cached_property
 from itertools import count
 
 from msgspec import Struct
@@ -21,7 +22,7 @@ from contoursolve.controls.heidenhain.elements import (
     POINTS,
     POLAR,
     TANGENCY,
-    Element,
+    FkElement,
     compose,
 )
 from contoursolve.controls.heidenhain.follow import (
@@ -57,7 +58,7 @@ from contoursolve.controls.heidenhain.lexicon import (
 )
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Choice, Given, Pick, Profile, Side, Turn, Unit, assemble
-from contoursolve.reading import Convention, Modes, ParsedContour, State, apply_modes, read
+from contoursolve.reading import ContourBuilder, Convention, Modes, ParsedContour, State, apply_modes, read
 from contoursolve.solving import analyse, place_cuts
 
 NO_SENSE, NO_POLE, NO_BEFORE = "@no-sense", "@no-pole", "@no-before"
@@ -126,6 +127,8 @@ class _Member(Struct):
     corners: tuple[tuple[int, Block], ...] = ()
     """The blocks of corners behind it, with their places in the chain: more than one is refused."""
     picked: Word | None = None
+    own: Mapping[str, Word] = {}
+    """Its words by name, once they are gathered."""
     sense: int = 0
     """Of a conventional arc that has no DR, where it is known: 1 is counter-clockwise."""
 
@@ -141,6 +144,21 @@ class _Chain:
         self.poles: dict[str, Pole] = {}
         """The poles by name: a block with its place, or coordinates that were in force before the chain."""
         self.is_cut = False
+
+    @cached_property
+    def numbers(self) -> Mapping[Decimal, int]:
+        """The numbers of the elements by those of their blocks."""
+        return _numbers(self)
+
+    @cached_property
+    def opening(self) -> int:
+        """The number of the first element with CLSD+; 0 if there is none."""
+        return next((n for n, each in enumerate(self.members, 1) if _sign_of(each.block, "CLSD") > 0), 0)
+
+    @cached_property
+    def is_closed(self) -> bool:
+        """Whether an element has CLSD-."""
+        return any(_sign_of(each.block, "CLSD") < 0 for each in self.members)
 
     def read(self, blocks: Sequence[Block], index: int) -> None:
         """Read the chain that begins at a block."""
@@ -314,92 +332,77 @@ def _next_function(blocks: Sequence[Block], index: int) -> str:
 
 def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
     """What the blocks of a chain state."""
-    members, numbers, labels = chain.members, _numbers(chain), _labels(chain)
-    bends = any(member.function in TANGENT[2:] for member in members)
-    tangents = dict(senses(chain.blocks, before, modes)) if bends else {}
-    turns = any(member.function in ABOUT_CENTER for member in members)
-    circles = frozenset(full_circles(chain.blocks, before, modes)) if turns else frozenset[int]()
-    place = -1
+    members, labels, builder = chain.members, _labels(chain), ContourBuilder(modes)
+    builder.add(*chain.blocks)
+    _bend(chain, before, modes)
     for member in members:
-        # A line may run several times.
-        place = next(at for at in range(place + 1, len(chain.blocks)) if chain.blocks[at].line == member.block.line)
-        member.sense, member.is_full = tangents.get(place, 0), place in circles
-    opening = next((n for n, each in enumerate(members, 1) if _sign_of(each.block, "CLSD") > 0), 0)
-    is_closed = any(_sign_of(each.block, "CLSD") < 0 for each in members)
-    elements: list[Element] = []
-    words: dict[str, Word] = {}
-    givens: dict[str, Given] = {}
-    vocabulary: dict[str, tuple[str, int]] = {}
-    circumstances: set[str] = set()
-    repeated: list[Word] = []
-    lasting: set[str] = set()
-    picks: list[Pick] = []
-    choices: list[Choice] = []
+        member.own = _own_words(member, builder)
+    elements: list[FkElement] = []
     for number, member in enumerate(members, 1):
-        prefix = f"{number}:"
-        own = _own_words(member, repeated)
-        referred = dict(_referred(member, own, members, numbers))
-        element, lacking = _element(member, own, number, referred, opening, is_closed=is_closed)
-        lacking += [NO_TURN] * _turns_either_way(member, members[: number - 1])
-        if number > 1 and member.function == "FCT":
-            element = _on_circle_of(elements[-1], element, members[number - 2].block, member.block)
-            is_turned = element.turn is not elements[-1].turn
-            lacking += [TURNS_BACK] * (is_turned and _is_same_circle(members[number - 2].block, member.block))
-        elements.append(element)
-        words |= {prefix + name: word for name, word in own.items()}
-        circumstances |= {prefix + each for each in (*lacking, *_corner_circumstances(members, number))}
-        is_behind_line = number > 1 and elements[-2].is_line
-        given = _givens(member, own, modes, is_behind_line=is_behind_line)
-        ended = givens.get(f"{number - 1}:CCA")
-        if ended is not None and element.is_line and member.function in TANGENT:
-            # The line goes on where CCA of the arc before ends, a quarter of a turn from that direction.
-            quarter = 90 * elements[-2].turn.sign if elements[-2].turn else 0
-            tangent = replace(own[TANGENCY], has_point=True)
-            given[ALONG] = replace(ended, value=ended.value + quarter, word=tangent, follows=ended.name)
-        givens |= {prefix + name: replace(each, name=prefix + name) for name, each in given.items()}
-        lasting |= {prefix + name for name in own if name in _NO_FACTS or name in element.touching}
-        vocabulary |= {prefix + name: (name, member.index) for name in _may_state(member, own.keys())}
-        vocabulary |= {prefix + name: (word.address, member.index) for name, word in own.items()}
-        if number == 1 and member.function in FREE:
-            vocabulary.setdefault(f"{prefix}CLSD+", ("CLSD", member.index))
-        for place, _ in member.corners[:1]:
-            vocabulary |= {prefix + name: (name, place) for name in (ROUNDING, CHAMFER)}
-        if member.picked is not None and member.picked.number is not None:
-            picks.append(Pick(number, int(member.picked.number), prefix + "FSELECT"))
-        radius = own.get("R") if member.function == "CR" else None
-        if radius is not None and radius.number is not None:
-            is_left = (radius.number > 0) is (element.turn is not Turn.CW)
-            choices.append(Choice(f"C{labels[number - 1]}", Side.LEFT if is_left else Side.RIGHT, prefix + "R"))
+        elements.append(_element(chain, number, elements))
+        circumstances = *_lacking(chain, number, elements), *_corner_circumstances(members, number)
+        lasting = [name for name in member.own if name in _NO_FACTS or name in elements[-1].touching]
+        builder.state(f"{number}:", member.own, _givens(chain, elements, builder), circumstances, lasting=lasting)
+        _name_words(builder, number, member)
     for name, pole in chain.poles.items():
-        stated = _pole_words(pole)
-        words |= {f"{name}:{axis}": word for axis, word in stated.items()}
-        known = {axis: modes.lexicon.given(axis, word, before.unit) for axis, word in stated.items()}
-        if not isinstance(pole[1], Block):
-            known = {axis: Given(axis, value, Unit.MM, None) for axis, value in zip(PLANE, pole, strict=True)}
-        else:
-            vocabulary |= {f"{name}:{axis}": (axis, pole[0]) for axis in PLANE}
-        givens |= {f"{name}:{axis}": replace(each, name=f"{name}:{axis}") for axis, each in known.items() if each}
-    claim = ParsedContour(
-        form=compose(tuple(elements), labels),
-        lexicon=modes.words(chain.state),
-        blocks=tuple(chain.blocks),
-        before=before,
-        after=chain.state,
-        words=words,
-        givens=givens,
-        vocabulary=vocabulary,
+        _state_pole(builder, f"{name}:", pole, before)
+    picks = [
+        Pick(number, int(member.picked.number), f"{number}:FSELECT")
+        for number, member in enumerate(members, 1)
+        if member.picked is not None and member.picked.number is not None
+    ]
+    claim = replace_fields(
+        builder.build(compose(tuple(elements), labels), before, chain.state),
         unknown=tuple(word for block in chain.blocks for word in _foreign(block)),
-        repeated=tuple(repeated),
-        circumstances=frozenset(circumstances),
-        choices=tuple(choices),
+        choices=tuple(_choices(members, elements, labels)),
         makes=tuple(_makes(chain, labels)),
-        lasting=frozenset(lasting),
         picks=tuple(_picks(picks, len(members), modes)),
         conventions=tuple(_conventions(bool(picks), modes)),
     )
     if chain.is_cut and _has_free(members) and _is_open(read(claim, frozenset())):
         return replace_fields(claim, circumstances=claim.circumstances | {f"{len(members)}:{CUT}"})
     return claim
+
+
+def _bend(chain: _Chain, before: State, modes: Modes) -> None:
+    """Find what is known of conventional arcs before anything is solved: their sense, and which are full circles."""
+    functions = {member.function for member in chain.members}
+    known = dict(senses(chain.blocks, before, modes)) if functions & {*TANGENT[2:]} else {}
+    circles = {*full_circles(chain.blocks, before, modes)} if functions & {*ABOUT_CENTER} else set[int]()
+    for member in chain.members:
+        member.sense, member.is_full = known.get(member.index, 0), member.index in circles
+
+
+def _choices(members: Sequence[_Member], elements: Sequence[FkElement], labels: Sequence[str]) -> Iterator[Choice]:
+    """The centres that the signs of R in CR choose."""
+    for number, (member, element, label) in enumerate(zip(members, elements, labels, strict=True), 1):
+        radius = member.own.get("R") if member.function == "CR" else None
+        if radius is not None and radius.number is not None:
+            is_left = (radius.number > 0) is (element.turn is not Turn.CW)
+            yield Choice(f"C{label}", Side.LEFT if is_left else Side.RIGHT, f"{number}:R")
+
+
+def _name_words(builder: ContourBuilder, number: int, member: _Member) -> None:
+    """Add the names of all that the blocks of an element may state."""
+    prefix, own = f"{number}:", member.own
+    builder.name(prefix, member.index, ((name, name) for name in _may_state(member, own.keys())))
+    builder.name(prefix, member.index, ((name, word.address) for name, word in own.items()))
+    if number == 1 and member.function in FREE and "CLSD+" not in own:
+        builder.name(prefix, member.index, [("CLSD+", "CLSD")])
+    for place, _ in member.corners[:1]:
+        builder.name(prefix, place, ((name, name) for name in (ROUNDING, CHAMFER)))
+
+
+def _state_pole(builder: ContourBuilder, prefix: str, pole: Pole, before: State) -> None:
+    """Add what a pole states: its block, or the coordinates that were in force before the chain."""
+    place, block = pole
+    if isinstance(block, Block):
+        words = {word.address: word for word in block.words if word.address in PLANE}
+        builder.state(prefix, words, builder.values(words, before))
+        builder.name(prefix, int(place), ((axis, axis) for axis in PLANE))
+    else:
+        values = zip(PLANE, (Decimal(place), block), strict=True)
+        builder.state(prefix, {}, {axis: Given(axis, value, Unit.MM, None) for axis, value in values})
 
 
 def _is_open(profile: Profile) -> bool:
@@ -418,11 +421,9 @@ def _picks(stated: Sequence[Pick], count: int, modes: Modes) -> Iterator[Pick]:
         yield from (Pick(number, 1, "") for number in range(1, count + 1) if number not in told)
 
 
-def _on_circle_of(other: Element, element: Element, before: Block, block: Block) -> Element:
-    """An arc that touches the one before it, where both run one way on one circle: by the centres that they state, or
+def _on_circle_of(element: FkElement, before: Block, block: Block) -> FkElement:
+    """An arc that touches one that runs the same way, where both are on one circle: by the centres that they state, or
     by the radii."""
-    if element.turn is not other.turn:
-        return element
     if _is_same_circle(before, block):
         return replace(element, goes_round=True)
     radii = [word.number for word in (before.find("R"), block.find("R")) if word is not None]
@@ -462,20 +463,15 @@ def _sign_of(block: Block, address: str) -> int:
     return 0 if word is None or not word.number else 1 if word.number > 0 else -1
 
 
-def _own_words(member: _Member, repeated: list[Word]) -> dict[str, Word]:
-    """The words about an element by their names; those that are there twice are added to `repeated`."""
-    own: dict[str, Word] = {}
-    blocks = (member.block, *(corner for _, corner in member.corners))
-    for block in {each.line: each for each in blocks}.values():
-        for word in block.words:
-            if word.address in _BESIDE_ANY or word.address not in LEXICON.addresses:
-                continue
-            name = word.address
-            if name == "CLSD":
-                name += "+" if word.text.strip().endswith("+") or not word.text.strip().endswith("-") else "-"
-            if name in own:
-                repeated.append(word)
-            own.setdefault(name, word)
+def _own_words(member: _Member, builder: ContourBuilder) -> dict[str, Word]:
+    """The words about an element by their names, each once."""
+    blocks = {block.line: block for block in (member.block, *(corner for _, corner in member.corners))}
+    own = builder.gather(
+        (_name_of(word), word)
+        for block in blocks.values()
+        for word in block.words
+        if word.address not in _BESIDE_ANY and word.address in LEXICON.addresses
+    )
     if member.picked is not None:
         own["FSELECT"] = member.picked
     if member.function in TANGENT:
@@ -483,6 +479,13 @@ def _own_words(member: _Member, repeated: list[Word]) -> dict[str, Word]:
         function = next(word for word in member.block.words if word.address == "G")
         own[TANGENCY] = replace(function, address=member.function, number=Decimal(0))
     return own
+
+
+def _name_of(word: Word) -> str:
+    """What a word is called: its address, CLSD with its sign."""
+    if word.address != "CLSD":
+        return word.address
+    return "CLSD-" if word.text.strip().endswith("-") else "CLSD+"
 
 
 def _foreign(block: Block) -> Iterator[Word]:
@@ -525,112 +528,118 @@ _TWICE = -1
 """A number that two blocks have tells of neither."""
 
 
-def _referred(
-    member: _Member, own: Mapping[str, Word], members: Sequence[_Member], numbers: Mapping[Decimal, int]
-) -> Iterator[tuple[str, int | str]]:
+def _referred(chain: _Chain, number: int) -> Iterator[tuple[str, int | str]]:
     """The words of a block that refer to another one, each with the number of its element, or with what is wrong."""
-    place = members.index(member)
+    place, member = number - 1, chain.members[number - 1]
     for name in REFERRING:
-        word = own.get(name)
+        word = member.own.get(name)
         if word is None or name not in _ALLOWED[member.function]:
             continue
-        other = numbers.get(word.number) if word.number is not None else None
+        other = chain.numbers.get(word.number) if word.number is not None else None
         # From the element right before, IAN counts anyway, whatever that is.
         refers_to_line = name in REFERRING_TO_LINES and not (name == "RAN" and other == place)
         if other == _TWICE:
             yield name, TWO_BLOCKS
         elif other is None or other > place or (name in REFERRING_TO_LINES and not other):
             yield name, NO_BLOCK
-        elif refers_to_line and members[other - 1].function not in STRAIGHT:
+        elif refers_to_line and chain.members[other - 1].function not in STRAIGHT:
             yield name, NO_LINE
         else:
             yield name, other
-
-
-def _turns_either_way(member: _Member, before: Sequence[_Member]) -> bool:
-    """Whether CT has no sense that is known from what is before it, because that is still to be found."""
-    return member.function in TANGENT[2:] and not member.sense and _has_free(before)
 
 
 def _has_free(members: Sequence[_Member]) -> bool:
     return any(each.function in FREE for each in members)
 
 
-def _element(
-    member: _Member,
-    own: Mapping[str, Word],
-    number: int,
-    referred: Mapping[str, int | str],
-    opening: int,
-    *,
-    is_closed: bool,
-) -> tuple[Element, list[str]]:
-    """The element of a block, and what it lacks."""
-    lacking = [wrong + name for name, wrong in referred.items() if isinstance(wrong, str)]
-    known = {name: other for name, other in referred.items() if isinstance(other, int)}
-    counted = tuple((f"I{name}", known[f"R{name}"]) for name in REFERRED if f"R{name}" in known)
-    is_line = member.function in STRAIGHT
-    sense = _sign_of(member.block, "DR")
-    if not is_line and member.function not in TANGENT[2:] and not sense:
-        lacking.append(NO_SENSE)
-    if own.keys() & POLAR and not member.pole:
-        lacking.append(NO_POLE)
-    tool = member.here.memory.get(TOOL_AXIS)
-    holds = {
-        NO_BEFORE: number == 1 and (member.function in TANGENT or ("IAN" in own and "RAN" not in own)),
-        NO_CENTER: member.function in (*ABOUT_CENTER, "LP", "CTP") and member.center_at is None,
-        FULL: member.is_full,
-        NO_RADIUS: member.function == "CR" and "R" not in own,
-        CLOSES_NOTHING: "CLSD-" in own and not 0 < opening < number,
-        CONTINUED: _CONTINUES.search(member.block.text),
-        NEVER_CLOSED: number == opening and not is_closed,
-        TOOL: tool is not None and tool.text != "Z",
-    }
-    lacking += [name for name, is_so in holds.items() if is_so]
-    turn = None if is_line else Turn.CW if (sense or member.sense) < 0 else Turn.CCW
-    touching = frozenset(name for name in ("D", "DP") if name in own and own[name].number == 0)
-    closes = opening if "CLSD-" in own and opening < number else 0
+def _element(chain: _Chain, number: int, before: Sequence[FkElement]) -> FkElement:
+    """The element of a number, behind those before it."""
+    member = chain.members[number - 1]
+    own, is_line = member.own, member.function in STRAIGHT
+    known = {name: other for name, other in _referred(chain, number) if isinstance(other, int)}
     stated = [name in own and own[name].number is not None for name in ("AN", "CCA")]
-    return Element(
+    element = FkElement(
         member.function,
-        turn,
+        None if is_line else Turn.CW if (_sign_of(member.block, "DR") or member.sense) < 0 else Turn.CCW,
         member.pole,
-        counted,
-        known.get("PAR", 0),
-        touching,
+        counted=tuple((f"I{name}", known[f"R{name}"]) for name in REFERRED if f"R{name}" in known),
+        parallel=known.get("PAR", 0),
+        touching=frozenset(name for name in ("D", "DP") if name in own and own[name].number == 0),
         is_entered=stated[0],
         is_ended=stated[1] and not is_line,
         is_placed=member.function not in FREE or _is_placed(own.keys()),
-        closes=closes,
-    ), lacking
+        closes=chain.opening if "CLSD-" in own and chain.opening < number else 0,
+    )
+    if before and member.function == "FCT" and element.turn is before[-1].turn:
+        return _on_circle_of(element, chain.members[number - 2].block, member.block)
+    return element
 
 
-def _givens(member: _Member, own: Mapping[str, Word], modes: Modes, *, is_behind_line: bool) -> dict[str, Given]:
-    """The values of the words of a block, with those that its function supplies."""
-    lexicon = modes.words(member.here)
-    found = {name: lexicon.given(name, word, member.here.unit) for name, word in own.items()}
-    stated = {name: given for name, given in found.items() if given is not None and name != TANGENCY}
-    if "R" in stated and member.function not in FREE:
-        # The sign of CR chooses the arc.
-        stated["R"] = replace(stated["R"], value=abs(stated["R"].value))
-    if member.function in TANGENT:
+def _lacking(chain: _Chain, number: int, elements: Sequence[FkElement]) -> Iterator[str]:
+    """What the last of the elements lacks, and what is wrong with it."""
+    member, element, before = chain.members[number - 1], elements[-1], chain.members[: number - 1]
+    own, tool = member.own, member.here.memory.get(TOOL_AXIS)
+    yield from (wrong + name for name, wrong in _referred(chain, number) if isinstance(wrong, str))
+    is_touching, is_bent = member.function in TANGENT, member.function in TANGENT[2:]
+    is_turned = number > 1 and member.function == "FCT" and element.turn is not elements[-2].turn
+    holds = {
+        NO_SENSE: not element.is_line and not is_bent and not _sign_of(member.block, "DR"),
+        NO_POLE: own.keys() & POLAR and not member.pole,
+        NO_BEFORE: number == 1 and (is_touching or ("IAN" in own and "RAN" not in own)),
+        NO_CENTER: member.function in (*ABOUT_CENTER, "LP", "CTP") and member.center_at is None,
+        FULL: member.is_full,
+        NO_RADIUS: member.function == "CR" and "R" not in own,
+        CLOSES_NOTHING: "CLSD-" in own and not 0 < chain.opening < number,
+        CONTINUED: _CONTINUES.search(member.block.text),
+        NEVER_CLOSED: number == chain.opening and not chain.is_closed,
+        TOOL: tool is not None and tool.text != "Z",
+        # To which side CT turns is not known before what is still to be found.
+        NO_TURN: is_bent and not member.sense and _has_free(before),
+        TURNS_BACK: is_turned and _is_same_circle(before[-1].block, member.block),
+    }
+    yield from (name for name, is_so in holds.items() if is_so)
+
+
+def _givens(chain: _Chain, elements: Sequence[FkElement], builder: ContourBuilder) -> dict[str, Given]:
+    """The values of the words of the last element's block, with those that its function supplies."""
+    number, element = len(elements), elements[-1]
+    member, before = chain.members[number - 1], elements[-2] if number > 1 else None
+    own, function = member.own, member.function
+    stated = builder.values(own, member.here)
+    if function in TANGENT:
         # Only two lines in a row state an angle with it: none.
-        unit = Unit.DEGREE if is_behind_line and member.function in STRAIGHT else Unit.SIGN
+        unit = Unit.DEGREE if element.is_line and before is not None and before.is_line else Unit.SIGN
         stated[TANGENCY] = Given(TANGENCY, Decimal(0), unit, own[TANGENCY])
-    if member.function in FREE:
-        return stated
-    if member.function in ("L", "C", "CR", "CT"):
-        for axis in PLANE:
-            if axis not in own and f"I{axis}" not in own:
-                stated[f"I{axis}"] = Given("", Decimal(0), Unit.MM, None)
-    if member.function in ABOUT_CENTER and member.center_at is not None:
-        for axis, value in zip(PLANE, member.center_at, strict=True):
-            stated[f"CC{axis}"] = Given("", value, Unit.MM, None)
-    if member.function == "LP":
-        for name in ("PR", "PA"):
-            if name not in own and f"I{name}" not in own:
-                stated[f"I{name}"] = Given("", Decimal(0), Unit.MM if name == "PR" else Unit.DEGREE, None)
+        ended = builder.givens.get(f"{number - 1}:CCA")
+        if ended is not None and element.is_line and before is not None:
+            # The line goes on where CCA of the arc before ends, a quarter of a turn from that direction.
+            quarter = 90 * before.turn.sign if before.turn else 0
+            tangent = replace(own[TANGENCY], has_point=True)
+            stated[ALONG] = replace(ended, value=ended.value + quarter, word=tangent, follows=ended.name)
+    if function not in FREE:
+        stated |= _supplied(member, stated)
     return stated
+
+
+def _supplied(member: _Member, stated: Mapping[str, Given]) -> Iterator[tuple[str, Given]]:
+    """What a conventional move states by its function: what it does not program stays as it is."""
+    if "R" in stated:
+        # The sign of CR chooses the arc.
+        yield "R", replace(stated["R"], value=abs(stated["R"].value))
+    for name, unit in _STAYING.get(member.function, {}).items():
+        if name not in member.own and f"I{name}" not in member.own:
+            yield f"I{name}", Given("", Decimal(0), unit, None)
+    if member.function in ABOUT_CENTER and member.center_at is not None:
+        yield from (
+            (f"CC{axis}", Given("", value, Unit.MM, None)) for axis, value in zip(PLANE, member.center_at, strict=True)
+        )
+
+
+_STAYING: Mapping[str, Mapping[str, Unit]] = {
+    **dict.fromkeys(("L", "C", "CR", "CT"), dict.fromkeys(PLANE, Unit.MM)),
+    "LP": {"PR": Unit.MM, "PA": Unit.DEGREE},
+}
+"""The words of conventional moves that mean no step where they are missing."""
 
 
 def _corner_circumstances(members: Sequence[_Member], number: int) -> Iterator[str]:
@@ -658,14 +667,6 @@ def _may_state(member: _Member, own: Set[str]) -> Iterator[str]:
 
 _TOGETHER = (*((f"{point}X", f"{point}Y") for point in POINTS), (f"{BESIDE}X", f"{BESIDE}Y", "D"))
 """The words of a point, all or none."""
-
-
-def _pole_words(pole: Pole) -> dict[str, Word]:
-    """The words of the block that states a pole."""
-    block = pole[1]
-    if not isinstance(block, Block):
-        return {}
-    return {word.address: word for word in block.words if word.address in PLANE}
 
 
 def _makes(chain: _Chain, labels: Sequence[str]) -> Iterator[tuple[str, ...]]:

@@ -10,7 +10,7 @@ from string import ascii_uppercase
 
 from msgspec.structs import replace
 
-from contoursolve.controls.yasnac_lx3.claim import claim_of
+from contoursolve.controls.yasnac_lx3.claim import BlockReader
 from contoursolve.controls.yasnac_lx3.g111 import START
 from contoursolve.controls.yasnac_lx3.lexicon import BOOK
 from contoursolve.diagnostics import Severity
@@ -92,18 +92,17 @@ def claim_arc(block: Block, code: int, state: State, modes: Modes) -> ParsedCont
     has_center = not known.keys().isdisjoint((*CENTERS, "R"))
     if len(words) == len(known) and has_center and _runs(known, state):
         return None
-    claim = claim_of(block, arc(code), code, state, after, modes, WRONG_CENTER)
+    reader = BlockReader(block, code, state, after, modes)
     supplied = [Given(names[1], Decimal(0), Unit.MM, None) for names in _ENDS if known.keys().isdisjoint(names)]
     choices = []
     if "R" in known:
-        supplied.append(replace(claim.givens["R"], value=abs(known["R"])))
+        supplied.append(replace(reader.values["R"], value=abs(known["R"])))
         is_left = (known["R"] > 0) == (_TURNS[code] is Turn.CCW)
         choices.append(Choice(CENTER, Side.LEFT if is_left else Side.RIGHT, "R"))
     elif has_center:
         # Of the two distances to the centre, one that is not written is 0 (assumed, as on other controls).
         supplied += [Given(name, Decimal(0), Unit.MM, None) for name in CENTERS if name not in known]
-    givens = {**claim.givens, **{given.name: given for given in supplied}}
-    return dataclasses.replace(claim, givens=givens, choices=tuple(choices))
+    return dataclasses.replace(reader.claim(arc(code), WRONG_CENTER, supplied), choices=tuple(choices))
 
 
 _READ = frozenset({*chain(*_ENDS), *CENTERS, "R", *WRONG_CENTER})

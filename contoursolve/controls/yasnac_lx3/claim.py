@@ -1,12 +1,13 @@
 """YASNAC LX3: a block as a contour of some form, with every word by the name of the given that it states."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable
+from dataclasses import replace as replace_fields
+from decimal import Decimal
 from functools import lru_cache
 
 from msgspec.structs import replace
 
 from contoursolve.controls.yasnac_lx3.lexicon import (
-    ADDRESSES,
     AXIS_45,
     BEVEL,
     LENGTH_45,
@@ -16,7 +17,18 @@ from contoursolve.controls.yasnac_lx3.lexicon import (
 )
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import CornerShape, Given
-from contoursolve.reading import Code, ContourForm, Effect, Mode, Modes, ParsedContour, State, apply_modes, codes_of
+from contoursolve.reading import (
+    Code,
+    ContourBuilder,
+    ContourForm,
+    Effect,
+    Mode,
+    Modes,
+    ParsedContour,
+    State,
+    apply_modes,
+    codes_of,
+)
 
 OTHER_G = "other G"
 """States that the block has a G code that uses the axis words itself."""
@@ -46,74 +58,58 @@ def after_cornering(block: Block, state: State, modes: Modes) -> State:
     return after if after.motion == motion else replace(after, motion=motion)
 
 
-def claim_of(
-    block: Block,
-    form: ContourForm,
-    own: int | None,
-    before: State,
-    after: State,
-    modes: Modes,
-    refused: frozenset[str] = frozenset(),
-    supplied: Iterable[Given] = (),
-) -> ParsedContour:
-    """The block as a contour of a form whose G code is `own`.
+class BlockReader:
+    """A block whose own G code is `own`: its words, before the form is known whose contour it states."""
 
-    `refused` are addresses that a rule refuses; `supplied` are givens that the control derives from the words.
-    """
-    codes = [code for code in codes_of(block, modes) if isinstance(code, Code)]
-    is_own = any(code.number == own for code in codes)
-    others = [code.number for code in codes if code.number != own and code.effect in AXIS_EFFECTS]
-    words: dict[str, Word] = {}
-    repeated: list[Word] = []
-    for word in block.words:
-        name = word.address
-        if name == "G":
-            name = OTHER_G if word.number in others else f"G{word.number}"
-        if name in words:
-            if name != "M":
-                repeated.append(word)
-        else:
-            words[name] = word
-    lexicon, allowed = modes.lexicon, form.allowed
-    stated: dict[str, Word] = {}
-    beside: dict[str, Word] = {}
-    givens: dict[str, Given] = {}
-    unknown: list[Word] = []
-    for name, word in words.items():
-        if name in allowed and name in lexicon.addresses:
-            stated[name] = word
-            given = lexicon.given(name, word, after.unit)
-            if given is not None:
-                givens[name] = given
-        if name == OTHER_G or name in refused:
-            beside[name] = word
-        elif word.address != "G" and word.address not in allowed:
-            unknown.append(word)
-    for each in supplied:
-        givens[each.name] = each
-    return ParsedContour(
-        form=form,
-        lexicon=lexicon,
-        blocks=(block,),
-        before=before if before.unit is after.unit else replace(before, unit=after.unit),
-        after=after,
-        words={**stated, **beside},
-        givens=givens,
-        vocabulary=_vocabulary(form),
-        unknown=tuple(unknown),
-        repeated=tuple(repeated),
-        # Multiple cornering, and a motion that the block states itself, take no part in the one in force.
-        doubts=(after.settle(Mode.MOTION, Mode.MOVE) if is_own else after).doubts,
-        conventions=() if stated.keys().isdisjoint(_bevels(form)) else (modes.convention(BEVEL),),
-    )
+    def __init__(self, block: Block, own: int | None, before: State, after: State, modes: Modes) -> None:
+        self.before, self.after = before, after
+        codes = [code for code in codes_of(block, modes) if isinstance(code, Code)]
+        self.is_own = any(code.number == own for code in codes)
+        others = [code.number for code in codes if code.number != own and code.effect in AXIS_EFFECTS]
+        self.builder = ContourBuilder(modes)
+        self.builder.add(block)
+        self.words = self.builder.gather((_name_of(word, others), word) for word in block.words)
+        self.values = self.builder.values(self.words, after)
+
+    def value(self, name: str) -> Decimal | None:
+        """The value of a word, mm or degrees, if it is there and is known."""
+        return self.values[name].value if name in self.values else None
+
+    def claim(
+        self, form: ContourForm, refused: frozenset[str] = frozenset(), supplied: Iterable[Given] = ()
+    ) -> ParsedContour:
+        """The block as a contour of a form. `refused` are addresses that a rule refuses; `supplied` are givens that the
+        control derives from the words."""
+        builder, modes, after = self.builder, self.builder.modes, self.after
+        rows = [name for name in modes.lexicon.addresses if name in form.allowed]
+        stated = {name: word for name, word in self.words.items() if name in rows}
+        beside = {name: word for name, word in self.words.items() if name == OTHER_G or name in refused}
+        unknown = (
+            word
+            for name, word in self.words.items()
+            if name not in beside and word.address != "G" and word.address not in form.allowed
+        )
+        givens = {name: self.values[name] for name in stated if name in self.values}
+        builder.state("", {**stated, **beside}, {**givens, **{each.name: each for each in supplied}})
+        builder.name("", 0, ((name, name) for name in rows))
+        before = self.before if self.before.unit is after.unit else replace(self.before, unit=after.unit)
+        return replace_fields(
+            builder.build(form, before, after),
+            unknown=tuple(unknown),
+            # Multiple cornering, and a motion that the block states itself, take no part in the one in force.
+            doubts=(after.settle(Mode.MOTION, Mode.MOVE) if self.is_own else after).doubts,
+            conventions=() if stated.keys().isdisjoint(_bevels(form)) else (modes.convention(BEVEL),),
+        )
+
+
+def _name_of(word: Word, others: Collection[int]) -> str:
+    """What a word is called: its address, G codes with their number."""
+    if word.address != "G":
+        return word.address
+    return OTHER_G if word.number in others else f"G{word.number}"
 
 
 @lru_cache(maxsize=32)
 def _bevels(form: ContourForm) -> frozenset[str]:
     """The words whose meaning is a convention."""
     return frozenset(word for row in form.corners for word, shape in row.shapes.items() if shape in _SHAPES.values())
-
-
-@lru_cache(maxsize=32)
-def _vocabulary(form: ContourForm) -> Mapping[str, tuple[str, int]]:
-    return {row.address: (row.address, 0) for row in ADDRESSES if row.address in form.allowed}

@@ -4,7 +4,7 @@ from decimal import Decimal
 from functools import cache
 
 from contoursolve.controls.geometry_rules import told
-from contoursolve.controls.yasnac_lx3.claim import OTHER_G, after_cornering, bevel_of, claim_of
+from contoursolve.controls.yasnac_lx3.claim import OTHER_G, BlockReader, after_cornering, bevel_of
 from contoursolve.controls.yasnac_lx3.lexicon import ASSUMPTIONS, BOOK, MOTION_AFTER, alarms
 from contoursolve.diagnostics import Evidence, Severity, Source
 from contoursolve.gcode import Block
@@ -85,8 +85,8 @@ G111 = g111(CornerShape.CHAMFER_AXIS_45)
 
 def claim_g111(block: Block, state: State, modes: Modes) -> ParsedContour:
     """The contour of a block with G111."""
-    after = after_cornering(block, state, modes)
-    return claim_of(block, g111(bevel_of(modes)), 111, state, after, modes, REFUSED)
+    reader = BlockReader(block, 111, state, after_cornering(block, state, modes), modes)
+    return reader.claim(g111(bevel_of(modes)), REFUSED)
 
 
 _ROLE = "G111"

@@ -6,7 +6,7 @@ from decimal import Decimal
 from functools import cache
 
 from contoursolve.controls.geometry_rules import told
-from contoursolve.controls.yasnac_lx3.claim import OTHER_G, after_cornering, bevel_of, claim_of
+from contoursolve.controls.yasnac_lx3.claim import OTHER_G, BlockReader, after_cornering, bevel_of
 from contoursolve.controls.yasnac_lx3.g111 import PASSING, REFUSED, START, V1, V2
 from contoursolve.controls.yasnac_lx3.lexicon import ASSUMPTIONS, BOOK, alarms
 from contoursolve.diagnostics import Evidence, Severity
@@ -119,13 +119,12 @@ G112_FORMS = tuple(g112(along, Turn.CW, CornerShape.CHAMFER_AXIS_45) for along i
 
 def claim_g112(block: Block, state: State, modes: Modes) -> ParsedContour:
     """The contour of a block with G112, which is not modal (assumed, as G111)."""
-    after = after_cornering(block, state, modes)
+    reader = BlockReader(block, 112, state, after_cornering(block, state, modes), modes)
     addresses = {word.address for word in block.words}
     along = SECOND if addresses & {"Z", "W"} and not addresses & {"X", "U"} else FIRST
-    draft = claim_of(block, g112(along, Turn.CW, CornerShape.FILLET), 112, state, after, modes)
-    forward, aside = (_value(draft, _CENTERS[axis]) for axis in (along, 1 - along))
+    forward, aside = (reader.value(_CENTERS[axis]) for axis in (along, 1 - along))
     way, side = _sign(forward), _sign(aside)
-    beyond = _landing(draft, 1 - along, aside)
+    beyond = _landing(reader, 1 - along, aside)
     supplied = []
     if way:
         supplied.append(Given(WAY, Decimal(_WAYS[along, way]), Unit.DEGREE, None))
@@ -135,26 +134,22 @@ def claim_g112(block: Block, state: State, modes: Modes) -> ParsedContour:
     # The arc begins where line 1 meets it first, and ends beyond its centre (derived).
     choices = (Choice(V1, Side.NEARER, ""), Choice(V2, Side.FARTHER, ""))
     return dataclasses.replace(
-        claim_of(block, form, 112, state, after, modes, REFUSED, supplied),
+        reader.claim(form, REFUSED, supplied),
         choices=choices,
         circumstances=frozenset(_circumstances(side, beyond)),
-        limits=_limits(draft, 1 - along, aside, beyond),
+        limits=_limits(reader, 1 - along, aside, beyond),
     )
-
-
-def _value(claim: ParsedContour, name: str) -> Decimal | None:
-    return claim.givens[name].value if name in claim.givens else None
 
 
 def _sign(value: Decimal | None) -> int:
     return (value > 0) - (value < 0) if value is not None else 0
 
 
-def _landing(claim: ParsedContour, across: int, aside: Decimal | None) -> Decimal | None:
+def _landing(reader: BlockReader, across: int, aside: Decimal | None) -> Decimal | None:
     """How far the landing line lies from the centre, in the positive sense of its axis, mm; None where unknown."""
     absolute, increment = (("Z", "W"), ("X", "U"))[across]
-    start = claim.before.start().values[across]
-    place, step = _value(claim, absolute), _value(claim, increment)
+    start = reader.before.start().values[across]
+    place, step = reader.value(absolute), reader.value(increment)
     if aside is None:
         return None
     if step is not None:
@@ -162,12 +157,12 @@ def _landing(claim: ParsedContour, across: int, aside: Decimal | None) -> Decima
     return place - start - aside if place is not None and start is not None else None
 
 
-def _limits(claim: ParsedContour, across: int, aside: Decimal | None, beyond: Decimal | None) -> dict[str, Decimal]:
+def _limits(reader: BlockReader, across: int, aside: Decimal | None, beyond: Decimal | None) -> dict[str, Decimal]:
     """Where the words put the landing line through the centre, each by itself."""
     if aside is None or beyond is None:
         return {}
-    lands = claim.givens.keys() & set("ZW" if across == FIRST else "XU")
-    limits = {name: claim.givens[name].value - beyond for name in lands}
+    lands = reader.values.keys() & set("ZW" if across == FIRST else "XU")
+    limits = {name: reader.values[name].value - beyond for name in lands}
     return {**limits, _CENTERS[across]: aside + beyond}
 
 

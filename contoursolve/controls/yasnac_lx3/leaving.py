@@ -3,7 +3,7 @@
 from decimal import Decimal
 from functools import cache
 
-from contoursolve.controls.yasnac_lx3.claim import OTHER_G, claim_of
+from contoursolve.controls.yasnac_lx3.claim import OTHER_G, BlockReader
 from contoursolve.controls.yasnac_lx3.g111 import START, V1
 from contoursolve.controls.yasnac_lx3.lexicon import BOOK
 from contoursolve.diagnostics import Alarm, Evidence
@@ -80,11 +80,10 @@ def claim_leaving(block: Block, code: int, state: State, modes: Modes) -> Parsed
     """The contour of a block that moves along one axis with a corner, with or under G11, G12 or G01."""
     addresses = {word.address for word in block.words}
     along = FIRST if addresses & {"Z", "W"} or ("I" in addresses and not addresses & {"X", "U"}) else SECOND
-    form, after = leaving(code, along), apply_modes(state, block, modes)
-    claim = claim_of(block, form, code, state, after, modes)
-    size = claim.givens.get(_WORDS[along][1])
+    reader = BlockReader(block, code, state, apply_modes(state, block, modes), modes)
+    size = reader.values.get(_WORDS[along][1])
     supplied = [Given(SIZE, abs(size.value), Unit.MM, size.word)] if size is not None else []
-    return claim_of(block, form, code, state, after, modes, supplied=supplied)
+    return reader.claim(leaving(code, along), supplied=supplied)
 
 
 _ROLE = "leaving"
