@@ -5,8 +5,14 @@ from .chain.find import (
     ChainFinder as ChainFinder,
 )
 from .chain.language import (
+    AngleWords as AngleWords,
+    ArcWords as ArcWords,
+    BlockMeeting as BlockMeeting,
+    BlockOrder as BlockOrder,
+    CornerWords as CornerWords,
     Joining as Joining,
     Language as Language,
+    LanguageBasis as LanguageBasis,
 )
 from .common import (
     COMMON_RULES as COMMON_RULES,
@@ -16,6 +22,9 @@ from .fanuc import (
     FANUC_MILL as FANUC_MILL,
     HAAS_LATHE as HAAS_LATHE,
     HAAS_MILL as HAAS_MILL,
+)
+from .geometry_rules import (
+    GEOMETRY_RULES as GEOMETRY_RULES,
 )
 from .heidenhain import (
     HEIDENHAIN as HEIDENHAIN,

@@ -50,7 +50,7 @@ class _Translator:
         self.corners = {each.before: each for each in self.profile.figure.corners if each.name in self.segments}
         facts = (fact for fact in self.profile.facts if isinstance(fact, Heading))
         self.angles = {(fact.tail, fact.head): self.profile.givens[fact.given].value for fact in facts}
-        self.words = {shape: word for word, shape in language.corners.items()}
+        self.words = {shape: word for word, shape in language.corner.words.items()}
         figure = self.profile.figure
         self.points = {figure.path[-1].head: contour.end, **contour.points, figure.start: contour.start}
         """Where the elements begin and end, corners aside."""
@@ -125,16 +125,16 @@ class _Translator:
         exact = [self._coordinate(axis, value) for axis, value in enumerate(end)]
         if is_open and angle is not None:
             # What closes it has both coordinates and the angle.
-            return (*sorted(each or "" for each in exact), self._spell(self.language.angle, angle)), False
+            return (*sorted(each or "" for each in exact), self._spell(self.language.angle.address, angle)), False
         if all(exact) or angle is None or self.form.is_incremental:
             return None, False
         way = radians(float(self.angles[line.tail, line.head]))
         for axis, other in ((0, cos(way)), (1, sin(way))):
             # A coordinate along which the line hardly advances does not tell where it ends.
             if exact[axis] and abs(other) > _STEEP:
-                return (str(exact[axis]), self._spell(self.language.angle, angle)), False
-        if self.language.joining is Joining.OPEN and isinstance(after, Line) and self._closes(after, way):
-            return (self._spell(self.language.angle, angle),), True
+                return (str(exact[axis]), self._spell(self.language.angle.address, angle)), False
+        if self.language.meeting.joining is Joining.OPEN and isinstance(after, Line) and self._closes(after, way):
+            return (self._spell(self.language.angle.address, angle),), True
         return None, False
 
     def _closes(self, line: Line, way: float) -> bool:
@@ -150,7 +150,10 @@ class _Translator:
     def _angle(self, line: Line) -> str | None:
         """The angle of a line as the program states it, where the target writes angles."""
         value = self.angles.get((line.tail, line.head))
-        if value is None or self.language.address_of(self.language.angle) not in self.target.modes.lexicon.addresses:
+        if (
+            value is None
+            or self.language.address_of(self.language.angle.address) not in self.target.modes.lexicon.addresses
+        ):
             return None
         return self._exactly(value, Unit.DEGREE)
 

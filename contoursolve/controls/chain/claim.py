@@ -63,8 +63,8 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         holds = {
             *_circumstances(language, member, first, is_only=len(members) == 1, is_first=not index),
             *([BESIDE_ARC] if any(each.turn is not None for each in elements[index : index + 2]) else []),
-            *language.circumstances(member, states[max(index - 1, 0) : index + 2], modes),
-            *(name for name, (setting, value) in language.where_set.items() if modes.has(setting, value)),
+            *language.basis.circumstances(member, states[max(index - 1, 0) : index + 2], modes),
+            *(name for name, (setting, value) in language.basis.where_set.items() if modes.has(setting, value)),
         }
         builder.state(prefix, own, givens, holds, kept=kept)
         resting.append({*own, *givens, *holds, *_read_by(member, modes)})
@@ -72,8 +72,8 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
     unread = [word for word in unknown if modes.lexicon.bearing(word.address) in (Bearing.UNREAD, Bearing.END)]
     known = {name: word for name, word in builder.words.items() if word.address in modes.lexicon.addresses}
     conventions = (
-        *language.conventions(form, builder.circumstances, modes),
-        *(modes.convention(row.setting) for row in language.resting if row.is_told(resting, modes)),
+        *language.basis.conventions(form, builder.circumstances, modes),
+        *(modes.convention(row.setting) for row in language.basis.resting if row.is_told(resting, modes)),
     )
     return replace_fields(
         builder.build(form, replace(before, plane=first.plane, unit=first.unit), last),
@@ -82,11 +82,11 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         unread=tuple(dict.fromkeys((*unread, *filter(None, (member.unread for member in members))))),
         choices=tuple(_choices(language, elements, names, known, modes)),
         selectors=tuple(_selectors(language, elements, names, known, modes)),
-        is_end_absolute=elements[-1].is_over and language.joining is not Joining.PAIRED,
+        is_end_absolute=elements[-1].is_over and language.meeting.joining is not Joining.PAIRED,
         selected=language.planes.get(last.plane.code),
         conventions=tuple({each.setting.name: each for each in conventions}.values()),
         makes=_makes(form, members) if len(builder.blocks) > len(members) else (),
-        lasting=frozenset(name for name in known if name.partition(":")[2] in language.modal_corner),
+        lasting=frozenset(name for name in known if name.partition(":")[2] in language.corner.stays),
         doubts={mode: why for member in members for mode, why in member.here.doubts.items()},
     )
 
@@ -113,7 +113,7 @@ def _stated(
     givens = _givens(language, own, member, modes) | sized | angled
     if member.corner is not None:
         sized, corner, in_force = _corner_of(language, member.corner, member.here, modes)
-        builder.name(prefix, builder.add(member.corner), ((name, language.corner_size) for name in corner))
+        builder.name(prefix, builder.add(member.corner), ((name, language.corner.size) for name in corner))
         own, givens = own | {name: word for name, word in corner.items() if name not in own}, givens | sized
     return own, givens, in_force | turned
 
@@ -155,8 +155,8 @@ def _corner_of(
     language: Language, block: Block, here: State, modes: Modes
 ) -> tuple[dict[str, Given], dict[str, Word], dict[str, Word]]:
     """The size that a block of its own gives a corner, with its word; the last one given if it has none."""
-    name = language.corner_codes[int(_shapes_of(language, block)[0].number or 0)]
-    own, kept = block.find(language.corner_size), here.memory.get(language.corner_size)
+    name = language.corner.codes[int(_shapes_of(language, block)[0].number or 0)]
+    own, kept = block.find(language.corner.size), here.memory.get(language.corner.size)
     word = own or kept
     size = modes.words(here).given(name, word, here.unit) if word else None
     givens = {name: size if own else replace(size, word=None)} if size else {}
@@ -170,9 +170,9 @@ def _crowding(language: Language, member: Member) -> dict[str, bool]:
     if block is None:
         return {}
     codes = _shapes_of(language, block)
-    sizes = [word for word in block.words if word.address == language.corner_size]
-    others = [word for word in block.words if word.address not in (*"NGFSTMDH", language.corner_size)]
-    size = language.corner_codes[int(codes[0].number or 0)]
+    sizes = [word for word in block.words if word.address == language.corner.size]
+    others = [word for word in block.words if word.address not in (*"NGFSTMDH", language.corner.size)]
+    size = language.corner.codes[int(codes[0].number or 0)]
     return {
         CORNER_BOTH: len(codes) > 1,
         CORNER_CROWDED: len(codes) == 1 and (len(sizes) > 1 or bool(others)),
@@ -183,17 +183,17 @@ def _crowding(language: Language, member: Member) -> dict[str, bool]:
 
 def _shapes_of(language: Language, block: Block) -> list[Word]:
     """The codes of a block that make a corner."""
-    return [word for word in block.words if word.address == "G" and word.number in language.corner_codes]
+    return [word for word in block.words if word.address == "G" and word.number in language.corner.codes]
 
 
 def _kept_corner(
     language: Language, own: Mapping[str, Word], member: Member, modes: Modes
 ) -> tuple[dict[str, Given], dict[str, Word]]:
     """The corner that a word makes that stays in force, where the block has no corner word; and that word."""
-    is_own = member.corner is not None or any(word in own for word in language.corners)
+    is_own = member.corner is not None or any(word in own for word in language.corner.words)
     if is_own or member.is_straight or not member.is_joined or member.here.motion == 0:
         return {}, {}
-    for address, corner in language.modal_corner.items():
+    for address, corner in language.corner.stays.items():
         word = member.here.memory.get(address)
         if word is not None:
             size = modes.words(member.here).given(corner, word, member.here.unit)
@@ -210,33 +210,35 @@ def _kept_angle(
     language: Language, own: Mapping[str, Word], member: Member, modes: Modes
 ) -> tuple[dict[str, Given], dict[str, Word]]:
     """The angle that stays in force, of a line with one coordinate and no angle; and its word."""
-    word = member.here.memory.get(language.angle) if language.keeps_angle else None
+    word = member.here.memory.get(language.angle.address) if language.angle.stays else None
     stated = {name.removesuffix("-step") for name in own} & {*_ORDERS}
-    if word is None or language.angle in own or member.element.turn is not None or len(stated) != 1:
+    if word is None or language.angle.address in own or member.element.turn is not None or len(stated) != 1:
         return {}, {}
     here = _put(word, member.block)
-    given = modes.words(member.here).given(language.angle, here, member.here.unit)
-    return ({language.angle: given} if given else {}), {language.angle: here}
+    given = modes.words(member.here).given(language.angle.address, here, member.here.unit)
+    return ({language.angle.address: given} if given else {}), {language.angle.address: here}
 
 
 def _calls(language: Language, member: Member) -> dict[str, str]:
     """What a block's addresses state, without the number of the block."""
     plane, addresses = member.here.plane, language.lexicon.addresses
-    is_absolute = member.element.is_over and language.joining is not Joining.OPEN
+    is_absolute = member.element.is_over and language.meeting.joining is not Joining.OPEN
     called = {address: address for address, row in addresses.items() if not row.axis}
     centers = {center: f"center-{order}" for center, order in zip(plane.centers, _ORDERS, strict=True)}
     called |= {address: centers.get(address, "wrong-center") for address in ("I", "J", "K") if address in addresses}
     called |= {address: f"beside-{address}" for address, row in addresses.items() if row.axis not in ("", *plane.axes)}
     called |= language.names_in(is_arc=member.element.turn is not None)
     if member.element.turn is not None:
-        called |= language.centers_at(plane)
+        called |= language.arc.centers_at(plane)
     if member.is_signed:
-        signed = {address: language.signed_name(address, plane) for address in language.signed}
+        signed = {address: language.corner.signed_name(address, plane) for address in language.corner.signed}
         called |= {address: name for address, name in signed.items() if name}
-    angles = [address for address in language.angle_words if member.block.find(address)] or language.angle_words[:1]
-    if language.angle_words:
-        called |= {address: f"beside-{address}" for address in (language.angle, *language.angle_words)}
-    called |= dict.fromkeys(angles[-1:], language.angle)
+    angles = [address for address in language.angle.synonyms if member.block.find(address)] or language.angle.synonyms[
+        :1
+    ]
+    if language.angle.synonyms:
+        called |= {address: f"beside-{address}" for address in (language.angle.address, *language.angle.synonyms)}
+    called |= dict.fromkeys(angles[-1:], language.angle.address)
     for axis, order in zip(plane.axes, _ORDERS, strict=True):
         for address, row in addresses.items():
             if row.axis == axis:
@@ -262,7 +264,7 @@ def _givens(language: Language, words: Mapping[str, Word], member: Member, modes
     stated |= {name: replace(given, value=abs(given.value)) for name, given in sizes.items()}
     asked = {name.removesuffix("-step") for name, word in words.items() if word.is_asked}
     element = member.element
-    if element.is_over and language.joining is Joining.OVER_DEFINED:
+    if element.is_over and language.meeting.joining is Joining.OVER_DEFINED:
         return stated
     if element.is_smooth:
         stated[TURN] = Given(TURN, Decimal(0), Unit.DEGREE, None)
@@ -275,12 +277,12 @@ def _givens(language: Language, words: Mapping[str, Word], member: Member, modes
         return stated
     ends = {name.removesuffix("-step") for name in stated} & {*_ORDERS}
     is_partial = element.turn is None and (
-        language.angle in words or bool(_kept_angle(language, words, member, modes)[0])
+        language.angle.address in words or bool(_kept_angle(language, words, member, modes)[0])
     )
     if not is_partial and (ends or not element.is_followed):
         stated |= _supplied("", "-step", stated, asked, is_always=not element.is_followed)
     if ends and element.is_followed:
-        name = AIMED if element.turn is None and language.angle in stated else POINT
+        name = AIMED if element.turn is None and language.angle.address in stated else POINT
         stated[name] = Given(name, Decimal(0), Unit.SIGN, None)
     return stated
 
@@ -309,7 +311,7 @@ def _circumstances(language: Language, member: Member, first: State, *, is_only:
         OTHER_PLANE: replace(plane, diameters=first.plane.diameters) != first.plane,
         OTHER_DIAMETER: plane.code == first.plane.code and plane.diameters != first.plane.diameters,
         RAPID: member.here.motion == 0,
-        THREAD: member.here.motion in language.threads,
+        THREAD: member.here.motion in language.order.threads,
         FOLLOWED: member.element.is_followed,
         LAST: member.is_last,
         ONLY: is_only,
@@ -340,15 +342,15 @@ def _choices(
             yield Choice(point, Side.LONGER if value else Side.SHORTER, name)
     previous: Element | None = None
     for element, each in zip(elements, names, strict=True):
-        radius, sign = f"{each.prefix}R", f"{each.prefix}{language.selector}"
+        radius, sign = f"{each.prefix}R", f"{each.prefix}{language.meeting.selector}"
         size = words[radius].number if radius in words else None
         if element.turn is not None and (element.touches or not element.is_over) and size is not None:
             yield Choice(each.center, _center_side(element.turn, is_short=size > 0), radius)
         chosen = words[sign].number if sign in words else None
         if previous is not None and element.is_over and chosen:
             role = pair_role(previous, element)
-            if role != LINE_LINE and language.choose_side is not None:
-                yield Choice(each.tail, language.choose_side(role, chosen < 0, modes), sign)
+            if role != LINE_LINE and language.meeting.choose_side is not None:
+                yield Choice(each.tail, language.meeting.choose_side(role, chosen < 0, modes), sign)
         previous = element
 
 
@@ -356,8 +358,8 @@ def _picks(language: Language, elements: Sequence[Element], names: Sequence[Name
     """The intersections that a value picks, each with its name: the word stands in the block of the arc."""
     for (before, after), (first, second) in zip(pairwise(elements), pairwise(names), strict=True):
         is_line = before.turn is None
-        if language.picks and after.is_over and not after.touches and is_line is not (after.turn is None):
-            yield second.tail, f"{(second if is_line else first).prefix}{language.picks}"
+        if language.meeting.picks and after.is_over and not after.touches and is_line is not (after.turn is None):
+            yield second.tail, f"{(second if is_line else first).prefix}{language.meeting.picks}"
 
 
 def _center_side(turn: Turn, *, is_short: bool) -> Side:
@@ -369,15 +371,15 @@ def _selectors(
 ) -> Iterator[Selector]:
     """Q chooses an intersection, a value picks one, and the sign of a stated R chooses a centre."""
     for point, _ in _picks(language, elements, names):
-        yield Selector(point, Side.SHORTER, f"{language.picks}0")
-        yield Selector(point, Side.LONGER, f"{language.picks}1")
+        yield Selector(point, Side.SHORTER, f"{language.meeting.picks}0")
+        yield Selector(point, Side.LONGER, f"{language.meeting.picks}1")
     previous: Element | None = None
     for element, each in zip(elements, names, strict=True):
         role = pair_role(previous, element) if previous is not None and element.is_over else LINE_LINE
-        if role != LINE_LINE and language.choose_side is not None:
+        if role != LINE_LINE and language.meeting.choose_side is not None:
             for is_negative, number in ((True, "-1"), (False, "1")):
-                side = language.choose_side(role, is_negative, modes)
-                yield Selector(each.tail, side, f"{language.selector}{number}")
+                side = language.meeting.choose_side(role, is_negative, modes)
+                yield Selector(each.tail, side, f"{language.meeting.selector}{number}")
         word = words.get(f"{each.prefix}R")
         is_chosen = element.turn is not None and (element.touches or not element.is_over)
         if element.turn is not None and is_chosen and word is not None and word.number is not None:

@@ -51,9 +51,9 @@ class ChainFinder:
 
     def __init__(self, language: Language) -> None:
         self.language = language
-        self._cornered = frozenset(language.corners)
-        self._moving = frozenset({*language.axes, *language.angles, *language.corners})
-        arcs = (language.tangent_arc,) if language.tangent_arc is not None else ()
+        self._cornered = frozenset(language.corner.words)
+        self._moving = frozenset({*language.axes, *language.angle.addresses, *language.corner.words})
+        arcs = (language.arc.tangent,) if language.arc.tangent is not None else ()
         self._cutting = frozenset({1, *_TURNS, *arcs})
 
     def __call__(self, blocks: Sequence[Block], index: int, state: State, modes: Modes) -> ParsedContour | None:
@@ -81,7 +81,7 @@ class ChainFinder:
             before, here = here, self._apply(here, blocks[following], modes)
             is_over = self._begins_in_intersection(last, blocks[following], here)
             is_cut = here.motion in self._cutting and self._moves(blocks[following], here)
-            is_smooth = here.motion == self.language.tangent_arc and last.here.motion in self._cutting
+            is_smooth = here.motion == self.language.arc.tangent and last.here.motion in self._cutting
             if not is_over and not is_smooth and not (self._makes_corner(last) and is_cut):
                 break
             if is_over:
@@ -107,25 +107,29 @@ class ChainFinder:
 
     def _member(self, block: Block, before: State, modes: Modes, *, is_over: bool) -> Member:
         here = self._apply(before, block, modes)
-        is_smooth = self.language.tangent_arc is not None and here.motion == self.language.tangent_arc
+        is_smooth = self.language.arc.tangent is not None and here.motion == self.language.arc.tangent
         turn = Turn.CCW if is_smooth else _TURNS.get(here.motion or 0)
         element = Element(turn, is_over, is_smooth=is_smooth)
-        is_signed = not self.language.is_signed_by_shape and bool(self._signed_words(block, here))
+        is_signed = not self.language.corner.is_signed_by_shape and bool(self._signed_words(block, here))
         return Member(block, element, before, here, is_signed=is_signed)
 
     def _signed_words(self, block: Block, here: State) -> list[Word]:
         """The words of a line that may make a corner whose sign tells which way the next line runs."""
-        words = [word for word in block.words if word.address in self.language.signed]
-        return [word for word in words if here.motion == 1 and self.language.signed_name(word.address, here.plane)]
+        words = [word for word in block.words if word.address in self.language.corner.signed]
+        return [
+            word for word in words if here.motion == 1 and self.language.corner.signed_name(word.address, here.plane)
+        ]
 
     def _aimed(self, last: Member, following: Member) -> tuple[Member, Member]:
         """Two blocks with a corner between them; the second with which way it must run, where a sign tells that."""
         words, axes = self._signed_words(last.block, last.here), [*last.here.plane.axes]
         moved = [self._programmed(each.block, each.here) for each in (last, following)]
-        is_drawn = any(self._stated(each.block, each.here) & {*self.language.angles} for each in (last, following))
+        is_drawn = any(
+            self._stated(each.block, each.here) & {*self.language.angle.addresses} for each in (last, following)
+        )
         is_square = [len(each) for each in moved] == [1, 1] and moved[0] != moved[1] and not is_drawn
         is_square = is_square and following.here.motion == 1 and following.here.plane == last.here.plane
-        if not words or (self.language.is_signed_by_shape and not is_square):
+        if not words or (self.language.corner.is_signed_by_shape and not is_square):
             return last, following
         last = replace(last, is_signed=True)
         if len(moved[0]) == 1:
@@ -139,7 +143,7 @@ class ChainFinder:
         return last, following
 
     def _runs_in_rapid(self, members: Sequence[Member]) -> bool:
-        return self.language.runs_in_rapid and members[-1].here.motion == 0
+        return self.language.order.runs_in_rapid and members[-1].here.motion == 0
 
     def _bend(self, members: Sequence[Member], state: State, modes: Modes) -> Element:
         """The last block's element: an arc that begins in the direction of what is before it turns to the side on which
@@ -156,7 +160,7 @@ class ChainFinder:
 
     def _without_straight(self, members: Sequence[Member], state: State, modes: Modes) -> list[Member]:
         """The members, without the corners of a word that stays in force where the direction does not change."""
-        if not any(member.here.memory.keys() & self.language.modal_corner.keys() for member in members):
+        if not any(member.here.memory.keys() & self.language.corner.stays.keys() for member in members):
             return list(members)
         _, ways = self._ways(members, state, modes)
         found = []
@@ -202,17 +206,22 @@ class ChainFinder:
     def _is_corner(self, block: Block) -> bool:
         """Whether a block makes a corner between those beside it, and nothing else."""
         codes = {int(word.number) for word in block.words if word.address == "G" and word.number is not None}
-        return bool(codes & self.language.corner_codes.keys())
+        return bool(codes & self.language.corner.codes.keys())
 
     def _apply(self, before: State, block: Block, modes: Modes) -> State:
         """The state with the block's G codes in force; its plane has a parallel axis in place of its own one where a
         line by its angle has only that coordinate."""
-        here, parallel = apply_modes(before, block, modes), self.language.parallel
+        here, parallel = apply_modes(before, block, modes), self.language.angle.parallel
         plane = self.language.planes.get(here.plane.code, here.plane)
         here = here if here.plane == plane else replace(here, plane=plane)
         stated, axes = self._stated(block, here), here.plane.axes
         moved = [axis for axis in axes if parallel.get(axis) in stated]
-        if self.language.angle not in stated or here.motion not in (0, 1) or stated & {*axes} or len(moved) != 1:
+        if (
+            self.language.angle.address not in stated
+            or here.motion not in (0, 1)
+            or stated & {*axes}
+            or len(moved) != 1
+        ):
             return here
         named = tuple(parallel[axis] if axis in moved else axis for axis in axes)
         return replace(here, plane=replace(here.plane, axes=(named[0], named[1])))
@@ -227,9 +236,9 @@ class ChainFinder:
             except IndexError:
                 return None, here
             codes = {word.number for word in block.words if word.address == "G"}
-            if not _has_words(block) or (codes and codes <= self.language.passes):
+            if not _has_words(block) or (codes and codes <= self.language.order.passes):
                 continue
-            if passed == self.language.between or not self._is_idle(block, here, modes):
+            if passed == self.language.order.between or not self._is_idle(block, here, modes):
                 return other, here
             here = self._apply(here, block, modes)
             passed += 1
@@ -252,9 +261,9 @@ class ChainFinder:
         if block.macro or any(isinstance(code, Word) or code.effect in _OWN_USE for code in codes):
             return False
         here = apply_modes(state, block, modes)
-        if here.motion in self.language.threads:
+        if here.motion in self.language.order.threads:
             # Other threads are no part of a contour; what would make these one is refused.
-            words = {*self.language.angles, *self._cornered}
+            words = {*self.language.angle.addresses, *self._cornered}
             return any(word.startswith(",") for word in self._stated(block, here) & words)
         return here.motion in (0, *self._cutting) and self._moves(block, here)
 
@@ -263,11 +272,11 @@ class ChainFinder:
         A Q that belongs to nothing is looked at, too."""
         stated = self._stated(block, here)
         is_arc = here.motion in _TURNS and stated & {"I", "J", "K", "R"}
-        is_choice = self.language.selector in stated and not block.find("M")
+        is_choice = self.language.meeting.selector in stated and not block.find("M")
         if stated & self._moving or is_arc or is_choice:
             return True
-        arcs = {*_TURNS, self.language.tangent_arc}
-        is_corner = not self.language.is_signed_by_shape and bool(self._signed_words(block, here))
+        arcs = {*_TURNS, self.language.arc.tangent}
+        is_corner = not self.language.corner.is_signed_by_shape and bool(self._signed_words(block, here))
         return is_corner or any(word.address == "G" and word.number in arcs for word in block.words)
 
     def _stated(self, block: Block, here: State) -> set[str]:
@@ -288,48 +297,50 @@ class ChainFinder:
         circle. The selector does not: it only chooses."""
         if here.motion in _TURNS:
             return {*here.plane.axes, *here.plane.centers, "R"}
-        return {*here.plane.axes, self.language.angle}
+        return {*here.plane.axes, self.language.angle.address}
 
     def _is_over_defined(self, block: Block, here: State) -> bool:
-        is_possible = self.language.joining is Joining.OVER_DEFINED
+        is_possible = self.language.meeting.joining is Joining.OVER_DEFINED
         return is_possible and self._stated(block, here) >= self._over_defining(here)
 
     def _begins_in_intersection(self, last: Member, following: Block, here: State) -> bool:
         """Whether a block meets the one before it in an intersection, or touches it."""
-        if self.language.joining is Joining.PAIRED:
+        if self.language.meeting.joining is Joining.PAIRED:
             return self._is_open(last) and self._is_paired(last, following, here)
-        if self.language.joining is Joining.OPEN:
-            is_cut = last.here.motion == 1 or (self.language.runs_in_rapid and last.here.motion == here.motion == 0)
+        if self.language.meeting.joining is Joining.OPEN:
+            is_cut = last.here.motion == 1 or (
+                self.language.order.runs_in_rapid and last.here.motion == here.motion == 0
+            )
             return here.motion in (0, 1) and is_cut and self._is_open(last)
         missing = self._over_defining(here) - self._stated(following, here)
         # A block with a selector that lacks one word only is meant to.
-        return len(missing) <= (self.language.selector in self._stated(following, here)) or self._is_joined(
+        return len(missing) <= (self.language.meeting.selector in self._stated(following, here)) or self._is_joined(
             last, following, here
         )
 
     def _is_open(self, last: Member) -> bool:
         """Whether a line has an angle, and no end; of blocks in pairs, whether an arc has none."""
-        is_arc = last.element.turn is not None and self.language.joining is Joining.PAIRED
-        is_drawn = is_arc or bool(self._stated(last.block, last.here) & {*self.language.angles})
+        is_arc = last.element.turn is not None and self.language.meeting.joining is Joining.PAIRED
+        is_drawn = is_arc or bool(self._stated(last.block, last.here) & {*self.language.angle.addresses})
         return is_drawn and not self._programmed(last.block, last.here)
 
     def _is_paired(self, last: Member, following: Block, here: State) -> bool:
         """Whether what has no end has it where a block meets it. About its centre, an arc without an end is a full
         circle, too, where what follows does not show that it is none."""
         first, second = self._stated(last.block, last.here), self._stated(following, here)
-        if last.element.turn is None or first & {"R", self.language.picks, *self.language.centers}:
+        if last.element.turn is None or first & {"R", self.language.meeting.picks, *self.language.arc.centers}:
             return last.here.motion != 0
-        if self.language.closes or not first & {*last.here.plane.centers} or not second >= {*here.plane.axes}:
+        if self.language.arc.closes or not first & {*last.here.plane.centers} or not second >= {*here.plane.axes}:
             return False
-        drawing = {*here.plane.centers, "R"} if here.motion in _TURNS else {*self.language.angles}
+        drawing = {*here.plane.centers, "R"} if here.motion in _TURNS else {*self.language.angle.addresses}
         return here.motion != 0 and bool(second & drawing)
 
     def _touches(self, first: Member, second: Member) -> bool:
         """Whether two blocks in a pair touch: two arcs, and a line and an arc that has no centre."""
         arcs = [each for each in (first, second) if each.element.turn is not None]
-        centers = {*first.here.plane.centers, *self.language.centers}
+        centers = {*first.here.plane.centers, *self.language.arc.centers}
         is_centered = any(self._stated(each.block, each.here) & centers for each in arcs)
-        return self.language.joining is Joining.PAIRED and bool(arcs) and (len(arcs) > 1 or not is_centered)
+        return self.language.meeting.joining is Joining.PAIRED and bool(arcs) and (len(arcs) > 1 or not is_centered)
 
     def _is_joined(self, last: Member, following: Block, here: State) -> bool:
         """Whether further facts join two blocks in an intersection, for contoursolve alone: an arc and a line, or a
@@ -340,7 +351,7 @@ class ChainFinder:
         if last.element.turn is not None:
             is_line = here.motion in (0, 1)
             return is_line and bool(
-                self._programmed(following, here) or self.language.angle in self._stated(following, here)
+                self._programmed(following, here) or self.language.angle.address in self._stated(following, here)
             )
         return self._is_open(last)
 
@@ -353,7 +364,7 @@ class ChainFinder:
 
     def _keeps_angle(self, member: Member) -> bool:
         """Whether a line with one coordinate runs at the angle that stays in force."""
-        kept = self.language.keeps_angle and self.language.angle in member.here.memory
+        kept = self.language.angle.stays and self.language.angle.address in member.here.memory
         return kept and member.element.turn is None and len(self._programmed(member.block, member.here)) == 1
 
     def _has_corner(self, member: Member) -> bool:
@@ -363,7 +374,7 @@ class ChainFinder:
 
     def _makes_corner(self, member: Member) -> bool:
         """The same, or whether a word that stays in force makes one, which it does not behind a rapid."""
-        is_kept = member.here.motion != 0 and member.here.memory.keys() & self.language.modal_corner.keys()
+        is_kept = member.here.motion != 0 and member.here.memory.keys() & self.language.corner.stays.keys()
         return self._has_corner(member) or bool(is_kept)
 
     def _is_tied_alone(self, member: Member, modes: Modes) -> bool:
@@ -372,14 +383,14 @@ class ChainFinder:
         full circle if that is where it begins (assumed)."""
         block, here = member.block, member.here
         stated = self._stated(block, here)
-        is_centered = here.motion in _TURNS and bool(stated & {*self.language.centers})
+        is_centered = here.motion in _TURNS and bool(stated & {*self.language.arc.centers})
         is_open = is_centered and not stated & {"I", "J", "K", "R"}
         if self._has_corner(member) or member.element.is_smooth or is_open:
             return True
-        if stated & {*self.language.angles, self.language.selector} or self._keeps_angle(member):
+        if stated & {*self.language.angle.addresses, self.language.meeting.selector} or self._keeps_angle(member):
             return True
         is_variable = any(word.number is None and not word.is_asked for word in block.words)
-        if not self.language.checks_arcs or here.motion not in _TURNS or is_variable:
+        if not self.language.arc.is_checked or here.motion not in _TURNS or is_variable:
             return False
         if not stated & {*here.plane.axes, "R"}:
             return False
@@ -387,12 +398,14 @@ class ChainFinder:
 
 
 def reading(
-    names: Mapping[str, str] | None = None, like: Mapping[str, str] | None = None, **changes: Any
+    names: Mapping[str, str] | None = None,
+    like: Mapping[str, str] | None = None,
+    **parts: Mapping[str, Any],
 ) -> Callable[[Dialect], Dialect]:
     """What a value of a setting changes in the language of a control.
 
     `names` are addresses, each with the one whose row and name it takes, which is no word then; `like` are words
-    besides, each with the one whose row it has.
+    besides, each with the one whose row it has; `parts` are changes in the parts of the language, by field.
     """
     names, like = names or {}, like or {}
 
@@ -405,7 +418,9 @@ def reading(
         rows = {address: row for address, row in rows.items() if address not in names.values()} | named
         words = replace_fields(dialect.modes.lexicon, addresses=rows) if added else dialect.modes.lexicon
         known = language.allowed - {*names.values()} | {*added}
-        language = replace_fields(language, lexicon=words, allowed=known, names={**language.names, **names}, **changes)
+        language = replace_fields(language, lexicon=words, allowed=known, names={**language.names, **names})
+        changed = {part: replace_fields(getattr(language, part), **fields) for part, fields in parts.items()}
+        language = replace_fields(language, **changed)
         return replace_fields(dialect, modes=replace_fields(dialect.modes, lexicon=words), find=ChainFinder(language))
 
     return change

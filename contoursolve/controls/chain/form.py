@@ -95,11 +95,11 @@ def compose(language: Language, elements: tuple[Element, ...], modes: Modes) -> 
     """The form of blocks in a row with the settings of a control."""
     options = _Options(
         slack=modes.radius_difference,
-        counts_clockwise=language.counts_clockwise(modes),
-        is_ray=language.is_ray(modes),
-        guard=language.guard(modes),
-        refuses=language.refuses(modes),
-        contact=language.contact(modes),
+        counts_clockwise=language.meeting.counts_clockwise(modes),
+        is_ray=language.angle.is_ray(modes),
+        guard=language.corner.guard(modes),
+        refuses=language.corner.refuses(modes),
+        contact=language.meeting.contact(modes),
     )
     return _compose(language, elements, options)
 
@@ -151,17 +151,19 @@ def _compose(language: Language, elements: tuple[Element, ...], options: _Option
                 first.head,
                 first.element,
                 second.element,
-                {f"{first.prefix}{word}": shape for word, shape in language.shapes.items()},
+                {f"{first.prefix}{word}": shape for word, shape in language.corner.shapes.items()},
             )
             for number, (first, second) in enumerate(pairwise(names), 1)
         ),
         intersections=tuple(each.head for each in names[:-1]),
         allowed=language.allowed,
         combinations=tuple(_combinations(language, elements, number, each.prefix) for number, each in enumerate(names)),
-        choices=tuple(f"{second.prefix}{language.selector}" for role, (_, second) in meeting if role != LINE_LINE),
+        choices=tuple(
+            f"{second.prefix}{language.meeting.selector}" for role, (_, second) in meeting if role != LINE_LINE
+        ),
         sample=language.samples.get(elements),
         meanings=dict(_meanings(language, elements, names)),
-        corner_note=language.corner_note,
+        corner_note=language.corner.note,
         assumptions=language.assumptions,
         is_contour=name != "arc",
         guard=options.guard,
@@ -192,16 +194,18 @@ def _directed(elements: Sequence[Element]) -> Iterator[bool]:
 
 def _path(language: Language, element: Element, names: Names, options: _Options, *, is_directed: bool) -> Line | Arc:
     if element.turn is None:
-        is_alone = language.is_ray_alone and not (element.is_over or element.is_followed)
+        is_alone = language.angle.is_ray_alone and not (element.is_over or element.is_followed)
         toward = names.own if element.is_followed and not element.is_over else None
         if element.aim is not None:
-            return Line(names.element, names.tail, names.head, names.prefix + WAY, toward, bool(language.picks), True)
+            return Line(
+                names.element, names.tail, names.head, names.prefix + WAY, toward, bool(language.meeting.picks), True
+            )
         heading = (
-            f"{names.prefix}{language.angle}"
-            if (options.is_ray or is_directed or is_alone) and language.angle
+            f"{names.prefix}{language.angle.address}"
+            if (options.is_ray or is_directed or is_alone) and language.angle.address
             else None
         )
-        return Line(names.element, names.tail, names.head, heading, toward, bool(language.picks))
+        return Line(names.element, names.tail, names.head, heading, toward, bool(language.meeting.picks))
     counts = options.counts_clockwise and element.is_over
     return Arc(names.element, names.tail, names.head, names.center, names.radius, element.turn, counts)
 
@@ -247,7 +251,7 @@ def _touching(language: Language, elements: Sequence[Element], names: Sequence[N
             yield FactRow(OnCircle(second.tail, first.center, first.radius), ())
             continue
         line, (arc, turn) = (first, (second, after.turn)) if before.turn is None else (second, (first, before.turn))
-        side, needs = turn.sign if turn is not None else 0, (line.prefix + language.angle,)
+        side, needs = turn.sign if turn is not None else 0, (line.prefix + language.angle.address,)
         yield FactRow(TangentLine(line.element, arc.center, arc.radius, side), needs)
         yield FactRow(Foot(line.element, second.tail, arc.center), needs)
 
@@ -275,14 +279,14 @@ def _own_facts(language: Language, element: Element, names: Names, start: str) -
     yield from _own_center(language, element, names)
     for order, axis in _ORDERS:
         yield FactRow(Coordinate(f"{q}{order}", names.own, axis), (f"{q}{order}",))
-        if not element.is_over or language.joining is Joining.PAIRED:
+        if not element.is_over or language.meeting.joining is Joining.PAIRED:
             yield FactRow(Offset(f"{q}{order}-step", names.own, names.tail, axis), (f"{q}{order}-step",))
-        elif language.closes_by_steps:
+        elif language.meeting.closes_by_steps:
             yield FactRow(Offset(f"{q}{order}-step", names.own, start, axis), (f"{q}{order}-step",))
     if element.aim is not None:
         yield FactRow(Heading(q + WAY, names.tail, names.head), (q + WAY,))
-    elif element.turn is None and language.angle:
-        angle = f"{q}{language.angle}"
+    elif element.turn is None and language.angle.address:
+        angle = f"{q}{language.angle.address}"
         if element.is_over:
             yield FactRow(Heading(angle, names.tail, names.own), (angle,))
             if element.is_followed:
@@ -301,12 +305,12 @@ def _own_center(language: Language, element: Element, names: Names) -> Iterator[
     q = names.prefix
     for order, axis in _ORDERS:
         given = f"{q}center-{order}"
-        if element.is_over and language.joining is Joining.OVER_DEFINED:
+        if element.is_over and language.meeting.joining is Joining.OVER_DEFINED:
             yield FactRow(Coordinate(given, names.center, axis), (given,))
             continue
         origin = names.head if element.is_over else names.tail
         yield FactRow(Offset(given, names.center, origin, axis), (given,))
-    for given, (_, axis) in zip(CENTER_AT, _ORDERS, strict=True) if language.centers else ():
+    for given, (_, axis) in zip(CENTER_AT, _ORDERS, strict=True) if language.arc.centers else ():
         yield FactRow(Coordinate(q + given, names.center, axis), (q + given,))
     yield FactRow(Radius(f"{q}R", names.radius), (f"{q}R",))
 
@@ -316,27 +320,27 @@ def _combinations(
 ) -> tuple[tuple[str, ...], ...]:
     """What a block may state, as far as the equations tell it apart."""
     element = elements[number]
-    if language.joining is Joining.PAIRED and (element.is_over or element.is_followed):
+    if language.meeting.joining is Joining.PAIRED and (element.is_over or element.is_followed):
         other = elements[number - 1 if element.is_over else number + 1]
         centers, radius = ("center-first", "center-second"), ("R",)
-        shapes: tuple[tuple[str, ...], ...] = ((language.angle,),)
+        shapes: tuple[tuple[str, ...], ...] = ((language.angle.address,),)
         if element.turn is not None:
             is_touching = element.touches or other.touches
-            at = (CENTER_AT,) if language.centers and element.is_followed else ()
+            at = (CENTER_AT,) if language.arc.centers and element.is_followed else ()
             shapes = (centers, *at) if not is_touching else (radius,) if other.turn is None else (centers, radius)
         place = ("first", "second") if element.is_over else ()
         return tuple(tuple(prefix + name for name in (*place, *shape)) for shape in shapes)
     point = (POINT,) if element.is_followed and not element.is_over else ()
 
     def ways(order: str) -> tuple[str, ...]:
-        return (order, f"{order}-step") if not element.is_over or language.closes_by_steps else (order,)
+        return (order, f"{order}-step") if not element.is_over or language.meeting.closes_by_steps else (order,)
 
     ends = tuple((first, second, *point) for first in ways("first") for second in ways("second"))
     options: tuple[tuple[str, ...], ...]
     if element.aim is not None:
         options = tuple((name, WAY) for name in ways(_ORDERS[element.aim][0]))
     elif element.turn is None:
-        angle = language.angle
+        angle = language.angle.address
         one = ((name, angle) for order, _ in _ORDERS for name in ways(order))
         aimed = (AIMED,) if element.is_followed else ()
         options = (*ends, (angle,), *((*ways, *aimed) for ways in one)) if angle else ends
@@ -361,18 +365,18 @@ def _meanings(language: Language, elements: Sequence[Element], names: Sequence[N
             yield f"{each.prefix}{order}", what + (", absolute" if element.is_over else "")
             yield f"{each.prefix}{order}-step", what + ", from the start point"
             if element.is_over:
-                is_from_end = language.joining is not Joining.OVER_DEFINED
+                is_from_end = language.meeting.joining is not Joining.OVER_DEFINED
                 yield f"{each.prefix}center-{order}", f"centre, {'from where it ends' if is_from_end else 'absolute'}"
         if element.turn is not None and element.is_over:
             yield f"{each.prefix}R", "radius"
-    for name in (name for name in language.shapes if name.startswith(SIGNED)):
-        what = "rounding" if language.shapes[name] is CornerShape.FILLET else "chamfer"
+    for name in (name for name in language.corner.shapes if name.startswith(SIGNED)):
+        what = "rounding" if language.corner.shapes[name] is CornerShape.FILLET else "chamfer"
         told = f"{what} before a line along the other axis; its sign tells which way that runs"
         yield from ((each.prefix + name, told) for each in names)
-    if language.corner_codes:
+    if language.corner.codes:
         # The word that states the size in a block of its own has another meaning elsewhere.
         rows = language.lexicon.addresses
-        yield from ((each.prefix + word, rows[word].meaning) for each in names for word in language.corners)
+        yield from ((each.prefix + word, rows[word].meaning) for each in names for word in language.corner.words)
     for (before, after), (_, each) in zip(pairwise(elements), pairwise(names), strict=True):
-        if after.is_over and language.selector:
-            yield f"{each.prefix}{language.selector}", language.selects[pair_role(before, after)]
+        if after.is_over and language.meeting.selector:
+            yield f"{each.prefix}{language.meeting.selector}", language.meeting.selects[pair_role(before, after)]

@@ -205,38 +205,136 @@ def _no_guard(_: Modes) -> float:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Language:
-    """How a control writes lines and arcs in a row.
+class AngleWords:
+    """The words that state how a line runs."""
 
-    `planes` by their G code, where a parallel axis may stand for an axis of them; `allowed` are the addresses that may
-    stand in a block of a contour; `corners` the shape that each corner word gives the corner behind its block. `titles`
-    are those of forms, by role or form name.
-    """
-
-    lexicon: Lexicon
-    allowed: frozenset[str]
-    joining: Joining
-    planes: Mapping[str, Plane] = field(default_factory=dict)
-    titles: Mapping[str, str] = field(default_factory=lambda: TITLES)
-    angle: str = ",A"
-    angle_words: tuple[str, ...] = ()
+    address: str = ",A"
+    """The name of an angle, and its address unless `synonyms` state it; empty where there is none."""
+    synonyms: tuple[str, ...] = ()
     """The addresses that state it, if there are several: of two in a block, the last of these does."""
-    corners: Mapping[str, CornerShape] = field(
+    parallel: Mapping[str, str] = field(default_factory=dict)
+    """The parallel axis of each axis, where it may stand beside an angle."""
+    sense: Setting | None = None
+    """What decides whether an angle is the direction of travel (`ray`), or a line may run against it, too; without such
+    a setting it is."""
+    stays: bool = False
+    """Whether an angle stays in force, for lines with one coordinate."""
+    is_ray_alone: bool = False
+    """Whether a line by its angle and one coordinate runs as its angle says, whatever `is_ray` tells of others."""
+
+    def is_ray(self, modes: Modes) -> bool:
+        """Whether an angle is the direction of travel."""
+        return self.sense is None or modes.has(self.sense, "ray")
+
+    @property
+    def addresses(self) -> tuple[str, ...]:
+        """The addresses that state an angle; of two in a block, the last of these does."""
+        return self.synonyms or (self.address,)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CornerWords:
+    """The words that make corners, and where the control makes none."""
+
+    words: Mapping[str, CornerShape] = field(
         default_factory=lambda: {",C": CornerShape.CHAMFER_SETBACK, ",R": CornerShape.FILLET}
     )
+    """The shape that each corner word gives the corner behind its block."""
+    stays: Mapping[str, str] = field(default_factory=dict)
+    """Words that stay in force and make corners, each with the corner word whose size they state."""
+    codes: Mapping[int, str] = field(default_factory=dict)
+    """G codes of blocks that make a corner between two others, each with the corner word whose size they state."""
+    size: str = "I"
+    """The word of such a block that states the size."""
+    signed: Mapping[str, CornerShape] = field(default_factory=dict)
+    """Words of a line along one axis that make a corner before a line along the other axis: the sign tells which way
+    that one runs. I, J and K state a distance along their own axis."""
+    is_signed_by_shape: bool = False
+    """Whether these words have a sign only between two such lines, and are other corner words elsewhere."""
+    note: str = ""
+    """What the control does at each corner that it inserts, half a sentence without a full stop."""
+    guard: Callable[[Modes], float] = _no_guard
+    """Sine of the change of direction up to which the control makes no corner."""
+    refuses: Callable[[Modes], bool] = _never
+    """Whether it refuses such a corner; else it leaves it out."""
+
+    def signed_name(self, address: str, plane: Plane) -> str:
+        """The name of a corner word with a sign; empty for the distance along an axis outside the plane."""
+        if address not in _CENTERS:
+            return SIGNED + address
+        orders = dict(zip(plane.centers, ("first", "second"), strict=True))
+        return SIGNED + orders[address] if address in orders else ""
+
+    @property
+    def shapes(self) -> Mapping[str, CornerShape]:
+        """The shape of a corner by the name of its word."""
+        shapes = dict(self.words)
+        for address, shape in self.signed.items():
+            orders = ("first", "second") if address in _CENTERS else (address,)
+            shapes |= {SIGNED + order: shape for order in orders}
+        return shapes
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BlockMeeting:
+    """The intersections that the control computes between two blocks, and the words that choose one of two."""
+
+    joining: Joining
+    closes_by_steps: bool = False
+    """Whether a line that meets one without an end may give its end by increments: from where that one begins."""
     selector: str = ""
     """The address whose sign chooses an intersection."""
     selects: Mapping[str, str] = field(default_factory=dict)
     """What it chooses, by the role of two blocks."""
-    parallel: Mapping[str, str] = field(default_factory=dict)
-    """The parallel axis of each axis, where it may stand beside an angle."""
-    checks_arcs: bool = False
+    choose_side: Callable[[str, bool, Modes], Side] | None = None
+    """(role of two blocks, whether the selector is negative, modes) to the intersection that it chooses."""
+    counts_clockwise: Callable[[Modes], bool] = _never
+    """Whether the intersections of two circles count clockwise along the first."""
+    picks: str = ""
+    """The address that chooses an intersection by its value in either of two blocks: 0 or 1, the shorter or the longer
+    line."""
+    contact: Callable[[Modes], float] = _no_guard
+    """By how much, mm, two circles that are both known may miss a contact."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ArcWords:
+    """The words of arcs that other controls do not have, and the arcs that are checked."""
+
+    centers: tuple[str, str] | tuple[()] = ()
+    """The addresses of the coordinates of a centre, of an arc without an end: for I and J, for I and K, or J and K."""
+    closes: bool = False
+    """Whether an arc about its centre without an end is a full circle, unless the word that picks an intersection is in
+    its block."""
+    tangent: int | None = None
+    """The motion of an arc that begins in the direction of the element before it."""
+    is_checked: bool = False
     """Whether an arc for which the control calculates nothing is checked, too."""
-    corner_note: str = ""
-    """What the control does at each corner that it inserts, half a sentence without a full stop."""
-    assumptions: tuple[Assumption, ...] = ()
-    samples: Mapping[tuple[Element, ...], Sample] = field(default_factory=dict)
-    """Programs for the tables of words, one for each kind of form."""
+
+    def centers_at(self, plane: Plane) -> Mapping[str, str]:
+        """The names of these addresses in a plane."""
+        orders = dict(zip(plane.centers, CENTER_AT, strict=True))
+        return dict(zip(self.centers, (orders[each] for each in sorted(plane.centers)), strict=False))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BlockOrder:
+    """The blocks that may follow each other in one contour."""
+
+    passes: frozenset[int] = frozenset()
+    """G codes of blocks that may stand between two blocks of a contour."""
+    between: int = 0
+    """How many blocks that move nothing may stand there."""
+    threads: frozenset[int] = frozenset()
+    """The motions of threads, in which the control computes no angle and no corner, and says so."""
+    runs_in_rapid: bool = False
+    """Whether two lines in rapid may meet."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LanguageBasis:
+    """The circumstances that rules and assumptions look at, and the settings on which a reading rests."""
+
     circumstances: Callable[[Member, Sequence[State], Modes], Iterable[str]] = _nothing
     """(member, states before the block before it, before it and behind it, modes) to what else holds of it."""
     where_set: Mapping[str, tuple[Setting, str]] = field(default_factory=dict)
@@ -245,70 +343,31 @@ class Language:
     """(form, circumstances, modes) to the settings on which the reading rests."""
     resting: tuple[Resting, ...] = ()
     """Further ones, with what must be there."""
-    picks: str = ""
-    """The address that chooses an intersection by its value in either of two blocks: 0 or 1, the shorter or the longer
-    line."""
-    closes: bool = False
-    """Whether an arc about its centre without an end is a full circle, unless that address is in its block."""
-    contact: Callable[[Modes], float] = _no_guard
-    """By how much, mm, two circles that are both known may miss a contact."""
-    choose_side: Callable[[str, bool, Modes], Side] | None = None
-    """(role of two blocks, whether the selector is negative, modes) to the intersection that it chooses."""
-    counts_clockwise: Callable[[Modes], bool] = _never
-    """Whether the intersections of two circles count clockwise along the first."""
-    sense: Setting | None = None
-    """What decides whether an angle is the direction of travel (`ray`), or a line may run against it, too; without such
-    a setting it is."""
-    guard: Callable[[Modes], float] = _no_guard
-    """Sine of the change of direction up to which the control makes no corner."""
-    refuses: Callable[[Modes], bool] = _never
-    """Whether it refuses such a corner; else it leaves it out."""
-    threads: frozenset[int] = frozenset()
-    """The motions of threads, in which the control computes no angle and no corner, and says so."""
-    passes: frozenset[int] = frozenset()
-    """G codes of blocks that may stand between two blocks of a contour."""
-    between: int = 0
-    """How many blocks that move nothing may stand there."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Language:
+    """How a control writes lines and arcs in a row.
+
+    `planes` by their G code, where a parallel axis may stand for an axis of them; `allowed` are the addresses that may
+    stand in a block of a contour. `titles` are those of forms, by role or form name.
+    """
+
+    lexicon: Lexicon
+    allowed: frozenset[str]
+    meeting: BlockMeeting
+    angle: AngleWords = field(default_factory=AngleWords)
+    corner: CornerWords = field(default_factory=CornerWords)
+    arc: ArcWords = field(default_factory=ArcWords)
+    order: BlockOrder = field(default_factory=BlockOrder)
+    basis: LanguageBasis = field(default_factory=LanguageBasis)
+    planes: Mapping[str, Plane] = field(default_factory=dict)
     names: Mapping[str, str] = field(default_factory=dict)
     """Addresses that state what is called otherwise here: `CR` the radius `R`."""
-    tangent_arc: int | None = None
-    """The motion of an arc that begins in the direction of the element before it."""
-    modal_corner: Mapping[str, str] = field(default_factory=dict)
-    """Words that stay in force and make corners, each with the corner word whose size they state."""
-    corner_codes: Mapping[int, str] = field(default_factory=dict)
-    """G codes of blocks that make a corner between two others, each with the corner word whose size they state."""
-    corner_size: str = "I"
-    """The word of such a block that states the size."""
-    keeps_angle: bool = False
-    """Whether an angle stays in force, for lines with one coordinate."""
-    closes_by_steps: bool = False
-    """Whether a line that meets one without an end may give its end by increments: from where that one begins."""
-    is_ray_alone: bool = False
-    """Whether a line by its angle and one coordinate runs as its angle says, whatever `is_ray` tells of others."""
-    runs_in_rapid: bool = False
-    """Whether two lines in rapid may meet."""
-    signed: Mapping[str, CornerShape] = field(default_factory=dict)
-    """Words of a line along one axis that make a corner before a line along the other axis: the sign tells which way
-    that one runs. I, J and K state a distance along their own axis."""
-    is_signed_by_shape: bool = False
-    """Whether these words have a sign only between two such lines, and are other corner words elsewhere."""
-
-    centers: tuple[str, str] | tuple[()] = ()
-    """The addresses of the coordinates of a centre, of an arc without an end: for I and J, for I and K, or J and K."""
-
-    def is_ray(self, modes: Modes) -> bool:
-        """Whether an angle is the direction of travel."""
-        return self.sense is None or modes.has(self.sense, "ray")
-
-    def centers_at(self, plane: Plane) -> Mapping[str, str]:
-        """What these are called in a plane."""
-        orders = dict(zip(plane.centers, CENTER_AT, strict=True))
-        return dict(zip(self.centers, (orders[each] for each in sorted(plane.centers)), strict=False))
-
-    @property
-    def angles(self) -> tuple[str, ...]:
-        """The addresses that state an angle; of two in a block, the last of these does."""
-        return self.angle_words or (self.angle,)
+    titles: Mapping[str, str] = field(default_factory=lambda: TITLES)
+    assumptions: tuple[Assumption, ...] = ()
+    samples: Mapping[tuple[Element, ...], Sample] = field(default_factory=dict)
+    """Programs for the tables of words, one for each kind of form."""
 
     def address_of(self, name: str) -> str:
         """The address that states what has this name."""
@@ -318,26 +377,10 @@ class Language:
         """`names` in a block; R of an arc is always its radius."""
         return {address: name for address, name in self.names.items() if address != "R"} if is_arc else self.names
 
-    def signed_name(self, address: str, plane: Plane) -> str:
-        """What a corner word with a sign is called; empty for the distance along an axis outside the plane."""
-        if address not in _CENTERS:
-            return SIGNED + address
-        orders = dict(zip(plane.centers, ("first", "second"), strict=True))
-        return SIGNED + orders[address] if address in orders else ""
-
-    @property
-    def shapes(self) -> Mapping[str, CornerShape]:
-        """The shape of a corner by what its word is called."""
-        shapes = dict(self.corners)
-        for address, shape in self.signed.items():
-            orders = ("first", "second") if address in _CENTERS else (address,)
-            shapes |= {SIGNED + order: shape for order in orders}
-        return shapes
-
     @property
     def own(self) -> frozenset[str]:
         """The addresses of angles and corners."""
-        return frozenset({*map(self.address_of, (*self.angles, *self.corners)), *self.modal_corner})
+        return frozenset({*map(self.address_of, (*self.angle.addresses, *self.corner.words)), *self.corner.stays})
 
     @property
     def axes(self) -> tuple[str, ...]:

@@ -5,7 +5,21 @@ from dataclasses import replace as replace_fields
 from decimal import Decimal
 from math import radians, sin
 
-from contoursolve.controls.chain import A_LINE, AN_ARC, CLOSING_LINE, OPEN_LINE, Joining, Language, Member, reading
+from contoursolve.controls.chain import (
+    A_LINE,
+    AN_ARC,
+    CLOSING_LINE,
+    OPEN_LINE,
+    AngleWords,
+    BlockMeeting,
+    BlockOrder,
+    CornerWords,
+    Joining,
+    Language,
+    LanguageBasis,
+    Member,
+    reading,
+)
 from contoursolve.controls.chain.language import BESIDE_ARC, FOLLOWED, WITHOUT_POINT, Resting, sense_conventions
 from contoursolve.controls.common import angle_sense_setting, arc_chamfer_setting, number_setting, setting
 from contoursolve.controls.fanuc.lexicon import (
@@ -79,7 +93,8 @@ LATHE_CORNER_WORDS = setting(
     DRAWING.assumed(_BIT),
     changes={
         "plain": reading(
-            {"A": ",A", "C": ",C", "R": ",R"}, signed={"C": _SETBACK, "R": _FILLET}, is_signed_by_shape=True
+            {"A": ",A", "C": ",C", "R": ",R"},
+            corner={"signed": {"C": _SETBACK, "R": _FILLET}, "is_signed_by_shape": True},
         )
     },
 )
@@ -88,7 +103,7 @@ MILL_CORNER_WORDS = setting(
     "which word with a sign states a chamfer between two axes, beside ,C",
     {"comma": "I, J or K: the letter of the axis of the next line", "plain": "C without a comma"},
     CORNERS.assumed(_BIT),
-    changes={"plain": reading(like={"C": ",C"}, signed={"C": _SETBACK})},
+    changes={"plain": reading(like={"C": ",C"}, corner={"signed": {"C": _SETBACK}})},
 )
 
 
@@ -170,7 +185,7 @@ _ON_LATHE, _ON_MILL = "G00 X20. Z0.", "G17 G90 G00 X0 Y0"
 FANUC_LATHE_LANGUAGE = Language(
     lexicon=LATHE_WORDS,
     allowed=frozenset({*_COMMON, "X", "Z", "U", "W", ",A"}),
-    joining=Joining.OPEN,
+    meeting=BlockMeeting(joining=Joining.OPEN),
     samples={
         (A_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} ,A150.",)),
         (A_LINE, A_LINE): Sample(_ON_LATHE, ("G01 {X30.} {Z-20.} {,A165.96} {,C2.} ,R3.", "{X50.} {Z-21.} {,A95.7}")),
@@ -181,63 +196,66 @@ FANUC_LATHE_LANGUAGE = Language(
             _ON_LATHE, ("G01 ,A180. {,C2.} {,R3.}", "X60. Z-47. ,A120. {,C1.} ,R2.", "{Z-60.} {X60.0}")
         ),
     },
-    circumstances=_straight_circumstances,
-    where_set={STRICT_ANGLE: (REDUNDANT_ANGLE, "error"), SUPPLEMENTARY: (ANGLE, "supplementary")},
-    conventions=lambda form, _, modes: sense_conventions(SENSE, form, modes),
-    sense=SENSE,
-    guard=_guard_sine,
-    refuses=_refuses,
-    signed={"I": _SETBACK, "K": _SETBACK, "R": _FILLET},
-    threads=frozenset({32, 34}),
-    passes=frozenset({4}),
-    resting=_resting(
-        LATHE_NUMBER,
-        LATHE_GUARD,
-        Resting(ANGLE, some(",A")),
-        Resting(LATHE_CORNER_WORDS, some("corner-first", "corner-second", "corner-R")),
-        Resting(LATHE_CORNER_WORDS, _CORNERED | some(",A"), is_told_where_set=True),
-        Resting(REDUNDANT_ANGLE, all_of(("first", "first-step"), ("second", "second-step"), ",A") & ~some(FOLLOWED)),
+    basis=LanguageBasis(
+        circumstances=_straight_circumstances,
+        where_set={STRICT_ANGLE: (REDUNDANT_ANGLE, "error"), SUPPLEMENTARY: (ANGLE, "supplementary")},
+        conventions=lambda form, _, modes: sense_conventions(SENSE, form, modes),
+        resting=_resting(
+            LATHE_NUMBER,
+            LATHE_GUARD,
+            Resting(ANGLE, some(",A")),
+            Resting(LATHE_CORNER_WORDS, some("corner-first", "corner-second", "corner-R")),
+            Resting(LATHE_CORNER_WORDS, _CORNERED | some(",A"), is_told_where_set=True),
+            Resting(
+                REDUNDANT_ANGLE, all_of(("first", "first-step"), ("second", "second-step"), ",A") & ~some(FOLLOWED)
+            ),
+        ),
     ),
+    angle=AngleWords(sense=SENSE),
+    corner=CornerWords(guard=_guard_sine, refuses=_refuses, signed={"I": _SETBACK, "K": _SETBACK, "R": _FILLET}),
+    order=BlockOrder(threads=frozenset({32, 34}), passes=frozenset({4})),
 )
 FANUC_MILL_LANGUAGE = Language(
     lexicon=MILL_WORDS,
     allowed=frozenset({*_COMMON, "X", "Y", "Z"}),
-    joining=Joining.OPEN,
-    angle="",
+    meeting=BlockMeeting(joining=Joining.OPEN),
+    angle=AngleWords(address=""),
     samples={
         (A_LINE, A_LINE): Sample(_ON_MILL, ("G01 {X40.} {Y0} {,C6.} ,R5.", "{X60.} {Y20.}")),
         (A_LINE, AN_ARC): Sample(_ON_MILL, ("G01 {X40.} {Y0} {,C6.} ,R5.", "G03 {X60.} {Y20.} {I0} {J20.} {R20.}")),
     },
-    circumstances=_circumstances,
-    where_set={ALONG_ARC: (ARC_CHAMFER, "arc_length")},
-    guard=_guard_sine,
-    refuses=_refuses,
-    signed={"I": _SETBACK, "J": _SETBACK, "K": _SETBACK},
-    threads=frozenset({33}),
-    passes=frozenset({4}),
-    resting=_resting(
-        MILL_NUMBER,
-        MILL_GUARD,
-        Resting(MILL_CORNER_WORDS, some("corner-first", "corner-second", "corner-C")),
-        Resting(ARC_CHAMFER, some(",C") & some(BESIDE_ARC)),
+    basis=LanguageBasis(
+        circumstances=_circumstances,
+        where_set={ALONG_ARC: (ARC_CHAMFER, "arc_length")},
+        resting=_resting(
+            MILL_NUMBER,
+            MILL_GUARD,
+            Resting(MILL_CORNER_WORDS, some("corner-first", "corner-second", "corner-C")),
+            Resting(ARC_CHAMFER, some(",C") & some(BESIDE_ARC)),
+        ),
     ),
+    corner=CornerWords(guard=_guard_sine, refuses=_refuses, signed={"I": _SETBACK, "J": _SETBACK, "K": _SETBACK}),
+    order=BlockOrder(threads=frozenset({33}), passes=frozenset({4})),
 )
 
 HAAS_LATHE_LANGUAGE = replace_fields(
     FANUC_LATHE_LANGUAGE,
     lexicon=HAAS_LATHE_WORDS,
-    angle="A",
+    angle=replace_fields(FANUC_LATHE_LANGUAGE.angle, address="A"),
     allowed=FANUC_LATHE_LANGUAGE.allowed - {",A"} | {"A"},
     samples={
         (A_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} A150.",)),
         (A_LINE, A_LINE): Sample(_ON_LATHE, ("G01 {X30.} {Z-20.} {A165.96} {,C2.} ,R3.", "{X50.} {Z-21.} {A95.7}")),
     },
-    resting=_resting(HAAS_NUMBER, HAAS_GUARD),
+    basis=replace_fields(FANUC_LATHE_LANGUAGE.basis, resting=_resting(HAAS_NUMBER, HAAS_GUARD)),
 )
 HAAS_MILL_LANGUAGE = replace_fields(
     FANUC_MILL_LANGUAGE,
     lexicon=HAAS_MILL_WORDS,
-    where_set={STRAIGHT_ONLY: (ARCS, "off")},
-    signed={},
-    resting=_resting(HAAS_NUMBER, HAAS_GUARD, Resting(ARCS, _CORNERED & some(BESIDE_ARC), is_told_where_set=True)),
+    basis=replace_fields(
+        FANUC_MILL_LANGUAGE.basis,
+        where_set={STRAIGHT_ONLY: (ARCS, "off")},
+        resting=_resting(HAAS_NUMBER, HAAS_GUARD, Resting(ARCS, _CORNERED & some(BESIDE_ARC), is_told_where_set=True)),
+    ),
+    corner=replace_fields(FANUC_MILL_LANGUAGE.corner, signed={}),
 )

@@ -3,7 +3,20 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import replace as replace_fields
 
-from contoursolve.controls.chain import A_LINE, AN_ARC, CLOSING_LINE, OPEN_LINE, Joining, Language, Member, reading
+from contoursolve.controls.chain import (
+    A_LINE,
+    AN_ARC,
+    CLOSING_LINE,
+    OPEN_LINE,
+    AngleWords,
+    BlockMeeting,
+    CornerWords,
+    Joining,
+    Language,
+    LanguageBasis,
+    Member,
+    reading,
+)
 from contoursolve.controls.chain.language import Resting, sense_conventions
 from contoursolve.controls.common import angle_sense_setting, first_motion_setting, length_setting, setting
 from contoursolve.controls.isg.lexicon import BOOK, CHAMFER, MODES, ROUNDING
@@ -26,7 +39,7 @@ MODAL = setting(
     "whether an angle stays in force",
     {"off": "a block without #ANG is an ordinary block", "on": "a line with one coordinate runs at the last #ANG"},
     BOOK.derived("the sample of error 21904"),
-    changes={"on": reading(keeps_angle=True)},
+    changes={"on": reading(angle={"stays": True})},
 )
 
 
@@ -51,26 +64,28 @@ _START = "G17 G90 G0 X0 Y0"
 LANGUAGE = Language(
     lexicon=MODES.lexicon,
     allowed=frozenset({*"NGFSTMDHXYZIJKR", "#ANG", "#RND", "#CHR", "#CHF", "#FRC"}),
-    joining=Joining.OPEN,
-    angle="#ANG",
-    corners={
-        "#CHR": CornerShape.CHAMFER_SETBACK,
-        "#CHF": CornerShape.CHAMFER_FACE,
-        "#RND": CornerShape.FILLET,
-    },
-    corner_codes={CHAMFER: "#CHR", ROUNDING: "#RND"},
+    meeting=BlockMeeting(joining=Joining.OPEN),
+    angle=AngleWords(address="#ANG", sense=PAIR_SENSE, is_ray_alone=True),
+    corner=CornerWords(
+        words={
+            "#CHR": CornerShape.CHAMFER_SETBACK,
+            "#CHF": CornerShape.CHAMFER_FACE,
+            "#RND": CornerShape.FILLET,
+        },
+        codes={CHAMFER: "#CHR", ROUNDING: "#RND"},
+    ),
     samples={
         (A_LINE,): Sample(_START, ("G1 {X40} {Y23.094} {#ANG=30}",)),
         (A_LINE, A_LINE): Sample(_START, ("G1 {X40} {Y0} {#ANG=0} {#CHR=6} #RND=5", "{X60} {Y20} {#ANG=45}")),
         (A_LINE, AN_ARC): Sample(_START, ("G1 {X40} {Y0} {#CHR=6} #RND=5", "G3 {X60} {Y20} {I0} {J20} {R20}")),
         (OPEN_LINE, CLOSING_LINE): Sample(_START, ("G1 #ANG=70 {#CHF=2} {#RND=2}", "{X80} {Y25} {#ANG=-30}")),
     },
-    circumstances=_circumstances,
-    conventions=lambda form, _, modes: sense_conventions(PAIR_SENSE, form, modes),
-    resting=(
-        Resting(MACHINE, some("X", "Y", "Z"), is_told_where_set=True),
-        Resting(MODAL, some("#ANG"), is_told_where_set=True),
+    basis=LanguageBasis(
+        circumstances=_circumstances,
+        conventions=lambda form, _, modes: sense_conventions(PAIR_SENSE, form, modes),
+        resting=(
+            Resting(MACHINE, some("X", "Y", "Z"), is_told_where_set=True),
+            Resting(MODAL, some("#ANG"), is_told_where_set=True),
+        ),
     ),
-    sense=PAIR_SENSE,
-    is_ray_alone=True,
 )

@@ -5,7 +5,19 @@ from dataclasses import replace as replace_fields
 
 from msgspec.structs import replace
 
-from contoursolve.controls.chain import A_LINE, CLOSING_LINE, OPEN_LINE, Joining, Language, Member, reading
+from contoursolve.controls.chain import (
+    A_LINE,
+    CLOSING_LINE,
+    OPEN_LINE,
+    AngleWords,
+    ArcWords,
+    BlockMeeting,
+    Joining,
+    Language,
+    LanguageBasis,
+    Member,
+    reading,
+)
 from contoursolve.controls.chain.language import (
     ARC,
     BESIDE_ARC,
@@ -52,14 +64,14 @@ _ANGLE_WORD = setting(
     "which word states an angle",
     {"A": "A or ,A; of both in a block, ,A does", ",A": "only ,A: A is an axis or another function"},
     BOOK.assumed("linear angle command: the names of axes are machine parameters"),
-    changes={",A": reading(angle_words=(",A",))},
+    changes={",A": reading(angle={"synonyms": (",A",)})},
 )
 _FULL_CIRCLE = setting(
     "arc-without-end",
     "what an arc about its centre is that has no end and no H",
     {"contact": "it ends where it meets the next block, if that fits", "circle": "a full circle"},
     BOOK.assumed("not described"),
-    changes={"circle": reading(closes=True)},
+    changes={"circle": reading(arc={"closes": True})},
 )
 _FIRST_CENTER = setting(
     "first-centre",
@@ -150,7 +162,9 @@ _ASSUMPTIONS = (
 LANGUAGE = Language(
     lexicon=MODES.lexicon,
     allowed=frozenset({*"NGFSTMDHEXYZIJKRAPQ", ",A", ",C", ",R"}),
-    joining=Joining.PAIRED,
+    meeting=BlockMeeting(
+        joining=Joining.PAIRED, picks="H", contact=lambda modes: float(modes.convention(CONTACT).value)
+    ),
     titles={
         LINE_LINE: "Geometric I: vertex of two lines",
         LINE_CIRCLE: "Geometric IB: line and arc",
@@ -161,10 +175,8 @@ LANGUAGE = Language(
         "chain": "Geometric I or IB in a row with corners",
         "arc": "arc",
     },
-    angle="A",
-    angle_words=("A", ",A"),
-    picks="H",
-    centers=("P", "Q"),
+    angle=AngleWords(address="A", synonyms=("A", ",A"), sense=_SENSE),
+    arc=ArcWords(centers=("P", "Q")),
     assumptions=_ASSUMPTIONS,
     samples={
         (A_LINE,): Sample(_MILL, ("G01 {X40.} {Y23.094} A30.",)),
@@ -176,16 +188,16 @@ LANGUAGE = Language(
         (OPEN_ARC, replace(CLOSING_ARC, touches=True)): Sample(_MILL, ("G03 I0 J30.", "G03 {X15.} {Y20.} {R10.}")),
         (OPEN_ARC, replace(CLOSING_LINE, touches=True)): Sample(_MILL, ("G03 R30.", "G01 {X-20.} {Y76.} {A150.}")),
     },
-    circumstances=_circumstances,
-    where_set={
-        PICK_REQUIRED: (_PICK, "error"),
-        STRAIGHT_ONLY: (_CORNER, "I"),
-        FROM_END: (_FIRST_CENTER, "end"),
-        ALONG_ARC: (_ARC_CHAMFER, "arc_length"),
-        UNGUARDED: (_GUARD, "0"),
-    },
-    conventions=_conventions,
-    resting=_RESTING,
-    contact=lambda modes: float(modes.convention(CONTACT).value),
-    sense=_SENSE,
+    basis=LanguageBasis(
+        circumstances=_circumstances,
+        where_set={
+            PICK_REQUIRED: (_PICK, "error"),
+            STRAIGHT_ONLY: (_CORNER, "I"),
+            FROM_END: (_FIRST_CENTER, "end"),
+            ALONG_ARC: (_ARC_CHAMFER, "arc_length"),
+            UNGUARDED: (_GUARD, "0"),
+        },
+        conventions=_conventions,
+        resting=_RESTING,
+    ),
 )

@@ -3,7 +3,22 @@
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace as replace_fields
 
-from contoursolve.controls.chain import A_LINE, AN_ARC, CLOSING_LINE, OPEN_LINE, Joining, Language, Member, reading
+from contoursolve.controls.chain import (
+    A_LINE,
+    AN_ARC,
+    CLOSING_LINE,
+    OPEN_LINE,
+    AngleWords,
+    ArcWords,
+    BlockMeeting,
+    BlockOrder,
+    CornerWords,
+    Joining,
+    Language,
+    LanguageBasis,
+    Member,
+    reading,
+)
 from contoursolve.controls.chain.language import BESIDE_ARC, FOLLOWED, Resting, sense_conventions
 from contoursolve.controls.common import angle_sense_setting, arc_chamfer_setting, first_motion_setting, setting
 from contoursolve.controls.plain import PLANES
@@ -67,12 +82,13 @@ ANGLE_NAME = setting(
     BOOK.printed("p. 214: the names are machine data"),
     changes={"A": reading({"A": "ANG"})},
 )
+_SETBACK, _FILLET = CornerShape.CHAMFER_SETBACK, CornerShape.FILLET
 CHAMFER_NAME = setting(
     "name-chamfer",
     "which word states the width of a chamfer",
     {"CHR": "CHR; CHF is the length of the face", "CHF": "CHF; no word states the length of the face"},
     BOOK.printed("p. 214: the names are machine data"),
-    changes={"CHF": reading({"CHF": "CHR"}, corners={"CHR": CornerShape.CHAMFER_SETBACK, "RND": CornerShape.FILLET})},
+    changes={"CHF": reading({"CHF": "CHR"}, corner={"words": {"CHR": _SETBACK, "RND": _FILLET}})},
 )
 
 
@@ -107,32 +123,33 @@ LANGUAGE = Language(
     lexicon=MODES.lexicon,
     allowed=frozenset({*"NGFSTMDHXYZIJK", "ANG", "RND", "CHR", "CHF", "CR", "RNDM", "FRC", "FRCM"})
     | {f"{axis}={way}" for axis in "XYZ" for way in ("AC", "IC")},
-    joining=Joining.OPEN,
-    angle="ANG",
+    meeting=BlockMeeting(joining=Joining.OPEN, closes_by_steps=True),
+    angle=AngleWords(address="ANG", sense=SENSE),
     names={MODES.radius: "R"},
-    corners={
-        "CHR": CornerShape.CHAMFER_SETBACK,
-        "CHF": CornerShape.CHAMFER_FACE,
-        "RND": CornerShape.FILLET,
-    },
-    modal_corner={"RNDM": "RND"},
-    tangent_arc=TANGENT_ARC,
-    closes_by_steps=True,
-    between=3,
-    runs_in_rapid=True,
+    corner=CornerWords(
+        words={
+            "CHR": _SETBACK,
+            "CHF": CornerShape.CHAMFER_FACE,
+            "RND": _FILLET,
+        },
+        stays={"RNDM": "RND"},
+    ),
+    arc=ArcWords(tangent=TANGENT_ARC),
+    order=BlockOrder(between=3, runs_in_rapid=True),
     samples={
         (A_LINE,): Sample(_START, ("G1 {X40} {Y23.094} {ANG=30}",)),
         (A_LINE, A_LINE): Sample(_START, ("G1 {X40} {Y0} {ANG=0} {CHR=6} RND=5", "{X60} {Y20} {ANG=45}")),
         (A_LINE, AN_ARC): Sample(_START, ("G1 {X40} {Y0} {CHR=6} RND=5", "G3 {X60} {Y20} {I0} {J20} {CR=20}")),
         (OPEN_LINE, CLOSING_LINE): Sample(_START, ("G1 ANG=70 {CHF=2} {RND=2}", "{X80} {Y25} {ANG=-30}")),
     },
-    circumstances=_circumstances,
-    where_set={
-        STRICT_ANGLE: (REDUNDANT, "error"),
-        NO_STEPS: (CLOSING, "error"),
-        ALONG_ARC: (ARC_CHAMFER, "arc_length"),
-    },
-    conventions=_conventions,
-    resting=_RESTING,
-    sense=SENSE,
+    basis=LanguageBasis(
+        circumstances=_circumstances,
+        where_set={
+            STRICT_ANGLE: (REDUNDANT, "error"),
+            NO_STEPS: (CLOSING, "error"),
+            ALONG_ARC: (ARC_CHAMFER, "arc_length"),
+        },
+        conventions=_conventions,
+        resting=_RESTING,
+    ),
 )
