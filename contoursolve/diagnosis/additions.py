@@ -99,7 +99,7 @@ def legal_blocks(dialect: Dialect) -> tuple[LegalBlock, ...]:
     return tuple(
         LegalBlock(form.name, form.title, row.addresses, text)
         for form in dialect.forms
-        if form.sample is not None and form.is_contour
+        if form.table.sample is not None and form.is_contour
         for row, text in islice(legal_samples(form, dialect), MOST_WAYS)
     )
 

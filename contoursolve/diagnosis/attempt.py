@@ -13,7 +13,6 @@ from contoursolve.diagnosis.edits import Edit, EditKind, InsertionSide, Why, app
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
 from contoursolve.diagnosis.examples import ends, propose, sampled
 from contoursolve.diagnosis.reach import Reach
-from contoursolve.diagnosis.spelling import shapes_of
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnosis.typo_fixes import (
     FEW,
@@ -339,7 +338,7 @@ def _choices(claim: ParsedContour) -> set[str]:
 
 def _is_about_corners(edits: tuple[Edit, ...], claim: ParsedContour) -> bool:
     """Whether all that is done is to leave out corners, and the angles of lines whose ends are stated."""
-    sizes = (name for name in shapes_of(claim) if name in claim.words)
+    sizes = (name for name in claim.form.outline.shapes if name in claim.words)
     spans = {claim.words[name].span for name in (*sizes, *_spare_angles(claim))}
     return all(edit.kind is EditKind.DROP and edit.span in spans for edit in edits)
 
@@ -347,7 +346,7 @@ def _is_about_corners(edits: tuple[Edit, ...], claim: ParsedContour) -> bool:
 def _spare_angles(claim: ParsedContour) -> Iterator[str]:
     """The angles of lines that have both coordinates of their end, and begin where the block before ends."""
     prefixes = {role.prefixes[0] for role in claim.form.roles if role.name == "line"}
-    for row in claim.form.facts:
+    for row in claim.form.outline.facts:
         given = row.fact.given or ""
         prefix = given[: given.find(":") + 1]
         if isinstance(row.fact, Heading) and given in claim.words and prefix in prefixes:

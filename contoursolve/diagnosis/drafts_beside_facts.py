@@ -20,7 +20,6 @@ from contoursolve.diagnosis.examine import Answer, AskedValue, problems
 from contoursolve.diagnosis.examples import sampled
 from contoursolve.diagnosis.explain import SAID_AGAIN, SINGULAR, facts_at, spans_of
 from contoursolve.diagnosis.sample_drawing import sample_drawing
-from contoursolve.diagnosis.spelling import shapes_of
 from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, Word, number_of, spell
@@ -75,7 +74,7 @@ def further_drafts(answer: Answer, trial: Trial) -> Iterator[Iterable[tuple[Edit
 def _without_corners(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
     """The corners that cannot be made, left out: all, and each alone."""
     spans = spans_of(each for each in findings if each.about in OF_CORNERS or each.about in _NO_CORNERS)
-    found = [drop(answer.claim.words[name]) for name in shapes_of(answer.claim) if name in answer.claim.words]
+    found = [drop(answer.claim.words[name]) for name in answer.claim.form.outline.shapes if name in answer.claim.words]
     edits = [edit for edit in found if edit.span in spans]
     yield from ((edit,) for edit in edits)
     if len(edits) > 1:
@@ -84,7 +83,7 @@ def _without_corners(answer: Answer, findings: list[Diagnostic]) -> Iterator[tup
 
 def _picked(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     """Of several contours each, by the words that choose it, where the control has such."""
-    word = answer.claim.form.picking
+    word = answer.claim.form.free.picking
     if not word or answer.status is not Status.AMBIGUOUS or answer.alternatives is None:
         return
     profile, blocks = answer.profile, answer.claim.blocks
@@ -155,7 +154,7 @@ def _additions(answer: Answer) -> Iterator[tuple[Edit, ...]]:
     """Words that the form could have besides, without their numbers: each alone, then several; none for the coordinate
     that a word asks for, as U beside X?."""
     claim = answer.claim
-    facts = [row.fact for row in claim.form.facts if row.fact.given in claim.vocabulary]
+    facts = [row.fact for row in claim.form.outline.facts if row.fact.given in claim.vocabulary]
     asked = {_coordinate(fact) for fact in facts if fact.given in claim.words and claim.words[fact.given].is_asked}
     names = [fact.given for fact in facts if _coordinate(fact) is None or _coordinate(fact) not in asked]
     edits = [add(claim, name) for name in dict.fromkeys(names) if name not in claim.words]
@@ -175,7 +174,7 @@ def _completing(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     open_ = freedom(())
     if open_ > MOST_ADDED:
         return
-    absent = [name for name in claim.form.usual if name not in claim.words and name in claim.vocabulary]
+    absent = [name for name in claim.form.free.usual if name not in claim.words and name in claim.vocabulary]
     drawing = sample_drawing(claim, answer.profile, absent)
     names = {add(claim, name): name for name in absent if drawing is None or drawing.helps(name)}
     helping = list(islice((edit for edit in names if freedom((edit,)) < open_), MOST_HELPING))
@@ -269,7 +268,7 @@ def _swapped(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit,
     """One word for another that is often mistaken for it, in the lines that findings are about and beside them."""
     claim, near = answer.claim, lines_near(answer.claim, spans_of(findings))
     for word in claim.words.values() if answer.status in _NO_CONTOUR else ():
-        other = claim.form.swaps.get(word.text.strip().upper())
+        other = claim.form.free.swaps.get(word.text.strip().upper())
         if other and word.span.line in near:
             yield (change(word, other),)
 

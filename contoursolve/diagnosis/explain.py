@@ -225,7 +225,7 @@ def explain_offence(context: Context, offence: Offence, claim: ParsedContour) ->
 
 def _lacking(claim: ParsedContour, prefix: str) -> list[str]:
     """The fewest addresses whose words make a block, by the prefix of its names, one that states an element."""
-    options = [option for slot in claim.form.combinations for option in slot]
+    options = [option for slot in claim.form.table.combinations for option in slot]
     own = [[name for name in option if name.startswith(prefix) and name in claim.vocabulary] for option in options]
     missing = [[claim.vocabulary[name][0] for name in names if name not in claim.words] for names in own if names]
     return min(missing, key=len, default=[])
@@ -283,13 +283,13 @@ def explain_missing(
     stated = {fact.given for fact in profile.facts}
     able = [
         row.fact.given
-        for row in claim.form.facts
+        for row in claim.form.outline.facts
         if row.fact.given and row.fact.given not in stated and free & set(row.fact.reads())
     ]
     # Of a corner whose size is not determined, nothing is.
     corners = tuple(f"{corner.name}." for corner in profile.figure.corners if f"{corner.name}.radius" in free)
     shown = [name for name in verdict.free if not name.startswith(corners) or name.endswith(".radius")]
-    usual = claim.form.usual if claim.form.is_general else able
+    usual = claim.form.free.usual if claim.form.is_general else able
     absent = [name for name in dict.fromkeys(usual) if name in able and name in claim.vocabulary]
     open_count = len(assemble(profile).unknowns) - verdict.rank
     ways = [] if is_brief else list(_adding(absent, claim, profile, unable))

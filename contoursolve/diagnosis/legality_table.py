@@ -108,9 +108,9 @@ def _row(form: ContourForm, dialect: Dialect, chosen: frozenset[str]) -> Row:
 
 
 def _sample(form: ContourForm) -> Sample:
-    if form.sample is None:
+    if form.table.sample is None:
         raise ValueError(f"the form {form.name} has no sample")
-    return form.sample
+    return form.table.sample
 
 
 def _faults(profile: Profile) -> Iterator[str]:

@@ -102,12 +102,12 @@ def still_able(lack: Lack, unable: Collection[str]) -> Lack | None:
 def partners_of(claim: ParsedContour) -> tuple[list[str], list[str]]:
     """Words that others need to say anything, where with them nothing is open, and these others; none where it is."""
     partners, halves = dict[str, None](), dict[str, None]()
-    needs = {row.needs for row in claim.form.facts}
+    needs = {row.needs for row in claim.form.outline.facts}
     effective = {name for each in needs if claim.givens.keys() >= {*each} for name in each}
-    for names in dict.fromkeys(row.needs for row in claim.form.facts):
+    for names in dict.fromkeys(row.needs for row in claim.form.outline.facts):
         stated = [name for name in names if name in claim.givens]
         # A pole says nothing without polar words, but it is no half of one.
-        if len(stated) < len(names) and not effective.intersection(names) and not {*names} & {*claim.form.usual}:
+        if len(stated) < len(names) and not effective.intersection(names) and not {*names} & {*claim.form.free.usual}:
             partners |= dict.fromkeys(name for name in names if stated and name not in claim.givens)
             halves |= dict.fromkeys(stated)
     if not partners or not partners.keys() <= claim.vocabulary.keys():

@@ -26,7 +26,7 @@ from contoursolve.diagnosis.edits import AT_LEAST, Edit, EditKind, Why, add, cha
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine, problems
 from contoursolve.diagnosis.explain import SINGULAR, spans_of
 from contoursolve.diagnosis.reach import Reach
-from contoursolve.diagnosis.spelling import shapes_of, torn_codes
+from contoursolve.diagnosis.spelling import torn_codes
 from contoursolve.diagnosis.subsets import (
     blamed_spans,
     blocks_at_fault,
@@ -137,7 +137,7 @@ def _slips_of(answer: Answer, whole: "_Geometry", trial: Trial) -> Iterator[Iter
         return
     blamed = blamed_spans(answer)
     is_missed = any(each.about is RefusalKind.CIRCLE_MISSED for each in answer.diagnostics)
-    sizes = {row.fact.given for row in claim.form.facts if isinstance(row.fact, Radius)}
+    sizes = {row.fact.given for row in claim.form.outline.facts if isinstance(row.fact, Radius)}
     near = [word for word in words if word.span in blamed]
     if len(claim.blocks) > MOST_BLOCKS:
         signs = slips(answer, (SIGN_LOST, SIGN_ADDED), _against_neighbours(words, claim))
@@ -195,7 +195,7 @@ class _Geometry(Struct, frozen=True):
     def implied(self, claim: ParsedContour, name: str) -> float | None:
         """The value (mm or degrees) that a word would have."""
         at = lookup(self.profile, dict(self.fixed))
-        for row in claim.form.facts:
+        for row in claim.form.outline.facts:
             if row.fact.given == name and all(each in at.scalars for each in row.fact.reads()):
                 return row.fact.implied(at)
         return None
@@ -224,7 +224,7 @@ def _legal_sets(
     if has_faults(claim):
         return
     present, names = frozenset(claim.words), frozenset(claim.vocabulary)
-    extra = frozenset({row.fact.given for row in claim.form.facts} | set(claim.form.choices))
+    extra = frozenset({row.fact.given for row in claim.form.outline.facts} | set(claim.form.choices))
     if not whole.is_singular:
         extra -= present ^ extra if is_clean(claim.form, dialect.rules, present, claim.circumstances) else set()
     changes = smallest_changes(claim.form, dialect.rules, present, names & extra, claim.circumstances, blocks)
@@ -303,7 +303,7 @@ def _additions(claim: ParsedContour, name: str, geometries: Iterable[_Geometry])
 def _other_corners(claim: ParsedContour, at_fault: list[str]) -> Iterator[tuple[Edit, ...]]:
     """Each corner at fault as it is, without its word, or with the word for its other shape."""
     options: list[list[tuple[Edit, ...]]] = []
-    for row in claim.form.corners:
+    for row in claim.form.outline.corners:
         for name in (name for name in at_fault if name in row.shapes):
             word = claim.words[name]
             texts = (word.text.upper().replace(word.address, other, 1) for other in row.shapes if other != name)
@@ -407,7 +407,7 @@ def _slips(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
     if is_about_values and any(not finding.values.get("limit") for finding in answer.diagnostics):
         for name, word in claim.words.items():
             given = claim.givens.get(name)
-            if given is not None and given.unit is not Unit.SIGN and name not in shapes_of(claim):
+            if given is not None and given.unit is not Unit.SIGN and name not in claim.form.outline.shapes:
                 texts = variants(word, given, lexicon, unit)
                 yield from ((change(word, text),) for text in dict.fromkeys(texts) if text != word.text)
 

@@ -139,8 +139,8 @@ def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alt
     """The words, or else the fact, that would select a solution."""
     if len(alternatives.items) == 1:
         return []
-    if answer.claim.form.picking:
-        word, path = answer.claim.form.picking, answer.profile.figure.path
+    if answer.claim.form.free.picking:
+        word, path = answer.claim.form.free.picking, answer.profile.figure.path
         picks = _picks_of(item, alternatives, answer)
         return [f"{spell(word, str(each.number))} behind {path[each.element - 1].name}" for each in picks]
     words = [
@@ -169,7 +169,7 @@ def _selecting(item: Alternative, asked: Sequence[AskedValue], alternatives: Alt
 
 def _picks_of(item: Alternative, alternatives: Alternatives, answer: Answer) -> list[Pick]:
     """The numbers that choose a solution, each with its element; none where the control has no word for them."""
-    if not answer.claim.form.picking or not item.is_path:
+    if not answer.claim.form.free.picking or not item.is_path:
         return []
     from contoursolve.solving import numbers_of  # noqa: PLC0415 - few controls have such words
 

@@ -104,12 +104,11 @@ def unanswerable(claim: ParsedContour) -> list[Word]:
 
 def answerable(claim: ParsedContour) -> set[str]:
     """The names that state facts, sizes or choices."""
-    return {row.fact.given or "" for row in claim.form.facts} | {*shapes_of(claim)} | {*claim.form.choices}
-
-
-def shapes_of(claim: ParsedContour) -> dict[str, CornerShape]:
-    """The names of words that give corners a size, each with its shape."""
-    return {name: shape for row in claim.form.corners for name, shape in row.shapes.items()}
+    return (
+        {row.fact.given or "" for row in claim.form.outline.facts}
+        | {*claim.form.outline.shapes}
+        | {*claim.form.choices}
+    )
 
 
 def explain_faults(context: Context, block: Block) -> Iterator[Diagnostic]:
@@ -283,7 +282,7 @@ def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnos
 def _radius(word: Word, claim: ParsedContour) -> str:
     """The address of an arc's radius, where a word stands in the block of an arc that has one by another name."""
     line = next((at for at, block in enumerate(claim.blocks) if block.line == word.span.line), 0)
-    is_arc = line < len(claim.form.path) and isinstance(claim.form.path[line], Arc)
+    is_arc = line < len(claim.form.outline.path) and isinstance(claim.form.outline.path[line], Arc)
     rows = claim.lexicon.addresses.values()
     return next((row.address for row in rows if row.meaning.startswith("radius")), "") if is_arc else ""
 
@@ -291,7 +290,7 @@ def _radius(word: Word, claim: ParsedContour) -> str:
 def _roundings(claim: ParsedContour) -> list[str]:
     """The addresses of roundings of a contour."""
     # Under G11 and G12 a corner has the word of a line.
-    names = [name for name, shape in shapes_of(claim).items() if shape is CornerShape.FILLET]
+    names = [name for name, shape in claim.form.outline.shapes.items() if shape is CornerShape.FILLET]
     return [claim.vocabulary[name][0] for name in names if name in claim.vocabulary]
 
 

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.examine import Answer, problems
 from contoursolve.diagnosis.explain import spans_of
-from contoursolve.diagnosis.spelling import answerable, shapes_of
+from contoursolve.diagnosis.spelling import answerable
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import Word
 from contoursolve.geometry import BlockRole
@@ -55,7 +55,7 @@ def lines_near(claim: ParsedContour, spans: Iterable[Span]) -> set[int]:
 def corners_at_fault(answer: Answer) -> list[str]:
     """The words of the corners that a finding is about; of all near it, if it is about none. In few blocks, of all."""
     claim, blocks, blamed = answer.claim, blocks_at_fault(answer), blamed_spans(answer)
-    near = [name for name in shapes_of(claim) if name in claim.words and block_of(name) in blocks]
+    near = [name for name in claim.form.outline.shapes if name in claim.words and block_of(name) in blocks]
     at_fault = [name for name in near if claim.words[name].span in blamed]
     return near if len(claim.blocks) <= LARGEST_ROLE or not at_fault else at_fault
 
@@ -126,7 +126,8 @@ def smallest_changes(
 def _is_chain(form: ContourForm) -> bool:
     """Whether it has more blocks than a rule sees at once."""
     return (
-        len(form.combinations) > LARGEST_ROLE and len({prefix for role in form.roles for prefix in role.prefixes}) > 1
+        len(form.table.combinations) > LARGEST_ROLE
+        and len({prefix for role in form.roles for prefix in role.prefixes}) > 1
     )
 
 

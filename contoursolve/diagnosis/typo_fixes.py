@@ -13,7 +13,7 @@ from contoursolve.diagnosis.drafts import has_faults, missing_points, unreadable
 from contoursolve.diagnosis.edits import Edit, EditKind, apply_edits, change, mend
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine
 from contoursolve.diagnosis.explain import Context, report, spans_of
-from contoursolve.diagnosis.spelling import meant_in, meant_words, respelled, shapes_of
+from contoursolve.diagnosis.spelling import meant_in, meant_words, respelled
 from contoursolve.diagnosis.subsets import blamed_spans, lines_near
 from contoursolve.diagnosis.wording import join
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix
@@ -132,7 +132,7 @@ def _neighbour(typed: Typed) -> Iterator[str]:
 
 def _shapes(claim: ParsedContour) -> dict[str, CornerShape]:
     """The addresses that give corners a size, each with its shape."""
-    shapes = shapes_of(claim).items()
+    shapes = claim.form.outline.shapes.items()
     return {claim.vocabulary[name][0]: shape for name, shape in shapes if name in claim.vocabulary}
 
 
@@ -309,7 +309,7 @@ def suspects(answer: Answer, tied: Collection[str]) -> list[Word]:
         lines = lines_near(claim, blamed | contradicting)
         words = [word for word in words if word.span.line in lines]
     # Of two words for one corner, the later one is that of the corner behind.
-    first = {name for row in claim.form.corners[:1] for name in row.shapes}
+    first = {name for row in claim.form.outline.corners[:1] for name in row.shapes}
     late = {word.address for word in claim.repeated} & first
     order = {
         word: -at if word.address in late else at for at, word in enumerate(sorted(words, key=lambda word: word.span))

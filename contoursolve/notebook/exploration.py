@@ -207,7 +207,7 @@ def select(exploration: Exploration, number: int) -> Exploration:
 def _picking(answer: Answer, picks: Sequence[Pick]) -> Iterator[Edit]:
     """The words that choose a solution by its numbers: those that are there changed, the others behind their elements.
     One that has nothing to choose any more chooses the first."""
-    claim, word = answer.claim, answer.claim.form.picking
+    claim, word = answer.claim, answer.claim.form.free.picking
     lines = {name: block.line for block, names in zip(claim.blocks, claim.makes, strict=True) for name in names}
     wanted = {each.element: each.number for each in picks}
     present = {each.element: claim.words[each.given] for each in answer.profile.picks if each.given}

@@ -43,11 +43,11 @@ def _setting_lines(dialect: Dialect) -> Iterator[str]:
 def word_set_lines(dialects: Iterable[Dialect]) -> Iterator[str]:
     """Legality and determinacy of every set of words of every form."""
     for dialect in dialects:
-        sampled = [form for form in dialect.forms if form.sample is not None]
+        sampled = [form for form in dialect.forms if form.table.sample is not None]
         if not sampled:
             yield f"{dialect.name}: this control has no table of word sets, because none of its forms has a sample"
         for form in sampled:
-            blocks = " / ".join(form.sample.blocks if form.sample else ())
+            blocks = " / ".join(form.table.sample.blocks if form.table.sample else ())
             yield f"{dialect.name} {form.name}, {form.title}: words of {blocks} | the manual's rules | the equations"
             yield from (str(row) for row in tabulate(form, dialect))
             yield ""

@@ -133,7 +133,7 @@ def solution_rows(answer: Answer, listing: Listing) -> list[tuple[Listed, tuple[
             places = (f"{point} {coordinates(at[point], answer.plane, answer.unit)}" for point in differing)
             where = "  ".join((*places, *(_asked_text(asked, answer) for asked in each.asked)))
         label = "" if each.contour else "no contour:"
-        selects = (", " if answer.claim.form.picking else " ").join(each.selects)
+        selects = (", " if answer.claim.form.free.picking else " ").join(each.selects)
         row = (
             each.name or ("only solution" if listing.is_complete else "one solution"),
             label,

@@ -107,7 +107,7 @@ def _meanings(subject: Subject) -> Mapping[Role, str]:
     if subject.known.others:
         return {Role.GHOST: "other values"}
     form = subject.answer.claim.form
-    return {Role.GHOST: f"another solution, by its {form.picking}"} if form.picking else {}
+    return {Role.GHOST: f"another solution, by its {form.free.picking}"} if form.free.picking else {}
 
 
 def _other_ways(subject: Subject) -> tuple[list[Trail], Others]:
@@ -128,9 +128,9 @@ def _other_ways(subject: Subject) -> tuple[list[Trail], Others]:
             trails += [Trail(elements, Role.GHOST, Weight.GHOST)] if elements else []
         else:
             picks = [each for each in picks if each.element not in stated]
-        if picks and answer.claim.form.picking:
+        if picks and answer.claim.form.free.picking:
             numbers = "-".join(str(each.number) for each in picks)
-            told = numbers if is_solved else spell(answer.claim.form.picking, numbers)
+            told = numbers if is_solved else spell(answer.claim.form.free.picking, numbers)
             name = profile.figure.path[picks[-1].element - 1].head
             places.setdefault(name, []).append((item.solution.points[name], told))
     return trails, places

@@ -376,7 +376,7 @@ def _mark(subject: Subject, noted: Noted, others: Others, at: Point, spot: Seque
     is_center = not centers.isdisjoint(spot) and not shown
     givens = [given for name in spot for given in noted.get(name, ())]
     words = [TextRun(subject.word(given) or "", subject.role(given), subject.about_given(given)) for given in givens]
-    is_pole = not set(subject.answer.claim.form.poles).isdisjoint(spot)
+    is_pole = not set(subject.answer.claim.form.free.poles).isdisjoint(spot)
     if not (rank or shown or words or is_pole):
         if is_center:
             yield Mark(at, MarkKind.CENTER, about=About(point=" ".join(spot)))

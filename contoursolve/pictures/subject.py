@@ -141,7 +141,7 @@ def fitting(answer: Answer) -> list["Alternative"]:
 
     paths = [each for each in choose(answer.alternatives, answer.profile.choices) if each.is_path]
     left = pick(paths, answer.profile)[0]
-    if len(left) > 1 and answer.claim.form.picking:
+    if len(left) > 1 and answer.claim.form.free.picking:
         # As the control counts them.
         left.sort(key=lambda item: [each.number for each in numbers_of(item, paths, answer.profile)])
     return left
@@ -197,7 +197,7 @@ class Subject(PartialDrawing, frozen=True):
             return None
         told, value = word_text(found.word.text), self.counted.get(found.word.span)
         claim = self.answer.claim
-        with_it = claim.words.get(claim.form.companions.get(given, ""))
+        with_it = claim.words.get(claim.form.free.companions.get(given, ""))
         told += f" {word_text(with_it.text)}" if with_it is not None else ""
         return told if value is None else f"{told} = {value}"
 

@@ -225,7 +225,7 @@ def _profile_of(claim: ParsedContour, like: Profile) -> Profile:
 @lru_cache(maxsize=4096)
 def _sizes(form: ContourForm) -> tuple[str, ...]:
     """The words that are sizes of corners."""
-    return tuple(word for row in form.corners for word in row.shapes)
+    return tuple(form.outline.shapes)
 
 
 def _evaluate(kind: Kind, inputs: Sequence[Mapping[str, float]]) -> list[tuple[dict[str, float], float] | None]:

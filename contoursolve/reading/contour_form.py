@@ -180,19 +180,14 @@ class Sample:
 
 
 @dataclass(frozen=True, slots=True)
-class ContourForm:
-    """One way of describing a contour.
+class Outline:
+    """The drawing of a form: its points, the facts that words state about them, its path and its corners.
 
-    `points` and `radii` are unknown as soon as some fact mentions them. `facts` are in order of
-    precedence: where words say too much, the first ones are solved for. `allowed` are the addresses that
-    may stand in its blocks. `roles` tells which rules its blocks obey; `lines` are lines of given direction
-    beside the path. `combinations` are slots, each with the sets of givens that
-    may fill it: their product is every combination of words that the equations can tell apart.
+    `points` and `radii` are unknown as soon as some fact mentions them. `facts` are in order of precedence: where words
+    say too much, the first ones are solved for. `intersections` are the points that the control computes; `lines` are
+    lines of given direction beside the path.
     """
 
-    name: str
-    title: str
-    roles: tuple[BlockRole, ...]
     start: str
     points: tuple[str, ...]
     radii: tuple[str, ...]
@@ -200,14 +195,64 @@ class ContourForm:
     path: tuple[Line | Arc, ...]
     corners: tuple[CornerRow, ...]
     intersections: tuple[str, ...]
-    allowed: frozenset[str]
+    lines: tuple[Line, ...] = ()
+    guard: float = 0.0
+    """Sine of the change of direction up to which the control makes no corner."""
+    refuses: bool = False
+    """Whether it refuses such a corner; else it leaves it out."""
+
+    @property
+    def shapes(self) -> dict[str, CornerShape]:
+        """The names of words that give corners a size, each with its shape."""
+        return {name: shape for row in self.corners for name, shape in row.shapes.items()}
+
+
+@dataclass(frozen=True, slots=True)
+class WordTable:
+    """The combinations of words that a form may be stated by, and a program with all of them.
+
+    `combinations` are slots, each with the sets of givens that may fill it: their product is every combination of words
+    that the equations can tell apart.
+    """
+
     combinations: tuple[tuple[tuple[str, ...], ...], ...]
     sample: Sample | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class FreeWords:
+    """The words of a form whose facts may be of any kind, as they complete, choose and correct it."""
+
+    usual: tuple[str, ...] = ()
+    """The words that a block may get, those first that a drawing usually has."""
+    swaps: Mapping[str, str] = field(default_factory=dict)
+    """The words that are often mistaken for each other, as they are written."""
+    picking: str = ""
+    """The word that chooses one of several solutions by its number, in a block of its own behind that of its element;
+    empty if there is none."""
+    companions: Mapping[str, str] = field(default_factory=dict)
+    """Givens whose words are read together with the word of another one, which states nothing by itself."""
+    poles: tuple[str, ...] = ()
+    """The points from which polar data count."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContourForm:
+    """One way of describing a contour.
+
+    `roles` tells which rules its blocks obey; `allowed` are the addresses that may stand in its blocks.
+    """
+
+    name: str
+    title: str
+    roles: tuple[BlockRole, ...]
+    outline: Outline
+    allowed: frozenset[str]
+    table: WordTable
     choices: tuple[str, ...] = ()
     """Givens whose sign alone chooses between two solutions."""
     meanings: Mapping[str, str] = field(default_factory=dict)
     """What a given means in this form, where its address does not say it."""
-    lines: tuple[Line, ...] = ()
     is_literal: bool = False
     """Whether each word states one value, whatever the values are."""
     is_contour: bool = True
@@ -218,23 +263,9 @@ class ContourForm:
     """What the control does at each corner that it inserts, half a sentence without a full stop."""
     assumptions: tuple[Assumption, ...] = ()
     """What its blocks may rest on."""
-    guard: float = 0.0
-    """Sine of the change of direction up to which the control makes no corner."""
-    refuses: bool = False
-    """Whether it refuses such a corner; else it leaves it out."""
     is_general: bool = False
     """Whether its facts may be of any kind, and no rule tells which of them make a contour."""
-    usual: tuple[str, ...] = ()
-    """Of such a form, the words that a block may get, those first that a drawing usually has."""
-    swaps: Mapping[str, str] = field(default_factory=dict)
-    """Of such a form, the words that are often mistaken for each other, as they are written."""
-    picking: str = ""
-    """The word that chooses one of several solutions by its number, in a block of its own behind that of its element;
-    empty if there is none."""
-    companions: Mapping[str, str] = field(default_factory=dict)
-    """Givens whose words are read together with the word of another one, which states nothing by itself."""
-    poles: tuple[str, ...] = ()
-    """The points from which polar data count."""
+    free: FreeWords = field(default_factory=FreeWords)
 
     def __hash__(self) -> int:
         return hash(self.name)
@@ -245,7 +276,7 @@ class ContourForm:
 
 def stated_sets(form: ContourForm) -> Iterator[frozenset[str]]:
     """Every combination of givens that a form may be stated by."""
-    for choice in product(*form.combinations):
+    for choice in product(*form.table.combinations):
         yield frozenset(name for names in choice for name in names)
 
 
@@ -257,30 +288,30 @@ def lay_out(
 
     `sharp` are the corner words of value 0, which make no corner.
     """
-    facts = tuple(row.fact for row in form.facts if stated.issuperset(row.needs))
+    facts = tuple(row.fact for row in form.outline.facts if stated.issuperset(row.needs))
     read = {name for fact in facts for name in fact.reads()}
     mentioned = read | {name.rpartition(".")[0] for name in read}
     stating = {fact.given for fact in facts}
     path: list[Line | Arc] = []
-    for element in form.path:
+    for element in form.outline.path:
         if isinstance(element, Line):
             heading = element.heading if element.heading in stating else None
             toward = element.toward if element.toward in mentioned and heading is None else None
             path.append(replace(element, heading=heading, toward=toward))
         else:
             path.append(element)
-    ends = {end for element in path for end in (element.tail, element.head)} - {form.start}
+    ends = {end for element in path for end in (element.tail, element.head)} - {form.outline.start}
     figure = Figure(
-        form.start,
-        tuple(point for point in form.points if point in mentioned | ends),
-        tuple(radius for radius in form.radii if radius in mentioned),
+        form.outline.start,
+        tuple(point for point in form.outline.points if point in mentioned | ends),
+        tuple(radius for radius in form.outline.radii if radius in mentioned),
         tuple(path),
-        tuple(corner for row in form.corners for corner in _corners(form, row, stated, asked, sharp)),
-        lines=tuple(line for line in form.lines if line.heading is None or line.heading in stated),
+        tuple(corner for row in form.outline.corners for corner in _corners(form, row, stated, asked, sharp)),
+        lines=tuple(line for line in form.outline.lines if line.heading is None or line.heading in stated),
     )
     if not form.is_general:
         return Layout(figure, facts)
-    wanted = {name for row in form.facts if row.fact.given in asked for name in row.fact.reads()}
+    wanted = {name for row in form.outline.facts if row.fact.given in asked for name in row.fact.reads()}
     return Layout(*_with_carriers(figure, facts, mentioned | {name.rpartition(".")[0] for name in wanted}))
 
 
@@ -302,7 +333,7 @@ def _corners(
     told = [[axis for names, axis in row.landing if which & set(names)] for which in (stated, asked)]
     landing = told[0] or told[1]
     axis = landing[0] if len(landing) == 1 else None
-    guard, least = (0.0, form.guard) if form.refuses else (form.guard, 0.0)
+    guard, least = (0.0, form.outline.guard) if form.outline.refuses else (form.outline.guard, 0.0)
     return [
         Corner(row.name, row.at, shape, word, row.before, row.after, axis, row.lands_on, guard, least)
         for word, shape in row.shapes.items()

@@ -139,8 +139,8 @@ def blocks_of(claim: ParsedContour, before: State, modes: Modes) -> Iterator[Con
         if claim.makes:
             names = frozenset(claim.makes[number])
         elif len(claim.blocks) > 1:
-            own = claim.form.path[number].name
-            names = frozenset([own, *(row.name for row in claim.form.corners if row.before == own)])
+            own = claim.form.outline.path[number].name
+            names = frozenset([own, *(row.name for row in claim.form.outline.corners if row.before == own)])
         codes = codes_of(block, modes)
         # A code of the block itself may make it a contour, so that the motion in force has no part in it.
         is_own = any(not isinstance(code, Word) and code.effect is Effect.CONTOUR for code in codes)

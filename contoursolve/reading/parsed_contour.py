@@ -178,11 +178,14 @@ def read(claim: ParsedContour, ignored: frozenset[str]) -> Profile:
     """The profile of a claim, without the facts that the control ignores."""
     names = frozenset(claim.givens)
     sharp = frozenset(
-        word for row in claim.form.corners for word in row.shapes if word in names and not claim.givens[word].value
+        word
+        for row in claim.form.outline.corners
+        for word in row.shapes
+        if word in names and not claim.givens[word].value
     )
     asked = frozenset(name for name, word in claim.words.items() if word.is_asked)
     layout = lay_out(claim.form, names - ignored, sharp, asked)
-    dropped = tuple(row.fact for row in claim.form.facts if row.fact.given in ignored & names)
+    dropped = tuple(row.fact for row in claim.form.outline.facts if row.fact.given in ignored & names)
     return Profile(
         form=claim.form.name,
         blocks=claim.blocks,
@@ -191,7 +194,7 @@ def read(claim: ParsedContour, ignored: frozenset[str]) -> Profile:
         layout=layout,
         start=claim.before.start(),
         givens=claim.givens,
-        intersections=claim.form.intersections,
+        intersections=claim.form.outline.intersections,
         ignored=dropped,
         choices=claim.choices,
         questions=tuple(_questions(claim, asked, layout)),
@@ -231,7 +234,7 @@ def unused_words(claim: ParsedContour, profile: Profile) -> list[Word]:
     """The words with a value that states nothing about the contour and chooses nothing."""
     used = {fact.given for fact in (*profile.facts, *profile.ignored)}
     used |= {choice.given for choice in claim.choices} | {question.name for question in profile.questions}
-    used |= {name for row in claim.form.corners for name in row.shapes} | claim.lasting
+    used |= claim.form.outline.shapes.keys() | claim.lasting
     # One block moves all its axes; where several make a contour, that is left to its rules.
     beside = claim.beside_plane(claim.blocks[0]) if len(claim.blocks) == 1 else []
     words = ((name, given.word) for name, given in claim.givens.items() if given.word and name not in used)
@@ -252,11 +255,11 @@ def _questions(claim: ParsedContour, asked: frozenset[str], layout: Layout) -> I
     headed = (each.name for each in figure.path if isinstance(each, Line) and each.heading)
     drawn = {figure.start, *figure.points, *figure.radii, *figure.carriers, *headed}
     facts: dict[str, Fact] = {}
-    for row in claim.form.facts:
+    for row in claim.form.outline.facts:
         if row.fact.given in asked and drawn.issuperset(name.partition(".")[0] for name in row.fact.reads()):
             facts.setdefault(row.fact.given, row.fact)
     yield from (_question(claim, name, fact) for name, fact in facts.items())
-    for corner in claim.form.corners:
+    for corner in claim.form.outline.corners:
         for name in (name for name in corner.shapes if name in asked):
             yield _question(claim, name, Radius(name, f"{corner.name}.radius"))
 

@@ -195,13 +195,13 @@ def subsets() -> Iterator[tuple[str, list[str]]]:
     """Every set of the optional words of every form's sample."""
     optional = re.compile(r"\{([^}]*)\}")
     for form in DIALECTS["nct-99m"].forms:
-        texts = [word for block in form.sample.blocks for word in optional.findall(block)]
+        texts = [word for block in form.table.sample.blocks for word in optional.findall(block)]
         for kept in product((True, False), repeat=len(texts)):
             keep = iter(kept)
             blocks = [
-                optional.sub(lambda word, keep=keep: word[1] if next(keep) else "", b) for b in form.sample.blocks
+                optional.sub(lambda word, keep=keep: word[1] if next(keep) else "", b) for b in form.table.sample.blocks
             ]
-            yield form.name, [form.sample.before, *blocks]
+            yield form.name, [form.table.sample.before, *blocks]
 
 
 @pytest.mark.parametrize("rules", ["enforce", "off"])

@@ -143,9 +143,9 @@ def _is_known(word: Word, form: ContourForm, lexicon: Lexicon) -> bool:
 
 def _makes(form: ContourForm, members: Sequence[Member]) -> tuple[tuple[str, ...], ...]:
     """What each block makes, where some corners have blocks of their own."""
-    corners = {row.before: row.name for row in form.corners}
+    corners = {row.before: row.name for row in form.outline.corners}
     found: list[tuple[str, ...]] = []
-    for element, member in zip(form.path, members, strict=True):
+    for element, member in zip(form.outline.path, members, strict=True):
         corner = tuple(name for before, name in corners.items() if before == element.name)
         found += [(element.name, *corner)] if member.corner is None else [(element.name,), corner]
     return tuple(found)

@@ -199,7 +199,8 @@ class ChainFinder:
                 contour = trace(profile, solution)
                 elements = {each.name: each for each in contour.elements}
                 return leave(claim, contour.end, modes), [
-                    _ways_of(elements[each.name]) if each.name in elements else (None, None) for each in claim.form.path
+                    _ways_of(elements[each.name]) if each.name in elements else (None, None)
+                    for each in claim.form.outline.path
                 ]
         return leave(claim, None, modes), [(None, None)] * len(run)
 

@@ -41,7 +41,7 @@ from contoursolve.geometry import (
     Turn,
     TurnBetween,
 )
-from contoursolve.reading import ContourForm, CornerRow, FactRow, Modes
+from contoursolve.reading import ContourForm, CornerRow, FactRow, Modes, Outline, WordTable
 
 START = "S"
 
@@ -137,37 +137,43 @@ def _compose(language: Language, elements: tuple[Element, ...], options: _Option
             *(BlockRole(element.role, (each.prefix,)) for element, each in zip(elements, names, strict=True)),
             *(BlockRole(role, (first.prefix, second.prefix)) for role, (first, second) in meeting),
         ),
-        start=START,
-        points=tuple(dict.fromkeys(point for each in names for point in (each.center, each.own, each.head))),
-        radii=tuple(each.radius for each in arcs),
-        facts=facts,
-        path=tuple(
-            _path(language, element, each, options, is_directed=is_directed)
-            for element, each, is_directed in zip(elements, names, _directed(elements), strict=True)
+        outline=Outline(
+            start=START,
+            points=tuple(dict.fromkeys(point for each in names for point in (each.center, each.own, each.head))),
+            radii=tuple(each.radius for each in arcs),
+            facts=facts,
+            path=tuple(
+                _path(language, element, each, options, is_directed=is_directed)
+                for element, each, is_directed in zip(elements, names, _directed(elements), strict=True)
+            ),
+            corners=tuple(
+                CornerRow(
+                    f"corner {number}",
+                    first.head,
+                    first.element,
+                    second.element,
+                    {f"{first.prefix}{word}": shape for word, shape in language.corner.shapes.items()},
+                )
+                for number, (first, second) in enumerate(pairwise(names), 1)
+            ),
+            intersections=tuple(each.head for each in names[:-1]),
+            guard=options.guard,
+            refuses=options.refuses,
         ),
-        corners=tuple(
-            CornerRow(
-                f"corner {number}",
-                first.head,
-                first.element,
-                second.element,
-                {f"{first.prefix}{word}": shape for word, shape in language.corner.shapes.items()},
-            )
-            for number, (first, second) in enumerate(pairwise(names), 1)
-        ),
-        intersections=tuple(each.head for each in names[:-1]),
         allowed=language.allowed,
-        combinations=tuple(_combinations(language, elements, number, each.prefix) for number, each in enumerate(names)),
+        table=WordTable(
+            combinations=tuple(
+                _combinations(language, elements, number, each.prefix) for number, each in enumerate(names)
+            ),
+            sample=language.samples.get(elements),
+        ),
         choices=tuple(
             f"{second.prefix}{language.meeting.selector}" for role, (_, second) in meeting if role != LINE_LINE
         ),
-        sample=language.samples.get(elements),
         meanings=dict(_meanings(language, elements, names)),
         corner_note=language.corner.note,
         assumptions=language.assumptions,
         is_contour=name != "arc",
-        guard=options.guard,
-        refuses=options.refuses,
     )
 
 

@@ -184,7 +184,7 @@ TITLES: Mapping[str, str] = {
 def sense_conventions(sense: Setting, form: ContourForm, modes: Modes) -> Iterator[Convention]:
     """Whether a line may run against its angle: where there is one, and if that was set."""
     convention = modes.convention(sense)
-    if convention.value == "ray" and any(isinstance(row.fact, Heading) for row in form.facts):
+    if convention.value == "ray" and any(isinstance(row.fact, Heading) for row in form.outline.facts):
         yield convention
 
 

@@ -50,7 +50,7 @@ from contoursolve.geometry import (
     Turn,
     TurnBetween,
 )
-from contoursolve.reading import Assumption, ContourForm, CornerRow, FactRow, some
+from contoursolve.reading import Assumption, ContourForm, CornerRow, FactRow, FreeWords, Outline, WordTable, some
 
 START = "S"
 TANGENCY = "tangent"
@@ -465,36 +465,42 @@ def compose(elements: tuple[FkElement, ...], labels: tuple[str, ...]) -> Contour
             *(BlockRole(each.element.role, (each.prefix,)) for each in places),
             *(BlockRole(POLE, (f"{pole}:",)) for pole in poles),
         ),
-        start=START,
-        points=(*points[1:], *(each.center for each in arcs), *poles, *beside),
-        radii=tuple(dict.fromkeys((*(each.radius for each in arcs), *radii))),
-        facts=rows,
-        path=path,
-        corners=tuple(
-            CornerRow(
-                f"corner {first.label}",
-                first.head,
-                first.name,
-                second.name,
-                {first.prefix + word: shape for word, shape in CORNERS.items()},
-            )
-            for first, second in pairwise(places)
+        outline=Outline(
+            start=START,
+            points=(*points[1:], *(each.center for each in arcs), *poles, *beside),
+            radii=tuple(dict.fromkeys((*(each.radius for each in arcs), *radii))),
+            facts=rows,
+            path=path,
+            corners=tuple(
+                CornerRow(
+                    f"corner {first.label}",
+                    first.head,
+                    first.name,
+                    second.name,
+                    {first.prefix + word: shape for word, shape in CORNERS.items()},
+                )
+                for first, second in pairwise(places)
+            ),
+            intersections=tuple(points[1:-1]),
         ),
-        intersections=tuple(points[1:-1]),
         allowed=frozenset(LEXICON.addresses),
-        combinations=tuple(((),) for _ in places),
+        table=WordTable(
+            combinations=tuple(((),) for _ in places),
+        ),
         assumptions=ASSUMPTIONS,
         is_general=True,
-        usual=tuple(
-            f"{each.prefix}{word}"
-            for word in _USUAL
-            for each in places
-            if each.element.function in FREE and not (word in _OF_DIRECTION and _has_direction(each.element))
+        free=FreeWords(
+            usual=tuple(
+                f"{each.prefix}{word}"
+                for word in _USUAL
+                for each in places
+                if each.element.function in FREE and not (word in _OF_DIRECTION and _has_direction(each.element))
+            ),
+            swaps={"DR+": "DR-", "DR-": "DR+", "FLT": "FL", "FCT": "FC"},
+            picking="FSELECT",
+            companions=dict(_companions(places)),
+            poles=poles,
         ),
-        swaps={"DR+": "DR-", "DR-": "DR+", "FLT": "FL", "FCT": "FC"},
-        picking="FSELECT",
-        companions=dict(_companions(places)),
-        poles=poles,
     )
 
 

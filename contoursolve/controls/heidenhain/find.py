@@ -310,7 +310,8 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Par
         return None
     claim = _claim(chain, state, modes)
     if function in _CORNERS and (_follows_elsewhere(block, state) or _leads_elsewhere(blocks, index)):
-        form = replace_fields(claim.form, path=(), is_contour=False, needs_values=False)
+        outline = replace_fields(claim.form.outline, path=())
+        form = replace_fields(claim.form, outline=outline, is_contour=False, needs_values=False)
         circumstances = claim.circumstances - {f"1:{FIRST_CORNER}", f"1:{LAST_CORNER}"} | {f"1:{APART}"}
         return replace_fields(claim, form=form, circumstances=circumstances)
     return claim

@@ -129,7 +129,9 @@ def _conventions(form: ContourForm, circumstances: Collection[str], modes: Modes
     if any(name.endswith((UNCOMPENSATED, UNCOMPENSATED_FREE)) for name in circumstances):
         yield modes.convention(COMPENSATION)
     difference = modes.convention(RADIUS_DIFFERENCES)
-    if difference.value != RADIUS_DIFFERENCES.default and any(isinstance(row.fact, OnCircle) for row in form.facts):
+    if difference.value != RADIUS_DIFFERENCES.default and any(
+        isinstance(row.fact, OnCircle) for row in form.outline.facts
+    ):
         yield difference
     if CIRCLE_CIRCLE in {role.name for role in form.roles}:
         yield modes.convention(CIRCLE_CIRCLE_Q)

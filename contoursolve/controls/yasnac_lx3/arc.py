@@ -30,7 +30,19 @@ from contoursolve.geometry import (
     Turn,
     Unit,
 )
-from contoursolve.reading import ContourForm, FactRow, Modes, ParsedContour, Rule, State, apply_modes, at_most, some
+from contoursolve.reading import (
+    ContourForm,
+    FactRow,
+    Modes,
+    Outline,
+    ParsedContour,
+    Rule,
+    State,
+    WordTable,
+    apply_modes,
+    at_most,
+    some,
+)
 from contoursolve.solving import NoteKind, RefusalKind
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 
@@ -50,25 +62,29 @@ def arc(code: int) -> ContourForm:
         name=f"G{code:02}",
         title="arc",
         roles=(BlockRole("arc"),),
-        start=START,
-        points=(CENTER, END),
-        radii=(RADIUS,),
-        facts=(
-            FactRow(Offset("I", CENTER, START, SECOND), ("I",)),
-            FactRow(Offset("K", CENTER, START, FIRST), ("K",)),
-            FactRow(Radius("R", RADIUS), ("R",)),
-            FactRow(Coordinate("X", END, SECOND), ("X",)),
-            FactRow(Offset("U", END, START, SECOND), ("U",)),
-            FactRow(Coordinate("Z", END, FIRST), ("Z",)),
-            FactRow(Offset("W", END, START, FIRST), ("W",)),
-            FactRow(OnCircle(START, CENTER, RADIUS), ()),
-            FactRow(OnCircle(END, CENTER, RADIUS), ()),
+        outline=Outline(
+            start=START,
+            points=(CENTER, END),
+            radii=(RADIUS,),
+            facts=(
+                FactRow(Offset("I", CENTER, START, SECOND), ("I",)),
+                FactRow(Offset("K", CENTER, START, FIRST), ("K",)),
+                FactRow(Radius("R", RADIUS), ("R",)),
+                FactRow(Coordinate("X", END, SECOND), ("X",)),
+                FactRow(Offset("U", END, START, SECOND), ("U",)),
+                FactRow(Coordinate("Z", END, FIRST), ("Z",)),
+                FactRow(Offset("W", END, START, FIRST), ("W",)),
+                FactRow(OnCircle(START, CENTER, RADIUS), ()),
+                FactRow(OnCircle(END, CENTER, RADIUS), ()),
+            ),
+            path=(Arc("arc", START, END, CENTER, RADIUS, _TURNS[code]),),
+            corners=(),
+            intersections=(),
         ),
-        path=(Arc("arc", START, END, CENTER, RADIUS, _TURNS[code]),),
-        corners=(),
-        intersections=(),
         allowed=frozenset(ascii_uppercase) - WRONG_CENTER,
-        combinations=((("X",), ("U",)), (("Z",), ("W",)), (("I", "K"), ("R",))),
+        table=WordTable(
+            combinations=((("X",), ("U",)), (("Z",), ("W",)), (("I", "K"), ("R",))),
+        ),
         meanings={"I": "X distance from start to centre (radius value)", "K": "Z distance from start to centre"},
         is_contour=False,
     )

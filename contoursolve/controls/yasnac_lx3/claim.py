@@ -112,4 +112,4 @@ def _name_of(word: Word, others: Collection[int]) -> str:
 @lru_cache(maxsize=32)
 def _bevels(form: ContourForm) -> frozenset[str]:
     """The words whose meaning is a convention."""
-    return frozenset(word for row in form.corners for word, shape in row.shapes.items() if shape in _SHAPES.values())
+    return frozenset(word for word, shape in form.outline.shapes.items() if shape in _SHAPES.values())

@@ -14,12 +14,14 @@ from contoursolve.reading import (
     CornerRow,
     FactRow,
     Modes,
+    Outline,
     ParsedContour,
     ReadIssue,
     Rule,
     Sample,
     State,
     Value,
+    WordTable,
     all_of,
     at_least,
     at_most,
@@ -36,6 +38,12 @@ REFUSED = frozenset("MST")
 """Addresses that a rule refuses."""
 
 
+_SAMPLE = Sample(
+    "G00 X40. Z0.",
+    ("G111 {A160.} {B120.} {C2.} {D2.} {I10.919} {K-30.} {P2.} {Q2.} {U60.} {W-41.016} {X100.} {Z-41.016}",),
+)
+
+
 @cache
 def g111(bevel: CornerShape) -> ContourForm:
     """The form of the block, with bevels of a shape."""
@@ -43,37 +51,38 @@ def g111(bevel: CornerShape) -> ContourForm:
         name="G111",
         title="taper multiple cornering",
         roles=(BlockRole("G111"),),
-        start=START,
-        points=(V1, V2),
-        radii=(),
-        facts=(
-            FactRow(Offset("I", V1, START, SECOND), ("I",)),
-            FactRow(Offset("K", V1, START, FIRST), ("K",)),
-            FactRow(Heading("A", START, V1), ("A",)),
-            FactRow(Coordinate("X", V2, SECOND), ("X",)),
-            FactRow(Offset("U", V2, START, SECOND), ("U",)),
-            FactRow(Coordinate("Z", V2, FIRST), ("Z",)),
-            FactRow(Offset("W", V2, START, FIRST), ("W",)),
-            FactRow(Heading("B", V1, V2), ("B",)),
-        ),
-        path=(Line("line 1", START, V1, heading="A"), Line("line 2", V1, V2, heading="B")),
-        corners=(
-            CornerRow("corner 1", V1, "line 1", "line 2", {"C": bevel, "P": CornerShape.FILLET}),
-            CornerRow(
-                "corner 2",
-                V2,
-                "line 2",
-                None,
-                {"D": bevel, "Q": CornerShape.FILLET},
-                landing=((("X", "U"), FIRST), (("Z", "W"), SECOND)),
+        outline=Outline(
+            start=START,
+            points=(V1, V2),
+            radii=(),
+            facts=(
+                FactRow(Offset("I", V1, START, SECOND), ("I",)),
+                FactRow(Offset("K", V1, START, FIRST), ("K",)),
+                FactRow(Heading("A", START, V1), ("A",)),
+                FactRow(Coordinate("X", V2, SECOND), ("X",)),
+                FactRow(Offset("U", V2, START, SECOND), ("U",)),
+                FactRow(Coordinate("Z", V2, FIRST), ("Z",)),
+                FactRow(Offset("W", V2, START, FIRST), ("W",)),
+                FactRow(Heading("B", V1, V2), ("B",)),
             ),
+            path=(Line("line 1", START, V1, heading="A"), Line("line 2", V1, V2, heading="B")),
+            corners=(
+                CornerRow("corner 1", V1, "line 1", "line 2", {"C": bevel, "P": CornerShape.FILLET}),
+                CornerRow(
+                    "corner 2",
+                    V2,
+                    "line 2",
+                    None,
+                    {"D": bevel, "Q": CornerShape.FILLET},
+                    landing=((("X", "U"), FIRST), (("Z", "W"), SECOND)),
+                ),
+            ),
+            intersections=(V1, V2),
         ),
-        intersections=(V1, V2),
         allowed=frozenset("XUZWABIKPQCD") | PASSING,
-        combinations=tuple(((), (address,)) for address in "AIKBXUZW"),
-        sample=Sample(
-            "G00 X40. Z0.",
-            ("G111 {A160.} {B120.} {C2.} {D2.} {I10.919} {K-30.} {P2.} {Q2.} {U60.} {W-41.016} {X100.} {Z-41.016}",),
+        table=WordTable(
+            combinations=tuple(((), (address,)) for address in "AIKBXUZW"),
+            sample=_SAMPLE,
         ),
         assumptions=ASSUMPTIONS,
         is_literal=True,
