@@ -8,7 +8,7 @@ from .contour_form import (
     Convention as Convention,
     CornerRow as CornerRow,
     FactRow as FactRow,
-    FreeWords as FreeWords,
+    FreeFactWords as FreeFactWords,
     Outline as Outline,
     Premises as Premises,
     Sample as Sample,

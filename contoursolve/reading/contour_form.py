@@ -220,7 +220,7 @@ class WordTable:
 
 
 @dataclass(frozen=True, slots=True)
-class FreeWords:
+class FreeFactWords:
     """The words of a form whose facts may be of any kind, as they complete, choose and correct it."""
 
     usual: tuple[str, ...] = ()
@@ -265,7 +265,7 @@ class ContourForm:
     """What its blocks may rest on."""
     is_general: bool = False
     """Whether its facts may be of any kind, and no rule tells which of them make a contour."""
-    free: FreeWords = field(default_factory=FreeWords)
+    free: FreeFactWords = field(default_factory=FreeFactWords)
 
     def __hash__(self) -> int:
         return hash(self.name)

@@ -50,7 +50,7 @@ from contoursolve.geometry import (
     Turn,
     TurnBetween,
 )
-from contoursolve.reading import Assumption, ContourForm, CornerRow, FactRow, FreeWords, Outline, WordTable, some
+from contoursolve.reading import Assumption, ContourForm, CornerRow, FactRow, FreeFactWords, Outline, WordTable, some
 
 START = "S"
 TANGENCY = "tangent"
@@ -489,7 +489,7 @@ def compose(elements: tuple[FkElement, ...], labels: tuple[str, ...]) -> Contour
         ),
         assumptions=ASSUMPTIONS,
         is_general=True,
-        free=FreeWords(
+        free=FreeFactWords(
             usual=tuple(
                 f"{each.prefix}{word}"
                 for word in _USUAL
