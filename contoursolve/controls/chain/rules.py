@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
-from re import sub
 
 from contoursolve.controls.chain.language import (
     ARC,
@@ -33,11 +32,69 @@ _GUARD = Decimal("0.0001")
 
 
 @dataclass(frozen=True, slots=True)
+class ExampleWords:
+    """The words of four right programs: with another word in the place of one of them, a program is wrong.
+
+    The programs begin at `start`: a line by its angle; two lines by their angles, which meet; two lines with a corner
+    between them; a line with a corner, and an arc.
+    """
+
+    angle: str
+    """How the word of an angle begins: ANG= or ,A."""
+    corner: str
+    """How the word of a rounding begins."""
+    radius: str
+    """The word of an arc's radius."""
+    before_arc: str
+    """The block before the arc: a line with a corner."""
+    start: str = "G17 G90 G0 X0 Y0\n"
+    end: str = "X40"
+    degrees: str = "30"
+    opening: str = "70"
+    """The angle of the first line of two that meet."""
+    closing: str = "-30"
+    """The angle of the second one, empty for none."""
+    closing_end: str = "X80 Y25"
+    before: str = "X30"
+    """The end of the line with a corner."""
+    size: str = "5"
+    turn: str = "X40 Y40"
+    """The block behind that."""
+    arc_end: str = "X60 Y20"
+    center: str = "I20 J0"
+    line: str = "G1"
+    arc_code: str = "G2"
+
+    def angled(self, **words: str) -> str:
+        """A line by its angle, but for some words."""
+        each = replace(self, **words)
+        return each.start + _block(each.line, each.end, each.angle + each.degrees)
+
+    def vertex(self, **words: str) -> str:
+        """Two lines by their angles, but for some words."""
+        each = replace(self, **words)
+        closing = _block(each.closing_end, each.closing and each.angle + each.closing)
+        return f"{each.start}{each.line} {each.angle}{each.opening}\n{closing}"
+
+    def cut(self, **words: str) -> str:
+        """Two lines with a corner, but for some words."""
+        each = replace(self, **words)
+        return each.start + _block(each.line, each.before, each.corner + each.size) + f"\n{each.turn}"
+
+    def arc(self, **words: str) -> str:
+        """A line with a corner and an arc, but for some words."""
+        each = replace(self, **words)
+        return f"{each.start}{each.before_arc}\n" + _block(each.arc_code, each.arc_end, each.center)
+
+
+def _block(*words: str) -> str:
+    return " ".join(filter(None, words))
+
+
+@dataclass(frozen=True, slots=True)
 class Manual:
     """How a control's rules are told: the start of their codes, its source, the words for an angle, chamfers, a
-    rounding and an arc's radius, its alarms by the end of a rule's code; and right programs for examples: a line by
-    its angle (`angled`), two lines that meet (`vertex`), a corner between two lines (`cut`), and one before an arc
-    (`arc`), each with the words that a wrong one changes."""
+    rounding and an arc's radius, its alarms by the end of a rule's code; and the words of examples."""
 
     prefix: str
     source: Source
@@ -45,17 +102,32 @@ class Manual:
     chamfers: tuple[str, ...]
     rounding: str
     radius: str
-    angled: str
-    vertex: str
-    cut: str
-    arc: str
+    examples: ExampleWords
     alarms: Mapping[str, Alarm] = field(default_factory=dict)
     plane: str = ""
     """What else may help where an axis is outside the plane."""
     sources: Mapping[str, Source] = field(default_factory=dict)
     """Those of single rows, by the end of their code."""
-    equals: str = "="
-    """What stands between a word and its number."""
+
+    @property
+    def angled(self) -> str:
+        """A line by its angle."""
+        return self.examples.angled()
+
+    @property
+    def vertex(self) -> str:
+        """Two lines that meet."""
+        return self.examples.vertex()
+
+    @property
+    def cut(self) -> str:
+        """Two lines with a corner."""
+        return self.examples.cut()
+
+    @property
+    def arc(self) -> str:
+        """A line with a corner before an arc."""
+        return self.examples.arc()
 
     def row(
         self,
@@ -80,10 +152,8 @@ class Manual:
 
 def chain_rules(manual: Manual) -> Iterator[Rule]:
     """The rows that hold for all of them."""
-    row, angle, corners = manual.row, manual.angle, (*manual.chamfers, manual.rounding)
+    row, angle, corners, example = manual.row, manual.angle, (*manual.chamfers, manual.rounding), manual.examples
     cut, arc, angled, vertex = manual.cut, manual.arc, manual.angled, manual.vertex
-    second = cut.rsplit("\n", 1)[1]
-    closing, stated = vertex.rsplit("\n", 1)[1], angled.rsplit(" ", 1)[1]
     yield row(
         "corner-without-next",
         "{words}: a corner needs an element behind it, and none follows",
@@ -91,8 +161,8 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         some(*corners) & some(LAST) & ~some(RAPID),
         ANY,
         cut,
-        ("\n" + second, "\nM30"),
-        ("\n" + second, "\nG0 " + second),
+        example.cut(turn="M30"),
+        example.cut(turn=f"G0 {example.turn}"),
     )
     yield row(
         "corner-rapid",
@@ -101,7 +171,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         some(*corners) & some(RAPID),
         ANY,
         cut,
-        ("G1 ", ""),
+        example.cut(line=""),
     )
     yield row(
         "corner-negative",
@@ -110,7 +180,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         Value(corners, least=Decimal(0)),
         ANY,
         cut,
-        (manual.rounding + manual.equals, f"{manual.rounding}{manual.equals}-"),
+        example.cut(size=f"-{example.size}"),
     )
     yield row(
         "outside-plane",
@@ -119,7 +189,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         some(*BESIDE, "wrong-center"),
         ANY,
         cut,
-        (second, second + " Z-5"),
+        example.cut(turn=f"{example.turn} Z-5"),
     )
     yield row(
         "plane-changes",
@@ -128,7 +198,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         some(OTHER_PLANE),
         ANY,
         cut,
-        ("\n" + second, "\nG18 X40 Z40"),
+        example.cut(turn="G18 X40 Z40"),
     )
     yield row(
         "center-on-line",
@@ -137,7 +207,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         some(*STATED_CENTER, "R") & ~some(CORNER_ALONE),
         LINES,
         cut,
-        (second, second + " I5"),
+        example.cut(turn=f"{example.turn} I5"),
     )
     yield row(
         "center-and-radius",
@@ -146,16 +216,16 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         all_of(STATED_CENTER, "R"),
         (ARC,),
         arc,
-        ("J0", f"J0 {manual.radius}"),
+        example.arc(center=f"{example.center} {example.radius}"),
     )
     yield row(
         "circle-undefined",
         "the arc has neither a centre nor a radius",
-        f"add I, J or K of the plane, or {manual.radius.rstrip('=.0123456789')}; for a line write G1",
+        f"add I, J or K of the plane, or {manual.radius}; for a line write G1",
         ~some(*STATED_CENTER, "R", SMOOTH),
         (ARC,),
         arc,
-        sub(r" I\S+ J0", "", arc),
+        example.arc(center=""),
     )
     yield row(
         "radius-without-end",
@@ -164,7 +234,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         some("R") & ~some(*STATED_POINT),
         (ARC,),
         arc,
-        sub(r"X\S+ Y\S+ I\S+ J0", manual.radius, arc),
+        example.arc(arc_end="", center=example.radius),
     )
     yield row(
         "angle-on-arc",
@@ -173,7 +243,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         some(angle),
         (ARC,),
         arc,
-        ("J0", f"J0 {stated}"),
+        example.arc(center=f"{example.center} {example.angle}{example.degrees}"),
     )
     yield row(
         "end-missing",
@@ -182,7 +252,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         some(angle) & ~some(*STATED_POINT, FOLLOWED),
         (LINE,),
         vertex,
-        ("\n" + closing, "\nM30"),
+        example.vertex(closing_end="M30", closing=""),
     )
     yield row(
         "closing-incomplete",
@@ -192,8 +262,8 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         ~all_of(FIRST, SECOND, angle),
         (OVER_LINE,),
         vertex,
-        ("\n" + closing, "\n" + closing.rpartition(" ")[0]),
-        ("\n" + closing, "\n" + closing.partition(" ")[2]),
+        example.vertex(closing=""),
+        example.vertex(closing_end=example.closing_end.rpartition(" ")[2]),
     )
     yield row(
         "angles-parallel",
@@ -202,12 +272,19 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
         AnglesParallel((f"1:{angle}", f"2:{angle}"), _GUARD),
         (LINE_LINE,),
         vertex,
-        vertex.rpartition(" ")[0] + " " + vertex.partition("\n")[2].partition("\n")[0].split(" ")[1],
+        example.vertex(closing=example.opening),
         is_about_geometry=True,
     )
-    yield row("angle-range", "{words} is more than a turn; it is taken as {within}, the same direction",
-              "write {within} if that is meant", Value((angle,), least=Decimal(-360), most=Decimal(360)), LINES,
-              angled, (stated, f"{angle}{manual.equals}390."), severity=Severity.WARNING)  # fmt: skip
+    yield row(
+        "angle-range",
+        "{words} is more than a turn; it is taken as {within}, the same direction",
+        "write {within} if that is meant",
+        Value((angle,), least=Decimal(-360), most=Decimal(360)),
+        LINES,
+        angled,
+        example.angled(degrees="390."),
+        severity=Severity.WARNING,
+    )
 
 
 def rules_of(

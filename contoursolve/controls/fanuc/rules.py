@@ -18,7 +18,7 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
     THREAD,
 )
-from contoursolve.controls.chain.rules import Manual, chain_rules
+from contoursolve.controls.chain.rules import ExampleWords, Manual, chain_rules
 from contoursolve.controls.fanuc.language import (
     ALONG_ARC,
     COMPENSATION_CHANGES,
@@ -281,13 +281,26 @@ def _shared_rules(machine: _Machine) -> Iterator[Rule]:
         angle=machine.angle,
         chamfers=(",C",),
         rounding=",R",
-        radius="R20.",
-        angled=f"{machine.start}G1 X40. {machine.angle}150.",
-        vertex=_VERTEX,
-        cut=f"{machine.start}G1 {machine.line} ,R5.\n{machine.turn}",
-        arc=_ARC_BEHIND,
+        radius="R",
+        examples=ExampleWords(
+            start=machine.start,
+            angle=machine.angle,
+            corner=",R",
+            end="X40.",
+            degrees="150.",
+            opening="180.",
+            closing="120.",
+            closing_end="X60. Z-47.",
+            before=machine.line,
+            turn=machine.turn,
+            before_arc="G01 X40. ,C6.",
+            arc_end="X60. Y20.",
+            center="I20. J0",
+            radius="R20.",
+            size="5.",
+            arc_code="G02",
+        ),
         sources=sources,
-        equals="",
     )
     arcs = ("center-and-radius", "circle-undefined", "radius-without-end")
     wanted = ("corner-rapid", "corner-negative", *(("angle-range",) if is_lathe else ("plane-changes", *arcs)))

@@ -10,7 +10,7 @@ from contoursolve.controls.chain.language import (
     OTHER_DIAMETER,
     OVER_LINE,
 )
-from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, rules_of
+from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, ExampleWords, Manual, rules_of
 from contoursolve.controls.isg.language import NO_SIZE
 from contoursolve.controls.isg.lexicon import BOOK
 from contoursolve.diagnostics import Alarm, Evidence
@@ -34,11 +34,8 @@ MANUAL = Manual(
     angle="#ANG",
     chamfers=("#CHR", "#CHF"),
     rounding="#RND",
-    radius="R20",
-    angled=_START + "G1 X40 #ANG=30",
-    vertex=_START + "G1 #ANG=70\nX80 Y25 #ANG=-30",
-    cut=_START + "G1 X30 #RND=5\nX40 Y40",
-    arc=_START + "G1 X40 #RND=6\nG2 X60 Y20 I20 J0",
+    radius="R",
+    examples=ExampleWords(angle="#ANG=", corner="#RND=", radius="R20", before_arc="G1 X40 #RND=6"),
     alarms={
         code: Alarm(number, Evidence.ASSUMED if code == "corner-both" else Evidence.PRINTED)
         for code, number in _IDS.items()

@@ -14,7 +14,7 @@ from contoursolve.controls.chain.language import (
     SMOOTH,
     STATED_CENTER,
 )
-from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, Manual, rules_of
+from contoursolve.controls.chain.rules import ANY, FIRST, SECOND, STEPS, ExampleWords, Manual, rules_of
 from contoursolve.controls.siemens.language import ALONG_ARC, NO_STEPS, STRICT_ANGLE
 from contoursolve.controls.siemens.lexicon import BOOK
 from contoursolve.diagnostics import Alarm, Evidence, Severity
@@ -37,11 +37,8 @@ MANUAL = Manual(
     angle="ANG",
     chamfers=("CHR", "CHF"),
     rounding="RND",
-    radius="CR=20",
-    angled=_START + "G1 X40 ANG=30",
-    vertex=_START + "G1 ANG=70\nX80 Y25 ANG=-30",
-    cut=_START + "G1 X30 RND=5\nX40 Y40",
-    arc=_START + "G1 X40 RND=6\nG2 X60 Y20 I20 J0",
+    radius="CR",
+    examples=ExampleWords(angle="ANG=", corner="RND=", radius="CR=20", before_arc="G1 X40 RND=6"),
     plane="; for a lathe, set siemens-840d.machine=lathe",
     alarms={code: Alarm(number, Evidence.ASSUMED) for code, number in _ALARMS.items()}
     | {"radius-difference": Alarm("14040 (error in the end point of a circle)", Evidence.PRINTED)},
