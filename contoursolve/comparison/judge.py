@@ -168,8 +168,8 @@ def _unknowns(figure: Any) -> tuple[str, ...]:
 def _unreadable(claim: ParsedContour) -> Iterator[str]:
     """Reasons why words have no meaning, whatever the rules are: characters, words, numbers beyond all travel, idle
     questions."""
-    names = {*claim.form.choices, *(row.fact.given for row in claim.form.facts)}
-    names |= {name for row in claim.form.corners for name in row.shapes}
+    outline = claim.form.outline
+    names = {*claim.form.choices, *outline.shapes, *(row.fact.given for row in outline.facts)}
     askable = [word for name, word in claim.words.items() if name in names]
     faults = (fault for block in claim.blocks for fault in block.faults)
     texts = [fault.text for fault in faults if fault.kind is not FaultKind.COMMENT_NOT_CLOSED]
