@@ -300,3 +300,14 @@ def test_what_a_package_and_the_page_of_the_house_say_to_begin_with_is_there():
         for file in re.findall(r"`(\w+\.py)`", files):
             lost += [] if any((folder / file).exists() for folder in folders) else [f"{rooms_of_row}: {file}"]
     assert lost == []
+
+
+def test_one_builder_makes_parsed_contours():
+    """Of all controls: what their readers share is written once."""
+    made = [
+        module.relative_to(HOUSE).as_posix()
+        for module in MODULES
+        for node in ast.walk(ast.parse(module.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "ParsedContour"
+    ]
+    assert made == ["reading/contour_builder.py"]
