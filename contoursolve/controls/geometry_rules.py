@@ -249,3 +249,8 @@ def told(
     accepted = (good,) if isinstance(good, str) else good
     rejected = tuple(each if isinstance(each, str) else accepted[0].replace(*each) for each in bad)
     return replace(_GENERAL[about], code=code, accepted=accepted, rejected=rejected, **otherwise)
+
+
+def told_by(prefix: str, about: Enum, good: str, *bad: str | tuple[str, str], **otherwise: Unpack[Otherwise]) -> Rule:
+    """The same for a control whose codes begin with a prefix."""
+    return told(f"{prefix}-{_GENERAL[about].code}", about, good, *bad, **otherwise)

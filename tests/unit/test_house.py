@@ -1,9 +1,11 @@
 """The floors of the house: a room imports only from lower floors; some imports are for some rooms only."""
 
 import ast
+import io
 import re
 import subprocess
 import sys
+import tokenize
 from collections import Counter
 from collections.abc import Iterator
 from functools import cache
@@ -311,3 +313,38 @@ def test_one_builder_makes_parsed_contours():
         if isinstance(node, ast.Call) and ast.unparse(node.func) == "ParsedContour"
     ]
     assert made == ["reading/contour_builder.py"]
+
+
+MOST_EQUAL_LINES = 12
+
+
+_NO_CODE = (tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER)
+
+
+def code_lines(module: Path) -> list[str]:
+    """The lines of code of a module, as their tokens: without comments, docstrings, imports, and brackets alone."""
+    text = module.read_text(encoding="utf-8")
+    left_out = set[int]()
+    for node in ast.walk(ast.parse(text)):
+        is_text = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+        if is_text or isinstance(node, ast.Import | ast.ImportFrom):
+            left_out |= {*range(node.lineno, (node.end_lineno or node.lineno) + 1)}
+    lines: dict[int, list[tokenize.TokenInfo]] = {}
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type not in _NO_CODE:
+            lines.setdefault(token.start[0], []).append(token)
+    return [
+        " ".join(token.string for token in tokens)
+        for number, tokens in lines.items()
+        if number not in left_out and any(token.type != tokenize.OP for token in tokens)
+    ]
+
+
+def test_no_two_places_share_more_than_twelve_equal_lines():
+    places: dict[tuple[str, ...], list[str]] = {}
+    for module in MODULES:
+        lines = code_lines(module)
+        for first in range(len(lines) - MOST_EQUAL_LINES):
+            run = tuple(lines[first : first + MOST_EQUAL_LINES + 1])
+            places.setdefault(run, []).append(module.relative_to(HOUSE).as_posix())
+    assert {run[0]: found for run, found in places.items() if len(found) > 1} == {}

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
+from typing import Any
 
 from contoursolve.controls.chain.language import (
     ARC,
@@ -19,7 +20,8 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
 )
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told_by
+from contoursolve.controls.rule_rows import rule_row
 from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
 from contoursolve.gcode import FaultKind
 from contoursolve.reading import AnglesParallel, Condition, Rule, Value, all_of, some
@@ -139,15 +141,12 @@ class Manual:
         good: str,
         *bad: tuple[str, str] | str,
         evidence: Evidence = Evidence.ASSUMED,
-        **more: object,
+        **more: Any,
     ) -> Rule:
         """A row; what is wrong is a program, or two texts of which the second stands for the first in the right one."""
-        rejected = tuple(each if isinstance(each, str) else good.replace(*each) for each in bad)
         source = self.sources.get(code, Source(self.source.manual, self.source.place, evidence))
-        return Rule(
-            f"{self.prefix}-{code}", message, help_, source, (good,), rejected,
-            roles=roles, when=when, alarm=self.alarms.get(code), **more,  # type: ignore[arg-type]
-        )  # fmt: skip
+        alarm = self.alarms.get(code)
+        return rule_row(self.prefix, code, message, help_, source, when, roles, good, *bad, alarm=alarm, **more)
 
 
 def chain_rules(manual: Manual) -> Iterator[Rule]:
@@ -298,15 +297,8 @@ def rules_of(
     `told` are right and wrong examples of its own for some of the latter, `helps` what to do about characters that
     cannot be read, with a wrong example.
     """
-    rows = {rule.about: rule for rule in (*GEOMETRY_RULES, *COMMON_RULES)}
     geometry = (
-        replace(
-            rows[about],
-            code=f"{manual.prefix}-{rows[about].code}",
-            alarm=manual.alarms.get(rows[about].code),
-            accepted=(good,),
-            rejected=(bad,),
-        )
+        told_by(manual.prefix, about, good, bad, alarm=manual.alarms.get(about.value))
         for about, (good, bad) in told.items()
     )
     return (*_common(manual, helps or {}), *chain_rules(manual), *own, *geometry, *GEOMETRY_RULES)

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from decimal import Decimal
-from functools import reduce
+from functools import partial, reduce
 from operator import or_
 
 from contoursolve.controls.common import COMMON_RULES
@@ -32,7 +32,8 @@ from contoursolve.controls.heidenhain.find import (
     TWO_BLOCKS,
 )
 from contoursolve.controls.heidenhain.lexicon import BOOK, CHAMFER, REFERRED, REFERRING, REFERRING_TO_LINES, ROUNDING
-from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
+from contoursolve.controls.rule_rows import rule_row
+from contoursolve.diagnostics import Alarm, Evidence, Severity
 from contoursolve.gcode import FaultKind
 from contoursolve.reading import Condition, ReadIssue, Rule, Value, all_of, some
 from contoursolve.solving import NoteKind, RefusalKind
@@ -65,26 +66,7 @@ _CHOSEN = START + "2 FL LEN40 P1X+30 P1Y+10\n3 FSELECT 1\n4 FL X+80 Y+20"
 _TOOL = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S100\n2 L X+0 Y+0\n" + "3 FL AN+60\n4 FL X+80 Y+20 AN-30"
 
 
-def _row(  # noqa: PLR0913 - a row has these columns
-    code: str,
-    message: str,
-    help_: str,
-    source: Source,
-    when: Condition,
-    roles: tuple[str, ...],
-    good: str,
-    *bad: tuple[str, str],
-    alarm: Alarm | None = None,
-    severity: Severity = Severity.ERROR,
-) -> Rule:
-    """A row; what is wrong are two texts, of which the second stands for the first in the right example."""
-    rejected = tuple(good.replace(*each) for each in bad)
-    return Rule(
-        f"heidenhain-{code}", message, help_, source, (good,), rejected,
-        roles=roles, when=when, alarm=alarm, severity=severity,
-    )  # fmt: skip
-
-
+_row = partial(rule_row, "heidenhain")
 _CORNERS = BOOK.derived("RND and CHF stand between two elements")
 _PRINTED_REFERENCE = BOOK.printed("data relative to a block")
 _LEAST = Decimal("0.001")

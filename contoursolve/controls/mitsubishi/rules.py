@@ -1,7 +1,7 @@
 """Mitsubishi: which words may be combined, and what has no solution. Alarm numbers but P33 are recalled."""
 
-from dataclasses import replace
 from decimal import Decimal
+from functools import partial
 
 from contoursolve.controls.chain.language import (
     ARC,
@@ -21,7 +21,7 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
 )
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told_by
 from contoursolve.controls.mitsubishi.language import (
     ALONG_ARC,
     FROM_END,
@@ -34,8 +34,9 @@ from contoursolve.controls.mitsubishi.language import (
     UNGUARDED,
 )
 from contoursolve.controls.mitsubishi.lexicon import BOOK
-from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
-from contoursolve.reading import AnglesParallel, Condition, Rule, Value, all_of, some
+from contoursolve.controls.rule_rows import rule_row
+from contoursolve.diagnostics import Alarm, Evidence, Severity
+from contoursolve.reading import AnglesParallel, Value, all_of, some
 from contoursolve.solving import RefusalKind
 
 _BESIDE = tuple(f"beside-{axis}" for axis in "XYZ")
@@ -46,7 +47,6 @@ _ANY = (*_LINES, *_ARCS)
 _CORNER, _FIRST, _SECOND = (",C", ",R"), ("first", "first-step"), ("second", "second-step")
 _BOOK = BOOK.printed("linear angle command, p. 375")
 
-_FORMAT = "P395 (address or format)"
 
 _MILL = "G17 G90 G00 X0 Y0\n"
 _CUT = _MILL + "G01 X30. ,C5.\nX40. Y40."
@@ -64,25 +64,8 @@ def _alarm(number: str) -> Alarm:
     return Alarm(number, Evidence.PRINTED if number.startswith("P33 ") else Evidence.ASSUMED)
 
 
-def _row(
-    code: str,
-    message: str,
-    help_: str,
-    source: Source,
-    when: Condition,
-    roles: tuple[str, ...],
-    good: str,
-    *bad: tuple[str, str] | str,
-    alarm: str = "",
-    **more: object,
-) -> Rule:
-    """A row; what is wrong is a program, or two texts of which the second stands for the first in the right one."""
-    rejected = tuple(each if isinstance(each, str) else good.replace(*each) for each in bad)
-    return Rule(
-        f"mitsubishi-{code}", message, help_, source, (good,), rejected,
-        roles=roles, when=when, alarm=_alarm(alarm) if alarm else None, **more,  # type: ignore[arg-type]
-    )  # fmt: skip
-
+_row = partial(rule_row, "mitsubishi")
+_FORMAT = _alarm("P395 (address or format)")
 
 _ROWS = (
     _row("two-corners", "{words}: a block takes ,C or ,R, not both", "keep one of them",
@@ -107,7 +90,7 @@ _ROWS = (
          _CUT, ("X40. Y40.", "G02 X40. Y10. K10."), ("X30.", "X30. Z-5.")),
     _row("plane-changes", "the plane changes inside the contour", "select the plane before its first block",
          BOOK.assumed("one plane"), some(OTHER_PLANE), _ANY, _CUT, ("X40. Y40.", "G18 X40. Z40."),
-         alarm="P396 (plane changed)"),
+         alarm=_alarm("P396 (plane changed)")),
     _row("center-on-line", "{words}: a line has no centre and no radius", "delete it; a rounding is ,R",
          BOOK.derived("lines and arcs"), some(*STATED_CENTER, "R"), _LINES, _CUT, ("Y40.", "Y40. R5.")),
     _row("angle-ignored", "{words} is ignored, because both coordinates are there{comparison}",
@@ -121,7 +104,7 @@ _ROWS = (
          "write G01, or delete {words}", _BOOK, some("A"), _ARCS, _TOUCHING, ("R30.", "R30. A20.")),
     _row("high-speed", "{words}: in high-speed machining the control takes no angle",
          "end that mode before, with G05 P0", BOOK.printed("p. 375"), some(HIGH_SPEED) & some("A"), _LINES,
-         _ANGLED, ("G01", "G05 P2\nG01"), alarm="P33 (angle in high-speed machining)"),
+         _ANGLED, ("G01", "G05 P2\nG01"), alarm=_alarm("P33 (angle in high-speed machining)")),
     _row("angle-range", "{words} is more than a turn; it is taken as {within}, the same direction",
          "write {within} if that is meant", _BOOK, Value(("A",), least=Decimal(-360), most=Decimal(360)), _LINES,
          _ANGLED, ("A30.", "A390."), severity=Severity.WARNING),
@@ -131,12 +114,12 @@ _ROWS = (
          _VERTEX, ("\nX80.", "\nM8\nX80."), alarm=_FORMAT),
     _row("second-rapid", "the block before has no end, so this block must cut, and G00 does not", "write G01",
          BOOK.assumed("p. 377"), some(RAPID), (OVER_LINE,), _VERTEX, ("\nX80.", "\nG00 X80."),
-         alarm="P394 (the second block is not linear)", note="without the option Geometric the alarm is P390"),
+         alarm=_alarm("P394 (the second block is not linear)"), note="without the option Geometric the alarm is P390"),
     _row("second-incremental",
          "{words}: the block before has no end, so this block must give its own in absolute coordinates",
          "write it with G90",
          BOOK.printed("p. 377: absolute position"), some("first", "second") & some(INCREMENTAL),
-         (OVER_LINE, OVER_CIRCLE), _VERTEX, ("\n", "\nG91 "), alarm="P393 (the second block is incremental)"),
+         (OVER_LINE, OVER_CIRCLE), _VERTEX, ("\n", "\nG91 "), alarm=_alarm("P393 (the second block is incremental)")),
     _row("second-line-incomplete", "the block before has no end, so this line needs {lacking}, too", "add {lacking}",
          BOOK.printed("p. 377 and 379"), ~all_of("first", "second", "A") & ~some(RAPID), (OVER_LINE,),
          _VERTEX, (" A-30.", ""), ("X80. ", ""), alarm=_FORMAT),
@@ -183,7 +166,8 @@ _ROWS = (
     _row("angles-parallel", "{words}: the two lines are parallel to less than 1 deg, so the control computes no vertex",
          "correct one of the angles",
          BOOK.assumed("alarm P392"), AnglesParallel(("1:A", "2:A"), _GUARD) & ~some("1:" + UNGUARDED), (LINE_LINE,),
-         _VERTEX, ("A-30.", "A70.5"), ("A-30.", "A250."), alarm="P392 (angle less than 1 deg)", is_about_geometry=True),
+         _VERTEX, ("A-30.", "A70.5"), ("A-30.", "A250."), alarm=_alarm("P392 (angle less than 1 deg)"),
+         is_about_geometry=True),
     _row("h-value", "H is neither 0 nor 1", "choose: H0 is the shorter line, H1 the longer one",
          BOOK.printed("p. 378"), some(PICKS_NOTHING), _ARCS, _CROSSING, ("H0", "H2"), alarm=_FORMAT),
     _row("h-missing", "H is missing: the line crosses the circle twice",
@@ -194,28 +178,12 @@ _ROWS = (
 )  # fmt: skip
 
 
-def _geometry() -> tuple[Rule, ...]:
-    """The rows about geometry with this control's alarm and with examples of its own."""
-    rows = {rule.about: rule for rule in (*GEOMETRY_RULES, *COMMON_RULES)}
-    missed = "P397 (no crossing or contact)"
-    told = {
-        RefusalKind.CIRCLE_MISSED: (_CROSSING, _CROSSING.replace("A10.", "A80."), missed),
-        RefusalKind.NO_POINT: (_TOUCHING, _TOUCHING.replace("R30.", "R3."), missed),
-        RefusalKind.RADIUS_DIFFERENCE: (_ARC, _ARC.replace("I20.", "I18."), ""),
-        RefusalKind.CORNER_TOO_LARGE: (_CUT, _CUT.replace(",C5.", ",C31."), ""),
-    }
-    return tuple(
-        replace(
-            rows[about],
-            code=f"mitsubishi-{rows[about].code}",
-            alarm=_alarm(alarm) if alarm else None,
-            accepted=(good,),
-            rejected=(bad,),
-        )
-        for about, (good, bad, alarm) in told.items()
-    )
-
-
-_OWN = _geometry()
+_MISSED = _alarm("P397 (no crossing or contact)")
+_OWN = (
+    told_by("mitsubishi", RefusalKind.CIRCLE_MISSED, _CROSSING, ("A10.", "A80."), alarm=_MISSED),
+    told_by("mitsubishi", RefusalKind.NO_POINT, _TOUCHING, ("R30.", "R3."), alarm=_MISSED),
+    told_by("mitsubishi", RefusalKind.RADIUS_DIFFERENCE, _ARC, ("I20.", "I18.")),
+    told_by("mitsubishi", RefusalKind.CORNER_TOO_LARGE, _CUT, (",C5.", ",C31.")),
+)
 _COMMON = tuple(rule for rule in COMMON_RULES if rule.about is not RefusalKind.NO_POINT)
 RULES = (*_COMMON, *_ROWS, *_OWN, *GEOMETRY_RULES)
