@@ -1,4 +1,5 @@
-"""What holds for every control: the rows of the catalogue about characters, words, positions, geometry; settings."""
+"""The common ground of all controls: the rows of the catalogue about characters, words, positions, geometry;
+settings."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -39,7 +40,7 @@ def setting(
 
 
 def number_setting(values: Mapping[str, str], source: Source) -> Setting:
-    """What numbers without a point are, `increment` or `calculator`; the first of them is in force."""
+    """The setting of numbers without a point, `increment` or `calculator`; the first of them is in force."""
     changes = {"increment": _reading(WithoutPoint.LEAST_INCREMENTS), "calculator": _reading(WithoutPoint.AS_WRITTEN)}
     return setting("number", "what a number without a decimal point means", values, source, changes)
 
@@ -56,7 +57,7 @@ def _reading(meant: WithoutPoint) -> Callable[[Dialect], Dialect]:
 
 
 def first_motion_setting(source: Source) -> Setting:
-    """Which motion is in force before the program states one; its samples rely on G1."""
+    """The setting of the motion that is in force before the program states one; its samples rely on G1."""
     return setting(
         "first-motion",
         "which motion is in force before the program states one",
@@ -67,7 +68,7 @@ def first_motion_setting(source: Source) -> Setting:
 
 
 def angle_sense_setting(source: Source, name: str = "angle-sense", line: str = "a line") -> Setting:
-    """Whether lines must run as their angles say."""
+    """The setting that lets lines run against their angles, or not."""
     return setting(
         name,
         f"whether {line} may run against its angle",
@@ -80,7 +81,7 @@ def angle_sense_setting(source: Source, name: str = "angle-sense", line: str = "
 
 
 def arc_chamfer_setting(what: str, source: Source, corner: str = "corner") -> Setting:
-    """How the size of a chamfer is measured on an arc."""
+    """The setting of how the size of a chamfer is measured on an arc."""
     values = {
         "chord": f"straight from the {corner}",
         "arc_length": "along the arc; contoursolve does not compute this",

@@ -1,5 +1,5 @@
-"""What controls have beside the words that draw contours, as tables: further axes, feeds, speeds, tools, and codes that
-are known by name alone."""
+"""The words and codes of controls beside those that draw contours, as tables: further axes, feeds, speeds, tools, and
+codes that are known by name alone."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace

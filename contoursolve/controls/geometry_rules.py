@@ -226,7 +226,7 @@ GEOMETRY_RULES = (
 
 
 class Otherwise(TypedDict, total=False):
-    """What a control may say otherwise, or besides."""
+    """The fields that a control may state otherwise, or besides."""
 
     message: str
     help: str

@@ -27,7 +27,7 @@ LINUXCNC_MANUAL = Source("LinuxCNC User Manual", "G-codes; lathe user informatio
 
 
 class Centers(Enum):
-    """What I J K of an arc are counted from."""
+    """The point from which I J K of an arc are counted."""
 
     START = "where the arc begins"
     ORIGIN = "the origin"
@@ -94,14 +94,14 @@ def coming_back(code: Code) -> Code:
 
 
 _OF_COORDINATES = ("machine coordinates", "no offset")
-"""What codes mean that are about the coordinates of their block."""
+"""The codes about the coordinates of their block, and what they mean."""
 
 
 MOTIONS = {0: "positioning", 1: "line", 2: "arc clockwise", 3: "arc counter-clockwise"}
 ABSOLUTE_CODES = {Effect.ABSOLUTE: {90: "absolute coordinates"}, Effect.INCREMENTAL: {91: "incremental coordinates"}}
 _COMPENSATION = {40: "no compensation", 41: "compensation left", 42: "compensation right"}
 BASIC_CODES: dict[Effect, dict[int, str]] = {**ABSOLUTE_CODES, Effect.COMPENSATION: _COMPENSATION}
-"""What every control has that has G90 and G91, its motions aside."""
+"""The codes of every control that has G90 and G91, its motions aside."""
 _EVERYWHERE: dict[Effect, dict[int, str]] = {
     Effect.MOTION: MOTIONS,
     Effect.NO_MOTION: {4: "dwell", 10: "data setting"},

@@ -34,7 +34,7 @@ _VERDICTS: dict[str, Determinacy] = {}
 
 
 def _verdict(system: System) -> Determinacy:
-    """What sympy says today, each system once."""
+    """The verdict of sympy today, each system once."""
     if system.equations_key not in _VERDICTS:
         _VERDICTS[system.equations_key] = derive(system)
     return _VERDICTS[system.equations_key]

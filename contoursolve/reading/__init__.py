@@ -1,4 +1,4 @@
-"""What the words of a control mean: its lexicon, its modal state, its contour forms, its rules.
+"""The meaning of a control's words: its lexicon, its modal state, its contour forms, its rules.
 
 Blocks come in, the modal state and parsed contours go out. Begin with `dialect`, which lists what a control is.
 """

@@ -44,7 +44,8 @@ class Setting:
     source: Source
     bounds: tuple[Decimal, Decimal] | None = None
     changes: Mapping[str, Callable[[Any], Any]] = field(default_factory=dict)
-    """Where a value is about more than its contours: from the control to the control with it, by the value."""
+    """The changes of values that are about more than its contours: from the control to the control with it, by the
+    value."""
     unit: str = "mm"
     """Of a number: `mm` or `blocks`."""
     names: Callable[[Any, tuple[str, ...]], Any] | None = None
@@ -57,7 +58,7 @@ class Setting:
         return self.changes[value](control) if value in self.changes else control
 
     def choices(self, value: str) -> str:
-        """What it can be, if it cannot have this value; else empty."""
+        """The values that it can have, if it cannot have this one; else empty."""
         if self.names is not None:
             is_one = value == self.default or _NAMES.fullmatch(value) is not None
             return "" if is_one else f"it is {self.default}, or names with commas between them, such as CLAMP,V9"
@@ -73,7 +74,7 @@ class Setting:
         )
 
     def meaning_of(self, value: str) -> str:
-        """What a value means."""
+        """The meaning of a value."""
         if value in self.values and self.bounds is None:
             return self.values[value]
         return f"{self.meaning}: {value}{'' if self.names else f' {self.unit}'}"
@@ -93,12 +94,12 @@ class Convention:
 
     @property
     def meaning(self) -> str:
-        """What the value means."""
+        """The meaning of the value."""
         return self.setting.meaning_of(self.value)
 
     @property
     def evidence(self) -> Evidence:
-        """How well it is known that the control means this: of another value than the default one, not at all."""
+        """The grade of the knowledge that the control means this: of another value than the default one, not at all."""
         return self.setting.source.evidence if self.value == self.setting.default else Evidence.ASSUMED
 
 
@@ -108,7 +109,7 @@ AT_ITS_LIMIT = "@at its limit"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Assumption:
-    """What a control is taken to accept, or to mean, although no page that we have says so.
+    """A thing that a control is taken to accept, or to mean, although no page that we have says so.
 
     `meaning` is half a sentence without a full stop. A contour rests on it where `when` holds for what the blocks of
     one of its `roles` state: values and circumstances by name, and in a form of one block every address.
@@ -130,8 +131,8 @@ class Assumption:
 
 
 class Premises(Struct, frozen=True, eq=False):
-    """What contours rest on beside their words: settings with the values that were used, and what the control is taken
-    to accept. `control` is the one whose settings these are, empty where it is told elsewhere."""
+    """The ground on which contours rest beside their words: settings with the values that were used, and what the
+    control is taken to accept. `control` is the one whose settings these are, empty where it is told elsewhere."""
 
     conventions: tuple[Convention, ...] = ()
     assumptions: tuple[Assumption, ...] = ()
@@ -139,7 +140,7 @@ class Premises(Struct, frozen=True, eq=False):
 
 
 def all_resting(several: Iterable[Premises], control: str) -> Premises:
-    """What several contours of a control rest on, each once."""
+    """The premises of several contours of a control, each once."""
     every = tuple(several)
     return Premises(
         tuple({(each.setting.name, each.value): each for one in every for each in one.conventions}.values()),
@@ -252,7 +253,7 @@ class ContourForm:
     choices: tuple[str, ...] = ()
     """Givens whose sign alone chooses between two solutions."""
     meanings: Mapping[str, str] = field(default_factory=dict)
-    """What a given means in this form, where its address does not say it."""
+    """The meaning of a given in this form, where its address does not say it."""
     is_literal: bool = False
     """Whether each word states one value, whatever the values are."""
     is_contour: bool = True
@@ -260,9 +261,9 @@ class ContourForm:
     needs_values: bool = True
     """Whether what is no contour is checked by its values, so that its start point must be known."""
     corner_note: str = ""
-    """What the control does at each corner that it inserts, half a sentence without a full stop."""
+    """The action of the control at each corner that it inserts, half a sentence without a full stop."""
     assumptions: tuple[Assumption, ...] = ()
-    """What its blocks may rest on."""
+    """The assumptions on which its blocks may rest."""
     is_general: bool = False
     """Whether its facts may be of any kind, and no rule tells which of them make a contour."""
     free: FreeFactWords = field(default_factory=FreeFactWords)

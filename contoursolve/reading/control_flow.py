@@ -193,7 +193,7 @@ class _Moving:
 
     @property
     def place(self) -> int:
-        """How far it has come in those that are new."""
+        """The place that it has reached in those that are new."""
         return self.index - self._before
 
 
@@ -232,7 +232,7 @@ def _key(block: Block) -> object:
 
 
 def _meet(one: ControlFlowPath, other: ControlFlowPath, reason: str, modes: Modes) -> ControlFlowPath:
-    """What two ways have in common."""
+    """The common part of two ways."""
     if one.state is other.state:
         return one
     ours, theirs, why = one.state, other.state, f"; {reason}" if reason else ""
@@ -275,7 +275,7 @@ def _meet(one: ControlFlowPath, other: ControlFlowPath, reason: str, modes: Mode
 
 
 def _meet_positions(one: Position, other: Position, why: str) -> Position:
-    """Where an axis is on two ways."""
+    """The place of an axis on two ways."""
     if one is other:
         return one
     first, second = one.value, other.value
@@ -294,7 +294,7 @@ def _on_line(line: int) -> str:
 
 
 def _text(mode: Mode, state: State, modes: Modes) -> str:
-    """What is in force, in words."""
+    """The modes in force, in words."""
     match mode:
         case Mode.MOTION:
             code = modes.codes.get(state.motion) if state.motion is not None else None
@@ -312,7 +312,7 @@ def _text(mode: Mode, state: State, modes: Modes) -> str:
 
 
 def _said(word: Any) -> object:
-    """What a word that stays in force says, wherever it stands."""
+    """The text of a word that stays in force, wherever it stands."""
     return None if word is None else (word.address, word.number, None if word.number is not None else word.text.strip())
 
 
@@ -326,7 +326,7 @@ def _are_same(ways: Sequence[ControlFlowPath], others: Sequence[ControlFlowPath]
 
 
 def _known(way: ControlFlowPath) -> object:
-    """What is known on a way."""
+    """The knowledge on a way."""
     state = way.state
     places = {axis: None if at.value is None else round(at.value, 9) for axis, at in state.axes.items()}
     entered = tuple(_known(ControlFlowPath(each)) for each in way.entered)

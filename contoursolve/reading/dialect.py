@@ -1,4 +1,4 @@
-"""What a control is: a record of tables, and how its contours are found among the blocks."""
+"""A control: a record of tables, and how its contours are found among the blocks."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -39,7 +39,7 @@ class Behind(Struct, frozen=True):
     contour: ParsedContour | None = None
     """The contour that the block would be then; of one without a path it is not said that it is meant."""
     advice: str = ""
-    """What the meant block is, where it is no contour."""
+    """The nature of the meant block, where it is no contour."""
 
 
 class Taken(Struct, frozen=True):
@@ -85,25 +85,25 @@ class Dialect:
     rare: frozenset[str] = frozenset()
     """Words that it has, too, but by which another control is known."""
     contours: str = ""
-    """What shows a contour block, for a reader."""
+    """The signs of a contour block, for a reader."""
     settings: tuple[Setting, ...] = ()
     """Conventions on which the manual is silent."""
     diameter: Diameter | None = None
-    """Which words of X are diameters at first, where codes switch that."""
+    """The words of X that are diameters at first, where codes switch that."""
     motion: int | None = None
     """The motion that is in force before the program states one."""
     has_runs: bool = True
     """Whether a contour may be several blocks in a row."""
     follow: Follower | None = None
-    """What is wrong with the block behind a contour, though it is no part of it."""
+    """Finds what is wrong with the block behind a contour, though it is no part of it."""
     writing: Writing | None = None
-    """How its programs are written, where it is not programmed in G codes."""
+    """The writing of its programs, where it is not programmed in G codes."""
     taken: "tuple[Taken, ...]" = ()
-    """What was concluded from the program at hand, where that does not say it."""
+    """The things that were concluded from the program at hand, where that does not say it."""
 
     @property
     def assumptions(self) -> tuple[Assumption, ...]:
-        """What it is taken to accept, in any of its forms."""
+        """The things that it is taken to accept, in any of its forms."""
         return tuple(dict.fromkeys(each for form in self.forms for each in form.assumptions))
 
     def configure(self, values: Mapping[str, str]) -> "Dialect":

@@ -19,7 +19,7 @@ Finder = Callable[[Sequence[Block], int, State, Modes], ParsedContour | None]
 """(blocks, index, state before the block, modes) to the contour that begins at this block, if any."""
 
 End = tuple[float, float] | None
-"""Where a contour ends, mm, if that is known."""
+"""The end of a contour, mm, if that is known."""
 
 
 def contours_of(

@@ -11,7 +11,7 @@ from contoursolve.geometry import Given, Length, Plane, Unit
 
 
 class Effect(Enum):
-    """What a G code does, as far as contours are concerned."""
+    """The effect of a G code, as far as contours are concerned."""
 
     NONE = "none"
     """Changes nothing that matters here; axis words in its block are a motion as always."""
@@ -43,7 +43,7 @@ class Effect(Enum):
 
 
 class Diameter(Enum):
-    """Which words of X are diameters, where codes switch that."""
+    """The words of X that are diameters, where codes switch that."""
 
     OFF = "none"
     ON = "all"
@@ -73,7 +73,7 @@ class Code:
 
     @property
     def text(self) -> str:
-        """How it is written."""
+        """The text that is written."""
         return self.name or f"G{self.number:02}"
 
 
@@ -103,7 +103,7 @@ class Address:
 
 
 class Bearing(Enum):
-    """What a word that draws no contour has to do with the path."""
+    """The bearing on the path of a word that draws no contour."""
 
     NONE = "none"
     """Nothing: a feed, a speed, a tool."""
@@ -135,7 +135,7 @@ _HALF, _ONE = Decimal("0.5"), Decimal(1)
 
 
 class WithoutPoint(Enum):
-    """What a number without a decimal point means."""
+    """The meaning of a number without a decimal point."""
 
     LEAST_INCREMENTS = "least increments"
     AS_WRITTEN = "as written"
@@ -171,8 +171,8 @@ class Lexicon:
     rows: dict[str, Beside | None] = field(default_factory=dict, init=False, repr=False, compare=False)
     """The rows of those, as far as they were asked for, by address."""
     factors: dict[tuple[str, bool, bool], Decimal] = field(default_factory=dict, init=False, repr=False, compare=False)
-    """What numbers are multiplied by, as far as that was asked for, by address, whether they have a point, and whether
-    they are in inches."""
+    """The factors of numbers, as far as that was asked for, by address, whether they have a point, and whether they are
+    in inches."""
     others: dict[tuple[bool, bool, bool], "Lexicon"] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
@@ -209,7 +209,7 @@ class Lexicon:
         return row is not None and row.bearing in (Bearing.NONE, Bearing.AXIS)
 
     def bearing(self, address: str) -> Bearing | None:
-        """What a word that draws no contour has to do with the path; None if the control has no such word."""
+        """The bearing on the path of a word that draws no contour; None if the control has no such word."""
         row = self.row_beside(address)
         return row.bearing if row else None
 

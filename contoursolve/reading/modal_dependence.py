@@ -1,4 +1,4 @@
-"""What a block says besides its contour, and which blocks behind it rely on the motion in force."""
+"""The words of a block besides its contour, and the blocks behind it that rely on the motion in force."""
 
 import re
 from collections.abc import Iterable
@@ -10,7 +10,7 @@ from contoursolve.reading.lexicon import Code, Effect
 from contoursolve.reading.modal_state import Modes, codes_of
 
 MOTIONS = (Effect.MOTION, Effect.CYCLE, Effect.CANCEL)
-"""What puts another motion in force."""
+"""The effects that put another motion in force."""
 
 STANDING_ALONE = (0, 1)
 """Motions whose code may stand in a block of its own; an arc without words is an error on some controls."""
@@ -27,7 +27,7 @@ motion between them ends that."""
 
 
 class Reliance(Enum):
-    """What a block has to do with the motion that is in force before it."""
+    """The part in a block of the motion that is in force before it."""
 
     NONE = "none"
     ENDS = "ends"
@@ -39,7 +39,7 @@ class Reliance(Enum):
 
 
 def reliance(block: Block, modes: Modes) -> Reliance:
-    """What a block has to do with the motion that is in force before it."""
+    """The part in a block of the motion that is in force before it."""
     codes = codes_of(block, modes)
     known = [code for code in codes if isinstance(code, Code)]
     if any(code.effect in MOTIONS for code in known):
@@ -63,8 +63,8 @@ def reliance(block: Block, modes: Modes) -> Reliance:
 
 
 def why_unmet(motion: int | None, blocks: Iterable[Block], modes: Modes) -> str:
-    """Why a motion that has been ended is missed by the blocks behind, of which no more are read than needed; empty
-    if it can be said again for the one that relies on it."""
+    """The reason why a motion that has been ended is missed by the blocks behind, of which no more are read than
+    needed; empty if it can be said again for the one that relies on it."""
     code = modes.codes.get(motion) if motion is not None else None
     is_free = code is not None and (code.effect is Effect.MOTION or code.number in _MODAL_CORNERS)
     for block in blocks:
@@ -100,7 +100,7 @@ _AFTER_MOTION = frozenset({0, 1, 2, 5, 9, 30, 60, 98, 99})
 
 
 class Frame(NamedTuple):
-    """What stands around the words of a block: what is for a tape reader, blanks before the words, the block skip, and
+    """The frame around the words of a block: what is for a tape reader, blanks before the words, the block skip, and
     what is for a tape reader behind them."""
 
     before: str = ""
@@ -110,8 +110,8 @@ class Frame(NamedTuple):
 
 
 class Carried(NamedTuple):
-    """What a block says besides its contour, as it is written: its numbers and G codes, words for the first and for
-    the last line in its place, and the G codes and words among them (`kept`)."""
+    """The words of a block besides its contour, as they are written: its numbers and G codes, words for the first and
+    for the last line in its place, and the G codes and words among them (`kept`)."""
 
     numbers: tuple[str, ...]
     codes: tuple[str, ...]
@@ -126,7 +126,7 @@ class Carried(NamedTuple):
 
 
 def frame_of(text: str) -> Frame:
-    """What stands around the words of a block."""
+    """The frame around the words of a block."""
     if text[:1].isalpha() and (text[-1].isalnum() or text[-1] == "."):
         return Frame()
     frame = _FRAME.match(text)
@@ -139,7 +139,7 @@ def frame_of(text: str) -> Frame:
 
 
 def carried(block: Block, modes: Modes) -> Carried:
-    """What a block says besides its contour."""
+    """The words of a block besides its contour."""
     numbers: list[str] = []
     codes: list[str] = []
     words: list[str] = []

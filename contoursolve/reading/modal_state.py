@@ -45,7 +45,7 @@ class Position:
     word: Word | None = None
     """The axis word that set it, where one did."""
     assumed: Decimal | None = None
-    """Where it would be, mm, if the contour that lost it had its best fix."""
+    """The place where it would be, mm, if the contour that lost it had its best fix."""
 
 
 class Awaited(Position):
@@ -111,7 +111,7 @@ _DEEPEST = 50
 
 
 class Mode(Enum):
-    """What a G code puts in force, in words."""
+    """A mode that a G code puts in force, in words."""
 
     MOTION = "the motion in force"
     MOVE = "whether a motion is in force"
@@ -132,11 +132,11 @@ _SETS: Mapping[Effect, tuple[Mode, ...]] = {
     Effect.INCREMENTAL: (Mode.INCREMENTS,),
     Effect.COMPENSATION: (Mode.COMPENSATION,),
 }
-"""What is known behind a G code."""
+"""The modes that are known behind a G code."""
 
 
 class State(Struct, frozen=True):
-    """What is in force before a block."""
+    """The modes in force before a block, and the position."""
 
     axes: Mapping[str, Position]
     motion: int | None
@@ -146,14 +146,14 @@ class State(Struct, frozen=True):
     compensation: int
     """40, 41 or 42."""
     diameter: Diameter | None = None
-    """Which words of X are diameters; None: as the tables of the control say, and no code switches it."""
+    """The words of X that are diameters; None: as the tables of the control say, and no code switches it."""
     memory: Mapping[str, Word] = {}
     """Words that stay in force, by their address."""
     travel: float = TRAVEL
     """mm. How far from the start point the control can make a contour."""
     doubts: Mapping["Mode | str", str] = {}
-    """What else is not known to be in force, as ways that meet do not agree on it, and why: modes, and by their address
-    words that stay in force."""
+    """The rest that is not known to be in force, as ways that meet do not agree on it, and why: modes, and by their
+    address words that stay in force."""
 
     def start(self) -> Start:
         """The position in the plane."""
@@ -193,7 +193,7 @@ class State(Struct, frozen=True):
         return replace(self, memory=memory).settle(*changed)
 
     def known(self) -> object:
-        """What is known, and why the rest is not, to be compared."""
+        """The knowledge of a state, and why the rest is not known, to be compared."""
         places = tuple((at.value, at.is_skippable, at.assumed, at.span, at.reason) for at in self.axes.values())
         words = tuple((name, word.text) for name, word in self.memory.items())
         plane, doubts = (self.plane.code, self.plane.axes, self.plane.diameters), tuple(self.doubts.items())
@@ -221,7 +221,7 @@ _UNREAD = (Bearing.UNREAD, Bearing.END)
 
 @dataclass(frozen=True, slots=True)
 class Modes:
-    """What following the state of a control needs to know of it."""
+    """The knowledge of a control that following its state needs."""
 
     lexicon: Lexicon
     codes: Mapping[int, Code]
@@ -235,7 +235,7 @@ class Modes:
     settings: Mapping[str, str] = field(default_factory=dict)
     """The values of settings that are not the default ones, by name."""
     syntax: Syntax = ISO
-    """How its blocks are spelled."""
+    """The spelling of its blocks."""
     radius: str = "R"
     """The address of an arc's radius."""
     remember: Callable[[Mapping[str, Word], Block], Mapping[str, Word]] | None = None
@@ -256,7 +256,7 @@ class Modes:
         return (word.address == "M" and word.number in self.calls) or word.address in self.call_addresses
 
     def why_lost(self, word: Word) -> str:
-        """What such a word does."""
+        """The effect of such a word."""
         return not_read(word.text) if self.is_unread_call(word) else f"{word.text.strip()} calls or ends a subprogram"
 
     def is_unread_call(self, word: Word) -> bool:
@@ -295,22 +295,23 @@ class Modes:
 
     @property
     def radius_difference(self) -> float:
-        """How much the radii at two points of an arc may differ, mm: a setting where a machine parameter tells."""
+        """The allowed difference of the radii at two points of an arc, mm: a setting where a machine parameter
+        tells."""
         return float(self.settings.get("radius-difference", RADIUS_DIFFERENCE))
 
     @property
     def travel(self) -> float:
-        """How far from the start point the control can make a contour, mm: a setting."""
+        """The distance from the start point up to which the control can make a contour, mm: a setting."""
         return float(self.settings.get("travel", TRAVEL))
 
     @property
     def most_blocks(self) -> int:
-        """How many blocks may run again before a program is said to go on for ever: a setting."""
+        """The number of blocks that may run again before a program is said to go on for ever: a setting."""
         return int(self.settings.get(Limit().setting, MOST_BLOCKS))
 
 
 COMMENTED = "comment"
-"""What stays in force, by this name, where lines are a comment."""
+"""The name of what stays in force where lines are a comment."""
 
 
 def codes_of(block: Block, modes: Modes) -> list[Code | Word]:
@@ -417,13 +418,13 @@ def _lose_ends(state: State, block: Block, modes: Modes) -> State:
 
 
 def not_read(text: str) -> str:
-    """What is said of a word of the control that contoursolve does not follow."""
+    """The remark on a word of the control that contoursolve does not follow."""
     name = " ".join(text.split()).partition("=")[0].partition("(")[0]
     return f"contoursolve does not read {name.strip()} yet"
 
 
 def positions(state: State, words: list[Word], modes: Modes, is_skippable: bool) -> dict[str, Position]:
-    """Where the axis words of a motion lead."""
+    """The positions where the axis words of a motion lead."""
     moved: dict[str, Position] = {}
     for word in words:
         axis = _axis(word, modes)
@@ -455,7 +456,7 @@ def _doubted(word: Word, state: State, modes: Modes) -> Position | None:
 
 
 def _led(word: Word, before: Position | None, state: State, modes: Modes, is_skippable: bool) -> Position:
-    """Where an axis word leads; `before` is where an increment counts from, None for a coordinate."""
+    """The position where an axis word leads; `before` is where an increment counts from, None for a coordinate."""
     value = modes.words(state).value(word, state.unit)
     if value is None:
         return Position(None, f"{word.text} depends on a variable", word.span)
@@ -467,7 +468,7 @@ def _led(word: Word, before: Position | None, state: State, modes: Modes, is_ski
 
 
 def _step(before: Position, by: Decimal, word: Word, is_skippable: bool) -> Position:
-    """Where an increment leads, mm."""
+    """The place where an increment leads, mm."""
     if before.value is None:
         return before
     return Position(before.value + by, word.text, word.span, is_skippable or before.is_skippable, word)
@@ -484,7 +485,7 @@ def _axis(word: Word, modes: Modes) -> str:
 
 
 def _effect(state: State, codes: Sequence[Code | Word], modes: Modes) -> tuple[Effect, str]:
-    """What a block of these G codes does with its axis words, and the reason to give if the position is lost."""
+    """The effect of a block of these G codes on its axis words, and the reason to give if the position is lost."""
     for code in codes:
         if isinstance(code, Word):
             continue
@@ -527,7 +528,7 @@ _COMMENT = r"\((?![ \t]*+contoursolve)[^()]*+\)"
 
 
 def plain_lines(axes: Iterable[str]) -> re.Pattern[str]:
-    """What a line with its end looks like that has G00, G01 or neither and coordinates, whatever its feed, speed and
+    """The pattern of a line with its end that has G00, G01 or neither and coordinates, whatever its feed, speed and
     tool; or one without words.
 
     Such a line is no contour, and belongs to one only beside a line that is not plain, as long as `is_plain`.
@@ -575,7 +576,7 @@ def advance_plainly(state: State, passage: Passage, modes: Modes) -> State:
 
 
 class _Moved:
-    """Where a plain line leads; it is read once, when somebody asks."""
+    """The position where a plain line leads; it is read once, when somebody asks."""
 
     def __init__(self, text: str, line: int, state: State, modes: Modes) -> None:
         self.text, self.line, self.state, self.modes = text, line, state, modes

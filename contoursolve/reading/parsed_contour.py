@@ -18,7 +18,7 @@ from contoursolve.reading.rules import Offence, Rule, check
 
 
 class ReadIssue(Enum):
-    """What can keep a program or a contour from being read, apart from its characters."""
+    """An issue that can keep a program or a contour from being read, apart from its characters."""
 
     REPEATED_ADDRESS = "repeated-address"
     UNKNOWN_ADDRESS = "unknown-address"
@@ -111,15 +111,15 @@ class ParsedContour:
     selectors: tuple[Selector, ...] = ()
     """The words that would choose, whether they are stated or not."""
     picks: tuple[Pick, ...] = ()
-    """Which of several solutions is meant, element by element."""
+    """The choices of several solutions, element by element."""
     conventions: tuple[Convention, ...] = ()
-    """What the manual does not say and the reading rests on."""
+    """The settings that the manual does not state and that the reading rests on."""
     selected: Plane | None = None
     """The plane in force behind it, where a parallel axis may stand for an axis of that."""
     is_end_absolute: bool = False
     """Whether its last block states its end as coordinates even where increments are in force."""
     makes: tuple[tuple[str, ...], ...] = ()
-    """Where a block does not make one element and the corner behind it: the names of what each block makes."""
+    """The names of what each block makes, where that is not one element and the corner behind it."""
     limits: Mapping[str, Decimal] = field(default_factory=dict)
     """Values of givens, mm, on whose two sides the words are read in different ways while the others stay."""
 
@@ -129,7 +129,7 @@ class ParsedContour:
     lasting: frozenset[str] = frozenset()
     """Names of words that stay in force behind their block, whether they state anything in it or not."""
     doubts: Mapping[Mode | str, str] = field(default_factory=dict)
-    """What is not known to be in force in some of its blocks, and why (see `State`)."""
+    """The modes that are not known to be in force in some of its blocks, and why (see `State`)."""
 
     def beside_plane(self, block: Block) -> list[Word]:
         """The words of one of its blocks that move an axis outside the plane."""
@@ -142,7 +142,7 @@ class ParsedContour:
         return self.after if self.selected in (None, self.after.plane) else replace(self.after, plane=self.selected)
 
     def open_modes(self) -> Iterator[tuple[str, str]]:
-        """What is not known to be in force although it matters, in words, and why."""
+        """The modes that are not known to be in force although they matter, in words, and why."""
         rows = (self.lexicon.addresses.get(word.address) for word in self.words.values())
         minds = {
             Mode.MOVE: False,
@@ -158,17 +158,17 @@ class ParsedContour:
 
     @property
     def directives(self) -> tuple[Directive, ...]:
-        """What comments in its blocks state for contoursolve alone."""
+        """The directives that comments in its blocks state for contoursolve alone."""
         return tuple(directive for block in self.blocks for directive in block.directives)
 
     def stated(self) -> dict[str, Decimal | None]:
-        """What the rules on combinations look at."""
+        """The values and circumstances that the rules on combinations look at."""
         values = {name: self.givens[name].value if name in self.givens else None for name in self.words}
         return {**values, **dict.fromkeys(self.circumstances)}
 
     def rests_on(self, more: Iterable[str] = ()) -> tuple[Assumption, ...]:
-        """What the contour rests on, of all that the control is taken to accept; `more` are circumstances that the
-        words alone do not show."""
+        """The assumptions on which the contour rests, of all that the control is taken to accept; `more` are
+        circumstances that the words alone do not show."""
         addresses = dict.fromkeys(word.address for block in self.blocks for word in block.words)
         stated = {**addresses, **self.stated(), **dict.fromkeys(more)}
         return tuple(each for each in self.form.assumptions if each.carries(self.form.roles, stated))
@@ -307,12 +307,12 @@ def _move_beside(state: State, claim: ParsedContour, modes: Modes) -> State:
 
 
 def end_of_contour(value: float, span: Span, *, is_skippable: bool = False) -> Position:
-    """Where a contour ends on an axis, mm; `span` is its last block."""
+    """The position where a contour ends on an axis, mm; `span` is its last block."""
     return Position(Decimal(value), "the end of this contour", span, is_skippable)
 
 
 def next_place(blocks: Iterable[Block], claim: ParsedContour, modes: Modes) -> tuple[Decimal, Decimal] | None:
-    """Where the next block with words ends, mm, if it is a line and both its coordinates are known."""
+    """The end of the next block with words, mm, if it is a line and both its coordinates are known."""
     block = next((block for block in blocks if block.words), None)
     if block is None or block.faults:
         return None

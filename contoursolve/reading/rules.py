@@ -11,8 +11,8 @@ from contoursolve.diagnostics import Alarm, Severity, Shown, Source
 from contoursolve.geometry import BlockRole, names_of_roles
 
 Stated = Mapping[str, Decimal | None]
-"""What a block states: the value of each given by name (None for a variable), and circumstances such
-as `@alone`, which have no value."""
+"""The statement of a block: the value of each given by name (None for a variable), and circumstances such as `@alone`,
+which have no value."""
 
 Slot = tuple[str, ...]
 """Names that say the same thing in different ways, such as X and U."""
@@ -22,7 +22,7 @@ class Condition:
     """Holds or does not hold for what a block states; `offenders` are the names that make it hold."""
 
     reads_values = False
-    """Whether it depends on values and not on names alone."""
+    """True of a condition that depends on values and not on names alone."""
 
     def holds(self, stated: Stated) -> bool:
         """Whether the condition is true of these words; their order never matters."""
@@ -272,9 +272,9 @@ class Rule(Shown):
     alarm: Alarm | None = None
     severity: Severity = Severity.ERROR
     note: str = ""
-    """What the manual says besides about the same thing, half a sentence without a full stop."""
+    """A further remark of the manual about the same thing, half a sentence without a full stop."""
     is_about_geometry: bool = False
-    """What it refuses could be written, but cannot be made."""
+    """True of a rule that refuses what could be written, but cannot be made."""
 
     def holds(self, own: Stated) -> bool:
         """Whether it finds something in what the blocks of its role state."""
@@ -287,7 +287,7 @@ class Rule(Shown):
 
     @property
     def advice(self) -> str:
-        """What to do, with its fields shown as gaps."""
+        """The help, with its fields shown as gaps."""
         return _FIELD.sub(_gap, self.help)
 
 

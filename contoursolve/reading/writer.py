@@ -1,4 +1,4 @@
-"""How a control that is not programmed in G codes is written, and what its own blocks are in G codes."""
+"""The writing of a control that is not programmed in G codes, and what its own blocks are in G codes."""
 
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -12,7 +12,7 @@ from contoursolve.reading.modal_dependence import Carried
 from contoursolve.reading.modal_state import State
 
 NOTHING = Carried((), (), (), (), ())
-"""What a block says that is not written."""
+"""The name of a block that is not written."""
 
 
 class Around(NamedTuple):
@@ -56,12 +56,12 @@ class Plain(Protocol):
         """Whether a block moves in rapid."""
 
     def beside(self, block: Block, before: State) -> Restated:
-        """What a block of a contour says besides it."""
+        """The words of a block of a contour besides it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Writing:
-    """How programs of a control are written: in its own words, and in G codes.
+    """The writing of the programs of a control: in its own words, and in G codes.
 
     `opening` stands before a program in G codes if the target asks for nothing else. `number` matches what is, or may
     name, the number of a block.
@@ -73,4 +73,4 @@ class Writing:
     number: re.Pattern[str]
     number_prefix: str = ""
     center_decimals: int = 1
-    """How many decimals more than a coordinate the centre of an arc has."""
+    """The number of decimals that the centre of an arc has more than a coordinate."""

@@ -248,6 +248,7 @@ def test_no_control_stands_in_where_none_is_named():
 MENDED = [
     "cli",
     "comparison",
+    "controls",
     "diagnostics",
     "execution",
     "gcode",
@@ -258,8 +259,9 @@ MENDED = [
     "pictures",
     "postprocess",
     "program",
+    "reading",
 ]
-MOST_RIDDLES = 540
+MOST_RIDDLES = 333
 """In the other rooms. It falls with each that is mended, and never rises."""
 
 

@@ -1,4 +1,4 @@
-"""What the blocks of a contour state, with what the control supplies, and what their signs choose."""
+"""The statements of the blocks of a contour, with what the control supplies, and what their signs choose."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace as replace_fields
@@ -142,7 +142,7 @@ def _is_known(word: Word, form: ContourForm, lexicon: Lexicon) -> bool:
 
 
 def _makes(form: ContourForm, members: Sequence[Member]) -> tuple[tuple[str, ...], ...]:
-    """What each block makes, where some corners have blocks of their own."""
+    """The names of what each block makes, where some corners have blocks of their own."""
     corners = {row.before: row.name for row in form.outline.corners}
     found: list[tuple[str, ...]] = []
     for element, member in zip(form.outline.path, members, strict=True):
@@ -164,8 +164,8 @@ def _corner_of(
 
 
 def _crowding(language: Language, member: Member) -> dict[str, bool]:
-    """Whether the block of its own that makes the corner behind an element says that twice, more about the path than
-    the size, or what the block of the element says already."""
+    """The faults of a block of its own that makes the corner behind an element: it says that twice, more about the path
+    than the size, or what the block of the element says already."""
     block = member.corner
     if block is None:
         return {}
@@ -220,7 +220,7 @@ def _kept_angle(
 
 
 def _calls(language: Language, member: Member) -> dict[str, str]:
-    """What a block's addresses state, without the number of the block."""
+    """The names of what a block's addresses state, without the number of the block."""
     plane, addresses = member.here.plane, language.lexicon.addresses
     is_absolute = member.element.is_over and language.meeting.joining is not Joining.OPEN
     called = {address: address for address, row in addresses.items() if not row.axis}

@@ -1,4 +1,4 @@
-"""Which blocks in a row make a contour of a language.
+"""The finder of blocks in a row that make a contour of a language.
 
 Two blocks belong together where they meet in an intersection that the control computes, and where the first one has a
 corner.
@@ -33,7 +33,7 @@ from contoursolve.reading import (
 from contoursolve.solving import ArcSegment, Segment, Status, analyse, is_closed, solve, trace
 
 STRAIGHT = 1e-6
-"""How far beside the direction before it an arc may end that becomes a line, mm."""
+"""The distance beside the direction before it, mm, up to which the end of an arc makes it a line."""
 
 _SAME = 1e-9
 """The sine of the angle between two directions that are one."""
@@ -281,7 +281,7 @@ class ChainFinder:
         return is_corner or any(word.address == "G" and word.number in arcs for word in block.words)
 
     def _stated(self, block: Block, here: State) -> set[str]:
-        """What the addresses of a block are called; a word that cannot be read still shows what the block was meant to
+        """The names of the addresses of a block; a word that cannot be read still shows what the block was meant to
         be."""
         addresses = {word.address for word in block.words}
         names = self.language.names_in(is_arc=here.motion in _TURNS)
@@ -294,8 +294,8 @@ class ChainFinder:
         return {row.axis for row in rows if row} & {*here.plane.axes}
 
     def _over_defining(self, here: State) -> set[str]:
-        """What over-defines a block: both coordinates of the plane and the angle of a line; end, centre and R of a
-        circle. The selector does not: it only chooses."""
+        """The words that over-define a block: both coordinates of the plane and the angle of a line; end, centre and R
+        of a circle. The selector does not: it only chooses."""
         if here.motion in _TURNS:
             return {*here.plane.axes, *here.plane.centers, "R"}
         return {*here.plane.axes, self.language.angle.address}
@@ -357,7 +357,7 @@ class ChainFinder:
         return self._is_open(last)
 
     def _unread(self, blocks: Sequence[Block], following: int | None, here: State, modes: Modes) -> Word | None:
-        """What shapes the next block in a way that is not read."""
+        """The word that shapes the next block in a way that is not read."""
         if following is None or blocks[following].macro is not None:
             return None
         unknown = (code for code in codes_of(blocks[following], modes) if isinstance(code, Word))
@@ -403,7 +403,7 @@ def reading(
     like: Mapping[str, str] | None = None,
     **parts: Mapping[str, Any],
 ) -> Callable[[Dialect], Dialect]:
-    """What a value of a setting changes in the language of a control.
+    """The change that a value of a setting makes in the language of a control.
 
     `names` are addresses, each with the one whose row and name it takes, which is no word then; `like` are words
     besides, each with the one whose row it has; `parts` are changes in the parts of the language, by field.

@@ -105,9 +105,9 @@ def compose(language: Language, elements: tuple[Element, ...], modes: Modes) -> 
 
 
 class _Options(Struct, frozen=True):
-    """What settings decide: by how much the radii at two points of an arc may differ, whether the intersections of two
-    circles count clockwise, whether lines must run as their angles say, how smooth a joint has no corner, by how much
-    two circles may miss a contact, and whether a corner on such a joint is refused."""
+    """The decisions of settings: by how much the radii at two points of an arc may differ, whether the intersections of
+    two circles count clockwise, whether lines must run as their angles say, how smooth a joint has no corner, by how
+    much two circles may miss a contact, and whether a corner on such a joint is refused."""
 
     slack: float
     counts_clockwise: bool
@@ -193,7 +193,8 @@ def _form_name(elements: Sequence[Element]) -> str:
 
 
 def _directed(elements: Sequence[Element]) -> Iterator[bool]:
-    """Whether each element touches the one before it or behind it: a line does so in the way in which it runs."""
+    """For each element, whether it touches the one before it or behind it: a line does so in the way in which it
+    runs."""
     touching = [*(element.touches for element in elements), False]
     return (any(each) for each in pairwise(touching))
 
@@ -219,7 +220,7 @@ def _path(language: Language, element: Element, names: Names, options: _Options,
 def _stated(
     language: Language, elements: Sequence[Element], names: Sequence[Names], options: _Options
 ) -> Iterator[FactRow]:
-    """What the blocks state, in the order in which it is believed."""
+    """The facts that the blocks state, in the order in which they are believed."""
     previous: tuple[Element, Names] | None = None
     for element, each in zip(elements, names, strict=True):
         yield from _own_facts(language, element, each, previous[1].tail if previous else START)
@@ -244,7 +245,7 @@ def _smooth(before: Element, first: Names, second: Names, turn: Turn) -> FactRow
 
 
 def _touching(language: Language, elements: Sequence[Element], names: Sequence[Names]) -> Iterator[FactRow]:
-    """Where elements touch. Two circles of which both centres are known are taken as they are."""
+    """The facts of elements that touch. Two circles of which both centres are known are taken as they are."""
     for (before, after), (first, second) in zip(pairwise(elements), pairwise(names), strict=True):
         if not after.touches:
             continue
@@ -280,7 +281,7 @@ def _checked(elements: Sequence[Element], names: Sequence[Names], slack: float) 
 
 
 def _own_facts(language: Language, element: Element, names: Names, start: str) -> Iterator[FactRow]:
-    """What a block states; `start` is where the one before it begins."""
+    """The facts that a block states; `start` is where the one before it begins."""
     q = names.prefix
     yield from _own_center(language, element, names)
     for order, axis in _ORDERS:
@@ -305,7 +306,7 @@ def _own_facts(language: Language, element: Element, names: Names, start: str) -
 
 
 def _own_center(language: Language, element: Element, names: Names) -> Iterator[FactRow]:
-    """What the block of an arc states of its centre and radius."""
+    """The facts that the block of an arc states of its centre and radius."""
     if element.turn is None:
         return
     q = names.prefix
@@ -324,7 +325,7 @@ def _own_center(language: Language, element: Element, names: Names) -> Iterator[
 def _combinations(
     language: Language, elements: Sequence[Element], number: int, prefix: str
 ) -> tuple[tuple[str, ...], ...]:
-    """What a block may state, as far as the equations tell it apart."""
+    """The names that a block may state, as far as the equations tell it apart."""
     element = elements[number]
     if language.meeting.joining is Joining.PAIRED and (element.is_over or element.is_followed):
         other = elements[number - 1 if element.is_over else number + 1]

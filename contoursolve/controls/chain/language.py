@@ -1,4 +1,4 @@
-"""How a control writes lines and arcs in a row, and the names that its rules and assumptions use."""
+"""The language in which a control writes lines and arcs in a row, and the names that its rules and assumptions use."""
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -55,18 +55,18 @@ TURN = "turn"
 """By how much the direction changes where an arc begins: nothing."""
 
 WAY = "way"
-"""Which way a line runs behind a corner whose sign tells it, in degrees."""
+"""The direction of a line behind a corner whose sign tells it, in degrees."""
 
 SIGNED = "corner-"
-"""What the names of corner words begin with whose sign tells which way the next line runs."""
+"""The begin of the names of corner words whose sign tells which way the next line runs."""
 LEAVES = ("@leaves-first", "@leaves-second")
 """Behind such a corner, this block must move this axis of the plane alone."""
 
 STATED_POINT = ("first", "first-step", "second", "second-step")
 STATED_CENTER = ("center-first", "center-second")
-"""What a block's coordinates and its I, J and K are called, by the axes of the plane; steps are increments."""
+"""The names of a block's coordinates and of its I, J and K, by the axes of the plane; steps are increments."""
 CENTER_AT = ("center-at-first", "center-at-second")
-"""What the coordinates of a centre are called."""
+"""The names of the coordinates of a centre."""
 
 
 class Element(Struct, frozen=True):
@@ -87,7 +87,7 @@ class Element(Struct, frozen=True):
 
     @property
     def role(self) -> str:
-        """Which rules speak about it."""
+        """The role by which rules speak about it."""
         if self.turn is None:
             return OVER_LINE if self.is_over else LINE
         return OVER_CIRCLE if self.is_over else ARC
@@ -100,7 +100,7 @@ CLOSING_LINE, CLOSING_ARC = Element(is_over=True), Element(Turn.CCW, is_over=Tru
 
 
 def pair_role(first: Element, second: Element) -> str:
-    """Which rules speak about two blocks that meet in a computed intersection."""
+    """The role of two blocks that meet in a computed intersection, by which rules speak about them."""
     if first.turn is None:
         return LINE_LINE if second.turn is None else LINE_CIRCLE
     return CIRCLE_LINE if second.turn is None else CIRCLE_CIRCLE
@@ -120,7 +120,7 @@ class Member(Struct, frozen=True):
     is_joined: bool = False
     """Another block of the contour follows."""
     unread: Word | None = None
-    """What shapes the block behind it in a way that is not read."""
+    """The word that shapes the block behind it in a way that is not read."""
     corner: Block | None = None
     """The block of its own that states the corner behind it."""
     is_straight: bool = False
@@ -130,7 +130,7 @@ class Member(Struct, frozen=True):
     leaves: tuple[int, ...] = ()
     """Behind such a corner: the axis that it must move alone; both if it is none that may stand there."""
     way: int = 0
-    """Which way it must run along that axis, +1 or -1."""
+    """Its sense along that axis, +1 or -1."""
 
 
 _CENTERS = ("I", "J", "K")
@@ -163,7 +163,7 @@ IN_ZX = "@in-zx"
 
 
 class Joining(Enum):
-    """What makes two blocks meet in a computed intersection."""
+    """The reason for which two blocks meet in a computed intersection."""
 
     OVER_DEFINED = "the second block states more than an element from a known point needs"
     OPEN = "the first block is a line by its angle alone"
@@ -178,11 +178,11 @@ TITLES: Mapping[str, str] = {
     "arc": "arc",
     "tangent": "arcs that begin tangentially",
 }
-"""What forms are called, by the role of two blocks or the name of the form."""
+"""The titles of forms, by the role of two blocks or the name of the form."""
 
 
 def sense_conventions(sense: Setting, form: ContourForm, modes: Modes) -> Iterator[Convention]:
-    """Whether a line may run against its angle: where there is one, and if that was set."""
+    """The convention on lines against their angle: where there is one, and if that was set."""
     convention = modes.convention(sense)
     if convention.value == "ray" and any(isinstance(row.fact, Heading) for row in form.outline.facts):
         yield convention
@@ -215,8 +215,8 @@ class AngleWords:
     parallel: Mapping[str, str] = field(default_factory=dict)
     """The parallel axis of each axis, where it may stand beside an angle."""
     sense: Setting | None = None
-    """What decides whether an angle is the direction of travel (`ray`), or a line may run against it, too; without such
-    a setting it is."""
+    """The setting that decides whether an angle is the direction of travel (`ray`), or a line may run against it, too;
+    without such a setting it is."""
     stays: bool = False
     """Whether an angle stays in force, for lines with one coordinate."""
     is_ray_alone: bool = False
@@ -252,11 +252,11 @@ class CornerWords:
     is_signed_by_shape: bool = False
     """Whether these words have a sign only between two such lines, and are other corner words elsewhere."""
     note: str = ""
-    """What the control does at each corner that it inserts, half a sentence without a full stop."""
+    """The action of the control at each corner that it inserts, half a sentence without a full stop."""
     guard: Callable[[Modes], float] = _no_guard
     """Sine of the change of direction up to which the control makes no corner."""
     refuses: Callable[[Modes], bool] = _never
-    """Whether it refuses such a corner; else it leaves it out."""
+    """Tells whether it refuses such a corner; else it leaves it out."""
 
     def signed_name(self, address: str, plane: Plane) -> str:
         """The name of a corner word with a sign; empty for the distance along an axis outside the plane."""
@@ -285,11 +285,11 @@ class BlockMeeting:
     selector: str = ""
     """The address whose sign chooses an intersection."""
     selects: Mapping[str, str] = field(default_factory=dict)
-    """What it chooses, by the role of two blocks."""
+    """The choice that it makes, by the role of two blocks."""
     choose_side: Callable[[str, bool, Modes], Side] | None = None
     """(role of two blocks, whether the selector is negative, modes) to the intersection that it chooses."""
     counts_clockwise: Callable[[Modes], bool] = _never
-    """Whether the intersections of two circles count clockwise along the first."""
+    """Tells whether the intersections of two circles count clockwise along the first."""
     picks: str = ""
     """The address that chooses an intersection by its value in either of two blocks: 0 or 1, the shorter or the longer
     line."""
@@ -324,7 +324,7 @@ class BlockOrder:
     passes: frozenset[int] = frozenset()
     """G codes of blocks that may stand between two blocks of a contour."""
     between: int = 0
-    """How many blocks that move nothing may stand there."""
+    """The number of blocks that move nothing and may stand there."""
     threads: frozenset[int] = frozenset()
     """The motions of threads, in which the control computes no angle and no corner, and says so."""
     runs_in_rapid: bool = False
@@ -338,7 +338,7 @@ class LanguageBasis:
     circumstances: Callable[[Member, Sequence[State], Modes], Iterable[str]] = _nothing
     """(member, states before the block before it, before it and behind it, modes) to what else holds of it."""
     where_set: Mapping[str, tuple[Setting, str]] = field(default_factory=dict)
-    """What holds of every block where a setting has a value."""
+    """The circumstances of every block where a setting has a value."""
     conventions: Callable[[ContourForm, Collection[str], Modes], Iterable[Convention]] = _no_conventions
     """(form, circumstances, modes) to the settings on which the reading rests."""
     resting: tuple[Resting, ...] = ()
@@ -347,7 +347,7 @@ class LanguageBasis:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Language:
-    """How a control writes lines and arcs in a row.
+    """The language in which a control writes lines and arcs in a row.
 
     `planes` by their G code, where a parallel axis may stand for an axis of them; `allowed` are the addresses that may
     stand in a block of a contour. `titles` are those of forms, by role or form name.

@@ -42,9 +42,9 @@ class ExampleWords:
     """
 
     angle: str
-    """How the word of an angle begins: ANG= or ,A."""
+    """The begin of the word of an angle: ANG= or ,A."""
     corner: str
-    """How the word of a rounding begins."""
+    """The begin of the word of a rounding."""
     radius: str
     """The word of an arc's radius."""
     before_arc: str
@@ -95,8 +95,8 @@ def _block(*words: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Manual:
-    """How a control's rules are told: the start of their codes, its source, the words for an angle, chamfers, a
-    rounding and an arc's radius, its alarms by the end of a rule's code; and the words of examples."""
+    """The terms in which a control's rules are told: the start of their codes, its source, the words for an angle,
+    chamfers, a rounding and an arc's radius, its alarms by the end of a rule's code; and the words of examples."""
 
     prefix: str
     source: Source
@@ -107,7 +107,7 @@ class Manual:
     examples: ExampleWords
     alarms: Mapping[str, Alarm] = field(default_factory=dict)
     plane: str = ""
-    """What else may help where an axis is outside the plane."""
+    """A further help where an axis is outside the plane."""
     sources: Mapping[str, Source] = field(default_factory=dict)
     """Those of single rows, by the end of their code."""
 

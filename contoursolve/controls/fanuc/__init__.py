@@ -30,7 +30,7 @@ from contoursolve.reading import Dialect, Modes, Rule, Setting
 
 
 def _signs(own: frozenset[str], block: Block) -> tuple[Word, ...]:
-    """What shows a control: the words with a comma that it has."""
+    """The words that show a control: those with a comma that it has."""
     if "," not in block.text:
         return ()
     return tuple(word for word in block.words if word.address in own)

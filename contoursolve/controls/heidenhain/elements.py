@@ -54,7 +54,7 @@ from contoursolve.reading import Assumption, ContourForm, CornerRow, FactRow, Fr
 
 START = "S"
 TANGENCY = "tangent"
-"""What a function states that begins in the direction of the element before it."""
+"""The statement of a function that begins in the direction of the element before it."""
 
 LINE, ARC, PLAIN, POLE = "line", "arc", "plain", "pole"
 """The roles of blocks: free lines and arcs, conventional moves, poles."""
@@ -96,7 +96,7 @@ class FkElement(Struct, frozen=True):
 
     @property
     def role(self) -> str:
-        """Which rules speak about it."""
+        """The role by which rules speak about it."""
         if self.function not in FREE:
             return PLAIN
         return LINE if self.is_line else ARC
@@ -116,7 +116,7 @@ class PlacedElement(Struct, frozen=True):
 
     @property
     def prefix(self) -> str:
-        """What the names begin with of what its block states."""
+        """The begin of the names of what its block states."""
         return f"{self.number}:"
 
     @property
@@ -146,7 +146,7 @@ class Chain(Struct, frozen=True):
     places: tuple[PlacedElement, ...]
 
     def at(self, number: int) -> str:
-        """Where the element of a number ends; of 0, where the chain begins."""
+        """The end of the element of a number; of 0, the begin of the chain."""
         return self.places[number - 1].head if number else START
 
     def counted_from(self, place: PlacedElement, word: str) -> str:
@@ -258,7 +258,7 @@ def _is_aimed(chain: Chain, place: PlacedElement) -> bool:
 
 
 def _goes_on(before: PlacedElement, place: PlacedElement) -> Iterator[Fact]:
-    """What the direction where two elements touch says of the other one: all of these are affine."""
+    """The facts that the direction where two elements touch says of the other one: all of these are affine."""
     if before.element.is_ended:
         given = f"{before.prefix}CCA"
         if place.element.is_line:
@@ -288,7 +288,7 @@ WORDS: Mapping[str, Facts] = {
     "CLSD-": _closes,
     TANGENCY: _touches_before,
 }
-"""What a word states by itself."""
+"""The facts that a word states by itself."""
 
 OF_LINES = ("X", "Y", "IX", "IY", "PR", "PA", "IPR", "IPA", "AN", "IAN", "LEN")
 OF_ARCS = (*OF_LINES, "CCX", "CCY", "CCPR", "CCPA", "ICCX", "ICCY", "ICCPR", "ICCPA", "R", "CCA")
@@ -414,7 +414,7 @@ ASSUMPTIONS = tuple(
         ("parallel", "PAR says nothing of the direction of travel", BOOK.derived("FKEXAMP1"), (LINE,), ("PAR",)),
     )
 )
-"""What the control is taken to mean, although no page that we have says so."""
+"""The meanings that the control is taken to have, although no page that we have says so."""
 
 _OF_DIRECTION = ("AN", "IAN")
 
@@ -508,7 +508,7 @@ _TITLES = {**TITLES, "free-contour": "free contour FK"}
 
 
 def _form_name(elements: Sequence[FkElement]) -> str:
-    """What the form is called: by its free elements, or else as other controls call conventional moves in a row."""
+    """The name of the form: by its free elements, or else as other controls call conventional moves in a row."""
     if any(each.function in FREE for each in elements):
         return "free-contour"
     return "tangent" if any(each.function in TANGENT for each in elements) else "corners"

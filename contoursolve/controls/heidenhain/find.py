@@ -1,4 +1,4 @@
-"""Which blocks make a chain that is solved together, and what they state.
+"""The finder of chains of blocks that are solved together, and of what they state.
 
 A chain goes through free elements in a row, and through conventional moves that a corner or a tangency joins.
 """
@@ -121,7 +121,7 @@ class _Member(Struct):
     index: int
     pole: str
     center_at: tuple[Decimal, Decimal] | None
-    """Where CC is, mm, for a conventional arc about it."""
+    """The place of CC, mm, for a conventional arc about it."""
     is_full: bool = False
     """Whether it is a full circle, as far as that is known before anything is solved."""
     corners: tuple[tuple[int, Block], ...] = ()
@@ -332,7 +332,7 @@ def _next_function(blocks: Sequence[Block], index: int) -> str:
 
 
 def _claim(chain: _Chain, before: State, modes: Modes) -> ParsedContour:
-    """What the blocks of a chain state."""
+    """The contour that the blocks of a chain state."""
     members, labels, builder = chain.members, _labels(chain), ContourBuilder(modes)
     builder.add(*chain.blocks)
     _bend(chain, before, modes)
@@ -413,7 +413,7 @@ def _is_open(profile: Profile) -> bool:
 
 
 def _picks(stated: Sequence[Pick], count: int, modes: Modes) -> Iterator[Pick]:
-    """What FSELECT chooses, and where settings say so, the first solution elsewhere."""
+    """The choices of FSELECT, and where settings say so, the first solution elsewhere."""
     if modes.has(SELECTION, "ignore"):
         stated = ()
     yield from stated
@@ -483,7 +483,7 @@ def _own_words(member: _Member, builder: ContourBuilder) -> dict[str, Word]:
 
 
 def _name_of(word: Word) -> str:
-    """What a word is called: its address, CLSD with its sign."""
+    """The name of a word: its address, CLSD with its sign."""
     if word.address != "CLSD":
         return word.address
     return "CLSD-" if word.text.strip().endswith("-") else "CLSD+"
@@ -501,7 +501,7 @@ def _foreign(block: Block) -> Iterator[Word]:
 
 
 def _labels(chain: _Chain) -> tuple[str, ...]:
-    """What elements are called by: the numbers of their blocks, or where some lack them or share them, 1, 2, 3."""
+    """The labels of elements: the numbers of their blocks, or where some lack them or share them, 1, 2, 3."""
     words = [member.block.find("N") for member in chain.members]
     labels = [f"{word.number:f}" for word in words if word is not None and word.number is not None]
     if len(set(labels)) == len(chain.members):
@@ -577,7 +577,7 @@ def _element(chain: _Chain, number: int, before: Sequence[FkElement]) -> FkEleme
 
 
 def _lacking(chain: _Chain, number: int, elements: Sequence[FkElement]) -> Iterator[str]:
-    """What the last of the elements lacks, and what is wrong with it."""
+    """The circumstances of the last of the elements: what it lacks, and what is wrong with it."""
     member, element, before = chain.members[number - 1], elements[-1], chain.members[: number - 1]
     own, tool = member.own, member.here.memory.get(TOOL_AXIS)
     yield from (wrong + name for name, wrong in _referred(chain, number) if isinstance(wrong, str))
@@ -623,7 +623,7 @@ def _givens(chain: _Chain, elements: Sequence[FkElement], builder: ContourBuilde
 
 
 def _supplied(member: _Member, stated: Mapping[str, Given]) -> Iterator[tuple[str, Given]]:
-    """What a conventional move states by its function: what it does not program stays as it is."""
+    """The givens that a conventional move states by its function: what it does not program stays as it is."""
     if "R" in stated:
         # The sign of CR chooses the arc.
         yield "R", replace(stated["R"], value=abs(stated["R"].value))
@@ -644,7 +644,7 @@ _STAYING: Mapping[str, Mapping[str, Unit]] = {
 
 
 def _corner_circumstances(members: Sequence[_Member], number: int) -> Iterator[str]:
-    """What holds of an element because of the corners at its ends."""
+    """The circumstances of an element because of the corners at its ends."""
     pair = members[number - 1 : number + 1]
     has_corner = bool(pair[0].corners)
     holds = {

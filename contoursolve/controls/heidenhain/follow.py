@@ -1,4 +1,4 @@
-"""Where the tool is behind the blocks of a Klartext program that are no free contour, and which way arcs without DR
+"""The place of the tool behind the blocks of a Klartext program that are no free contour, and which way arcs without DR
 turn."""
 
 import re
@@ -105,7 +105,7 @@ def pole_of(state: State, function: str) -> tuple[Decimal, Decimal] | None:
 
 
 def _polar(state: State, block: Block, modes: Modes) -> State:
-    """Where polar coordinates lead."""
+    """The state where polar coordinates lead."""
     pole, here = pole_of(state, CENTER), state.start().values
     values = {
         name: modes.lexicon.value(word, state.unit)
@@ -148,7 +148,7 @@ _BEGIN = re.compile(BLOCK_NUMBER + r"BEGIN[ \t]+PGM\b[^;]*?\b(?P<unit>MM|INCH)[ 
 _HARMLESS = re.compile(
     BLOCK_NUMBER + r"(?:BEGIN|END|BLK|TOOL|CYCL|LBL|FN|Q[LRS]?\d|SEL|STOP|M\d|\*|\(|;|~|$)", re.IGNORECASE
 )
-"""What begins a statement that moves nothing."""
+"""The begin of a statement that moves nothing."""
 
 
 _SAYS_NOTHING = re.compile(BLOCK_NUMBER + r"(?:\*|\(|LBL\b(?![ \t]*0\b)|BLK\b|TOOL[ \t]+DEF\b)", re.IGNORECASE)

@@ -14,7 +14,7 @@ BOOK = Book("HEIDENHAIN TNC user's manuals")
 _FK, _PATH = BOOK.printed("free contour programming FK"), BOOK.printed("path functions")
 
 ROUNDING, CHAMFER = "ROUNDING", "CHAMFER"
-"""What the sizes are called that RND and CHF state."""
+"""The names of the sizes that RND and CHF state."""
 
 FREE = ("FL", "FLT", "FC", "FCT")
 """Elements of free contour programming."""
@@ -63,7 +63,7 @@ _MOVING = (
     rf"(?:{_BY_LENGTH}|FSELECT|RND|CHF|APPR|DEP)(?![A-Z])|{_AXIS}[ \t]*+[+-]?+[\d.,Q?]"
     rf"|(?:{_LONG})[ \t]*+[+-]?+[\d.,Q?]|(?:DR|CLSD)[ \t]*+[+-]|[FMS][ \t]*+[\dQ]"
 )
-"""What a block begins with that is read into words."""
+"""The begin of a block that is read into words."""
 
 
 _MISSPELT = (
@@ -71,7 +71,7 @@ _MISSPELT = (
     r"F(?!N(?![A-Z])|UNCTION\b)[A-Z]|L(?!BL(?![A-Z])|N(?![A-Z]))[A-Z]"
     r"|(?:R|C(?!YCL(?![A-Z])|ALL(?![A-Z])))[A-Z]{1,6}+(?:(?<=R)|[ \t]*+=?[ \t]*+R?+)[ \t]*+=?[ \t]*+[\d.,]"
 )
-"""What begins like a function and is none: it is read into words, and told."""
+"""A block that begins like a function and is none: it is read into words, and told."""
 
 
 def _value(prefix: str) -> str:
@@ -109,10 +109,10 @@ _WORDS = (
     rf"(?!{_OWN_WORD})(?P<foreign>[A-Z]{{2,}}?(?:[1-3][XY])?)(?>(?:[ \t]*+=)?)[ \t]*+{_value('foreign')}",
 )
 BLOCK_NUMBER = r"[ \t/]*+(?>(?:N?(?P<number>\d++)(?![.,\w])[ \t]*+)?)"
-"""What a statement begins with: its sign to skip it and its number, if any."""
+"""The begin of a statement: its sign to skip it and its number, if any."""
 
 _BEHIND = r"[ \t]*+=?+[ \t]*+(?=[\d.,+-])[\w.,+-]++"
-"""What is almost a number, behind an address."""
+"""A text that is almost a number, behind an address."""
 _TOKENS = (
     f"(?P<word>{'|'.join(_WORDS)})",
     r"(?P<blank>[ \t\f\v\x1a\ufeff~]++)",
@@ -229,7 +229,7 @@ _BY_WORD: Mapping[str, str] = {ROUNDING: "RND", CHAMFER: "CHF", "FSELECT": "FSEL
 
 
 def shown_by(block: Block) -> tuple[Word, ...]:
-    """What shows Klartext: the begin of a program, and elements of free contour programming."""
+    """The words that show Klartext: the begin of a program, and elements of free contour programming."""
     if _MISSPELT_FREE.match(block.text):
         return tuple(word for word in words_as(block, SYNTAX) if word.address in _OF_FREE)
     if not _SHOWS.search(block.text):
@@ -246,7 +246,7 @@ _MISSPELT_FREE = re.compile(
     + rf"(?!(?:{'|'.join(FREE)})[ \t])F[A-Z]{{1,4}}[ \t]++(?:[^;]*[ \t])?(?:{'|'.join(_OF_FREE)})[ \t]*+[+-]",
     re.IGNORECASE,
 )
-"""What begins like a free element, and has a word that nothing else has."""
+"""A block that begins like a free element, and has a word that nothing else has."""
 _SHOWS = re.compile(r"BEGIN|F[LC]T?[ \t\r\n]|F[LC]T?$", re.IGNORECASE)
 _BEGIN = re.compile(r"[ \t\ufeff]*+\d*+[ \t]*+BEGIN[ \t]++PGM\b", re.IGNORECASE)
 

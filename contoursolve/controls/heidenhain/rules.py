@@ -223,7 +223,7 @@ def _repeated() -> Rule:
 
 
 def _agreeing() -> Rule:
-    """What is said twice and agrees is accepted, with a note."""
+    """The rows about words that say something twice: where they agree, that is accepted, with a note."""
     row = next(rule for rule in COMMON_RULES if rule.about is NoteKind.WORDS_AGREE)
     return replace(
         row, code="heidenhain-redundant", severity=Severity.INFO, accepted=(_LINES,),

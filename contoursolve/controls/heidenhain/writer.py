@@ -285,7 +285,7 @@ _AT_ITS_END = frozenset({0, 1, 2, 5, 9, 30})
 
 
 def _says(number: Word | str | None, codes: list[str], words: list[str], last: list[str]) -> Carried:
-    """What a block says, with its number if it says anything."""
+    """The text of a block, with its number if it says anything."""
     label = number.text.strip().upper().lstrip("N") if isinstance(number, Word) else number
     return Carried((f"N{label}",) if label else (), tuple(codes), tuple(words), tuple(last), ())
 
@@ -297,7 +297,7 @@ def _feed(text: str, unit: Length) -> str:
 
 
 def _wrong_place(block: Block) -> str:
-    """Why a block leads elsewhere than its coordinates say; empty if it does not."""
+    """The reason why a block leads elsewhere than its coordinates say; empty if it does not."""
     found = [word for word in block.words if word.address == "M" and word.number in _OTHER_PLACE_M]
     steps = [word for word in block.words if word.address in ("IA", "IB", "IC")]
     unknown = [word for word in block.words if word.address in LEXICON.addresses and word.number is None]
@@ -307,7 +307,7 @@ def _wrong_place(block: Block) -> str:
 
 
 def _not_known(block: Block) -> str:
-    """What is wrong with a pole: its place is a comment, because every arc about it has its own centre."""
+    """The fault of a pole: its place is a comment, because every arc about it has its own centre."""
     lost = [word.text.strip() for word in block.words if word.address in LEXICON.addresses and word.number is None]
     return f"{lost[0]} is not known" if lost else ""
 
@@ -364,4 +364,4 @@ WRITING = Writing(
     opening="G17 {unit} G90 G94",
     number=re.compile(r"(?m)^[ \t/]*+N?(\d{1,5})(?![\d.,])"),
 )
-"""How Klartext is written."""
+"""The writing of Klartext."""

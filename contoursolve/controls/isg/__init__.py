@@ -19,7 +19,7 @@ _CORNER = re.compile(r"G[ \t]*+(?:=[ \t]*+)?30[12]", re.IGNORECASE)
 
 
 def _signs(block: Block) -> tuple[Word, ...]:
-    """What shows the control: its words with a number sign, and corners in blocks of their own."""
+    """The words that show the control: those with a number sign, and corners in blocks of their own."""
     if "#" not in block.text and not _CORNER.search(block.text):
         return ()
     codes, words = (CHAMFER, ROUNDING), words_as(block, SYNTAX)

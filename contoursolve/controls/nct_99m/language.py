@@ -111,7 +111,7 @@ _CIRCLE_SIDES = {
     "right-is-negative": (Side.RIGHT, Side.LEFT),
     CLOCKWISE: (Side.FIRST, Side.SECOND),
 }
-"""What a negative and a positive Q of two circles choose."""
+"""The sides that a negative and a positive Q of two circles choose."""
 
 
 def _counts_clockwise(modes: Modes) -> bool:
@@ -119,13 +119,14 @@ def _counts_clockwise(modes: Modes) -> bool:
 
 
 def _uncompensated(member: Member, states: Sequence[State], modes: Modes) -> Iterator[str]:
-    """Whether G41 or G42 is missing in one of the states before N1, in N1 and in N2."""
+    """The circumstance that G41 or G42 is missing in one of the states before N1, in N1 and in N2."""
     if member.element.is_over and any(state.compensation == 40 for state in states):  # noqa: PLR2004 - G40
         yield UNCOMPENSATED_FREE if modes.has(COMPENSATION, "free") else UNCOMPENSATED
 
 
 def _conventions(form: ContourForm, circumstances: Collection[str], modes: Modes) -> Iterator[Convention]:
-    """What decides here: a difference of radii has a finding of its own, so that only one that was set is named."""
+    """The settings that decide here: a difference of radii has a finding of its own, so that only one that was set is
+    named."""
     if any(name.endswith((UNCOMPENSATED, UNCOMPENSATED_FREE)) for name in circumstances):
         yield modes.convention(COMPENSATION)
     difference = modes.convention(RADIUS_DIFFERENCES)

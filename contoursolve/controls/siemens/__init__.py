@@ -17,7 +17,7 @@ from contoursolve.reading import Dialect, Diameter, Setting
 
 
 def _signs(block: Block) -> tuple[Word, ...]:
-    """What shows the control: its words with an equals sign."""
+    """The words that show the control: those with an equals sign."""
     if "=" not in block.text:
         return ()
     own = (word for word in words_as(block, SYNTAX) if word.address in LANGUAGE.own)
@@ -32,7 +32,7 @@ _LARGE = {
 
 
 def _too_big(default: str) -> Setting:
-    """What comes of a corner that does not fit."""
+    """The outcome of a corner that does not fit."""
     other = {"error": RULES, "reduce": RULES_REDUCING}
     changes = {value: partial(replace, rules=rules) for value, rules in other.items()}
     source = BOOK.printed("808D") if default == "reduce" else BOOK.assumed("840D: not described")

@@ -108,7 +108,8 @@ _RESTING = (
 
 
 def _conventions(form: ContourForm, circumstances: Collection[str], modes: Modes) -> Iterator[Convention]:
-    """What X is, where only the plane tells; and whether a line may run against its angle, if that was set."""
+    """The settings of X, where only the plane tells what it is; and of whether a line may run against its angle, if
+    that was set."""
     if any(name.endswith("@by-plane") for name in circumstances):
         yield modes.convention(DIAMETER)
     yield from sense_conventions(SENSE, form, modes)

@@ -16,7 +16,7 @@ _OF_A_POCKET = frozenset("DJLQY")
 
 
 def _signs(block: Block) -> tuple[Word, ...]:
-    """What shows the control. G112 alone is polar interpolation on Fanuc and Haas lathes."""
+    """The words that show the control. G112 alone is polar interpolation on Fanuc and Haas lathes."""
     addresses = {word.address for word in block.words}
     codes = {111}
     if addresses & {*"XUZWIKR"}:

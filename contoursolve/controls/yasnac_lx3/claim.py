@@ -44,7 +44,7 @@ _SHAPES = {
 
 
 def bevel_of(modes: Modes) -> CornerShape:
-    """What a bevel is, by the setting."""
+    """The shape of a bevel, by the setting."""
     return _SHAPES[modes.convention(BEVEL).value]
 
 
@@ -103,7 +103,7 @@ class BlockReader:
 
 
 def _name_of(word: Word, others: Collection[int]) -> str:
-    """What a word is called: its address, G codes with their number."""
+    """The name of a word: its address, G codes with their number."""
     if word.address != "G":
         return word.address
     return OTHER_G if word.number in others else f"G{word.number}"

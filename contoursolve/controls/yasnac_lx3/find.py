@@ -90,8 +90,8 @@ def follow(
     lines: Iterable[tuple[int, str]],
     modes: Modes,
 ) -> Iterator[Behind]:
-    """What is wrong with the block behind a contour of a form. `leave` gives the state behind it; of the lines, with
-    their numbers, no more are read than needed."""
+    """The faults of the block behind a contour of a form. `leave` gives the state behind it; of the lines, with their
+    numbers, no more are read than needed."""
     state: State | None = None
     for (number, text), _ in zip(lines, range(MOST), strict=False):
         if _POSITIONING.match(text):
@@ -125,7 +125,7 @@ _NOT_FOLLOWED = {Effect.SINGLE, Effect.PRESET}
 """Codes with which axis words are not where the tool goes from the contour."""
 
 _PASSING = (Effect.NONE, Effect.COMPENSATION, Effect.MOTION, Effect.NO_MOTION)
-"""What may stand between a contour and the block that moves on."""
+"""The codes that may stand between a contour and the block that moves on."""
 
 
 def _look(
@@ -136,7 +136,7 @@ def _look(
     own: list[int],
     modes: Modes,
 ) -> Iterator[Behind]:
-    """What there is to say of the first block behind a contour that moves."""
+    """The faults of the first block behind a contour that moves."""
     if not own:
         alone = _left_alone(block, state.motion)
         if alone:
@@ -203,7 +203,7 @@ def _leaving(contour: Contour, state: State, block: Block, modes: Modes) -> Iter
 
 
 def _way(state: State, block: Block, end: Point, modes: Modes) -> Point | None:
-    """Where a motion begins to go: to its end, mm, or a unit vector; None where its words do not tell."""
+    """The direction in which a motion begins: to its end, mm, or a unit vector; None where its words do not tell."""
     claim = find([block], 0, state, modes)
     if claim is not None and claim.form.name in CORNERING:
         values = {name: float(given.value) for name, given in claim.givens.items()}

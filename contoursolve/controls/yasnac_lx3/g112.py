@@ -152,7 +152,7 @@ def _sign(value: Decimal | None) -> int:
 
 
 def _landing(reader: BlockReader, across: int, aside: Decimal | None) -> Decimal | None:
-    """How far the landing line lies from the centre, in the positive sense of its axis, mm; None where unknown."""
+    """The distance of the landing line from the centre, in the positive sense of its axis, mm; None where unknown."""
     absolute, increment = (("Z", "W"), ("X", "U"))[across]
     start = reader.before.start().values[across]
     place, step = reader.value(absolute), reader.value(increment)
@@ -164,7 +164,7 @@ def _landing(reader: BlockReader, across: int, aside: Decimal | None) -> Decimal
 
 
 def _limits(reader: BlockReader, across: int, aside: Decimal | None, beyond: Decimal | None) -> dict[str, Decimal]:
-    """Where the words put the landing line through the centre, each by itself."""
+    """The values of words that put the landing line through the centre, each by itself."""
     if aside is None or beyond is None:
         return {}
     lands = reader.values.keys() & set("ZW" if across == FIRST else "XU")
@@ -173,7 +173,7 @@ def _limits(reader: BlockReader, across: int, aside: Decimal | None, beyond: Dec
 
 
 def _circumstances(side: int, beyond: Decimal | None) -> Iterator[str]:
-    """What keeps the arc from running from V1 to V2; the centre lies to `side` of line 1."""
+    """The circumstances that keep the arc from running from V1 to V2; the centre lies to `side` of line 1."""
     if beyond is not None and side * _sign(beyond) > 0:
         yield BACKS_UP
     if beyond == 0 and not side:
