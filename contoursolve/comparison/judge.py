@@ -213,7 +213,7 @@ class Measured(Struct, frozen=True, dict=True):
 
     @cached_property
     def beside(self) -> dict[str, float]:
-        """How far each line of a stated direction leads past its last point, mm."""
+        """The distance, mm, by which each line of a stated direction leads past its last point."""
         lines = (
             each for each in self.case.profile.figure.path if isinstance(each, Line) and each.name in self.at.headed
         )
