@@ -228,6 +228,13 @@ class Tape:
         kept._outputs = {name: each for name, each in self._outputs.items() if name in own or name.startswith(prefixes)}
         return kept
 
+    def of(self, inputs: Sequence[str], outputs: Sequence[str]) -> "Tape":
+        """A tape of its own with these inputs and outputs, in this order."""
+        chosen = Tape()
+        chosen._inputs = {name: self._inputs[name] for name in inputs}
+        chosen._outputs = {name: self._outputs[name] for name in outputs}
+        return chosen
+
     def copy(self) -> "Tape":
         """A tape of its own with the same inputs and outputs."""
         return self.keep(("",), ())

@@ -29,7 +29,7 @@ from contoursolve.solving import (
     choose,
     groups_of,
     has_closed_form,
-    make_kernel,
+    polynomials_of,
     scalars_of,
     solve,
     spare_of,
@@ -158,10 +158,9 @@ def _choice(group: Group, system: System, sides: Mapping[str, str]) -> str:
     """Text behind a step: the place that is chosen among several, and a search where there is no closed form."""
     names = _names(group)
     chosen = [f"the {side}" if side in ARCS else f"the one {side}" for name, side in sides.items() if name in names]
-    kernel = make_kernel(system, group)
-    numeric = (
-        "; no closed form: searched, and proven" if len(group.unknowns) > 1 and not has_closed_form(kernel) else ""
-    )
+    step = polynomials_of(system, group)
+    is_closed = step is not None and has_closed_form(step)
+    numeric = "; no closed form: searched, and proven" if len(group.unknowns) > 1 and not is_closed else ""
     return (f"; {join(chosen)}" if chosen else "") + numeric
 
 

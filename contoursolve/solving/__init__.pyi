@@ -175,4 +175,5 @@ from .solve import (
 from .step_equations import (
     Kernel as Kernel,
     make_kernel as make_kernel,
+    polynomials_of as polynomials_of,
 )

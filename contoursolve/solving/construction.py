@@ -41,7 +41,6 @@ from contoursolve.numeric import (
     at_most,
     is_affine,
     is_number,
-    larger,
     magnitude,
     quadratic_parts,
     sqrt,
@@ -487,14 +486,14 @@ class Builder:
             self._need(Need.REGULAR, f"determinant:{number}", step.facts, step.unknowns)
         whole: Matrix = [*matrix, way]
         through = [or_zero(replaced(whole, [*constants, None], column)) / square for column in range(size)]
-        along = [or_zero(each) / sqrt(square) for each in way]
+        along = list(map(or_zero, way))
         leading, middle, last = restrict(curve, along, through)
+        self.tape.output(f"leading:{number}", leading)
         half, rest = middle / (2 * leading), last / leading
         discriminant = half * half - rest
         self.tape.output(f"discriminant:{number}", discriminant)
         sign = self._sign(f"root:{','.join(step.unknowns)}", step, number)
-        # Of a half circle it is zero, and rounding may make it less.
-        far = sign * sqrt(larger(discriminant, 0)) - half
+        far = sign * self._spread(discriminant, discriminant <= 0) - half
         return [one + far * each for one, each in zip(through, along, strict=True)]
 
 

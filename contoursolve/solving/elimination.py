@@ -8,7 +8,15 @@ from msgspec import Struct
 
 from contoursolve.numeric import PRIME, Number, ball
 from contoursolve.solving.determinacy import witness_of
-from contoursolve.solving.step_equations import Coefficient, Kernel, Monomial, Polynomial, known, polynomial, rational
+from contoursolve.solving.step_equations import (
+    Coefficient,
+    Monomial,
+    Polynomial,
+    Polynomials,
+    known,
+    polynomial,
+    rational,
+)
 
 SHEAR = 0.4140625
 """Two conics are turned by this much (as a shear) before one unknown is eliminated, so that no two of their
@@ -53,9 +61,10 @@ class Close(Enum):
     DOUBLE = "take them for one double solution"
 
 
-def solve_step(kernel: Kernel, parameters: Sequence[Coefficient], close: Close = Close.REFUSE) -> list[Root]:
+def solve_step(step: Polynomials, parameters: Sequence[Coefficient], close: Close = Close.REFUSE) -> list[Root]:
     """All real solutions of a step at the values of its parameters. Raises ObstacleError where they cannot be told."""
-    return list(_solve(equations_of(kernel, parameters), frozenset(range(len(kernel.unknowns))), close))
+    equations = equations_of(step, parameters)
+    return list(_solve(equations, frozenset(range(len(equations))), close))
 
 
 def _solve(equations: list[Polynomial], unknowns: frozenset[int], close: Close) -> Iterator[Root]:
@@ -172,26 +181,24 @@ def _without(row: Polynomial, monomial: Monomial, pivot: Polynomial) -> Polynomi
     return Polynomial({key: each for key, each in combined.terms.items() if key != monomial})
 
 
-def equations_of(kernel: Kernel, inputs: Sequence[Coefficient]) -> list[Polynomial]:
+def equations_of(step: Polynomials, inputs: Sequence[Coefficient]) -> list[Polynomial]:
     """The equations of a step as polynomials, at the values of its parameters."""
-    if kernel.coefficients is None:
-        raise ObstacleError(Obstacle.NO_CLOSED_FORM)
-    rows: list[dict[Monomial, Coefficient]] = [{} for _ in kernel.facts]
-    for (row, monomial), value in zip(kernel.terms, kernel.coefficients(inputs), strict=True):
+    count = max(row for row, _ in step.terms) + 1
+    rows: list[dict[Monomial, Coefficient]] = [{} for _ in range(count)]
+    for (row, monomial), value in zip(step.terms, step.coefficients(inputs), strict=True):
         rows[row][monomial] = value
     return [polynomial(row) for row in rows]
 
 
-def has_closed_form(kernel: Kernel) -> bool:
+def has_closed_form(step: Polynomials) -> bool:
     """Whether a step has a closed form, apart from special values.
 
     Found at random values, which are the same for all drawings.
     """
-    if kernel.coefficients is None:
-        return False
-    inputs = [Coefficient(ball.around(witness_of(name) / PRIME, 0.0), witness_of(name)) for name in kernel.parameters]
+    inputs = [Coefficient(ball.around(witness_of(name) / PRIME, 0.0), witness_of(name)) for name in step.parameters]
     try:
-        equations, unknowns = _eliminate(equations_of(kernel, inputs), frozenset(range(len(kernel.facts))), [])
+        equations = equations_of(step, inputs)
+        equations, unknowns = _eliminate(equations, frozenset(range(len(equations))), [])
     except ObstacleError:
         return False
     singles = {unknown for each in equations if len(each.unknowns) == 1 for unknown in each.unknowns}

@@ -10,11 +10,12 @@ from msgspec import Struct
 from contoursolve.geometry import Fact, Line, Profile, System, scalar
 from contoursolve.numeric import Number, ball
 from contoursolve.solving.branch_and_prune import Division, Task, conditions_of, divide, settle
+from contoursolve.solving.closed_steps import close_step
 from contoursolve.solving.determinacy import groups_of, witness_of
 from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Root, solve_step
 from contoursolve.solving.exact_inputs import Ground, ground_of
 from contoursolve.solving.partition import Group
-from contoursolve.solving.step_equations import Coefficient, Kernel, make_kernel
+from contoursolve.solving.step_equations import Coefficient, Kernel, make_kernel, polynomials_of
 
 
 class Effort(Struct, frozen=True):
@@ -210,7 +211,7 @@ class _Search:
     def _advance(self, states: Sequence[Found], group: Group) -> _Steps[list[Found]]:
         kernel = make_kernel(self.system, group)
         cases = [Found(state.scalars, signs, state.doubles) for state in states for signs in _choices(state, kernel)]
-        solved = self._solve_each(kernel, cases)
+        solved = self._solve_each(group, cases)
         unsolved = [case for case, roots in zip(cases, solved, strict=True) if roots is None]
         searched = iter((yield from self._search(group, kernel, unsolved)) if unsolved else [])
         senses = [(fact, names) for fact, names in self.senses if not names.isdisjoint(kernel.unknowns)]
@@ -224,33 +225,43 @@ class _Search:
                     found.append(after)
         return found
 
-    def _solve_each(self, kernel: Kernel, cases: Sequence[Found]) -> list[list[Root] | None]:
+    def _solve_each(self, group: Group, cases: Sequence[Found]) -> list[list[Root] | None]:
         """All solutions of a step for each case. Cases that differ elsewhere alone have the very same numbers here, and
         are solved once."""
         solved: dict[tuple[int, ...], list[Root] | None] = {}
-        given = [[self.ground.number(name, case.scalars, case.signs) for name in kernel.parameters] for case in cases]
+        closed = close_step(self.system, group)
+        step = closed if closed is not None else polynomials_of(self.system, group)
+        if step is None:
+            return [None] * len(cases)
+        given = [self._numbers(step.parameters, case) for case in cases]
         keys = [tuple(map(id, numbers)) for numbers in given]
         for key, numbers, case in zip(keys, given, cases, strict=True):
             if key not in solved:
-                witnesses = [witness_of(name, case.signs) for name in kernel.parameters]
-                solved[key] = self._solve(kernel, list(map(Coefficient, numbers, witnesses)))
+                found = closed.solve(numbers) if closed is not None else None
+                solved[key] = roots = self._eliminate(group, case) if found is None else found
+                doubles = (each for root in roots or () if root.is_double for each in root.values.values())
+                if not all(map(ball.is_exact, doubles)):
+                    self.doubts.append(Doubt(group.unknowns, Obstacle.TOUCHING))
         return [solved[key] for key in keys]
 
-    def _solve(self, kernel: Kernel, coefficients: list[Coefficient]) -> list[Root] | None:
-        """All solutions of a step; None if it has no closed form."""
-        if kernel.coefficients is None:
+    def _numbers(self, names: Sequence[str], case: Found) -> list[Number]:
+        return [self.ground.number(name, case.scalars, case.signs) for name in names]
+
+    def _eliminate(self, group: Group, case: Found) -> list[Root] | None:
+        """All solutions of a step that the construction does not close, or that is a special one at these values; None
+        if it has no closed form."""
+        step = polynomials_of(self.system, group)
+        if step is None:
             return None
+        witnesses = (witness_of(name, case.signs) for name in step.parameters)
+        numbers = map(Coefficient, self._numbers(step.parameters, case), witnesses)
         try:
-            roots = solve_step(kernel, coefficients, self.close)
+            return solve_step(step, list(numbers), self.close)
         except ObstacleError as error:
             if error.obstacle is Obstacle.NO_CLOSED_FORM:
                 return None
-            self.doubts.append(Doubt(kernel.unknowns, error.obstacle))
+            self.doubts.append(Doubt(group.unknowns, error.obstacle))
             return []
-        doubles = [each for root in roots if root.is_double for each in root.values.values()]
-        if any(not ball.is_exact(each) for each in doubles):
-            self.doubts.append(Doubt(kernel.unknowns, Obstacle.TOUCHING))
-        return roots
 
     def _search(self, group: Group, kernel: Kernel, cases: Sequence[Found]) -> _Steps[list[list[Root]]]:
         """All solutions of a step without a closed form, for each case; all cases are searched together. First what is

@@ -146,38 +146,47 @@ def known(value: Any) -> Polynomial:
 class Kernel(Struct, frozen=True, eq=False):
     """Equations and unknowns of one step.
 
-    `coefficients` gives the coefficients of the equations as polynomials in the unknowns, in the order of `terms`
-    (equation, monomial), at the values of `parameters`; it is None if an equation is no
-    polynomial of degree 2. `equations` gives the equations and then their derivatives, row by row, at the values of
+    `equations` gives the equations and then their derivatives, row by row, at the values of
     `arguments`, which are the unknowns and then other inputs. `function` is the same in CasADi.
     """
 
     facts: tuple[Fact, ...]
     unknowns: tuple[str, ...]
     sides: tuple[str, ...]
-    parameters: tuple[str, ...]
-    terms: tuple[tuple[int, Monomial], ...]
-    coefficients: Replay | None
     arguments: tuple[str, ...]
     equations: Replay
     function: Any
 
 
+class Polynomials(Struct, frozen=True, eq=False):
+    """The equations of a group as polynomials of degree 2 in its unknowns: `coefficients` gives what stands before
+    `terms` (equation, monomial) at the values of `parameters`."""
+
+    parameters: tuple[str, ...]
+    terms: tuple[tuple[int, Monomial], ...]
+    coefficients: Replay
+
+
 @lru_cache(maxsize=8192)
-def make_kernel(system: System, group: Group) -> Kernel:
-    """The kernel of a group of facts of a system."""
-    sides = tuple(dict.fromkeys(side for fact in group.facts for side in fact.sides()))
+def polynomials_of(system: System, group: Group) -> Polynomials | None:
+    """The polynomials of a group of facts of a system; None if an equation is none, or of higher degree."""
     symbols = {name: expressions.symbol(name) for name in group.unknowns}
     tape = Tape()
     parts = expressions.quadratic_parts(
         [fact.equation(input_values(system, tape, symbols)) for fact in group.facts],
         list(symbols.values()),
     )
-    coefficients = None
-    if parts is not None:
-        for number, expression in enumerate(parts.values()):
-            tape.output(str(number), expression)
-        coefficients = Replay(tape.function(), COEFFICIENTS, rational)
+    if parts is None:
+        return None
+    for number, expression in enumerate(parts.values()):
+        tape.output(str(number), expression)
+    return Polynomials(tape.inputs, tuple(parts), Replay(tape.function(), COEFFICIENTS, rational))
+
+
+@lru_cache(maxsize=8192)
+def make_kernel(system: System, group: Group) -> Kernel:
+    """The kernel of a group of facts of a system."""
+    sides = tuple(dict.fromkeys(side for fact in group.facts for side in fact.sides()))
     at = Tape()
     unknowns = [at.input(name) for name in group.unknowns]
     outputs = [fact.equation(input_values(system, at, {})) for fact in group.facts]
@@ -188,9 +197,6 @@ def make_kernel(system: System, group: Group) -> Kernel:
         facts=group.facts,
         unknowns=group.unknowns,
         sides=sides,
-        parameters=tape.inputs,
-        terms=tuple(parts) if parts is not None else (),
-        coefficients=coefficients,
         arguments=at.inputs,
         equations=Replay(function, ball, ball.exact),
         function=function,

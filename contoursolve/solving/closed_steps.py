@@ -1,0 +1,87 @@
+"""The solutions of one group in closed form on exact numbers and balls: the construction's own expressions."""
+
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from typing import Any
+
+from msgspec import Struct
+
+from contoursolve.geometry import System, Values
+from contoursolve.numeric import Number, Replay, ball, sqrt
+from contoursolve.solving.construction import Builder, ConstructionStep, Need, NoClosedFormError, StepKind
+from contoursolve.solving.elimination import Root
+from contoursolve.solving.inputs import input_values
+from contoursolve.solving.partition import Group
+
+
+class ClosedStep(Struct, frozen=True, eq=False):
+    """The unknowns of a group as functions of what is known, and of the sign of a root where it has one."""
+
+    parameters: tuple[str, ...]
+    regular: Replay
+    """What must not be zero."""
+    discriminant: Replay | None
+    values: Replay
+    """The unknowns at the parameters and the sign."""
+
+    def solve(self, numbers: Sequence[Number]) -> list[Root] | None:
+        """All solutions at these values of the parameters, in ascending order of what differs most; None where the
+        numbers are too wide to tell, or the group is singular at them."""
+        try:
+            if not all(map(ball.sign, self.regular(numbers))):
+                return None
+            if self.discriminant is None:
+                return [_root(self.values(numbers), is_double=False)]
+            (found,) = self.discriminant(numbers)
+            match ball.sign(found):
+                case None:
+                    return None
+                case -1:
+                    return []
+                case 0:
+                    return [_root(self.values([*numbers, _PLUS]), is_double=True)]
+            places = [self.values([*numbers, sign]) for sign in (_MINUS, _PLUS)]
+        except (ArithmeticError, ValueError):
+            return None
+        apart = [abs(ball.middle(one - other)) for one, other in zip(*places, strict=True)]
+        index = max(range(len(apart)), key=lambda each: (apart[each], each))
+        return [_root(each, is_double=False) for each in sorted(places, key=lambda each: ball.middle(each[index]))]
+
+
+_PLUS, _MINUS = ball.exact(1.0), ball.exact(-1.0)
+
+
+def _root(values: Sequence[Number], *, is_double: bool) -> Root:
+    return Root(dict(enumerate(values)), is_double=is_double)
+
+
+@lru_cache(maxsize=8192)
+def close_step(system: System, group: Group) -> ClosedStep | None:
+    """The closed form of a group; None if it has none."""
+    builder = _StepBuilder(system, touching=0.0)
+    try:
+        builder.run(ConstructionStep(StepKind.GENERAL, group.facts, group.unknowns), 0)
+    except NoClosedFormError:
+        return None
+    outputs = {need: [each.output for each in builder.conditions if each.need is need] for need in Need}
+    root = tuple(each.sign for each in builder.conditions if each.sign)
+    for name in group.unknowns:
+        builder.tape.output(name, builder.scalars[name])
+    parameters = tuple(name for name in builder.tape.inputs if name not in root)
+
+    def replay(names: Sequence[str], inputs: Sequence[str]) -> Replay:
+        return Replay(builder.tape.of(inputs, names).function(), ball, ball.exact)
+
+    discriminant = replay(outputs[Need.REAL], parameters) if root else None
+    regular = replay([*outputs[Need.REGULAR], *(["leading:0"] if root else [])], parameters)
+    return ClosedStep(parameters, regular, discriminant, replay(group.unknowns, (*parameters, *root)))
+
+
+class _StepBuilder(Builder):
+    """A builder of one step, to which everything else is known."""
+
+    def at(self, symbols: Mapping[str, Any] | None = None) -> Values:
+        return input_values(self.system, self.tape, {**self.scalars, **(symbols or {})})
+
+    def _spread(self, discriminant: Any, _is_touching: Any) -> Any:
+        return sqrt(discriminant)
