@@ -1,6 +1,6 @@
-"""The plan of a contour in words: a construction that a toolmaker could follow with ruler and compass."""
+"""The construction of a contour in words, which a toolmaker could follow with ruler and compass."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 
 from contoursolve.diagnosis import Answer, angle_text, join, length_text, list_alternatives, unknowns_text
 from contoursolve.gcode import FACT
@@ -24,15 +24,15 @@ from contoursolve.output.plain_text import printable
 from contoursolve.solving import (
     ARCS,
     Alternatives,
+    ConstructionStep,
     Group,
     analyse,
     choose,
-    groups_of,
-    has_closed_form,
-    polynomials_of,
+    is_searched,
     scalars_of,
     solve,
     spare_of,
+    steps_of,
 )
 
 
@@ -60,7 +60,7 @@ def construction_lines(answer: Answer) -> list[str]:
         return [f"  construction: still open: {unknowns_text(verdict.free, profile)}"]
     scalars, sides = _found(answer)
     lines = ["  construction:"]
-    for number, group in enumerate(_joined(groups_of(system)), 1):
+    for number, group in enumerate(_joined(steps_of(system)), 1):
         facts = join(list(dict.fromkeys(filter(None, (_phrase(fact, group, profile) for fact in group.facts)))))
         how = _choice(group, system, sides)
         place = _place(group, profile, scalars)
@@ -90,10 +90,11 @@ def _of_chosen(alternatives: Alternatives, profile: Profile) -> tuple[Mapping[st
     return chosen[0].scalars, {key: side for key, side in chosen[0].sides.items() if key in differing}
 
 
-def _joined(groups: Sequence[Group]) -> Iterator[Group]:
+def _joined(steps: Iterable[ConstructionStep]) -> Iterator[Group]:
     """Steps in a row that find coordinates of one point, as one step."""
     pending: Group | None = None
-    for group in groups:
+    for step in steps:
+        group = Group(step.facts, step.unknowns)
         if pending is not None and len(_names(pending)) == 1 and _names(pending) == _names(group):
             pending = Group(pending.facts + group.facts, pending.unknowns + group.unknowns)
             continue
@@ -158,9 +159,8 @@ def _choice(group: Group, system: System, sides: Mapping[str, str]) -> str:
     """Text behind a step: the place that is chosen among several, and a search where there is no closed form."""
     names = _names(group)
     chosen = [f"the {side}" if side in ARCS else f"the one {side}" for name, side in sides.items() if name in names]
-    step = polynomials_of(system, group)
-    is_closed = step is not None and has_closed_form(step)
-    numeric = "; no closed form: searched, and proven" if len(group.unknowns) > 1 and not is_closed else ""
+    is_open = len(group.unknowns) > 1 and is_searched(system, group)
+    numeric = "; no closed form: searched, and proven" if is_open else ""
     return (f"; {join(chosen)}" if chosen else "") + numeric
 
 

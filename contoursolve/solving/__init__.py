@@ -1,4 +1,4 @@
-"""From a system and its values to a contour: plan, function, checks, proof.
+"""From a system and its values to a contour: construction, function, checks, proof.
 
 A profile comes in, a solution or refusals go out. Begin with `solve`; what has several solutions or no closed form is
 in `ambiguity`, `alternatives` and `enumerate`.

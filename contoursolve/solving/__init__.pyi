@@ -41,6 +41,7 @@ from .checks import (
     plain_checks as plain_checks,
     source_of as source_of,
 )
+from .closed_steps import is_searched as is_searched
 from .compare import (
     allowance as allowance,
     compare as compare,
@@ -63,6 +64,7 @@ from .construction import (
     StepKind as StepKind,
     is_closed as is_closed,
     points_with_two_solutions as points_with_two_solutions,
+    steps_of as steps_of,
 )
 from .contour import (
     ArcSegment as ArcSegment,
@@ -91,7 +93,6 @@ from .drawn import (
 )
 from .elimination import (
     Close as Close,
-    has_closed_form as has_closed_form,
 )
 from .enumerate import (
     DRAWING as DRAWING,
@@ -175,5 +176,4 @@ from .solve import (
 from .step_equations import (
     Kernel as Kernel,
     make_kernel as make_kernel,
-    polynomials_of as polynomials_of,
 )

@@ -9,9 +9,10 @@ from msgspec import Struct
 from contoursolve.geometry import System, Values
 from contoursolve.numeric import Number, Replay, ball, sqrt
 from contoursolve.solving.construction import Builder, ConstructionStep, Need, NoClosedFormError, StepKind
-from contoursolve.solving.elimination import Root
+from contoursolve.solving.elimination import Root, has_closed_form
 from contoursolve.solving.inputs import input_values
 from contoursolve.solving.partition import Group
+from contoursolve.solving.step_equations import polynomials_of
 
 
 class ClosedStep(Struct, frozen=True, eq=False):
@@ -85,3 +86,11 @@ class _StepBuilder(Builder):
 
     def _spread(self, discriminant: Any, _is_touching: Any) -> Any:
         return sqrt(discriminant)
+
+
+def is_searched(system: System, group: Group) -> bool:
+    """Whether the solutions of a group are searched for, because it has no closed form."""
+    if close_step(system, group) is not None:
+        return False
+    step = polynomials_of(system, group)
+    return step is None or not has_closed_form(step)
