@@ -17,7 +17,15 @@ from free_chains import random_chain
 import contoursolve
 from contoursolve import ArcSegment
 from contoursolve.diagnosis.solutions import list_solutions
-from contoursolve.solving import free_cuts
+from contoursolve.geometry import assemble
+from contoursolve.solving import (
+    alternatives as alternatives_module,
+    analyse,
+    closed_steps,
+    enumerate as enumerate_module,
+    free_cuts,
+    groups_of,
+)
 from contoursolve.solving.alternatives import find_alternatives
 
 # Programs of the manuals: printed there, results derived by hand. -------------------------------------------------
@@ -467,3 +475,30 @@ def has_drawn(chain):
 def test_a_chain_that_its_data_just_determine_is_among_the_solutions_and_none_is_wrong(seeds):
     missed = [chain.text for chain in (random_chain(Random(seed)) for seed in seeds) if not has_drawn(chain)]
     assert len(missed) <= max(1, len(seeds) // 100), missed[:3]
+
+
+@pytest.mark.parametrize("seeds", [range(0), pytest.param(range(30), marks=pytest.mark.slow)])
+def test_the_construction_has_the_solutions_that_elimination_finds_in_the_same_order(monkeypatch, seeds):
+    """Two ways that share no code from the equations to the numbers."""
+    found, closed = [], 0
+    texts = [*PROGRAMS.values(), *(random_chain(Random(seed), 3, 6).text for seed in seeds)]
+    for close in (closed_steps.close_step, lambda *_: None):
+        monkeypatch.setattr(enumerate_module, "close_step", close)
+        alternatives_module._find.cache_clear()
+        lists = []
+        for text in texts:
+            for answer in contoursolve.solve(text, control="heidenhain", depth="verdict").answers:
+                profile = answer.profile
+                if not (profile.is_extended and profile.start.is_known):
+                    continue
+                system = assemble(profile)
+                if analyse(system).is_determined:
+                    closed += any(close(system, group) is not None for group in groups_of(system))
+                    drawn = find_alternatives(profile)
+                    lists.append([(each.name, each.certificate.proof, each.scalars) for each in drawn.items])
+        found.append(lists)
+    assert closed > 10
+    assert [[each[:2] for each in items] for items in found[0]] == [[each[:2] for each in items] for items in found[1]]
+    for ours, theirs in zip(*found, strict=True):
+        for one, other in zip(ours, theirs, strict=True):
+            assert one[2] == pytest.approx(other[2], abs=1e-12)
