@@ -16,6 +16,7 @@ from free_chains import random_chain
 
 import contoursolve
 from contoursolve import ArcSegment
+from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis.solutions import list_solutions
 from contoursolve.geometry import assemble
 from contoursolve.solving import (
@@ -481,7 +482,8 @@ def test_a_chain_that_its_data_just_determine_is_among_the_solutions_and_none_is
 def test_the_construction_has_the_solutions_that_elimination_finds_in_the_same_order(monkeypatch, seeds):
     """Two ways that share no code from the equations to the numbers."""
     found, closed = [], 0
-    texts = [*PROGRAMS.values(), *(random_chain(Random(seed), 3, 6).text for seed in seeds)]
+    examples = (example for rule in DIALECTS["heidenhain"].rules for example in (*rule.accepted, *rule.rejected))
+    texts = [*PROGRAMS.values(), *dict.fromkeys(examples), *(random_chain(Random(seed), 3, 6).text for seed in seeds)]
     for close in (closed_steps.close_step, lambda *_: None):
         monkeypatch.setattr(enumerate_module, "close_step", close)
         alternatives_module._find.cache_clear()
