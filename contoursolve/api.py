@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Unpack
 
 from msgspec.structs import replace
 
@@ -15,22 +14,27 @@ from contoursolve.diagnosis import Depth
 from contoursolve.diagnostics import Diagnostic, choice_of
 from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, UnreadableProgramError, decode, file_in_memory
 from contoursolve.program import (
+    CheckKeywords,
+    FollowKeywords,
+    ProgramKeywords,
+    ReadingKeywords,
     Result,
     Run,
+    SolveKeywords,
+    SolveOptions,
     choose_alike,
     configure,
     find_dialect,
     find_settings,
     for_kind,
-    request_for,
     restate_control,
     run,
     stated_settings,
+    takes,
 )
 from contoursolve.reading import Dialect
 
 if TYPE_CHECKING:
-    from contoursolve.geometry import Statement
     from contoursolve.postprocess import Conversion, Expansion, Post
 
 __all__ = [
@@ -60,19 +64,12 @@ def parse(text: str, *, name: str = "<program>") -> Program:
     return gcode.parse(text, name)
 
 
+@takes(SolveKeywords)
 def solve(
     text: str,
     *,
-    control: str | Dialect | None = None,
-    start: str | None = None,
-    units: str = "mm",
-    rules: str = "enforce",
-    depth: str = "full",
-    facts: Iterable[str | Statement] = (),
-    settings: Mapping[str, str] | None = None,
-    variables: Mapping[str, float] | None = None,
-    folders: Iterable[str | Path] = (),
     name: str = "<program>",
+    **options: Unpack[SolveKeywords],
 ) -> Result:
     """Solve every contour of a program, or of a single block.
 
@@ -111,19 +108,7 @@ def solve(
     >>> f"{asked.answers[0].answers[0].value:.3f}"
     '8.038'
     """
-    program = _read(text, name)
-    return solve_program(
-        program,
-        control=control,
-        start=start,
-        units=units,
-        rules=rules,
-        depth=depth,
-        facts=facts,
-        settings=settings,
-        variables=variables,
-        folders=folders,
-    )
+    return _follow(_read(text, name), SolveOptions(**options)).collect()
 
 
 def _read(text: str, name: str) -> Program:
@@ -139,19 +124,12 @@ _FILE = re.compile(r"[^\n]*\.(?:nc|ngc|cnc|tap|txt|mpf|spf|eia|min|h|gcode|iso)"
 """Text that is meant as the name of a program. No block ends so: behind a point there is a digit."""
 
 
+@takes(CheckKeywords)
 def check(
     text: str,
     *,
-    control: str | Dialect | None = None,
-    start: str | None = None,
-    units: str = "mm",
-    rules: str = "enforce",
-    facts: Iterable[str | Statement] = (),
-    settings: Mapping[str, str] | None = None,
-    variables: Mapping[str, float] | None = None,
-    folders: Iterable[str | Path] = (),
     name: str = "<program>",
-    strict: bool = False,
+    **options: Unpack[CheckKeywords],
 ) -> tuple[Diagnostic, ...]:
     """The findings about a program; arguments and errors as for `solve`.
 
@@ -161,144 +139,59 @@ def check(
     >>> [each.code for each in check("G00 X40. Z0.\\nG111 X100. A180. B120.")]
     ['g111-line-1', 'words-missing']
     """
-    program = _read(text, name)
-    found = follow_program(
-        program,
-        control=control,
-        start=start,
-        units=units,
-        rules=rules,
-        facts=facts,
-        settings=settings,
-        variables=variables,
-        folders=folders,
-        strict=strict,
-    )
-    return found.collect().diagnostics
+    return _follow(_read(text, name), SolveOptions(**options)).collect().diagnostics
 
 
+@takes(SolveKeywords)
 def solve_file(
     path: str | Path,
-    *,
-    control: str | Dialect | None = None,
-    start: str | None = None,
-    units: str = "mm",
-    rules: str = "enforce",
-    facts: Iterable[str | Statement] = (),
-    settings: Mapping[str, str] | None = None,
-    variables: Mapping[str, float] | None = None,
-    folders: Iterable[str | Path] = (),
+    **options: Unpack[SolveKeywords],
 ) -> Result:
     """Solve every contour of a file; `-` is standard input.
 
     Settings are those of the project file beside it or above it, and `settings` on top of them.
     Raises UnreadableProgramError, SettingError, and as `solve`.
     """
-    return _follow_file(
-        path,
-        settings,
-        control=control,
-        start=start,
-        units=units,
-        rules=rules,
-        facts=facts,
-        variables=variables,
-        folders=folders,
-    ).collect()
+    return _follow_file(path, SolveOptions(**options)).collect()
 
 
+@takes(CheckKeywords)
 def check_file(
     path: str | Path,
-    *,
-    control: str | Dialect | None = None,
-    start: str | None = None,
-    units: str = "mm",
-    rules: str = "enforce",
-    settings: Mapping[str, str] | None = None,
-    variables: Mapping[str, float] | None = None,
-    folders: Iterable[str | Path] = (),
-    strict: bool = False,
+    **options: Unpack[CheckKeywords],
 ) -> tuple[Diagnostic, ...]:
     """The findings about a file, with arguments as for `check` and errors as for `solve_file`."""
-    return (
-        _follow_file(
-            path,
-            settings,
-            control=control,
-            start=start,
-            units=units,
-            rules=rules,
-            variables=variables,
-            folders=folders,
-            strict=strict,
-        )
-        .collect()
-        .diagnostics
-    )
+    return _follow_file(path, SolveOptions(**options)).collect().diagnostics
 
 
-def _follow_file(path: str | Path, settings: Mapping[str, str] | None, **options: Any) -> Run:
+def _follow_file(path: str | Path, options: SolveOptions) -> Run:
     folder = Path() if str(path) == STANDARD_INPUT else Path(path).parent
     program = read_program(path)
-    own = find_settings(folder) | stated_settings(block.text for block in program.blocks) | dict(settings or {})
-    return follow_program(program, settings=own, **options)
+    stated = stated_settings(block.text for block in program.blocks) | dict(options.settings or {})
+    return _follow(program, replace(options, settings=find_settings(folder) | stated))
 
 
+@takes(SolveKeywords)
 def solve_program(
     program: Program,
-    *,
-    control: str | Dialect | None = None,
-    start: str | None = None,
-    units: str = "mm",
-    rules: str = "enforce",
-    depth: str = "full",
-    facts: Iterable[str | Statement] = (),
-    settings: Mapping[str, str] | None = None,
-    variables: Mapping[str, float] | None = None,
-    folders: Iterable[str | Path] = (),
+    **options: Unpack[SolveKeywords],
 ) -> Result:
     """Solve every contour of a program that was parsed or read before; as `solve`."""
-    return follow_program(
-        program,
-        control=control,
-        start=start,
-        units=units,
-        rules=rules,
-        depth=depth,
-        facts=facts,
-        settings=settings,
-        variables=variables,
-        folders=folders,
-    ).collect()
+    return _follow(program, SolveOptions(**options)).collect()
 
 
+@takes(FollowKeywords)
 def follow_program(
     program: Program,
-    *,
-    control: str | Dialect | None = None,
-    start: str | None = None,
-    units: str = "mm",
-    rules: str = "enforce",
-    depth: str = "full",
-    facts: Iterable[str | Statement] = (),
-    settings: Mapping[str, str] | None = None,
-    variables: Mapping[str, float] | None = None,
-    folders: Iterable[str | Path] = (),
-    strict: bool = False,
+    **options: Unpack[FollowKeywords],
 ) -> Run:
     """The same as a stream of contours and findings, for a program of any length; `strict` as for `check`."""
-    asked = request_for(
-        program.name,
-        start=start,
-        units=units,
-        rules=rules,
-        depth=depth,
-        facts=facts,
-        variables=variables,
-        folders=folders,
-        strict=strict,
-    )
-    dialect = choose_alike(control, program, asked, settings)
+    return _follow(program, SolveOptions(**options))
+
+
+def _follow(program: Program, options: SolveOptions) -> Run:
+    asked = options.request(program.name)
+    dialect = choose_alike(options.control, program, asked, options.settings)
     asked = asked if dialect is None else asked.of(dialect, lambda: (block.text for block in program.blocks))
     together = None
     if asked.dialect is not None and len(program.blocks) >= _MANY:
@@ -312,6 +205,7 @@ _MANY = 64
 """Blocks of a program whose contours are solved together."""
 
 
+@takes(ProgramKeywords)
 def expand(
     text: str,
     *,
@@ -323,17 +217,10 @@ def expand(
     keep_untranslated: bool = False,
     block_numbers: str = "first",
     inline: bool = False,
-    control: str | Dialect | None = None,
-    start: str | None = None,
-    units: str = "mm",
-    rules: str = "enforce",
-    facts: Iterable[str | Statement] = (),
-    settings: Mapping[str, str] | None = None,
     formulas: bool = False,
     scratch: str | None = None,
-    variables: Mapping[str, float] | None = None,
-    folders: Iterable[str | Path] = (),
     name: str = "<program>",
+    **options: Unpack[ProgramKeywords],
 ) -> Expansion:
     """A program with every contour written as plain G00, G01, G02 and G03, and everything else as it was.
 
@@ -375,34 +262,33 @@ def expand(
 
     if decimals is not None and (isinstance(decimals, bool) or decimals not in range(1, MOST_DECIMALS + 1)):
         raise ValueError(f"decimals cannot be {decimals!r}; choose 1 to {MOST_DECIMALS}, or None for the target's own")
-    asked = request_for(name, start=start, units=units, rules=rules, facts=facts, variables=variables, folders=folders)
+    told = SolveOptions(**options)
+    asked = told.request(name)
     writer = None
     if formulas:
         from contoursolve.postprocess import formulas_for, post_of_formulas  # noqa: PLC0415
 
         post = post_of_formulas(post)
-        writer = formulas_for(text, post, scratch, variables or {}, asked.policy)
+        writer = formulas_for(text, post, scratch, told.variables or {}, asked.policy)
     numbering = choice_of(Numbering, block_numbers, "block_numbers")
-    options = ExpansionOptions(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, numbering, inline)
-    stated = {} if isinstance(control, Dialect) else stated_settings(gcode.split_lines(text))
-    own = stated | dict(settings or {})
+    wish = ExpansionOptions(find_post(post), choice_of(Arcs, arcs, "arcs"), decimals, comments, numbering, inline)
+    stated = {} if isinstance(told.control, Dialect) else stated_settings(gcode.split_lines(text))
+    own = stated | dict(told.settings or {})
     source = file_in_memory(text, name)
-    rewritten = rewrite(source, BytesIO(), options, asked, control=control, settings=own, writer=writer)
+    rewritten = rewrite(source, BytesIO(), wish, asked, control=told.control, settings=own, writer=writer)
     summary, written = rewritten.summary, b"".join(rewritten.pieces())
     is_whole = (keep_going or not summary.left) and (keep_untranslated or not summary.misread)
     return Expansion(written.decode(*ANY_TEXT) if is_whole else None, rewritten.control, summary)
 
 
+@takes(ReadingKeywords)
 def convert(
     text: str,
     to: str | Dialect,
     *,
     comments: bool = True,
-    control: str | Dialect | None = None,
-    units: str = "mm",
-    rules: str = "enforce",
-    settings: Mapping[str, str] | None = None,
     name: str = "<program>",
+    **options: Unpack[ReadingKeywords],
 ) -> Conversion:
     """A program with every contour in another control's own words, as far as it has them.
 
@@ -435,25 +321,26 @@ def convert(
         post_of,
     )
 
-    target = to if isinstance(to, Dialect) else configure(find_dialect(to), settings)
+    told = SolveOptions(**options)
+    target = to if isinstance(to, Dialect) else configure(find_dialect(to), told.settings)
     if language_of(target) is None:
         raise ConversionError(
             f"contours cannot be written in the words of {target.name}: its blocks are of another kind"
         )
-    dialect = choose_alike(control, gcode.parse(text, name), request_for(name, units=units, rules=rules), settings)
+    dialect = choose_alike(told.control, gcode.parse(text, name), told.request(name), told.settings)
     if dialect is not None:
-        target = for_kind(target, settings or {}, machine_of(dialect).value)
+        target = for_kind(target, told.settings or {}, machine_of(dialect).value)
     if dialect is not None and machine_of(dialect) is not machine_of(target):
         kinds = f"{dialect.name} is a {machine_of(dialect).value}, {target.name} a {machine_of(target).value}"
         switches = (each.name for each in (dialect, target) if any(one.name == "machine" for one in each.settings))
         advice = "".join(f"; for a lathe, set {name}.machine=lathe" for name in switches)
         raise ConversionError(f"a program is converted for the same kind of machine: {kinds}{advice}")
     post = post_of(target)
-    found = expand(text, post=post, comments=comments, control=dialect, units=units, rules=rules, name=name)
+    found = expand(text, post=post, comments=comments, control=dialect, units=told.units, rules=told.rules, name=name)
     found = replace(found, text=found.text and restate_control(found.text, target.name, target.modes.settings))
     if found.text is None or dialect is None:
         return Conversion(found.text, found.control, target.name, found.summary, None)
-    asked = request_for(name, units=units, rules=rules, strict=True)
+    asked = replace(told, strict=True).request(name)
     axes = tuple(sorted({*dialect.modes.axes, *target.modes.axes}))
     old, new = (
         follow(run(gcode.parse(program, name), replace(asked, dialect=each)), each, asked.unit, axes)

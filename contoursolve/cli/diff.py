@@ -22,7 +22,7 @@ from contoursolve.cli.printing import print_lines, say
 from contoursolve.controls import DIALECTS, PLAIN
 from contoursolve.gcode import Program
 from contoursolve.geometry import Length
-from contoursolve.program import CONTROL, Result, choose_alike, configure, request_for, run
+from contoursolve.program import CONTROL, Result, SolveOptions, choose_alike, configure, run
 from contoursolve.reading import Dialect, ReadIssue
 
 _ANY_CONTROL = (*DIALECTS, *PLAIN)
@@ -97,9 +97,8 @@ def diff(
         before = sides[0][1] if sides else None
         is_kept = control is not None and before is not None and _reads_what_shows_others(before, program)
         dialect = _dialect_of(program, own or (before if is_kept else None), before, assignments, folders)
-        asked = request_for(
-            program.name, dialect, units=unit, rules=rules, variables=variables, folders=folders, strict=True
-        )
+        told = SolveOptions(units=unit, rules=rules, variables=variables, folders=folders, strict=True)
+        asked = told.request(program.name, dialect)
         sides.append((run(program, asked), dialect, asked.unit))
     results = [result for result, _, _ in sides]
     if any(map(_has_no_path, results)):
@@ -140,7 +139,11 @@ def _dialect_of(
         settings = settings_of(program, assignments)
         name = control or settings.get(CONTROL)
         named = {**DIALECTS, **PLAIN}[name] if isinstance(name, str) else name
-        shown = None if named else choose_alike(None, program, request_for(program.name, folders=folders), settings)
+        shown = (
+            None
+            if named
+            else choose_alike(None, program, SolveOptions(folders=folders).request(program.name), settings)
+        )
         dialect = named or shown or otherwise
         if dialect is not None:
             return shown or configure(dialect, settings)

@@ -46,7 +46,7 @@ from contoursolve.postprocess import (
     Writer,
     rewrite,
 )
-from contoursolve.program import request_for
+from contoursolve.program import SolveOptions
 
 _BY_HAND = "write by hand what is meant there"
 
@@ -288,7 +288,7 @@ def _rewrite(
             source,
             body,
             wish,
-            request_for(source.name, start=start, **{each: options[each] for each in _ASKED if each in options}),
+            SolveOptions(start=start, **{each: options[each] for each in _ASKED if each in options}).request(source.name),
             control=options["control"],
             settings=settings_of(source, options["assignments"]),
             progress=progress,

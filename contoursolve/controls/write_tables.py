@@ -10,7 +10,14 @@ from contoursolve import solving
 from contoursolve.controls.all_controls import DIALECTS
 from contoursolve.geometry import Contact, Fact, Foot, System, build_system
 from contoursolve.reading import ContourForm, lay_out, stated_sets
-from contoursolve.solving import Determinacy, derive, derive_circle_identity, derive_identity, is_affine, tied_sets
+from contoursolve.solving import (
+    Determinacy,
+    circuits_for_all_values,
+    derive,
+    derive_circle_identity,
+    derive_identity,
+    is_affine,
+)
 
 
 def systems() -> dict[str, System]:
@@ -55,7 +62,8 @@ def _identities(form: ContourForm) -> Iterator[tuple[tuple[Fact, ...], str]]:
     layout = lay_out(form, frozenset().union(*stated_sets(form)), frozenset())
     if is_affine(layout.facts):
         system = build_system(layout.figure, layout.facts)
-        yield from ((facts, derive_identity(system, facts)) for facts in tied_sets(system))
+        circuits = circuits_for_all_values(system).found
+        yield from ((each.facts, derive_identity(system, each.facts)) for each in circuits)
         return
     for stated in stated_sets(form):
         layout = lay_out(form, stated, frozenset())

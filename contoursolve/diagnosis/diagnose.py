@@ -13,7 +13,6 @@ from contoursolve.diagnosis.explain import (
     absent_advice,
     context_of,
     explain_missing,
-    facts_at,
     spans_of,
 )
 from contoursolve.diagnosis.fix_text import fixes_of
@@ -21,20 +20,20 @@ from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, id
 from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.wording import SHOWN, count, length_text
 from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, Label, Layer, Severity, Span, Tie, Verdict
-from contoursolve.gcode import FACT, Block, FaultKind, Word
+from contoursolve.gcode import FACT, Block, FaultKind
 from contoursolve.geometry import OnCircle, Profile, System, Unit, assemble
 from contoursolve.reading import Dialect, ReadIssue, State, read
 from contoursolve.solving import (
-    NO_CIRCUITS,
     AffineFacts,
     Circuit,
     NoteKind,
     RefusalKind,
+    Ties,
     affine_facts,
     analyse,
     compare_affine,
     decompose,
-    is_conflict,
+    find_ties,
     lookup,
     opposes,
     runs_against,
@@ -53,26 +52,27 @@ def diagnose(
     """The answer with a diagnosis; its findings with their reasons, the first one with the repairs. `following` are
     the next blocks, `previous` those before it, of which it may be the end, with the state before them."""
     profile = answer.profile
-    affine = affine_facts(profile, (*profile.facts, *profile.ignored))
     is_readable = not any(block.faults for block in answer.claim.blocks)
-    circuits, is_every_tie = affine.circuits() if affine and is_readable else NO_CIRCUITS
+    found = None
+    if is_readable and answer.start.is_known:
+        is_told = any(each.about in (*SAID_AGAIN, *_ABOUT_RADII) for each in answer.diagnostics)
+        found = find_ties(profile, is_told=is_told)
+    affine = affine_facts(profile, (*profile.facts, *profile.ignored))
     freedoms = affine.freedoms() if affine and is_readable else ()
     # What a contour needs and nobody reads here is no slip.
     repairs = Repairs((), is_complete=False)
     if not answer.claim.unread:
         repairs = find_repairs(answer, dialect, tuple(following), previous)
-    # Of facts that are not all about lines between points, findings show ties.
-    other_ties = _further_ties if profile.is_extended else _circle_ties
     diagnosis = Diagnosis(
         layers=list_layers(answer, policy),
         freedoms=freedoms,
-        ties=tuple(_tie(answer, affine, each) for each in circuits if affine) or tuple(other_ties(answer)),
-        ties_complete=is_readable and is_every_tie and answer.start.is_known and not profile.is_extended,
+        ties=tuple(_tie(answer, found, each) for each in found.circuits.found) if found else (),
+        ties_complete=found is not None and found.circuits.is_complete,
         repairs_complete=repairs.is_complete,
     )
     findings = []
     for finding in answer.diagnostics:
-        reasons = tuple(_reasons(answer, affine, circuits, diagnosis, finding))
+        reasons = tuple(_reasons(answer, affine, found, diagnosis, finding))
         labels = _start_labels(answer) if reasons and finding.about in _FROM_START else ()
         findings.append(replace(finding, notes=finding.notes + reasons, labels=finding.labels + labels))
     if repairs.repairs and any(edit.address == "G" for edit in repairs.repairs[0].edits):
@@ -183,59 +183,23 @@ def _start_labels(answer: Answer) -> tuple[Label, ...]:
     return tuple(Label(span, text) for span, text in labels.items())
 
 
-def _tie(answer: Answer, affine: AffineFacts, circuit: Circuit) -> Tie:
+def _tie(answer: Answer, ties: Ties, circuit: Circuit) -> Tie:
+    profile = answer.profile
+    words = dict.fromkeys(filter(None, (profile.givens[name].word for name in ties.givens(circuit))))
     return Tie(
-        addresses=tuple(_address(word) for word in answer.profile.words_of(circuit.facts)),
-        identity=identity(answer.profile, circuit.facts),
-        off_by_mm=max(circuit.off),
-        is_conflict=is_conflict(circuit, answer.profile, affine) or _is_turned(answer, affine, circuit),
+        addresses=tuple(word.text if word.address == FACT else word.address for word in words),
+        identity=identity(profile, circuit.facts),
+        off_by_mm=ties.off_by(circuit),
+        is_conflict=ties.is_conflict(circuit) or _is_turned(answer, ties, circuit),
     )
 
 
-def _is_turned(answer: Answer, affine: AffineFacts, circuit: Circuit) -> bool:
+def _is_turned(answer: Answer, ties: Ties, circuit: Circuit) -> bool:
     """Whether a line runs against the angle of one of the facts that say the same: as the contour runs, or where these
     facts alone put its ends."""
     profile, contour = answer.profile, answer.contour
-    known = affine.fixed_by(circuit.facts) | scalars_of(contour.points if contour else {})
+    known = (ties.rows.fixed_by(circuit.facts) if ties.rows else {}) | scalars_of(contour.points if contour else {})
     return runs_against(circuit.facts, profile, lookup(profile, known))
-
-
-def _address(word: Word) -> str:
-    """What tells a word from the others; a fact is told by its text."""
-    return word.text if word.address == FACT else word.address
-
-
-def _further_ties(answer: Answer) -> Iterator[Tie]:
-    """For each word or fact that says again what others say, those others and itself."""
-    from contoursolve.solving import tied_with  # noqa: PLC0415 - few blocks state more than their words
-
-    profile = answer.profile
-    system = assemble(profile)
-    for finding in answer.diagnostics:
-        for fact in facts_at(profile, finding.span)[:1] if finding.about in SAID_AGAIN else ():
-            words = (profile.givens[name].word for name in tied_with(system, fact))
-            addresses = (_address(each) for each in words if each)
-            is_conflict = finding.is_error
-            yield Tie(tuple(dict.fromkeys(addresses)), "", finding.values.get("off_by_mm", 0.0), is_conflict)
-
-
-def _circle_ties(answer: Answer) -> Iterator[Tie]:
-    """The tie of a circle whose centre and whose point are both given; there is at most this one."""
-    profile = answer.profile
-    system = assemble(profile)
-    verdict = analyse(system)
-    tied = [system.facts[index] for index in verdict.tied]
-    if len(verdict.basis) + 1 != len(system.facts) or not any(isinstance(fact, OnCircle) for fact in tied):
-        return
-    slack = min(fact.slack for fact in tied if isinstance(fact, OnCircle))
-    compared = [each for each in answer.diagnostics if each.about in _ABOUT_RADII]
-    off = compared[0].values["off_by_mm"] if compared else 0.0
-    yield Tie(
-        addresses=tuple(word.address for word in profile.words_of(tied)),
-        identity=identity(profile, tied),
-        off_by_mm=off,
-        is_conflict=off > slack,
-    )
 
 
 _ABOUT_RADII = (RefusalKind.RADIUS_DIFFERENCE, NoteKind.RADIUS_DIFFERS)
@@ -244,20 +208,20 @@ _ABOUT_RADII = (RefusalKind.RADIUS_DIFFERENCE, NoteKind.RADIUS_DIFFERS)
 def _reasons(
     answer: Answer,
     affine: AffineFacts | None,
-    circuits: tuple[Circuit, ...],
+    ties: Ties | None,
     diagnosis: Diagnosis,
     finding: Diagnostic,
 ) -> Iterator[str]:
     profile = answer.profile
-    if affine is not None and circuits and finding.about in _ABOUT_TIES:
+    if affine is not None and ties is not None and finding.about in _ABOUT_TIES:
         words = ((each.unit, each.word) for each in profile.givens.values() if each.word)
         unit = next((unit for unit, word in words if word.span == finding.span), Unit.MM)
         is_opposite = opposes(finding.values, unit)
-        for circuit in circuits:
+        for circuit in ties.circuits.found:
             addresses = {word.address for word in profile.words_of(circuit.facts)}
             about = addresses if finding.about in SINGULAR else addresses.intersection(finding.addresses)
             if about and about <= {*finding.addresses}:
-                is_about_direction = is_opposite or _is_turned(answer, affine, circuit)
+                is_about_direction = is_opposite or _is_turned(answer, ties, circuit)
                 yield from conflict_reasons(profile, affine, circuit, is_about_direction=is_about_direction)
     if finding.about in _ABOUT_FREEDOM:
         lost = _points_lost(profile, affine) if affine is not None else set()

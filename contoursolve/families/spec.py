@@ -20,7 +20,7 @@ from contoursolve.diagnostics import Diagnostic
 from contoursolve.families.errors import FamilyError
 from contoursolve.gcode import FACT, Directive, Program, Word, call, spell
 from contoursolve.numeric import Array
-from contoursolve.program import Request, Result, UnknownControlError, choose, request_for, run
+from contoursolve.program import Request, Result, SolveOptions, UnknownControlError, choose, run
 from contoursolve.reading import Dialect, ReadIssue
 from contoursolve.tolerance import LARGEST
 
@@ -378,9 +378,8 @@ class SweepSpec(Struct, frozen=True):
                 raise TypeError(f"the {name} is a text (str), not {type(text).__name__}")
         program = gcode.parse(self.block, "<block>")
         dialect = choose(self.control, program, dict(self.settings))
-        asked = request_for(
-            program.name, dialect, start=self.start, units=self.units, rules=self.rules, facts=self.facts, strict=True
-        )
+        told = SolveOptions(start=self.start, units=self.units, rules=self.rules, facts=self.facts, strict=True)
+        asked = told.request(program.name, dialect)
         if dialect is None:
             unread = run(program, replace(asked, facts=()))
             if any(each.about is not ReadIssue.NO_CONTOUR for each in errors_of(unread)):

@@ -57,8 +57,14 @@ from .recognise import (
     what_shows as what_shows,
 )
 from .request import (
+    CheckKeywords as CheckKeywords,
+    FollowKeywords as FollowKeywords,
+    ProgramKeywords as ProgramKeywords,
+    ReadingKeywords as ReadingKeywords,
     Request as Request,
-    request_for as request_for,
+    SolveKeywords as SolveKeywords,
+    SolveOptions as SolveOptions,
+    takes as takes,
 )
 from .solve_queue import (
     Step as Step,

@@ -1,8 +1,10 @@
 """Request for the examination of a program: its control, and the options besides its text."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import wraps
+from inspect import Parameter, signature
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ParamSpec, TypedDict, TypeVar
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -18,6 +20,9 @@ from contoursolve.reading import Dialect, Rule
 
 if TYPE_CHECKING:
     from contoursolve.geometry import Statement
+
+P = ParamSpec("P")
+T = TypeVar("T")
 
 
 class Request(Struct, frozen=True):
@@ -57,35 +62,101 @@ class Request(Struct, frozen=True):
         return self.dialect.rules if self.dialect is not None else COMMON_RULES
 
 
-def request_for(  # noqa: PLR0913 - takes what `solve` takes
-    name: str,
-    dialect: Dialect | None = None,
-    *,
-    start: str | None = None,
-    units: str = "mm",
-    rules: str = "enforce",
-    depth: str = "full",
-    facts: "Iterable[str | Statement]" = (),
-    variables: Mapping[str, float] | None = None,
-    folders: Iterable[str | Path] = (),
-    strict: bool = False,
-) -> Request:
-    """The request that arguments of `solve` state about the program of this name for a control; a text alone is one
-    fact. Raises ValueError where units, rules or depth is none of its choices."""
-    several = [facts] if isinstance(facts, str) else facts
-    asked = Request(
-        None,
-        choice_of(Length, units, "units"),
-        choice_of(Policy, rules, "rules"),
-        choice_of(Depth, depth, "depth"),
-        parse(start, name, first_line=0) if start is not None else None,
-        tuple(_fact(fact, -number) for number, fact in enumerate(several, 1)),
-        surroundings_of(name, variables, folders),
-        strict,
-    )
-    if dialect is None and asked.around.values:
-        check_names(asked.around.values, [each.modes.language for each in DIALECTS.values() if each.modes.language])
-    return asked.of(dialect) if dialect is not None else asked
+class ReadingKeywords(TypedDict, total=False):
+    """How a program is read, as keywords of a function."""
+
+    control: "str | Dialect | None"
+    units: str
+    rules: str
+    settings: "Mapping[str, str] | None"
+
+
+class ProgramKeywords(ReadingKeywords, total=False):
+    """What is stated beside a program, too."""
+
+    start: "str | None"
+    facts: "Iterable[str | Statement]"
+    variables: "Mapping[str, float] | None"
+    folders: "Iterable[str | Path]"
+
+
+class SolveKeywords(ProgramKeywords, total=False):
+    """How far findings are explained, too."""
+
+    depth: str
+
+
+class CheckKeywords(ProgramKeywords, total=False):
+    """Whether all findings are told, too."""
+
+    strict: bool
+
+
+class FollowKeywords(SolveKeywords, CheckKeywords, total=False):
+    """All keywords."""
+
+
+class SolveOptions(Struct, frozen=True, kw_only=True):
+    """The keywords of `solve` and its kin, as they are stated; see there."""
+
+    control: "str | Dialect | None" = None
+    start: str | None = None
+    units: str = "mm"
+    rules: str = "enforce"
+    depth: str = "full"
+    facts: "Iterable[str | Statement]" = ()
+    settings: "Mapping[str, str] | None" = None
+    variables: "Mapping[str, float] | None" = None
+    folders: "Iterable[str | Path]" = ()
+    strict: bool = False
+
+    def request(self, name: str, dialect: Dialect | None = None) -> Request:
+        """What they ask of the program of this name, for a control; a text alone is one fact. Raises ValueError where
+        units, rules or depth is none of its choices."""
+        several = [self.facts] if isinstance(self.facts, str) else self.facts
+        asked = Request(
+            None,
+            choice_of(Length, self.units, "units"),
+            choice_of(Policy, self.rules, "rules"),
+            choice_of(Depth, self.depth, "depth"),
+            parse(self.start, name, first_line=0) if self.start is not None else None,
+            tuple(_fact(fact, -number) for number, fact in enumerate(several, 1)),
+            surroundings_of(name, self.variables, self.folders),
+            self.strict,
+        )
+        if dialect is None and asked.around.values:
+            check_names(asked.around.values, [each.modes.language for each in DIALECTS.values() if each.modes.language])
+        return asked.of(dialect) if dialect is not None else asked
+
+
+def takes(keywords: type[ReadingKeywords]) -> Callable[[Callable[P, T]], Callable[P, T]]:
+    """A function whose further keywords are those of a table: `help` shows them with their defaults, and another one is
+    a TypeError."""
+    shown = [
+        Parameter(
+            name,
+            Parameter.KEYWORD_ONLY,
+            default=getattr(SolveOptions(), name),
+            annotation=getattr(annotation, "__forward_arg__", annotation),
+        )
+        for name, annotation in keywords.__annotations__.items()
+    ]
+
+    def with_keywords(function: Callable[P, T]) -> Callable[P, T]:
+        own = [each for each in signature(function).parameters.values() if each.kind is not Parameter.VAR_KEYWORD]
+        whole = signature(function).replace(parameters=[*own, *shown])
+
+        @wraps(function)
+        def checked(*arguments: P.args, **options: P.kwargs) -> T:
+            unknown = next((name for name in options if name not in whole.parameters), None)
+            if unknown is not None:
+                raise TypeError(f"{function.__name__}() got an unexpected keyword argument {unknown!r}")
+            return function(*arguments, **options)
+
+        checked.__signature__ = whole  # type: ignore[attr-defined]
+        return checked
+
+    return with_keywords
 
 
 def _fact(fact: "str | Statement", line: int) -> Directive:

@@ -1,5 +1,4 @@
 from .affine import (
-    NO_CIRCUITS as NO_CIRCUITS,
     AffineFacts as AffineFacts,
     Circuit as Circuit,
     IndependentFacts as IndependentFacts,
@@ -17,7 +16,6 @@ from .ambiguity import (
     said_twice as said_twice,
     settle as settle,
     settled_by as settled_by,
-    tied_with as tied_with,
 )
 from .certify import (
     certify as certify,
@@ -114,7 +112,6 @@ from .identities import (
     derive_circle_identity as derive_circle_identity,
     derive_identity as derive_identity,
     is_affine as is_affine,
-    tied_sets as tied_sets,
 )
 from .inputs import input_values as input_values
 from .numbers import (
@@ -176,4 +173,10 @@ from .solve import (
 from .step_equations import (
     Kernel as Kernel,
     make_kernel as make_kernel,
+)
+from .ties import (
+    Ties as Ties,
+    circuits_for_all_values as circuits_for_all_values,
+    find_ties as find_ties,
+    tied_with as tied_with,
 )

@@ -1,23 +1,25 @@
-"""Both null spaces of facts that are affine in the unknowns, at the values of one block.
+"""Both null spaces of the Jacobian of facts, at the values of one block.
 
 Every fact of lines between points is affine: its residual is a row of a matrix times the unknowns plus a
-constant. What the matrix maps to zero can still move; a combination of rows that is zero is a set of
-facts that say the same.
+constant. Of others, that is so to first order near a solution. What the matrix maps to zero can still move; a
+combination of rows that is zero is a set of facts that say the same.
 """
 
+import cmath
+from collections import ChainMap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import combinations
 from math import comb, copysign, hypot
-from typing import NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnostics import Freedom
-from contoursolve.geometry import FIRST, SECOND, Fact, Profile, assemble, scalar
-from contoursolve.numeric import CONSTANT, Echelon, pinv, svd
+from contoursolve.geometry import FIRST, SECOND, Fact, Profile, System, Values, assemble, scalar
+from contoursolve.numeric import CONSTANT, Created, Echelon, Functions, pinv, svd
 from contoursolve.solving.identities import is_affine
 from contoursolve.solving.numbers import lookup
 from contoursolve.tolerance import REGULAR
@@ -74,6 +76,11 @@ class AffineFacts(Struct, frozen=True, dict=True):
     def columns(self) -> Mapping[str, int]:
         """The column of each unknown."""
         return {name: column for column, name in enumerate(self.unknowns)}
+
+    def off_at(self, scalars: Mapping[str, float]) -> numpy.ndarray:
+        """By how much each fact misses being true at some values of the unknowns, mm."""
+        off: numpy.ndarray = self.matrix @ [scalars[name] for name in self.unknowns] + self.constants
+        return off
 
     def circuits(self) -> Circuits:
         """The minimal sets of facts that are tied at these values, smallest first.
@@ -211,20 +218,56 @@ def affine_facts(profile: Profile, facts: Sequence[Fact]) -> AffineFacts | None:
     """Facts of a profile, at its values, as a matrix; None if one is not affine or the start is unknown."""
     if not is_affine(facts) or not profile.start.is_known:
         return None
-    unknowns = assemble(profile).unknowns
-    place = {name: column for column, name in enumerate(unknowns)}
-    at = lookup(profile, dict.fromkeys(unknowns, 0.0))
-    constants = numpy.array([float(fact.residual(at)) for fact in facts])
-    # Where one unknown is 1 and all else is 0, a residual is what is multiplied by that unknown, to the last bit.
-    scalars, amounts = dict.fromkeys(at.scalars, 0.0), dict.fromkeys(at.amounts, 0.0)
-    at = replace(at, scalars=scalars, amounts=amounts)
-    matrix = numpy.zeros((len(facts), len(unknowns)))
+    return linearise(profile, facts, dict.fromkeys(assemble(profile).unknowns, 0.0))
+
+
+def linearise(profile: Profile, facts: Sequence[Fact], scalars: Mapping[str, float]) -> AffineFacts:
+    """Facts of a profile, whose start is known, as what they are to first order at these values of the unknowns (mm).
+    An open side is the one with which its facts are nearest to being true."""
+    system = assemble(profile)
+    at = lookup(profile, {name: scalars[name] for name in system.unknowns})
+    return rows_at(system, facts, replace(at, headed=system.headed))
+
+
+def rows_at(system: System, facts: Sequence[Fact], at: Values) -> AffineFacts:
+    """Facts about the unknowns of a system to first order at some values."""
+    columns = {name: column for column, name in enumerate(system.unknowns)}
+    at = replace(at, signs=_nearest_sides(facts, at), functions=_COMPLEX)
+    here = {name: at.scalar(name) for fact in facts for name in system.unknowns_of(fact)}
+    moved = dict[str, Any]()
+    following = replace(at, scalars=ChainMap(moved, cast("dict[str, Any]", at.scalars)))
+    matrix = numpy.zeros((len(facts), len(columns)))
+    constants = numpy.zeros(len(facts))
     for row, fact in enumerate(facts):
-        for name in place.keys() & {*fact.reads()}:
-            scalars[name] = 1.0
-            matrix[row, place[name]] = float(fact.residual(at))
-            scalars[name] = 0.0
-    return AffineFacts(tuple(facts), unknowns, matrix, constants)
+        constants[row] = complex(fact.residual(at)).real
+        for name in system.unknowns_of(fact):
+            moved[name] = complex(here[name], _STEP)
+            slope = complex(fact.residual(following)).imag / _STEP
+            del moved[name]
+            matrix[row, columns[name]] = slope
+            constants[row] -= slope * here[name]
+    return AffineFacts(tuple(facts), system.unknowns, matrix, constants)
+
+
+_STEP = 2.0**-200
+"""mm. Of a derivative by a step along the imaginary axis nothing is subtracted, so that it is exact (Squire 1998); by a
+power of two, to the last bit."""
+
+_COMPLEX = Functions(cmath.sqrt, cmath.cos, cmath.sin, lambda value: complex(value).real == 0)
+
+
+def _nearest_sides(facts: Iterable[Fact], at: Values) -> dict[str, int]:
+    """The sign of each open side with which the facts that it is a side of miss least."""
+    of_side: dict[str, list[Fact]] = {}
+    for fact in facts:
+        for side in fact.sides():
+            of_side.setdefault(side, []).append(fact)
+
+    def miss(side: str, sign: int) -> float:
+        signed = replace(at, signs=Created(lambda _: sign))
+        return sum(abs(float(fact.residual(signed))) for fact in of_side[side])
+
+    return {side: min((1, -1), key=lambda sign: miss(side, sign)) for side in of_side}
 
 
 def _parts(matrix: numpy.ndarray, constants: numpy.ndarray) -> tuple[Part, ...]:

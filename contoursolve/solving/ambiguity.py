@@ -1,9 +1,8 @@
 """Contours with open choices, further facts or asked values: all solutions, or the facts that are to blame."""
 
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Iterator, Sequence, Set
 from decimal import Decimal
-from functools import lru_cache
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -30,7 +29,7 @@ from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.alternatives import decide, find_alternatives
 from contoursolve.solving.compare import compare_affine
 from contoursolve.solving.construction import is_closed
-from contoursolve.solving.determinacy import analyse, circuits_of, groups_of
+from contoursolve.solving.determinacy import analyse, groups_of
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import enumerate_solutions
 from contoursolve.solving.identities import is_affine
@@ -75,29 +74,6 @@ def restrict(profile: Profile, names: Iterable[str]) -> Profile:
         carriers=carriers,
     )
     return replace(profile, layout=Layout(part, tuple(facts)), givens=givens, choices=(), questions=())
-
-
-def tied_with(system: System, fact: Fact) -> tuple[str, ...]:
-    """The givens of a smallest set of facts from which a fact of the system follows, with its own, in the order of
-    the facts.
-
-    A fact beside the basis can replace exactly those facts of the basis that it is tied with. A fact of the basis
-    is tied with the first fact beside it that can replace it.
-    """
-    return _ties(system).get(fact, ())
-
-
-@lru_cache(maxsize=256)
-def _ties(system: System) -> Mapping[Fact, tuple[str, ...]]:
-    """What `tied_with` says of every fact that is tied with others."""
-    found: dict[Fact, tuple[str, ...]] = {}
-    for fact, others in circuits_of(system).items():
-        # Of a fact without unknowns, which is about the givens alone, the angles among them tell it.
-        tied = [name for each in (*others, fact) for name in (*headings_of(each, system), each.given) if name]
-        found[fact] = tuple(dict.fromkeys(tied))
-        for each in others:
-            found.setdefault(each, found[fact])
-    return found
 
 
 def headings_of(fact: Fact, system: System) -> tuple[str, ...]:
@@ -278,20 +254,38 @@ def said_twice(profile: Profile) -> tuple[Refusal | Note, ...]:
     affine = affine_facts(profile, profile.facts)
     if affine is not None:
         return tuple(compare_affine(profile, affine))
-    system = assemble(profile)
-    free = analyse(system).free
-    part = restrict(profile, (name for name in system.unknowns if name not in free))
-    if not part.facts or not analyse(assemble(part)).is_determined:
+    part = _determined(profile)
+    if part is None:
         return ()
     found = find_alternatives(part)
-    compared = [tuple(event for event in _events(item) if event.kind in _COMPARED) for item in found.items]
-    if compared or not found.is_complete:
-        return min(compared, key=_disagreements) if compared else ()
+    if found.items or not found.is_complete:
+        return min(map(_compared, found.items), key=_disagreements) if found.items else ()
     return settle(part).solution.refusals
 
 
-def _events(item: Alternative) -> tuple[Refusal | Note, ...]:
-    return (*item.solution.refusals, *item.solution.remarks)
+def nearest_of_determined(profile: Profile) -> tuple[Profile, Alternative] | None:
+    """The part of a profile that its facts determine, itself if that is all, and of the solutions of that the one with
+    which most of its facts agree; None where there is none."""
+    part = _determined(profile)
+    items = find_alternatives(part).items if part is not None else ()
+    best = min(items, key=lambda item: (not item.is_path, *_disagreements(_compared(item))), default=None)
+    return None if part is None or best is None else (part, best)
+
+
+def _determined(profile: Profile) -> Profile | None:
+    """The part of a profile that its facts determine, itself if that is all; None if that is nothing."""
+    system = assemble(profile)
+    free = analyse(system).free
+    if not free:
+        return profile
+    part = restrict(profile, (name for name in system.unknowns if name not in free))
+    return part if part.facts and analyse(assemble(part)).is_determined else None
+
+
+def _compared(item: Alternative) -> tuple[Refusal | Note, ...]:
+    """What a solution says of facts that were not needed."""
+    events: tuple[Refusal | Note, ...] = (*item.solution.refusals, *item.solution.remarks)
+    return tuple(event for event in events if event.kind in _COMPARED)
 
 
 def _disagreements(events: tuple[Refusal | Note, ...]) -> tuple[int, float]:

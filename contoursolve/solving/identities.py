@@ -1,21 +1,9 @@
 """Identities: how words that say the same depend on one another, for all values, by sympy."""
 
 from collections.abc import Sequence
-from itertools import combinations
 
 from contoursolve.geometry import Coordinate, Fact, Heading, Offset, OnCircle, System
-from contoursolve.solving.determinacy import analyse
 from contoursolve.solving.inputs import symbolic_values
-
-
-def tied_sets(system: System) -> tuple[tuple[Fact, ...], ...]:
-    """All minimal sets of facts of which, for all values, each follows from the others."""
-    found: list[tuple[Fact, ...]] = []
-    for size in range(1, len(system.unknowns) + 2):
-        for facts in combinations(system.facts, size):
-            if not any(set(other) <= set(facts) for other in found) and analyse(system.keep(facts)).rank < size:
-                found.append(facts)
-    return tuple(found)
 
 
 def derive_identity(system: System, facts: Sequence[Fact]) -> str:

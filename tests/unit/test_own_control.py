@@ -16,6 +16,7 @@ from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 from contoursolve.output.contours import contour_lines
 from contoursolve.postprocess.post_processors import LINUXCNC
 from contoursolve.program.project_file import SettingError
+from contoursolve.program.request import FollowKeywords, SolveOptions
 from contoursolve.reading import ParsedContour
 from contoursolve.solving import NoteKind, RefusalKind
 
@@ -83,6 +84,18 @@ def test_every_public_function_with_a_control_says_that_it_takes_tables():
     functions = [each for name in contoursolve.__all__ if isfunction(each := getattr(contoursolve, name))]
     controls = [signature(each).parameters.get("control") for each in functions]
     assert {str(each.annotation).count("Dialect") for each in controls if each} == {1}
+
+
+def test_the_keywords_of_every_door_are_the_fields_of_one_record():
+    """With its defaults; a keyword that is none of a door is refused by its name."""
+    told, names = SolveOptions(), {*SolveOptions.__struct_fields__}
+    assert set(FollowKeywords.__annotations__) == names
+    for door in (contoursolve.solve, contoursolve.check_file, contoursolve.expand, contoursolve.convert):
+        own = {each.name: each.default for each in signature(door).parameters.values() if each.name in names}
+        assert own == {name: getattr(told, name) for name in own}
+        assert {"control", "units", "rules", "settings"} <= own.keys()
+    with pytest.raises(TypeError, match=r"check\(\) got an unexpected keyword argument 'depth'"):
+        contoursolve.check("G1 X0", depth="full")
 
 
 def test_every_door_takes_a_control_as_its_tables():
