@@ -288,7 +288,9 @@ def _rewrite(
             source,
             body,
             wish,
-            SolveOptions(start=start, **{each: options[each] for each in _ASKED if each in options}).request(source.name),
+            SolveOptions(start=start, **{each: options[each] for each in _ASKED if each in options}).request(
+                source.name
+            ),
             control=options["control"],
             settings=settings_of(source, options["assignments"]),
             progress=progress,

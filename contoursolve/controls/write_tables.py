@@ -8,7 +8,7 @@ from msgspec.structs import asdict
 
 from contoursolve import solving
 from contoursolve.controls.all_controls import DIALECTS
-from contoursolve.geometry import Contact, Fact, Foot, System, build_system
+from contoursolve.geometry import Fact, System, build_system
 from contoursolve.reading import ContourForm, lay_out, stated_sets
 from contoursolve.solving import (
     Determinacy,
@@ -67,7 +67,7 @@ def _identities(form: ContourForm) -> Iterator[tuple[tuple[Fact, ...], str]]:
         return
     for stated in stated_sets(form):
         layout = lay_out(form, stated, frozenset())
-        if any(isinstance(fact, Foot | Contact) for fact in layout.facts):
+        if any(fact.is_contact for fact in layout.facts):
             continue  # that a contact lies on both elements says nothing about words
         system = build_system(layout.figure, layout.facts)
         verdict = _verdict(system)

@@ -27,7 +27,7 @@ from contoursolve.diagnosis.typo_fixes import (
 )
 from contoursolve.diagnostics import Applicability, Diagnostic, Severity, Span
 from contoursolve.gcode import Block, parse_block
-from contoursolve.geometry import Heading, Profile, Unit, assemble
+from contoursolve.geometry import Profile, Unit, assemble
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, advance, leave, read
 from contoursolve.solving import (
     Contour,
@@ -349,7 +349,7 @@ def _spare_angles(claim: ParsedContour) -> Iterator[str]:
     for row in claim.form.outline.facts:
         given = row.fact.given or ""
         prefix = given[: given.find(":") + 1]
-        if isinstance(row.fact, Heading) and given in claim.words and prefix in prefixes:
+        if row.fact.heading and given in claim.words and prefix in prefixes:
             stated = {
                 name.removeprefix(prefix).removesuffix("-step") for name in claim.words if name.startswith(prefix)
             }

@@ -21,7 +21,7 @@ from contoursolve.diagnosis.repairs import find_repairs
 from contoursolve.diagnosis.wording import SHOWN, count, length_text
 from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, Label, Layer, Severity, Span, Tie, Verdict
 from contoursolve.gcode import FACT, Block, FaultKind
-from contoursolve.geometry import OnCircle, Profile, System, Unit, assemble
+from contoursolve.geometry import Profile, System, Unit, assemble
 from contoursolve.reading import Dialect, ReadIssue, State, read
 from contoursolve.solving import (
     AffineFacts,
@@ -284,7 +284,7 @@ def _equations(answer: Answer, profile: Profile, system: System) -> list[Layer]:
     size = f"{count(len(system.facts), 'equation')}, {count(len(system.unknowns), 'unknown')}"
     # A point of a circle may be given besides its centre: the control compares the radii, and so do we.
     spare = spare_of(system)
-    is_over = any(not isinstance(fact, OnCircle) for fact in spare)
+    is_over = any(not fact.circle for fact in spare)
     if spare and not is_over:
         size += f", {count(len(spare), 'check')}"
     layers = [_layer("structure", bool(parts.under_unknowns or (parts.over_facts and is_over)), size)]

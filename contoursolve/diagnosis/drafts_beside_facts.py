@@ -23,7 +23,7 @@ from contoursolve.diagnosis.sample_drawing import sample_drawing
 from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, Word, number_of, spell
-from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Offset, Profile, Unit, assemble, scalar, word_of
+from contoursolve.geometry import FIRST, SECOND, Fact, Profile, Unit, assemble, scalar, word_of
 from contoursolve.reading import ReadIssue, check, read
 from contoursolve.solving import RefusalKind, Status, analyse, choose, numbers_of, pick, tied_with
 
@@ -193,7 +193,7 @@ def _completing(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
 
 def _coordinate(fact: Fact) -> tuple[str, int] | None:
     """The point and the axis of the coordinate that a fact states."""
-    return (fact.point, fact.axis) if isinstance(fact, Coordinate | Offset) else None
+    return fact.placed[:2] if fact.placed and fact.given else None
 
 
 def _exchanged(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:

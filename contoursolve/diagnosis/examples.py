@@ -9,7 +9,7 @@ import numpy
 
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, write_word
 from contoursolve.gcode import spell
-from contoursolve.geometry import Coordinate, Profile, Radius, Unit
+from contoursolve.geometry import Profile, Unit
 from contoursolve.numeric import Array
 from contoursolve.reading import ParsedContour
 from contoursolve.solving import agreement_rows, passed_rows
@@ -207,7 +207,8 @@ def _reach(profile: Profile, names: Sequence[str]) -> float:
 
 def _start_of(profile: Profile, name: str) -> float:
     """The coordinate of the start point on the axis of a given that is a coordinate, mm; 0 for any other."""
-    axis = next((fact.axis for fact in profile.facts if isinstance(fact, Coordinate) and fact.given == name), None)
+    placed = next((fact.placed for fact in profile.facts if fact.placed and fact.given == name), None)
+    axis = placed.axis if placed and not placed.origin else None
     return float(profile.start.values[axis] or 0) if axis is not None else 0.0
 
 
@@ -220,7 +221,7 @@ def _grid(claim: ParsedContour, profile: Profile, name: str, coarse: float = 0.0
     along = numpy.linspace(-1, 1, 2001)
     steps = _reach(profile, [name]) * (0.1 * along + 0.9 * along**3)
     sizes = {corner.size for corner in profile.figure.corners}
-    sizes |= {fact.given for fact in profile.facts if isinstance(fact, Radius)}
+    sizes |= {fact.given for fact in profile.facts if fact.sizes}
     if name in sizes:
         steps = steps[steps > 0]
     step = _increment(claim, name)

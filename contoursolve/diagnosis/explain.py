@@ -31,7 +31,7 @@ from contoursolve.diagnosis.wording import (
 )
 from contoursolve.diagnostics import Basis, Diagnostic, Label, Span
 from contoursolve.gcode import FACT, Word, spell
-from contoursolve.geometry import Arc, BlockRole, Fact, Heading, Length, ParallelLines, Profile, Radius, Unit, assemble
+from contoursolve.geometry import Arc, BlockRole, Fact, Length, Profile, Unit, assemble
 from contoursolve.reading import VERBS, Offence, ParsedContour, ReadIssue, Rule
 from contoursolve.solving import (
     BESIDE,
@@ -294,11 +294,7 @@ def explain_missing(
     open_count = len(assemble(profile).unknowns) - verdict.rank
     ways = [] if is_brief else list(_adding(absent, claim, profile, unable))
     if profile.is_extended:
-        open_sizes = [
-            question.word.text
-            for question in profile.questions
-            if isinstance(question.fact, Radius) and question.fact.radius in free
-        ]
+        open_sizes = [question.word.text for question in profile.questions if question.fact.sizes in free]
         ways += [f"give {' or '.join(open_sizes)} a value"] if open_sizes else []
     told = open_text(shown, profile)
     if claim.form.is_general:
@@ -452,7 +448,7 @@ def _off(event: Refusal | Note, turned: float | None, unit: Length, profile: Pro
     """By how much something is off: by an angle (`turned`, degrees) where a fact is about directions; as a diameter
     where its word is one."""
     off = event.values["off_by_mm"]
-    if any(isinstance(fact, ParallelLines) and event.subject in (fact.given, fact.part_of) for fact in profile.facts):
+    if any(event.subject == fact.statement and fact.parallel for fact in profile.facts):
         turned = degrees(asin(min(1.0, off)))
     return length_text(off * (1 + is_diameter), unit) if turned is None else angle_text(turned)
 
@@ -567,8 +563,8 @@ def _causes(asked: Word, profile: Profile) -> Iterator[str]:
     from contoursolve.solving import settled_by  # noqa: PLC0415 - few blocks ask for anything
 
     for question in profile.questions:
-        if question.word is asked and isinstance(question.fact, Radius):
-            for name in settled_by(profile, question.fact.radius):
+        if question.word is asked and question.fact.sizes:
+            for name in settled_by(profile, question.fact.sizes):
                 word = profile.givens[name].word
                 if word is not None:
                     yield word.text
@@ -647,7 +643,7 @@ def explain_path(context: Context, profile: Profile, solution: Solution, contour
 def _explain_opposite(context: Context, name: str, expected: float, profile: Profile) -> Diagnostic:
     """An angle of a line that runs the other way."""
     given = profile.givens[name]
-    tails = {fact.tail for fact in profile.facts if isinstance(fact, Heading) and fact.given == name}
+    tails = {fact.heading[0] for fact in profile.facts if fact.heading and fact.given == name}
     line = next(each for each in profile.figure.path if each.tail in tails)
     values = {"actual": float(given.value), "expected": expected}
     shown, about = angle_text(expected), ReadIssue.ANGLE_OPPOSITE

@@ -1,7 +1,7 @@
 """Facts about a whole line or circle that hold beyond the part of it that is cut."""
 
 from collections.abc import Iterator
-from math import atan2, hypot, tau
+from math import atan2, tau
 
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import place_text
@@ -11,13 +11,7 @@ from contoursolve.geometry import (
     SECOND,
     Arc,
     CornerShape,
-    Fact,
-    OnCircle,
     Profile,
-    TangentCircles,
-    TangentLine,
-    Through,
-    Values,
 )
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import Contour, LineSegment, Point, Segment, Solution, lookup, scalars_of
@@ -34,45 +28,14 @@ def explain_beyond(context: Context, profile: Profile, solution: Solution, conto
     ends = {point for element in profile.figure.path for point in (element.tail, element.head)}
     for fact in profile.facts:
         # How far a line is from another one holds of all of it, wherever the end of that lies.
-        is_apart = (isinstance(fact, TangentLine) and fact.center in ends) or (
-            isinstance(fact, Through) and fact.point in ends
-        )
-        if not fact.given or is_apart:
+        if not fact.given or fact.from_line in ends:
             continue
-        for name, place in _places(fact, at):
+        for name, place in fact.places(at):
             segment = cut.get(round_ones.get(name, name))
             if segment is not None and not _is_on(segment, place):
                 word, shown = profile.givens[fact.given].word, place_text(profile, scalars_of({"": place}))
                 whole, about = "line" if isinstance(segment, LineSegment) else "circle", ReadIssue.FACT_BEYOND
                 yield report(context, about, Basis.NUMERICAL, [word], element=segment.name, whole=whole, place=shown)
-
-
-def _places(fact: Fact, at: Values) -> Iterator[tuple[str, Point]]:
-    """The lines (by name) and the circles (by center) that a fact is about, and where it holds."""
-    match fact:
-        case Through(line=line, point=point):
-            yield line, _point(at, point)
-        case OnCircle(point=point, center=center):
-            yield center, _point(at, point)
-        case TangentLine(line=line, center=center):
-            (first, second), (cosine, sine, offset) = _point(at, center), at.line(line)
-            left = cosine * second - sine * first - offset
-            foot = first + left * sine, second - left * cosine
-            yield line, foot
-            yield center, foot
-        case TangentCircles(first=(center, radius), second=(other, other_radius)):
-            here, there = _point(at, center), _point(at, other)
-            between = hypot(there[FIRST] - here[FIRST], there[SECOND] - here[SECOND])
-            # Of two circles one in the other, the smaller one touches on the side away from the larger one's center.
-            is_inner = at.radius(radius) < at.radius(other_radius) and between < at.radius(other_radius)
-            way = float(at.radius(radius)) / between * (-1 if is_inner else 1)
-            contact = tuple(a + way * (b - a) for a, b in zip(here, there, strict=True))
-            yield center, (contact[FIRST], contact[SECOND])
-            yield other, (contact[FIRST], contact[SECOND])
-
-
-def _point(at: Values, name: str) -> Point:
-    return float(at.coordinate(name, FIRST)), float(at.coordinate(name, SECOND))
 
 
 def _is_on(segment: Segment, place: Point) -> bool:

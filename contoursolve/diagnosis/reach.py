@@ -17,13 +17,7 @@ from contoursolve.geometry import (
     FIRST,
     SECOND,
     Arc,
-    Coordinate,
-    Heading,
-    Level,
     Line,
-    Offset,
-    OnCircle,
-    Radius,
     System,
     assemble,
     both,
@@ -51,9 +45,6 @@ _OF_ELEMENTS = (
     ReadIssue.CORNER_NEGATIVE,
 )
 """What a problem is about that rests on the form of the elements around its block alone, wherever they lie."""
-
-_MOVABLE = (Offset, Level, Heading, OnCircle, Radius)
-"""Facts that hold wherever what they are about is moved to."""
 
 _ENDS = frozenset({"first", "second", "first-step", "second-step", "X", "Y", "Z", "IX", "IY", "IZ"})
 """What a block states of its end. Whatever is before it, it is no line that the next block ends."""
@@ -186,15 +177,15 @@ class Reach(Struct, frozen=True, dict=True):
             if _is_free(names, placed):
                 return found
             group = groups[max(own[name] for name in names)]
-            if not all(isinstance(fact, _MOVABLE) for fact in group.facts if not isinstance(fact, Coordinate)):
+            if not all(fact.placed or fact.heading or fact.circle or fact.sizes for fact in group.facts):
                 return set()
-            if self.answer.claim.form.is_general and any(isinstance(fact, OnCircle) for fact in group.facts):
+            if self.answer.claim.form.is_general and any(fact.circle for fact in group.facts):
                 return set()
             places = {self._place_of(fact.given) for fact in group.facts if fact.given}
             if None in places:
                 return set()
             found |= {place for place in places if place is not None}
-            placed |= {str(fact.axis) for fact in group.facts if isinstance(fact, Coordinate)}
+            placed |= {str(fact.placed.axis) for fact in group.facts if fact.placed and not fact.placed.origin}
             names = (names | {name for fact in group.facts for name in fact.reads()}) - {*group.unknowns}
         return set()
 

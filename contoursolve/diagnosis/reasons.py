@@ -19,7 +19,7 @@ from contoursolve.diagnosis.wording import (
     statement_text,
 )
 from contoursolve.diagnostics import Diagnostic, Freedom
-from contoursolve.geometry import FIRST, SECOND, Arc, Fact, Heading, Line, Profile, assemble, scalar
+from contoursolve.geometry import FIRST, SECOND, Arc, Fact, Line, Profile, assemble, scalar
 from contoursolve.solving import (
     AffineFacts,
     Circuit,
@@ -65,7 +65,7 @@ def conflict_reasons(
     The last fact that is not an angle is compared with the others, because a place can be compared; where a direction
     is only opposite (`is_about_direction`), no place tells.
     """
-    places = [fact for fact in circuit.facts if not isinstance(fact, Heading)] or list(circuit.facts)
+    places = [fact for fact in circuit.facts if not fact.heading] or list(circuit.facts)
     single = places[-1]
     others = [fact for fact in circuit.facts if fact is not single]
     fixed = affine.fixed_by(others)

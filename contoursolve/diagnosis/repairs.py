@@ -49,7 +49,7 @@ from contoursolve.diagnosis.typo_fixes import (
 )
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import Block, FaultKind, Word, number_of
-from contoursolve.geometry import Given, Profile, Radius, Unit
+from contoursolve.geometry import Given, Profile, Unit
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, check, read
 from contoursolve.solving import AffineFacts, Circuit, RefusalKind, Status, affine_facts, is_conflict, lookup
 
@@ -137,7 +137,7 @@ def _slips_of(answer: Answer, whole: "_Geometry", trial: Trial) -> Iterator[Iter
         return
     blamed = blamed_spans(answer)
     is_missed = any(each.about is RefusalKind.CIRCLE_MISSED for each in answer.diagnostics)
-    sizes = {row.fact.given for row in claim.form.outline.facts if isinstance(row.fact, Radius)}
+    sizes = {row.fact.given for row in claim.form.outline.facts if row.fact.sizes}
     near = [word for word in words if word.span in blamed]
     if len(claim.blocks) > MOST_BLOCKS:
         signs = slips(answer, (SIGN_LOST, SIGN_ADDED), _against_neighbours(words, claim))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from contoursolve.families.case_classes import CaseClass, asked_of
 from contoursolve.families.row_boxes import RowBoxes, SolutionBox
 from contoursolve.families.spec import Places, stretches
-from contoursolve.geometry import FIRST, SECOND, Coordinate, Fact, Radius, System, Unit, Values, scalar
+from contoursolve.geometry import FIRST, SECOND, Fact, System, Unit, Values, scalar
 from contoursolve.numeric import (
     COSINE,
     ROWS,
@@ -277,10 +277,10 @@ class BranchRows:
 
     def _ask(self, fact: Fact, known: Mapping[str, Array], rows: int) -> Array:
         """What a fact would state, row by row: mm or degrees."""
-        if isinstance(fact, Radius):
-            return known[fact.radius]
-        if isinstance(fact, Coordinate):
-            return known[scalar(fact.point, fact.axis)]
+        if fact.sizes:
+            return known[fact.sizes]
+        if fact.placed and not fact.placed.origin:
+            return known[scalar(*fact.placed[:2])]
         found = numpy.full(rows, numpy.nan)
         columns = {name: numpy.broadcast_to(each, rows).tolist() for name, each in known.items()}
         angles = [given.name for given in self.case.profile.givens.values() if given.unit is Unit.DEGREE]

@@ -1,9 +1,9 @@
 """A drawing without its values: points, lines, arcs and corners, what a fact about it is, the roles of blocks."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from enum import Enum
 from math import sqrt
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from msgspec import Struct
 
@@ -48,6 +48,39 @@ class Lookup(Protocol):
         """Whether a value is zero."""
 
 
+class Placed(NamedTuple):
+    """A point that a fact puts somewhere along an axis, counted from `origin`, or from zero where that is empty; as far
+    as a given says, or at the same place where it is not `is_stepped`."""
+
+    point: str
+    axis: int
+    origin: str
+    is_stepped: bool = True
+
+
+class Beside(NamedTuple):
+    """A place about which a circle touches something else, and the radius of that, its distance: a line by its name, or
+    a circle by centre and radius."""
+
+    center: str
+    radius: str
+    line: str
+    circle: tuple[str, str]
+
+
+class OfCircle(NamedTuple):
+    """A point that lies on a circle, and by how much it may be off it, mm."""
+
+    point: str
+    center: str
+    radius: str
+    slack: float
+
+
+Increments = Callable[[str], Any]
+"""The least increment of a coordinate by its axis, or of a value by its name."""
+
+
 class Fact(Protocol):
     """One equation. Its residual is in mm; `equation` is the same without what makes it no polynomial."""
 
@@ -75,6 +108,96 @@ class Fact(Protocol):
 
     def implied(self, at: Lookup) -> float | None:
         """The value of the given (mm or degrees) that makes the residual zero; None where any does."""
+
+    def reach(self, at: Lookup, increment: Increments) -> Any:
+        """How far it moves with the last digit of each coordinate and word in it, mm; None where no word alone states
+        it."""
+
+    def excess(self, at: Lookup) -> Any:
+        """By how much a distance is more than it is to be, mm; None if the fact is about something else."""
+
+    def phrase(self, axes: tuple[str, str], sought: Collection[str]) -> str:
+        """What it says without its value, where `sought` are the unknowns to be found; empty if that says all, or if it
+        goes without saying."""
+
+    def places(self, at: Lookup) -> Iterator[tuple[str, tuple[float, float]]]:
+        """The lines (by name) and the circles (by centre) that it is about, each with where it holds."""
+
+    @property
+    def statement(self) -> str:
+        """The given of what states it, or of what it is a part of; empty for what the form itself states."""
+
+    @property
+    def placed(self) -> Placed | None:
+        """The point that it puts somewhere along an axis, if it is about that alone."""
+
+    @property
+    def heading(self) -> tuple[str, str] | None:
+        """The two points from the first of which to the second it runs at the given angle, if it is about that."""
+
+    @property
+    def circle(self) -> OfCircle | None:
+        """The circle on which it puts a point, if it is about that."""
+
+    @property
+    def beside(self) -> Beside | None:
+        """The place about which it lets a circle touch a line, or a circle that passes another one at a distance."""
+
+    @property
+    def span(self) -> tuple[str, str] | None:
+        """The two points whose distance it gives, if it is about that."""
+
+    @property
+    def passes(self) -> tuple[str, str] | None:
+        """The line and the point of it through which it lets that pass, if it is about that."""
+
+    @property
+    def spoke(self) -> tuple[str, str] | None:
+        """The centre and the point of a radius whose own direction is given; of two facts about it, the first tells."""
+
+    @property
+    def collinear(self) -> tuple[str, str, str] | None:
+        """Two points and a third one on the line through them, if it is about that."""
+
+    @property
+    def sizes(self) -> str:
+        """The name of the radius to which it gives a value, if it is about that alone."""
+
+    @property
+    def from_line(self) -> str:
+        """The point that it puts on a line, or at a distance from one; empty if it is about something else."""
+
+    @property
+    def is_affine(self) -> bool:
+        """Whether its residual is affine in the coordinates of points, whatever the values are."""
+
+    @property
+    def is_contact(self) -> bool:
+        """Whether it says where two elements touch, which both pass anyway."""
+
+    @property
+    def directed(self) -> str:
+        """The line whose own direction is given; empty if it is about something else."""
+
+    @property
+    def vertex(self) -> str:
+        """The point at which the direction of a radius, which it gives in parts, is an angle; empty otherwise."""
+
+    @property
+    def turn_between(self) -> tuple[Any, Any] | None:
+        """The two elements between whose directions it gives the angle, if it is about that."""
+
+    @property
+    def radius_step(self) -> tuple[str, str] | None:
+        """The radius that is larger than another one as far as a given says, and that, if it is about that."""
+
+    @property
+    def parallel(self) -> tuple[str, str] | None:
+        """The two lines that it makes parallel: its residual is the sine of the angle between them."""
+
+    @property
+    def is_half(self) -> bool:
+        """Whether it is one part of a direction: its equation is true of the opposite one, too."""
 
 
 def scalar(point: str, axis: int) -> str:

@@ -1,13 +1,13 @@
 """Facts about lines as a whole: their direction, what they pass through, what they touch, how far points lie apart."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from math import atan2, degrees, hypot
 from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import FIRST, SECOND, Lookup, Turn, line_scalars, scalar
-from contoursolve.geometry.system import Equation, cross, dot, rotate, step
+from contoursolve.geometry.figure import FIRST, SECOND, Beside, Lookup, Turn, line_scalars, scalar
+from contoursolve.geometry.system import Equation, apart, cross, dot, place, rotate, step
 from contoursolve.geometry.touching import side_of
 
 
@@ -41,6 +41,10 @@ class Directed(Equation, Struct, frozen=True):
         cosine, sine = at.bearing(self.line)
         return degrees(atan2(float(sine), float(cosine)))
 
+    @property
+    def directed(self) -> str:
+        return self.line
+
 
 class Through(Equation, Struct, frozen=True):
     """The line passes through `point`; the residual is how far to the left of it the point lies."""
@@ -51,6 +55,20 @@ class Through(Equation, Struct, frozen=True):
 
     def residual(self, at: Lookup) -> Any:
         return left_of(at, self.line, self.point)
+
+    def places(self, at: Lookup) -> Iterator[tuple[str, tuple[float, float]]]:
+        yield self.line, place(at, self.point)
+
+    @property
+    def from_line(self) -> str:
+        return self.point
+
+    @property
+    def passes(self) -> tuple[str, str]:
+        return self.line, self.point
+
+    def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
+        return f"{self.line} passes through {self.point}"
 
 
 class Foot(Equation, Struct, frozen=True):
@@ -73,6 +91,13 @@ class Foot(Equation, Struct, frozen=True):
         if not self.corner:
             return ()
         return (self.way * dot(at.bearing(self.line), step(at, self.point, self.corner)),)
+
+    @property
+    def is_contact(self) -> bool:
+        return True
+
+    def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
+        return f"{self.point} where the circle touches {self.line}"
 
 
 class Leaving(Equation, Struct, frozen=True):
@@ -106,6 +131,9 @@ class Parallel(Equation, Struct, frozen=True):
     def senses(self, at: Lookup) -> tuple[Any, ...]:
         return (at.bearing(self.line)[self.axis] * way(at, self.advance, self.axis),)
 
+    def phrase(self, axes: tuple[str, str], _sought: Collection[str]) -> str:
+        return f"{self.line} parallel to {axes[self.axis]}"
+
 
 class ParallelLines(Equation, Struct, frozen=True):
     """Two lines are parallel, in the same direction or against each other."""
@@ -119,6 +147,14 @@ class ParallelLines(Equation, Struct, frozen=True):
     def residual(self, at: Lookup) -> Any:
         return cross(at.bearing(self.first), at.bearing(self.second))
 
+    @property
+    def statement(self) -> str:
+        return self.given or self.part_of
+
+    @property
+    def parallel(self) -> tuple[str, str]:
+        return self.first, self.second
+
 
 class TangentLine(Equation, Struct, frozen=True):
     """The line touches the circle about `center`, which lies to its left (`side` +1) or right (-1)."""
@@ -131,6 +167,24 @@ class TangentLine(Equation, Struct, frozen=True):
 
     def residual(self, at: Lookup) -> Any:
         return left_of(at, self.line, self.center) - side_of(self.side, at) * at.radius(self.radius)
+
+    def places(self, at: Lookup) -> Iterator[tuple[str, tuple[float, float]]]:
+        (first, second), (cosine, sine, offset) = place(at, self.center), at.line(self.line)
+        left = cosine * second - sine * first - offset
+        foot = first + left * sine, second - left * cosine
+        yield self.line, foot
+        yield self.center, foot
+
+    @property
+    def from_line(self) -> str:
+        return self.center
+
+    @property
+    def beside(self) -> Beside:
+        return Beside(self.center, self.radius, self.line, ("", ""))
+
+    def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
+        return f"{self.line} touches the circle about {self.center}"
 
 
 class Extent(Equation, Struct, frozen=True):
@@ -149,6 +203,10 @@ class Extent(Equation, Struct, frozen=True):
 
     def implied(self, at: Lookup) -> float | None:
         return float(self._extent(at))
+
+    @property
+    def span(self) -> tuple[str, str]:
+        return self.tail, self.head
 
 
 class ChamferLeg(Equation, Struct, frozen=True):
@@ -249,6 +307,10 @@ class TurnBetween(Equation, Struct, frozen=True):
         first, second = self.first.vector(at), self.second.vector(at)
         return degrees(atan2(float(cross(first, second)), float(dot(first, second))))
 
+    @property
+    def turn_between(self) -> tuple[Along | Tangent | Chord, Along | Tangent | Chord]:
+        return self.first, self.second
+
 
 def _ends(advance: tuple[tuple[str, ...], ...], axis: int) -> Iterator[str]:
     """The coordinates by which lines advance."""
@@ -291,6 +353,13 @@ class Distance(Equation, Struct, frozen=True):
 
     def implied(self, at: Lookup) -> float | None:
         return hypot(*map(float, step(at, self.tail, self.head)))
+
+    @property
+    def span(self) -> tuple[str, str]:
+        return self.tail, self.head
+
+    def excess(self, at: Lookup) -> Any:
+        return apart(at, self.tail, self.head) - at.amount(self.given)
 
 
 class EqualDistances(Equation, Struct, frozen=True):

@@ -1,12 +1,13 @@
 """Facts about points and circles: coordinates, directions from one point to another, points on circles, radii."""
 
-from math import atan2, degrees, hypot
+from collections.abc import Collection, Iterator
+from math import atan2, degrees, hypot, pi
 from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import Lookup
-from contoursolve.geometry.system import Equation, cross, dot, step
+from contoursolve.geometry.figure import FIRST, SECOND, Increments, Lookup, OfCircle, Placed
+from contoursolve.geometry.system import Equation, apart, cross, dot, place, size, step
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 
 
@@ -23,6 +24,17 @@ class Coordinate(Equation, Struct, frozen=True):
     def implied(self, at: Lookup) -> float | None:
         return float(at.coordinate(self.point, self.axis))
 
+    def reach(self, _at: Lookup, increment: Increments) -> Any:
+        return increment(str(self.axis)) + increment(self.given)
+
+    @property
+    def placed(self) -> Placed:
+        return Placed(self.point, self.axis, "")
+
+    @property
+    def is_affine(self) -> bool:
+        return True
+
 
 class Offset(Equation, Struct, frozen=True):
     """`point` lies the given distance from `origin`, counted along `axis`."""
@@ -38,6 +50,17 @@ class Offset(Equation, Struct, frozen=True):
     def implied(self, at: Lookup) -> float | None:
         return float(at.coordinate(self.point, self.axis) - at.coordinate(self.origin, self.axis))
 
+    def reach(self, _at: Lookup, increment: Increments) -> Any:
+        return 2 * increment(str(self.axis)) + increment(self.given)
+
+    @property
+    def placed(self) -> Placed:
+        return Placed(self.point, self.axis, self.origin)
+
+    @property
+    def is_affine(self) -> bool:
+        return True
+
 
 class Level(Equation, Struct, frozen=True):
     """`point` has the same coordinate on `axis` as `origin`."""
@@ -49,6 +72,10 @@ class Level(Equation, Struct, frozen=True):
 
     def residual(self, at: Lookup) -> Any:
         return at.coordinate(self.point, self.axis) - at.coordinate(self.origin, self.axis)
+
+    @property
+    def placed(self) -> Placed:
+        return Placed(self.point, self.axis, self.origin, is_stepped=False)
 
 
 class Collinear(Equation, Struct, frozen=True):
@@ -66,6 +93,10 @@ class Collinear(Equation, Struct, frozen=True):
         along = step(at, self.tail, self.through)
         return self.equation(at) / at.root(dot(along, along))
 
+    @property
+    def collinear(self) -> tuple[str, str, str]:
+        return self.tail, self.through, self.point
+
 
 class Heading(Equation, Struct, frozen=True):
     """The line from `tail` to `head` runs at the given angle."""
@@ -82,6 +113,20 @@ class Heading(Equation, Struct, frozen=True):
     def implied(self, at: Lookup) -> float | None:
         first, second = step(at, self.tail, self.head)
         return degrees(atan2(second, first)) if hypot(first, second) > LENGTH else None
+
+    def reach(self, at: Lookup, increment: Increments) -> Any:
+        cosine, sine = at.direction(self.given)
+        first, second = step(at, self.tail, self.head)
+        swing = at.root(first * first + second * second) * (pi / 180) * increment(self.given)
+        return 2 * (size(sine, at) * increment(str(FIRST)) + size(cosine, at) * increment(str(SECOND))) + swing
+
+    @property
+    def heading(self) -> tuple[str, str]:
+        return self.tail, self.head
+
+    @property
+    def is_affine(self) -> bool:
+        return True
 
 
 class Ray(Heading, frozen=True):
@@ -114,6 +159,23 @@ class OnCircle(Equation, Struct, frozen=True):
     def residual(self, at: Lookup) -> Any:
         return self.equation(at) / (2 * at.radius(self.radius))
 
+    def places(self, at: Lookup) -> Iterator[tuple[str, tuple[float, float]]]:
+        yield self.center, place(at, self.point)
+
+    @property
+    def circle(self) -> OfCircle:
+        return OfCircle(self.point, self.center, self.radius, self.slack)
+
+    def phrase(self, _axes: tuple[str, str], sought: Collection[str]) -> str:
+        return (
+            f"the circle about {self.center} passes through {self.point}"
+            if self.radius in sought
+            else f"{self.point} on the circle about {self.center}"
+        )
+
+    def excess(self, at: Lookup) -> Any:
+        return apart(at, self.center, self.point) - at.radius(self.radius)
+
 
 class Radius(Equation, Struct, frozen=True):
     """The radius has the given value."""
@@ -126,3 +188,10 @@ class Radius(Equation, Struct, frozen=True):
 
     def implied(self, at: Lookup) -> float | None:
         return float(at.radius(self.radius))
+
+    def reach(self, _at: Lookup, increment: Increments) -> Any:
+        return 2 * increment(self.given)
+
+    @property
+    def sizes(self) -> str:
+        return self.radius

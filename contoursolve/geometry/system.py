@@ -1,12 +1,25 @@
 """Facts as equations: what they have in common, the values that they look up, and the system that they make."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 from msgspec import Struct, field
 
-from contoursolve.geometry.figure import FIRST, SECOND, Fact, Figure, Line, Lookup, line_scalars, scalar
+from contoursolve.geometry.figure import (
+    FIRST,
+    SECOND,
+    Beside,
+    Fact,
+    Figure,
+    Increments,
+    Line,
+    Lookup,
+    OfCircle,
+    Placed,
+    line_scalars,
+    scalar,
+)
 from contoursolve.geometry.profile import Layout, Profile
 from contoursolve.numeric import FLOATS, Created, Functions
 
@@ -38,6 +51,94 @@ class Equation:
     def implied(self, _at: Lookup) -> float | None:
         return None
 
+    def reach(self, _at: Lookup, _increment: Increments) -> Any:
+        return None
+
+    def excess(self, _at: Lookup) -> Any:
+        return None
+
+    def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
+        return ""
+
+    def places(self, _at: Lookup) -> Iterator[tuple[str, tuple[float, float]]]:
+        return iter(())
+
+    @property
+    def statement(self) -> str:
+        return str(getattr(self, "given", ""))
+
+    @property
+    def placed(self) -> Placed | None:
+        return None
+
+    @property
+    def heading(self) -> tuple[str, str] | None:
+        return None
+
+    @property
+    def circle(self) -> OfCircle | None:
+        return None
+
+    @property
+    def beside(self) -> Beside | None:
+        return None
+
+    @property
+    def span(self) -> tuple[str, str] | None:
+        return None
+
+    @property
+    def passes(self) -> tuple[str, str] | None:
+        return None
+
+    @property
+    def spoke(self) -> tuple[str, str] | None:
+        return None
+
+    @property
+    def collinear(self) -> tuple[str, str, str] | None:
+        return None
+
+    @property
+    def sizes(self) -> str:
+        return ""
+
+    @property
+    def from_line(self) -> str:
+        return ""
+
+    @property
+    def is_affine(self) -> bool:
+        return False
+
+    @property
+    def is_contact(self) -> bool:
+        return False
+
+    @property
+    def directed(self) -> str:
+        return ""
+
+    @property
+    def vertex(self) -> str:
+        return ""
+
+    @property
+    def turn_between(self) -> tuple[Any, Any] | None:
+        return None
+
+    @property
+    def radius_step(self) -> tuple[str, str] | None:
+        return None
+
+    @property
+    def parallel(self) -> tuple[str, str] | None:
+        return None
+
+    @property
+    def is_half(self) -> bool:
+        return False
+
 
 def both(*points: str) -> tuple[str, ...]:
     """The names of both coordinates of points."""
@@ -48,6 +149,22 @@ def step(at: Lookup, tail: str, head: str) -> tuple[Any, Any]:
     """From one point to another, mm along each axis."""
     first, second = at.coordinate(tail, FIRST), at.coordinate(tail, SECOND)
     return at.coordinate(head, FIRST) - first, at.coordinate(head, SECOND) - second
+
+
+def place(at: Lookup, point: str) -> tuple[float, float]:
+    """Where a point lies, mm."""
+    return float(at.coordinate(point, FIRST)), float(at.coordinate(point, SECOND))
+
+
+def size(value: Any, at: Lookup) -> Any:
+    """The absolute value of a number of any kind."""
+    return at.root(value * value)
+
+
+def apart(at: Lookup, tail: str, head: str) -> Any:
+    """How far apart two points lie, mm."""
+    first, second = step(at, tail, head)
+    return at.root(first**2 + second**2)
 
 
 def dot(a: tuple[Any, Any], b: tuple[Any, Any]) -> Any:

@@ -1,12 +1,13 @@
 """Facts about arcs, circles and corners: how they touch, how long they are, where they begin and end."""
 
-from math import atan2, degrees, tau
+from collections.abc import Collection, Iterator
+from math import atan2, degrees, hypot, tau
 from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import Lookup, Turn
-from contoursolve.geometry.system import Equation, cross, dot, rotate, step
+from contoursolve.geometry.figure import FIRST, Beside, Lookup, Turn
+from contoursolve.geometry.system import Equation, cross, dot, place, rotate, step
 
 
 class EqualRadii(Equation, Struct, frozen=True):
@@ -32,6 +33,10 @@ class RadiusStep(Equation, Struct, frozen=True):
 
     def implied(self, at: Lookup) -> float | None:
         return float(at.radius(self.radius) - at.radius(self.origin))
+
+    @property
+    def radius_step(self) -> tuple[str, str]:
+        return self.radius, self.origin
 
 
 class Spoke(Equation, Struct, frozen=True):
@@ -60,6 +65,19 @@ class Spoke(Equation, Struct, frozen=True):
         first, second = step(at, self.center, self.point)
         return degrees(atan2(float(second), float(first))) - 90 * self.quarters
 
+    @property
+    def is_half(self) -> bool:
+        return True
+
+    @property
+    def spoke(self) -> tuple[str, str] | None:
+        return (self.center, self.point) if not self.quarters and self.axis == FIRST else None
+
+    @property
+    def vertex(self) -> str:
+        # The direction of a radius is that of the arc a quarter of a turn from it, where it begins.
+        return self.point if self.quarters else self.center
+
 
 class TangentCircles(Equation, Struct, frozen=True):
     """Two circles touch: from outside (`side` +1) or one inside the other (-1).
@@ -82,6 +100,20 @@ class TangentCircles(Equation, Struct, frozen=True):
     def residual(self, at: Lookup) -> Any:
         return self.equation(at) / (2 * (at.radius(self.first[1]) + at.radius(self.second[1])))
 
+    def places(self, at: Lookup) -> Iterator[tuple[str, tuple[float, float]]]:
+        (center, radius), (other, other_radius) = self.first, self.second
+        here, there = place(at, center), place(at, other)
+        between = hypot(there[0] - here[0], there[1] - here[1])
+        # Of two circles one in the other, the smaller one touches on the side away from the larger one's centre.
+        is_inner = at.radius(radius) < at.radius(other_radius) and between < at.radius(other_radius)
+        way = float(at.radius(radius)) / between * (-1 if is_inner else 1)
+        contact = here[0] + way * (there[0] - here[0]), here[1] + way * (there[1] - here[1])
+        yield center, contact
+        yield other, contact
+
+    def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
+        return f"the circles about {self.first[0]} and {self.second[0]} touch"
+
 
 class PointBeside(TangentCircles, frozen=True):
     """A point, about which `first` is a circle, lies as far beside the circle `second` as that has for its radius:
@@ -90,6 +122,10 @@ class PointBeside(TangentCircles, frozen=True):
     def senses(self, at: Lookup) -> tuple[Any, ...]:
         side, inside = side_of(self.side, at), at.radius(self.second[1]) - at.radius(self.first[1])
         return (1 + side + (1 - side) * inside,)
+
+    @property
+    def beside(self) -> Beside:
+        return Beside(*self.first, "", self.second)
 
 
 class Contact(Equation, Struct, frozen=True):
@@ -117,6 +153,10 @@ class Contact(Equation, Struct, frozen=True):
 
     def senses(self, at: Lookup) -> tuple[Any, ...]:
         return (self.side * dot(step(at, self.first, self.point), step(at, self.point, self.second)),)
+
+    @property
+    def is_contact(self) -> bool:
+        return True
 
 
 class ArcLength(Equation, Struct, frozen=True):

@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from decimal import Decimal
-from math import atan2, degrees, floor, log10
+from math import floor, log10
 from typing import Any
 
 from msgspec import to_builtins
@@ -12,7 +12,7 @@ from contoursolve.diagnosis import Answer, AskedValue, inward, join, list_soluti
 from contoursolve.diagnostics import Applicability
 from contoursolve.families import End, FamilyError, Feasible, Interval, Way, feasible
 from contoursolve.gcode import Word
-from contoursolve.geometry import Coordinate, Heading, Offset, Question, Unit
+from contoursolve.geometry import Question, Unit
 from contoursolve.notebook.exploration import Exploration, free, is_movable, words_of
 from contoursolve.notebook.handles import Handle, HandleKind, derivatives_of, handles_of, moving_of
 from contoursolve.output import (
@@ -36,13 +36,12 @@ from contoursolve.pictures import (
     draw_answer,
     find_known,
     list_trails,
-    minus,
     named_words,
     path_data,
     plain_trail,
 )
 from contoursolve.reading import ReadIssue
-from contoursolve.solving import Point
+from contoursolve.solving import Point, lookup, scalars_of
 
 MOST_FINDINGS, MOST_FIXES, MOST_SOLUTIONS = 12, 8, 24
 
@@ -261,14 +260,8 @@ def asked_now(now: Exploration, before: Exploration, solved: Exploration, exampl
 
 def _last_value(answer: Answer, question: Question, points: Mapping[str, Point]) -> float | None:
     """The value of a word in another contour of the same form, as it is written."""
-    fact, value = question.fact, None
-    if isinstance(fact, Coordinate) and fact.point in points:
-        value = points[fact.point][fact.axis]
-    elif isinstance(fact, Offset) and {fact.point, fact.origin} <= points.keys():
-        value = points[fact.point][fact.axis] - points[fact.origin][fact.axis]
-    elif isinstance(fact, Heading) and {fact.tail, fact.head} <= points.keys():
-        step = minus(points[fact.head], points[fact.tail])
-        value = degrees(atan2(step[1], step[0]))
+    fact, scalars = question.fact, scalars_of(points)
+    value = fact.implied(lookup(answer.profile, scalars)) if scalars.keys() >= {*fact.reads()} else None
     shown = found_value(AskedValue(question, value), answer)[0]
     return None if shown is None else round(shown, DECIMALS - 1)
 

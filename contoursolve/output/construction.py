@@ -5,19 +5,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from contoursolve.diagnosis import Answer, angle_text, join, length_text, list_alternatives, unknowns_text
 from contoursolve.gcode import FACT
 from contoursolve.geometry import (
-    Coordinate,
     Fact,
-    Foot,
-    Heading,
-    Offset,
-    OnCircle,
-    Parallel,
     Profile,
-    Radius,
     System,
-    TangentCircles,
-    TangentLine,
-    Through,
     assemble,
 )
 from contoursolve.output.plain_text import printable
@@ -123,36 +113,19 @@ def _phrase(fact: Fact, group: Group, profile: Profile) -> str:
     if given is not None and given.word is not None and given.word.address == FACT:
         return printable(given.word.text)
     unit, axes = profile.unit, profile.plane.axes
-    match fact:
-        case Coordinate(point=point, axis=axis) if given is not None:
-            factor = 2 if profile.plane.diameters[axis] else 1
-            return f"{point} at {axes[axis]}{length_text(float(given.value) * factor, unit)}{word}"
-        case Offset(origin=origin, axis=axis) if given is not None:
+    if given is not None and fact.placed is not None and fact.placed.is_stepped:
+        point, axis, origin, _ = fact.placed
+        if origin:
             return f"{length_text(float(given.value), unit)} from {origin} along {axes[axis]}{word}"
-        case Heading(tail=tail, head=head) if given is not None:
-            other = tail if f"{head}.0" in group.unknowns or f"{head}.1" in group.unknowns else head
-            return f"on the line through {other} at {angle_text(float(given.value))}{word}"
-        case OnCircle(point=point, center=center, radius=radius):
-            is_free = radius in group.unknowns
-            return (
-                f"the circle about {center} passes through {point}"
-                if is_free
-                else f"{point} on the circle about {center}"
-            )
-        case Radius() if given is not None:
-            return f"radius {length_text(float(given.value), unit)}{word}"
-        case Through(line=line, point=point):
-            return f"{line} passes through {point}"
-        case TangentLine(line=line, center=center):
-            return f"{line} touches the circle about {center}"
-        case TangentCircles(first=first, second=second):
-            return f"the circles about {first[0]} and {second[0]} touch"
-        case Foot(line=line, point=point):
-            return f"{point} where the circle touches {line}"
-        case Parallel(line=line, axis=axis):
-            return f"{line} parallel to {axes[axis]}"
-        case _:
-            return ""
+        factor = 2 if profile.plane.diameters[axis] else 1
+        return f"{point} at {axes[axis]}{length_text(float(given.value) * factor, unit)}{word}"
+    if given is not None and fact.heading is not None:
+        tail, head = fact.heading
+        other = tail if f"{head}.0" in group.unknowns or f"{head}.1" in group.unknowns else head
+        return f"on the line through {other} at {angle_text(float(given.value))}{word}"
+    if given is not None and fact.sizes:
+        return f"radius {length_text(float(given.value), unit)}{word}"
+    return fact.phrase(axes, group.unknowns)
 
 
 def _choice(group: Group, system: System, sides: Mapping[str, str]) -> str:

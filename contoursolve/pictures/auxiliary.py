@@ -4,18 +4,10 @@ faults."""
 from collections.abc import Callable, Iterator, Mapping
 
 from contoursolve.geometry import (
-    FIRST,
     Arc,
-    Collinear,
-    Coordinate,
     Fact,
-    Heading,
     Line,
-    Offset,
     OnCircle,
-    Spoke,
-    TangentLine,
-    Through,
     Unit,
     line_scalars,
 )
@@ -62,8 +54,9 @@ def _cut_off(subject: Subject) -> Iterator[Thin]:
 def _tangents(subject: Subject) -> Iterator[Thin]:
     """From where a line of the path ends to where it touches a circle beyond."""
     for fact in subject.profile.facts if subject.profile.is_extended else ():
-        if isinstance(fact, TangentLine) and (ends := subject.ends(fact)) is not None:
-            center = subject.known.points.get(fact.center, place_of(subject.profile, fact.center))
+        beside = fact.beside
+        if beside is not None and beside.line and (ends := subject.ends(beside.line)) is not None:
+            center = subject.known.points.get(beside.center, place_of(subject.profile, beside.center))
             if center is not None:
                 yield from _extension(ends, foot(center, ends[0], direction(*ends)))
 
@@ -93,11 +86,11 @@ def _rings(subject: Subject) -> Iterator[Ring]:
 def _led(subject: Subject) -> Iterator[Thin]:
     """The radius of an arc to where a word states its direction, and lines as far as the points on them."""
     for fact in subject.profile.facts:
-        if isinstance(fact, Through):
-            at, ends = subject.at(fact.point), subject.ends(fact)
+        if fact.passes is not None:
+            at, ends = subject.at(fact.passes[1]), subject.ends(fact.passes[0])
             yield from _extension(ends, at) if at is not None and ends is not None else ()
-        elif isinstance(fact, Spoke) and not fact.quarters and fact.axis == FIRST and subject.word(fact.given):
-            center, at = subject.at(fact.center), subject.at(fact.point)
+        elif fact.spoke is not None and subject.word(fact.given):
+            center, at = map(subject.at, fact.spoke)
             if center is not None and at is not None:
                 yield Thin(center, at, Role.MUTED)
 
@@ -165,18 +158,20 @@ def _places(subject: Subject) -> Iterator[Part]:
     for fact in subject.profile.facts:
         if (beside := place_beside(subject.profile, fact)) is not None:
             yield Mark(beside, MarkKind.CENTER)
-        if not isinstance(fact, Through | OnCircle) or fact.point not in subject.profile.figure.places:
+        passes, on = fact.passes, fact.circle
+        point = on.point if on is not None else passes[1] if passes is not None else ""
+        if point not in subject.profile.figure.places:
             continue
-        text, at = subject.word(fact.given), place_of(subject.profile, fact.point)
+        text, at = subject.word(fact.given), place_of(subject.profile, point)
         if text is None or at is None:
             continue
         role, there = subject.role(fact.given), None
         yield Mark(at, MarkKind.CENTER)
         yield Leader(at, (1.0, 1.0), text, role)
-        if isinstance(fact, OnCircle):
-            circle = subject.circle(fact.center, fact.radius)
+        if on is not None:
+            circle = subject.circle(on.center, on.radius)
             there = _on_circle(*circle, at) if circle is not None and distance(at, circle[0]) > SAME else None
-        elif (ends := subject.ends(fact)) is not None:
+        elif passes is not None and (ends := subject.ends(passes[0])) is not None:
             there = foot(at, ends[0], direction(*ends))
             yield from _extension(ends, there)
         if there is not None and role is Role.CONFLICTING:
@@ -223,20 +218,21 @@ def _both_places(subject: Subject, fact: Fact, role: Role) -> Iterator[Part]:
     given = subject.profile.givens[fact.given]
     if given.word is None:
         return
-    if isinstance(fact, Heading):
-        tail, head = subject.at(fact.tail), subject.at(fact.head)
+    if fact.heading is not None:
+        tail, head = map(subject.at, fact.heading)
         if tail is not None and head is not None and distance(tail, head) > SAME:
             way = toward(float(given.value))
             there = foot(head, tail, way)
             yield Thin(tail, along(tail, way, distance(tail, head) * 1.15), role)
             yield from _gap(subject, there, head, role)
             yield Mark(there, MarkKind.OTHER, role=role)
-    elif isinstance(fact, Coordinate | Offset) and given.unit is Unit.MM:
-        at, origin = subject.at(fact.point), (0.0, 0.0) if isinstance(fact, Coordinate) else subject.at(fact.origin)
+    elif fact.placed is not None and given.unit is Unit.MM:
+        placed = fact.placed
+        at, origin = subject.at(placed.point), subject.at(placed.origin) if placed.origin else (0.0, 0.0)
         if at is None or origin is None:
             return
-        there = with_coordinate(at, fact.axis, float(given.value) + origin[fact.axis])
-        yield _endless(there, ALONG_AXIS[1 - fact.axis], role)
+        there = with_coordinate(at, placed.axis, float(given.value) + origin[placed.axis])
+        yield _endless(there, ALONG_AXIS[1 - placed.axis], role)
         yield from _gap(subject, there, at, role, times=1 + given.is_diameter)
         if distance(there, at) > SAME:
             yield Mark(there, MarkKind.OTHER, role=role)
@@ -256,14 +252,15 @@ def _missed(subject: Subject, refusal: Refusal) -> Iterator[Part]:
 def _line_through(subject: Subject, point: str) -> Ray | None:
     """The line of known place and direction on which a point must lie."""
     for fact in subject.profile.facts:
-        if isinstance(fact, Heading) and point in (fact.tail, fact.head):
-            other = subject.at(fact.head if fact.tail == point else fact.tail)
+        if fact.heading is not None and point in fact.heading:
+            tail, head = fact.heading
+            other = subject.at(head if tail == point else tail)
             if other is not None:
                 return other, toward(subject.value(fact.given))
-        if isinstance(fact, Collinear) and point == fact.point:
-            tail, through = subject.at(fact.tail), subject.at(fact.through)
-            if tail is not None and through is not None and distance(tail, through) > 0:
-                return tail, direction(tail, through)
+        if fact.collinear is not None and point == fact.collinear[2]:
+            begin, through = map(subject.at, fact.collinear[:2])
+            if begin is not None and through is not None and distance(begin, through) > 0:
+                return begin, direction(begin, through)
     return None
 
 
@@ -283,11 +280,13 @@ def _parallel(subject: Subject, refusal: Refusal) -> Iterator[Part]:
     """The lines that words make, and how far apart they are."""
     shown: list[Ray] = []
     for fact in (fact for fact in subject.profile.facts if fact.given in set(refusal.givens)):
-        if isinstance(fact, Heading):
-            at, way = subject.known.points.get(fact.tail, subject.at(fact.head)), toward(subject.value(fact.given))
-        elif isinstance(fact, Coordinate):
+        placed = fact.placed
+        if fact.heading is not None:
+            tail, head = fact.heading
+            at, way = subject.known.points.get(tail, subject.at(head)), toward(subject.value(fact.given))
+        elif placed is not None and not placed.origin:
             start = subject.known.points[subject.profile.figure.start]
-            at, way = with_coordinate(start, fact.axis, subject.value(fact.given)), ALONG_AXIS[1 - fact.axis]
+            at, way = with_coordinate(start, placed.axis, subject.value(fact.given)), ALONG_AXIS[1 - placed.axis]
         else:
             continue
         if at is None:

@@ -10,25 +10,13 @@ from contoursolve.diagnostics import Span
 from contoursolve.geometry import (
     Along,
     Arc,
+    Beside,
     Chord,
-    Coordinate,
     CornerShape,
-    Directed,
-    Extent,
     Fact,
-    Heading,
-    Level,
     Line,
-    Offset,
-    OnCircle,
-    ParallelLines,
-    PointBeside,
-    Radius,
-    RadiusStep,
-    Spoke,
+    Placed,
     Tangent,
-    TangentLine,
-    TurnBetween,
     Unit,
 )
 from contoursolve.pictures.known_points import place_of
@@ -110,66 +98,68 @@ def list_dimensions(subject: Subject, noted: Noted) -> Iterator[Dimension]:
 def dimension_of(subject: PartialDrawing, fact: Fact, text: str, role: Role, value: float) -> Dimension | None:
     """The dimension that shows a fact with a value; None for points that are not known, and for facts without a
     dimension."""
-    from contoursolve.geometry import Distance  # noqa: PLC0415 - see `constraints`
+    if fact.placed is not None and fact.placed.is_stepped:
+        return _along_axis(subject, fact.placed, text, role)
+    if fact.heading is not None:
+        tail, head = fact.heading
+        at = subject.known.points.get(tail, subject.at(head))
+        return Angle(at, value, text, role) if at is not None else None
+    if fact.sizes:
+        return _radius(subject, fact.sizes, text, role)
+    if fact.span is not None:
+        one, other = map(subject.at, fact.span)
+        return Aligned(one, other, text, role, is_beside=True) if one is not None and other is not None else None
+    if fact.directed:
+        lines = (*subject.profile.figure.path, *subject.profile.figure.lines)
+        at = next((subject.at(line.tail) for line in lines if line.name == fact.directed), None)
+        return Angle(at, value, text, role) if at is not None else None
+    return _apart(subject, fact.beside, text, role) if fact.beside is not None else None
 
-    known, figure = subject.known, subject.profile.figure
-    start = subject.at(figure.start)
-    if isinstance(fact, Coordinate):
-        at, coordinate = subject.at(fact.point), known.coordinate(fact.point, fact.axis)
-        if at is None and coordinate is not None and start is not None:
-            at = with_coordinate(start, fact.axis, coordinate)
-        return Ordinate(at, fact.axis, text, role) if at is not None else None
-    if isinstance(fact, Offset):
-        origin, end = subject.at(fact.origin), subject.at(fact.point)
-        coordinate = known.coordinate(fact.point, fact.axis)
-        if origin is not None and end is None and coordinate is not None:
-            end = with_coordinate(origin, fact.axis, coordinate)
-        return LinearDimension(origin, end, fact.axis, text, role) if origin is not None and end is not None else None
-    if isinstance(fact, Heading):
-        at = known.points.get(fact.tail, subject.at(fact.head))
-        return Angle(at, value, text, role) if at is not None else None
-    if isinstance(fact, Radius):
-        return _radius(subject, fact.radius, text, role)
-    if isinstance(fact, Distance | Extent):
-        tail, head = subject.at(fact.tail), subject.at(fact.head)
-        return Aligned(tail, head, text, role, is_beside=True) if tail is not None and head is not None else None
-    if isinstance(fact, Directed):
-        lines = (each for each in (*figure.path, *figure.lines) if each.name == fact.line)
-        at = next((subject.at(line.tail) for line in lines), None)
-        return Angle(at, value, text, role) if at is not None else None
-    return _apart(subject, fact, text, role) if isinstance(fact, TangentLine | PointBeside) else None
+
+def _along_axis(subject: PartialDrawing, placed: Placed, text: str, role: Role) -> Dimension | None:
+    """A coordinate, or how far along an axis a point is from another one."""
+    coordinate = subject.known.coordinate(placed.point, placed.axis)
+    at, origin = subject.at(placed.point), subject.at(placed.origin or subject.profile.figure.start)
+    if at is None and coordinate is not None and origin is not None:
+        at = with_coordinate(origin, placed.axis, coordinate)
+    if at is None or (placed.origin and origin is None):
+        return None
+    if placed.origin and origin is not None:
+        return LinearDimension(origin, at, placed.axis, text, role)
+    return Ordinate(at, placed.axis, text, role)
 
 
 def in_chain(subject: PartialDrawing, fact: Fact, text: str, role: Role, value: float) -> Dimension | None:
     """The same of facts that words state of chains of lines and arcs alone."""
-    if isinstance(fact, Spoke):
-        # The direction of a radius is that of the arc a quarter of a turn from it, where it begins.
-        at = subject.at(fact.point if fact.quarters else fact.center)
+    if fact.vertex:
+        at = subject.at(fact.vertex)
         return Angle(at, value, text, role) if at is not None else None
-    if isinstance(fact, TurnBetween):
-        base, at = _way(subject, fact.first), _begin(subject, fact.second)
+    if fact.turn_between is not None:
+        first, second = fact.turn_between
+        base, at = _way(subject, first), _begin(subject, second)
         is_angle = subject.profile.givens[fact.given].unit is Unit.DEGREE
         return Angle(at, value, text, role, base=base) if is_angle and at is not None and base is not None else None
-    if isinstance(fact, RadiusStep):
-        facts = [each for each in subject.profile.facts if isinstance(each, OnCircle) and each.radius == fact.radius]
-        pole, at, size = subject.at(facts[0].center), subject.at(facts[0].point), subject.known.radii.get(fact.origin)
+    if fact.radius_step is not None:
+        radius, origin = fact.radius_step
+        circle = next(each for one in subject.profile.facts if (each := one.circle) and each.radius == radius)
+        pole, at, size = subject.at(circle.center), subject.at(circle.point), subject.known.radii.get(origin)
         if size is None or pole is None or at is None:
             return None
         return Aligned(along(pole, direction(pole, at), size), at, text, role)
-    if isinstance(fact, Radius):
+    if fact.sizes:
         # The distance of what a line or an arc passes.
-        for each in subject.profile.facts:
-            if isinstance(each, TangentLine | PointBeside) and fact.radius in each.reads():
-                return _beside(subject, each, text, role)
-    if isinstance(fact, ParallelLines):
-        line = subject.elements.get(fact.second)
+        for other in subject.profile.facts:
+            if other.beside is not None and fact.sizes in other.reads():
+                return _beside(subject, other.beside, text, role)
+    if fact.parallel is not None:
+        line = subject.elements.get(fact.parallel[1])
         if line is None:
             return None
         way = direction(line.start, line.end)
         # Off the arrow in its middle.
         return Leader(along(line.start, way, line.length * _BESIDE_ARROW[0]), (-way[1], way[0]), text, role)
-    if isinstance(fact, Level):
-        at = subject.at(fact.origin)
+    if fact.placed is not None and not fact.placed.is_stepped:
+        at = subject.at(fact.placed.origin)
         return Leader(at, (-1.0, 1.0), text, role) if at is not None else None
     return None
 
@@ -204,28 +194,26 @@ def _degrees(way: Point) -> float:
     return degrees(atan2(way[1], way[0]))
 
 
-def _apart(subject: PartialDrawing, fact: TangentLine | PointBeside, text: str, role: Role) -> Dimension | None:
+def _apart(subject: PartialDrawing, beside: Beside, text: str, role: Role) -> Dimension | None:
     """The distance between a centre that is not drawn and a line or circle that touches its circle."""
-    center, radius = (fact.center, fact.radius) if isinstance(fact, TangentLine) else fact.first
     figure = subject.profile.figure
-    at = subject.known.points.get(center, place_of(subject.profile, center))
-    if at is None or radius not in figure.known_radii or radius in {each.radius for each in figure.circles}:
+    at = subject.known.points.get(beside.center, place_of(subject.profile, beside.center))
+    if at is None or beside.radius not in figure.known_radii or beside.radius in {one.radius for one in figure.circles}:
         return None
     # Of a fact that is too long to stand on a drawing, the distance counts.
-    text = number(subject.value(radius), subject.profile.unit) if text.endswith("…") else text
-    return _beside(subject, fact, text, role)
+    text = number(subject.value(beside.radius), subject.profile.unit) if text.endswith("…") else text
+    return _beside(subject, beside, text, role)
 
 
-def _beside(subject: PartialDrawing, fact: TangentLine | PointBeside, text: str, role: Role) -> Dimension | None:
+def _beside(subject: PartialDrawing, beside: Beside, text: str, role: Role) -> Dimension | None:
     """The distance of a place from a line or a circle."""
-    center = fact.center if isinstance(fact, TangentLine) else fact.first[0]
-    at = subject.known.points.get(center, place_of(subject.profile, center))
+    at = subject.known.points.get(beside.center, place_of(subject.profile, beside.center))
     if at is None:
         return None
-    if isinstance(fact, TangentLine):
-        ray = subject.ray(fact)
+    if beside.line:
+        ray = subject.ray(beside.line)
         return Aligned(at, foot(at, *ray), text, role) if ray is not None else None
-    circle = subject.circle(*fact.second)
+    circle = subject.circle(*beside.circle)
     return Aligned(at, along(circle[0], direction(circle[0], at), circle[1]), text, role) if circle else None
 
 
@@ -309,8 +297,9 @@ def noted_points(subject: Subject) -> Noted:
     profile = subject.profile
     found: dict[str, dict[int, str]] = {}
     for fact in (*profile.facts, *profile.ignored):
-        if isinstance(fact, Coordinate) and subject.word(fact.given) is not None:
-            found.setdefault(fact.point, {}).setdefault(fact.axis, fact.given)
+        placed = fact.placed
+        if placed is not None and not placed.origin and subject.word(fact.given) is not None:
+            found.setdefault(placed.point, {}).setdefault(placed.axis, fact.given)
     return {
         point: tuple(given for _, given in sorted(givens.items()))
         for point, givens in found.items()

@@ -20,13 +20,8 @@ from contoursolve.geometry import (
     Fact,
     Given,
     Layout,
-    Level,
-    Offset,
-    OnCircle,
-    PointBeside,
     Profile,
     Radius,
-    TangentLine,
     Unit,
     assemble,
     line_scalars,
@@ -106,11 +101,9 @@ def place_of(profile: Profile, name: str) -> Point | None:
 
 def place_beside(profile: Profile, fact: Fact) -> Point | None:
     """The place that an element passes at a distance; None for any other fact."""
-    match fact:
-        case TangentLine(center=name) | PointBeside(first=(name, _)):
-            is_circle = name in {each.center for each in profile.figure.circles}
-            return place_of(profile, name) if name in profile.figure.places and not is_circle else None
-    return None
+    name = fact.beside.center if fact.beside else ""
+    is_circle = name in {each.center for each in profile.figure.circles}
+    return place_of(profile, name) if name in profile.figure.places and not is_circle else None
 
 
 def start_of(profile: Profile) -> Point:
@@ -180,20 +173,19 @@ def _derive(fact: Fact, profile: Profile, stated: Mapping[str, float], values: d
         name = scalar(point, axis)
         return stated.get(name, values.get(name))
 
-    if isinstance(fact, Radius):
-        values.setdefault(fact.radius, abs(float(profile.givens[fact.given].value)))
-    elif isinstance(fact, Coordinate):
-        values.setdefault(scalar(fact.point, fact.axis), float(profile.givens[fact.given].value))
-    elif isinstance(fact, Offset | Level):
-        origin = get(fact.origin, fact.axis)
+    placed, circle = fact.placed, fact.circle
+    if fact.sizes:
+        values.setdefault(fact.sizes, abs(float(profile.givens[fact.given].value)))
+    elif placed is not None:
+        origin = get(placed.origin, placed.axis) if placed.origin else 0.0
         if origin is not None:
-            step = float(profile.givens[fact.given].value) if isinstance(fact, Offset) else 0.0
-            values.setdefault(scalar(fact.point, fact.axis), origin + step)
-    elif isinstance(fact, OnCircle) and fact.radius not in values:
-        pairs = [(get(fact.point, axis), get(fact.center, axis)) for axis in (FIRST, SECOND)]
+            step = float(profile.givens[fact.given].value) if placed.is_stepped else 0.0
+            values.setdefault(scalar(placed.point, placed.axis), origin + step)
+    elif circle is not None and circle.radius not in values:
+        pairs = [(get(circle.point, axis), get(circle.center, axis)) for axis in (FIRST, SECOND)]
         steps = [at - center for at, center in pairs if at is not None and center is not None]
         if len(steps) == len(pairs) and hypot(*steps) > 0:
-            values[fact.radius] = hypot(*steps)
+            values[circle.radius] = hypot(*steps)
 
 
 def in_chain(profile: Profile, items: Sequence["Alternative"] = (), blamed: Set[Word] = frozenset()) -> Known:
@@ -339,7 +331,7 @@ def _drawing_size(profile: Profile) -> float:
     """Size of a drawing, by its words alone, mm."""
     start, sizes = start_of(profile), []
     for fact in profile.facts:
-        if isinstance(fact, Coordinate | Offset | Radius):
-            origin = start[fact.axis] if isinstance(fact, Coordinate) else 0.0
+        if fact.sizes or (fact.placed and fact.placed.is_stepped):
+            origin = start[fact.placed.axis] if fact.placed and not fact.placed.origin else 0.0
             sizes.append(abs(float(profile.givens[fact.given].value) - origin))
     return max((size for size in sizes if size > 0), default=10.0)

@@ -20,10 +20,7 @@ from contoursolve.geometry import (
     Arc,
     Corner,
     Line,
-    OnCircle,
     Profile,
-    TangentLine,
-    Through,
     Turn,
     assemble,
     line_scalars,
@@ -103,15 +100,15 @@ class PartialDrawing(Struct, frozen=True):
         """The value that a given states, mm or degrees."""
         return float(self.profile.givens[given].value)
 
-    def ends(self, fact: Through | TangentLine) -> tuple[Point, Point] | None:
-        """The ends of the line of a fact; None if the line has no length or is not known."""
-        line = next((each for each in self.profile.figure.path if each.name == fact.line), None)
+    def ends(self, name: str) -> tuple[Point, Point] | None:
+        """The ends of a line of the path; None if it has no length or is not known."""
+        line = next((each for each in self.profile.figure.path if each.name == name), None)
         tail, head = (self.at(line.tail), self.at(line.head)) if isinstance(line, Line) else (None, None)
         return (tail, head) if tail is not None and head is not None and distance(tail, head) > SAME else None
 
-    def ray(self, fact: TangentLine) -> tuple[Point, Point] | None:
-        """A place on the line of a fact, and its direction: of the path, or a whole line beside it."""
-        ends, names = self.ends(fact), line_scalars(fact.line)
+    def ray(self, name: str) -> tuple[Point, Point] | None:
+        """A place on a line, and its direction: of the path, or a whole line beside it."""
+        ends, names = self.ends(name), line_scalars(name)
         if ends is not None or not self.known.scalars.keys() >= {*names}:
             return None if ends is None else (ends[0], direction(*ends))
         cosine, sine, offset = (self.known.scalars[name] for name in names)
@@ -124,8 +121,8 @@ class PartialDrawing(Struct, frozen=True):
 
     def circles_through(self, point: str) -> list[tuple[Point, float]]:
         """The known circles on which a point must lie."""
-        facts = (fact for fact in self.profile.facts if isinstance(fact, OnCircle) and fact.point == point)
-        found = (self.circle(fact.center, fact.radius) for fact in facts)
+        circles = (each for fact in self.profile.facts if (each := fact.circle) and each.point == point)
+        found = (self.circle(each.center, each.radius) for each in circles)
         return list(dict.fromkeys(circle for circle in found if circle is not None))
 
 

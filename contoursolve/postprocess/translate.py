@@ -11,7 +11,7 @@ from math import cos, radians, sin
 from contoursolve.controls import ChainFinder, Joining, Language
 from contoursolve.diagnosis import Answer, Depth
 from contoursolve.gcode import parse, spell
-from contoursolve.geometry import Arc, Corner, CornerShape, Heading, Line, Profile, Unit
+from contoursolve.geometry import Arc, Corner, CornerShape, Line, Profile, Unit
 from contoursolve.postprocess.emit import Format, MotionBlock, emit
 from contoursolve.program import Request, run
 from contoursolve.reading import Dialect, Diameter, WithoutPoint
@@ -48,8 +48,8 @@ class _Translator:
         self.segments: Mapping[str, Segment] = {each.name: each for each in contour.elements}
         self.target, self.language, self.form, self.is_rapid = target, language, form, is_rapid
         self.corners = {each.before: each for each in self.profile.figure.corners if each.name in self.segments}
-        facts = (fact for fact in self.profile.facts if isinstance(fact, Heading))
-        self.angles = {(fact.tail, fact.head): self.profile.givens[fact.given].value for fact in facts}
+        facts = (fact for fact in self.profile.facts if fact.heading)
+        self.angles = {fact.heading: self.profile.givens[fact.given].value for fact in facts}
         self.words = {shape: word for word, shape in language.corner.words.items()}
         figure = self.profile.figure
         self.points = {figure.path[-1].head: contour.end, **contour.points, figure.start: contour.start}

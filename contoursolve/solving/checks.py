@@ -18,6 +18,7 @@ from contoursolve.geometry import (
     Fact,
     Figure,
     Heading,
+    Increments,
     Line,
     Offset,
     OnCircle,
@@ -43,7 +44,7 @@ from contoursolve.numeric import (
     replay_rows,
     true,
 )
-from contoursolve.solving.compare import Increments, agreement
+from contoursolve.solving.compare import agreement
 from contoursolve.solving.compile import compile_plainly, compile_system
 from contoursolve.solving.construction import Construction, ConstructionStep, StepKind, is_closed
 from contoursolve.solving.corners import Pair

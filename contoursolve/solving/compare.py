@@ -1,7 +1,7 @@
 """Do facts that say the same agree? What each of them would have to state, and by how much it is off."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from math import hypot, inf, pi
+from math import hypot, inf
 from typing import Any
 
 from msgspec.structs import replace
@@ -10,18 +10,11 @@ from contoursolve.geometry import (
     FIRST,
     INCREMENT_OF,
     SECOND,
-    Coordinate,
-    Distance,
     Fact,
     Figure,
-    Heading,
+    Increments,
     Line,
-    Offset,
-    OnCircle,
-    ParallelLines,
     Profile,
-    Radius,
-    Spoke,
     System,
     Unit,
     Values,
@@ -37,59 +30,32 @@ from contoursolve.tolerance import AGREEMENT, LENGTH, RESIDUAL
 QUARTER_TURN, FULL_TURN = 90.0, 360.0
 """Degrees."""
 
-Increments = Callable[[str], Any]
-"""The least increment of a coordinate by its axis, or of a value by its name."""
-
 
 def allowance(fact: Fact, at: Values, increment: Increments) -> Any:
     """How far a fact may miss what the others say, mm: every coordinate and every word is exact to half its
     increment."""
-    if isinstance(fact, Coordinate):
-        reach = increment(str(fact.axis)) + increment(fact.given)
-    elif isinstance(fact, Offset):
-        reach = 2 * increment(str(fact.axis)) + increment(fact.given)
-    elif isinstance(fact, Heading):
-        cosine, sine = at.direction(fact.given)
-        first, second = step(at, fact.tail, fact.head)
-        swing = at.root(first * first + second * second) * (pi / 180) * increment(fact.given)
-        reach = 2 * (size(sine, at) * increment(str(FIRST)) + size(cosine, at) * increment(str(SECOND))) + swing
-    elif isinstance(fact, Radius):
-        reach = 2 * increment(fact.given)
-    else:
-        return AGREEMENT
-    return reach / 2 + RESIDUAL
+    reach = fact.reach(at, increment)
+    return AGREEMENT if reach is None else reach / 2 + RESIDUAL
 
 
 def agreement(fact: Fact, off: Any, at: Values, increment: Increments, figure: Figure) -> Iterator[Any]:
     """What is not below 0 (mm) where a fact agrees that was not needed and is off by so much at these points; numbers
     or expressions."""
-    limit = allowance(fact, at, increment)
+    limit, excess = allowance(fact, at, increment), fact.excess(at)
     larger = at.functions.larger
-    if isinstance(fact, OnCircle) and not fact.given:
+    if fact.circle is not None and not fact.given:
         # The residual is the difference of the radii to first order only.
-        excess = _length(fact.center, fact.point, at) - at.radius(fact.radius)
-        yield from (fact.slack - excess, fact.slack + excess)
+        yield from (fact.circle.slack - excess, fact.circle.slack + excess)
         return
-    if isinstance(fact, Distance):
+    if fact.span is not None and excess is not None:
         # To first order the residual is the excess; where either is small, the lengths agree.
-        excess = _length(fact.tail, fact.head, at) - at.amount(fact.given)
         yield from (larger(limit - off, limit - excess), larger(limit + off, limit + excess))
         return
-    if isinstance(fact, Heading) and is_directed(fact, figure):
+    if fact.heading is not None and is_directed(fact, figure):
         # The equation alone is true of the opposite direction, too.
-        (first, second), (cosine, sine) = step(at, fact.tail, fact.head), at.direction(fact.given)
+        (first, second), (cosine, sine) = step(at, *fact.heading), at.direction(fact.given)
         yield first * cosine + second * sine + LENGTH
     yield from (limit - off, limit + off)
-
-
-def _length(tail: str, head: str, at: Values) -> Any:
-    first, second = step(at, tail, head)
-    return at.root(first**2 + second**2)
-
-
-def size(value: Any, at: Values) -> Any:
-    """The absolute value of a number of any kind."""
-    return at.root(value * value)
 
 
 def half_circle_allowance(
@@ -119,7 +85,7 @@ def is_conflict(circuit: Circuit, profile: Profile, affine: AffineFacts) -> bool
 
 def is_directed(fact: Fact, figure: Figure) -> bool:
     """Whether a fact states the direction in which a line of the path must run."""
-    return isinstance(fact, Heading) and any(
+    return fact.heading is not None and any(
         isinstance(line, Line) and line.heading == fact.given for line in figure.path
     )
 
@@ -133,7 +99,7 @@ def opposes(values: Mapping[str, float], unit: Unit) -> bool:
 
 def runs_against(facts: Iterable[Fact], profile: Profile, at: Values) -> bool:
     """Whether a line runs against the angle that one of some facts states, where these values hold its ends."""
-    angles = (each for each in facts if isinstance(each, Heading) and at.scalars.keys() >= {*each.reads()})
+    angles = (each for each in facts if each.heading and at.scalars.keys() >= {*each.reads()})
     return any(opposes(compare(each, profile, at), Unit.DEGREE) for each in angles)
 
 
@@ -166,26 +132,27 @@ def givens_of(fact: Fact, system: System) -> tuple[str, ...]:
 
 def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: Values) -> Refusal | Note | None:
     """What to say of a fact that was not needed and is off by so much (mm) at the points that the others give."""
-    if isinstance(fact, OnCircle) and not fact.given:
+    circle = fact.circle
+    if circle is not None and not fact.given:
         # The residual is the difference of the radii to first order only.
-        away = (float(at.coordinate(fact.point, axis) - at.coordinate(fact.center, axis)) for axis in (FIRST, SECOND))
-        distance, radius = hypot(*away), float(at.radius(fact.radius))
+        away, radius = step(at, circle.center, circle.point), float(at.radius(circle.radius))
+        distance = hypot(*map(float, away))
         off = abs(distance - radius)
-        values = {"limit": fact.slack, "actual": off, "off_by_mm": off, "radius": radius, "distance": distance}
+        values = {"limit": circle.slack, "actual": off, "off_by_mm": off, "radius": radius, "distance": distance}
         if not _agrees(fact, off, profile, at):
-            return Refusal(RefusalKind.RADIUS_DIFFERENCE, fact.point, givens_of(fact, system), values)
+            return Refusal(RefusalKind.RADIUS_DIFFERENCE, circle.point, givens_of(fact, system), values)
         if off > AGREEMENT:
-            return Note(NoteKind.RADIUS_DIFFERS, fact.point, givens_of(fact, system), values)
+            return Note(NoteKind.RADIUS_DIFFERS, circle.point, givens_of(fact, system), values)
         return None
-    name = fact.given or (fact.part_of if isinstance(fact, ParallelLines) else "")
+    name = fact.statement
     givens = (name,) if name else givens_of(fact, system)
     values = compare(fact, profile, at) if fact.given else {"off_by_mm": off}
-    is_word = isinstance(fact, Coordinate | Offset | Heading | Radius)
+    is_word = fact.reach(at, increments_of(profile)) is not None
     gap = inf if is_word else abs(values.get("expected", inf) - values.get("actual", inf))
     # The equation alone is true of the opposite direction, too.
     is_opposite = any(float(sense) < -AGREEMENT for sense in fact.senses(at))
     # So is one part of a radius along one of its axes.
-    is_against = is_opposite or (isinstance(fact, Spoke) and opposes(values, Unit.DEGREE))
+    is_against = is_opposite or (fact.is_half and opposes(values, Unit.DEGREE))
     if not is_against and (_agrees(fact, off, profile, at) or gap <= AGREEMENT):
         return Note(NoteKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
     kind = RefusalKind.WORDS_DISAGREE if "expected" in values else RefusalKind.FACT_DISAGREES

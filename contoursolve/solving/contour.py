@@ -8,7 +8,7 @@ from typing import NamedTuple
 from msgspec import Struct
 
 from contoursolve.diagnostics import Shown
-from contoursolve.geometry import Corner, Heading, Line, Plane, Profile, Turn
+from contoursolve.geometry import Corner, Line, Plane, Profile, Turn
 from contoursolve.solving.solution import Point, Solution
 from contoursolve.tolerance import AGREEMENT, LENGTH
 
@@ -221,7 +221,7 @@ def against_angles(profile: Profile, contour: Contour) -> Iterator[tuple[str, Li
     path = {(each.tail, each.head): each for each in profile.figure.path if isinstance(each, Line)}
     segments = {each.name: each for each in contour.elements if isinstance(each, LineSegment)}
     for fact in profile.facts:
-        line = path.get((fact.tail, fact.head)) if isinstance(fact, Heading) else None
+        line = path.get(fact.heading) if fact.heading else None
         segment = segments.get(line.name) if line is not None and line.heading is None else None
         if segment is not None and cos(radians(segment.angle - float(profile.givens[fact.given].value))) < 0:
             yield fact.given, segment

@@ -17,7 +17,6 @@ from contoursolve.geometry import (
     Fact,
     Figure,
     Given,
-    Heading,
     Layout,
     Line,
     Profile,
@@ -168,9 +167,9 @@ def _cuts(profile: Profile, open_: Sequence[str]) -> tuple[list[str], Mapping[st
 def _bent(profile: Profile) -> frozenset[str]:
     """The points between lines whose stated directions differ: what moves such a point moves the next one, too."""
     headings = {
-        (fact.tail, fact.head): profile.givens[fact.given].value
+        fact.heading: profile.givens[fact.given].value
         for fact in profile.facts
-        if isinstance(fact, Heading) and fact.given in profile.givens
+        if fact.heading and fact.given in profile.givens
     }
     ways = [(each.head, headings.get((each.tail, each.head))) for each in profile.figure.path]
     return frozenset(

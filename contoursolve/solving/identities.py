@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from contoursolve.geometry import Coordinate, Fact, Heading, Offset, OnCircle, System
+from contoursolve.geometry import Fact, System
 from contoursolve.solving.inputs import symbolic_values
 
 
@@ -14,7 +14,7 @@ def derive_identity(system: System, facts: Sequence[Fact]) -> str:
     """
     from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see analyse
 
-    lengths = [fact for fact in facts if isinstance(fact, Offset | Coordinate)]
+    lengths = [fact for fact in facts if fact.placed and fact.given]
     symbols = symbolic.Symbols()
     at = symbolic_values(symbols, symbolic.FUNCTIONS, system.headed)
     unknowns = [symbols.scalar(name) for name in system.unknowns]
@@ -29,16 +29,16 @@ def derive_circle_identity(system: System, facts: Sequence[Fact]) -> str:
     another one. S.0 and S.1 are the start point's coordinates."""
     from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see analyse
 
-    circles = [fact for fact in facts if isinstance(fact, OnCircle)]
-    if len(circles) != 2 or len({(fact.center, fact.radius) for fact in circles}) != 1:  # noqa: PLR2004
+    circles = [fact for fact in facts if fact.circle]
+    if len(circles) != 2 or len({fact.circle[1:3] for fact in circles if fact.circle}) != 1:  # noqa: PLR2004
         return ""
     symbols = symbolic.Symbols()
     at = symbolic_values(symbols, symbolic.FUNCTIONS, system.headed)
     first, second = (fact.equation(at) for fact in circles)
-    affine = [fact.residual(at) for fact in facts if not isinstance(fact, OnCircle)]
+    affine = [fact.residual(at) for fact in facts if not fact.circle]
     return symbolic.substitute_solution(first - second, affine, [symbols.scalar(name) for name in system.unknowns])
 
 
 def is_affine(facts: Sequence[Fact]) -> bool:
     """Whether all facts are affine in the unknowns."""
-    return all(isinstance(fact, Offset | Coordinate | Heading) for fact in facts)
+    return all(fact.is_affine for fact in facts)

@@ -8,7 +8,6 @@ from typing import TypeVar
 from contoursolve.geometry import (
     FIRST,
     SECOND,
-    Coordinate,
     Profile,
     Start,
     System,
@@ -67,7 +66,7 @@ def _float(value: Decimal | float, less: Decimal) -> float:
 def axes_of(system: System) -> Mapping[str, int]:
     """The axis of each given that is a coordinate."""
     places = {scalar(place, axis): axis for place in system.figure.places for axis in (FIRST, SECOND)}
-    return places | {fact.given: fact.axis for fact in system.facts if isinstance(fact, Coordinate)}
+    return places | {fact.given: fact.placed.axis for fact in system.facts if fact.placed and not fact.placed.origin}
 
 
 def solution_at(

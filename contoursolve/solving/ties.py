@@ -12,10 +12,10 @@ from contoursolve.numeric import COSINE, FLOATS, PRIME, SINE, draw
 from contoursolve.solving.affine import NO_CIRCUITS, AffineFacts, Circuit, Circuits, affine_facts, linearise, rows_at
 from contoursolve.solving.ambiguity import headings_of, nearest_of_determined, restrict
 from contoursolve.solving.compare import compare_fact, is_conflict
+from contoursolve.solving.construction import is_closed
 from contoursolve.solving.determinacy import analyse, circuits_of
 from contoursolve.solving.inputs import input_values
 from contoursolve.solving.numbers import lookup
-from contoursolve.solving.construction import is_closed
 from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind
 from contoursolve.tolerance import REGULAR, RESIDUAL
 

@@ -7,7 +7,7 @@ from enum import Enum
 from msgspec import Struct
 
 from contoursolve.gcode import Block, Word
-from contoursolve.geometry import CornerShape, Heading, Plane, Side, Turn
+from contoursolve.geometry import CornerShape, Plane, Side, Turn
 from contoursolve.reading import Assumption, Condition, ContourForm, Convention, Lexicon, Modes, Sample, Setting, State
 
 LINE, ARC = "line", "arc"
@@ -184,7 +184,7 @@ TITLES: Mapping[str, str] = {
 def sense_conventions(sense: Setting, form: ContourForm, modes: Modes) -> Iterator[Convention]:
     """The convention on lines against their angle: where there is one, and if that was set."""
     convention = modes.convention(sense)
-    if convention.value == "ray" and any(isinstance(row.fact, Heading) for row in form.outline.facts):
+    if convention.value == "ray" and any(row.fact.heading for row in form.outline.facts):
         yield convention
 
 

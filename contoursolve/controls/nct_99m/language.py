@@ -39,7 +39,7 @@ from contoursolve.controls.nct_99m.lexicon import (
     UNCOMPENSATED_FREE,
 )
 from contoursolve.controls.plain import PLANES
-from contoursolve.geometry import OnCircle, Side
+from contoursolve.geometry import Side
 from contoursolve.reading import ContourForm, Convention, Modes, Sample, State
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
@@ -130,9 +130,7 @@ def _conventions(form: ContourForm, circumstances: Collection[str], modes: Modes
     if any(name.endswith((UNCOMPENSATED, UNCOMPENSATED_FREE)) for name in circumstances):
         yield modes.convention(COMPENSATION)
     difference = modes.convention(RADIUS_DIFFERENCES)
-    if difference.value != RADIUS_DIFFERENCES.default and any(
-        isinstance(row.fact, OnCircle) for row in form.outline.facts
-    ):
+    if difference.value != RADIUS_DIFFERENCES.default and any(row.fact.circle for row in form.outline.facts):
         yield difference
     if CIRCLE_CIRCLE in {role.name for role in form.roles}:
         yield modes.convention(CIRCLE_CIRCLE_Q)

@@ -8,7 +8,6 @@ from msgspec.structs import replace
 
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import FACT, Directive, Word
-from contoursolve.geometry.points import Radius
 from contoursolve.geometry.profile import Profile, Question, Unit
 from contoursolve.geometry.statements.draft import Draft, StatementError
 from contoursolve.geometry.statements.grammar import GrammarError, Vocabulary, read_statement
@@ -109,7 +108,7 @@ def _resolved(statement: Statement, next_place: Callable[[], Place | None]) -> S
 
 def _add_size(draft: Draft, question: Question, faults: list[UnusedFact]) -> None:
     """A corner whose size is asked for is part of the equations."""
-    for corner in draft.figure.corners if isinstance(question.fact, Radius) else ():
+    for corner in draft.figure.corners if question.fact.sizes else ():
         try:
             if corner.size == question.name:
                 draft.corner(corner.name)
