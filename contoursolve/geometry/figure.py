@@ -58,7 +58,7 @@ class Placed(NamedTuple):
     is_stepped: bool = True
 
 
-class Beside(NamedTuple):
+class Clearance(NamedTuple):
     """A place about which a circle touches something else, and the radius of that, its distance: a line by its name, or
     a circle by centre and radius."""
 
@@ -140,7 +140,7 @@ class Fact(Protocol):
         """The circle on which it puts a point, if it is about that."""
 
     @property
-    def beside(self) -> Beside | None:
+    def beside(self) -> Clearance | None:
         """The place about which it lets a circle touch a line, or a circle that passes another one at a distance."""
 
     @property

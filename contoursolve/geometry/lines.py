@@ -6,7 +6,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import FIRST, SECOND, Beside, Lookup, Turn, line_scalars, scalar
+from contoursolve.geometry.figure import FIRST, SECOND, Clearance, Lookup, Turn, line_scalars, scalar
 from contoursolve.geometry.system import Equation, apart, cross, dot, place, rotate, step
 from contoursolve.geometry.touching import side_of
 
@@ -180,8 +180,8 @@ class TangentLine(Equation, Struct, frozen=True):
         return self.center
 
     @property
-    def beside(self) -> Beside:
-        return Beside(self.center, self.radius, self.line, ("", ""))
+    def beside(self) -> Clearance:
+        return Clearance(self.center, self.radius, self.line, ("", ""))
 
     def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
         return f"{self.line} touches the circle about {self.center}"

@@ -9,7 +9,7 @@ from msgspec import Struct, field
 from contoursolve.geometry.figure import (
     FIRST,
     SECOND,
-    Beside,
+    Clearance,
     Fact,
     Figure,
     Increments,
@@ -80,7 +80,7 @@ class Equation:
         return None
 
     @property
-    def beside(self) -> Beside | None:
+    def beside(self) -> Clearance | None:
         return None
 
     @property

@@ -6,7 +6,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import FIRST, Beside, Lookup, Turn
+from contoursolve.geometry.figure import FIRST, Clearance, Lookup, Turn
 from contoursolve.geometry.system import Equation, cross, dot, place, rotate, step
 
 
@@ -124,8 +124,8 @@ class PointBeside(TangentCircles, frozen=True):
         return (1 + side + (1 - side) * inside,)
 
     @property
-    def beside(self) -> Beside:
-        return Beside(*self.first, "", self.second)
+    def beside(self) -> Clearance:
+        return Clearance(*self.first, "", self.second)
 
 
 class Contact(Equation, Struct, frozen=True):

@@ -7,7 +7,6 @@ from contoursolve.geometry import (
     Arc,
     Fact,
     Line,
-    OnCircle,
     Unit,
     line_scalars,
 )
@@ -312,7 +311,7 @@ def _off_circle(subject: Subject, refusal: Refusal) -> Iterator[Part]:
 
 def _too_small(subject: Subject, refusal: Refusal) -> Iterator[Part]:
     """The chord that is longer than the diameter."""
-    facts = (fact for fact in subject.profile.facts if isinstance(fact, OnCircle) and fact.center == refusal.subject)
+    facts = (each for fact in subject.profile.facts if (each := fact.circle) and each.center == refusal.subject)
     places = [at for name in dict.fromkeys(fact.point for fact in facts) if (at := subject.at(name)) is not None]
     if len(places) > 1:
         limit = number(2 * refusal.values.get("actual", 0.0), subject.profile.unit)

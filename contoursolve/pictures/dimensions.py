@@ -10,8 +10,8 @@ from contoursolve.diagnostics import Span
 from contoursolve.geometry import (
     Along,
     Arc,
-    Beside,
     Chord,
+    Clearance,
     CornerShape,
     Fact,
     Line,
@@ -194,7 +194,7 @@ def _degrees(way: Point) -> float:
     return degrees(atan2(way[1], way[0]))
 
 
-def _apart(subject: PartialDrawing, beside: Beside, text: str, role: Role) -> Dimension | None:
+def _apart(subject: PartialDrawing, beside: Clearance, text: str, role: Role) -> Dimension | None:
     """The distance between a centre that is not drawn and a line or circle that touches its circle."""
     figure = subject.profile.figure
     at = subject.known.points.get(beside.center, place_of(subject.profile, beside.center))
@@ -205,7 +205,7 @@ def _apart(subject: PartialDrawing, beside: Beside, text: str, role: Role) -> Di
     return _beside(subject, beside, text, role)
 
 
-def _beside(subject: PartialDrawing, beside: Beside, text: str, role: Role) -> Dimension | None:
+def _beside(subject: PartialDrawing, beside: Clearance, text: str, role: Role) -> Dimension | None:
     """The distance of a place from a line or a circle."""
     at = subject.known.points.get(beside.center, place_of(subject.profile, beside.center))
     if at is None:
