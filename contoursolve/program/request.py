@@ -63,7 +63,7 @@ class Request(Struct, frozen=True):
 
 
 class ReadingKeywords(TypedDict, total=False):
-    """How a program is read, as keywords of a function."""
+    """Keywords that say as what a program is read."""
 
     control: "str | Dialect | None"
     units: str
@@ -72,7 +72,7 @@ class ReadingKeywords(TypedDict, total=False):
 
 
 class ProgramKeywords(ReadingKeywords, total=False):
-    """What is stated beside a program, too."""
+    """These, and what is stated beside a program."""
 
     start: "str | None"
     facts: "Iterable[str | Statement]"
@@ -81,13 +81,13 @@ class ProgramKeywords(ReadingKeywords, total=False):
 
 
 class SolveKeywords(ProgramKeywords, total=False):
-    """How far findings are explained, too."""
+    """These, and how far findings are explained."""
 
     depth: str
 
 
 class CheckKeywords(ProgramKeywords, total=False):
-    """Whether all findings are told, too."""
+    """Those without it, and whether all findings are told."""
 
     strict: bool
 
@@ -111,7 +111,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     strict: bool = False
 
     def request(self, name: str, dialect: Dialect | None = None) -> Request:
-        """What they ask of the program of this name, for a control; a text alone is one fact. Raises ValueError where
+        """The request for the program of this name, for a control; a text alone is one fact. Raises ValueError where
         units, rules or depth is none of its choices."""
         several = [self.facts] if isinstance(self.facts, str) else self.facts
         asked = Request(
