@@ -222,17 +222,22 @@ def affine_facts(profile: Profile, facts: Sequence[Fact]) -> AffineFacts | None:
 
 
 def linearise(profile: Profile, facts: Sequence[Fact], scalars: Mapping[str, float]) -> AffineFacts:
-    """Facts of a profile, whose start is known, as what they are to first order at these values of the unknowns (mm).
-    An open side is the one with which its facts are nearest to being true."""
+    """Facts of a profile, whose start is known, to first order at these values of the unknowns (mm)."""
+    return rows_at(assemble(profile), facts, values_at(profile, facts, scalars))
+
+
+def values_at(profile: Profile, facts: Sequence[Fact], scalars: Mapping[str, float]) -> Values:
+    """A lookup for facts of a profile at these values of the unknowns (mm). An open side is the one with which its
+    facts are nearest to being true."""
     system = assemble(profile)
-    at = lookup(profile, {name: scalars[name] for name in system.unknowns})
-    return rows_at(system, facts, replace(at, headed=system.headed))
+    at = replace(lookup(profile, {name: scalars[name] for name in system.unknowns}), headed=system.headed)
+    return replace(at, signs=_nearest_sides(facts, at))
 
 
 def rows_at(system: System, facts: Sequence[Fact], at: Values) -> AffineFacts:
     """Facts about the unknowns of a system to first order at some values."""
     columns = {name: column for column, name in enumerate(system.unknowns)}
-    at = replace(at, signs=_nearest_sides(facts, at), functions=_COMPLEX)
+    at = replace(at, functions=_COMPLEX)
     here = {name: at.scalar(name) for fact in facts for name in system.unknowns_of(fact)}
     moved = dict[str, Any]()
     following = replace(at, scalars=ChainMap(moved, cast("dict[str, Any]", at.scalars)))

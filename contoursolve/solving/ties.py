@@ -5,17 +5,24 @@ from functools import lru_cache
 from math import cos, sin, tau
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from contoursolve.geometry import Fact, Profile, System, Values, assemble
 from contoursolve.numeric import COSINE, FLOATS, PRIME, SINE, draw
-from contoursolve.solving.affine import NO_CIRCUITS, AffineFacts, Circuit, Circuits, affine_facts, linearise, rows_at
+from contoursolve.solving.affine import (
+    NO_CIRCUITS,
+    AffineFacts,
+    Circuit,
+    Circuits,
+    affine_facts,
+    linearise,
+    rows_at,
+    values_at,
+)
 from contoursolve.solving.ambiguity import headings_of, nearest_of_determined, restrict
 from contoursolve.solving.compare import compare_fact, is_conflict
 from contoursolve.solving.construction import is_closed
 from contoursolve.solving.determinacy import analyse, circuits_of
 from contoursolve.solving.inputs import input_values
-from contoursolve.solving.numbers import lookup
 from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind
 from contoursolve.tolerance import REGULAR, RESIDUAL
 
@@ -77,7 +84,9 @@ def find_ties(profile: Profile, *, is_told: bool) -> Ties:
         }
         found = nearest_of_determined(profile) or nearest_of_determined(restrict(profile, tied))
     if found is None:
-        unknown = (Circuit((*others, last), (0.0,) * (len(others) + 1)) for last, others in generic.items())
+        # What words of one form say twice is told without values; of facts of all kinds, it would tell of too many.
+        told = {} if profile.is_extended else generic
+        unknown = (Circuit((*others, last), (0.0,) * (len(others) + 1)) for last, others in told.items())
         return Ties(profile, None, Circuits(tuple(unknown), is_complete=False))
     part, item = found
     own = assemble(part)
@@ -89,7 +98,7 @@ def find_ties(profile: Profile, *, is_told: bool) -> Ties:
     for last, others in circuits_of(own).items():
         if last not in known:
             kept.append(Circuit((*others, last), (*(0.0 for _ in others), float(off[rows.places[last]]))))
-    at = replace(lookup(part, dict(item.scalars)), headed=own.headed)
+    at = values_at(part, part.facts, item.scalars)
     return Ties(part, rows, Circuits(tuple(kept), circuits.is_complete and part is profile), at)
 
 

@@ -1039,3 +1039,23 @@ def test_the_largest_size_of_a_corner_that_is_shown_fits():
     (error,) = answer_to("G111 X100. A180. K-30. B120. P60.").diagnostics  # 51.9615 mm fit
     assert "at most 51.961 mm fits" in error.message
     assert answer_to("G111 X100. A180. K-30. B120. P51.961").contour is not None
+
+
+SAID_TWICE = [
+    ("yasnac-lx3", "G111 X100. A180. K-30. B120. P5.", "X40. Z0.", ["length of line 1 = 31"], "K A fact", 1.0),
+    ("heidenhain", "L X+0 Y+0\nFL X+20 Y+0 AN0 LEN20.5\nFL X+20 Y+20 AN90", None, [], "X AN LEN", 0.5),
+    ("heidenhain", "L X+0 Y+0\nFC DR+ R10 CCX+0 CCY+10 X+10 Y+10.5", None, [], "X Y CCX CCY R", 0.0125),
+    ("nct-99m", "G17 G90 G41 G0 X0 Y0\nG1 X100 Y0 ,R5\nG3 X140.1 Y40 I0 J40", None, [], "X Y I J X Y", 0.1),
+]
+
+
+@pytest.mark.parametrize(("control", "program", "start", "facts", "words", "off"), SAID_TWICE)
+def test_facts_of_all_kinds_that_say_the_same_are_a_tie(control, program, start, facts, words, off):
+    """Of G111, of circles, of facts and of FK, with by how much they disagree, and that these are all."""
+    (answer,) = solve(program, control=control, start=start, facts=facts).answers
+    told = [tuple("fact" if each in facts else each for each in tie.addresses) for tie in answer.diagnosis.ties]
+    assert tuple(words.split()) in told
+    tie = answer.diagnosis.ties[told.index(tuple(words.split()))]
+    assert tie.is_conflict
+    assert tie.off_by_mm == pytest.approx(off, abs=1e-3)
+    assert answer.diagnosis.ties_complete
