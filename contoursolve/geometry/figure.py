@@ -101,7 +101,7 @@ class Fact(Protocol):
         """Zero where the residual is, and polynomial in coordinates, radii and directions where it can be."""
 
     def senses(self, at: Lookup) -> tuple[Any, ...]:
-        """What must be positive besides, because the equation alone allows the opposite."""
+        """Values that must be positive besides, because the equation alone allows the opposite."""
 
     def sense_reads(self) -> tuple[str, ...]:
         """Names of the scalars that the residual and the senses depend on."""
@@ -110,15 +110,15 @@ class Fact(Protocol):
         """The value of the given (mm or degrees) that makes the residual zero; None where any does."""
 
     def reach(self, at: Lookup, increment: Increments) -> Any:
-        """How far it moves with the last digit of each coordinate and word in it, mm; None where no word alone states
-        it."""
+        """The distance by which it moves with the last digit of each coordinate and word in it, mm; None where no word
+        alone states it."""
 
     def excess(self, at: Lookup) -> Any:
         """By how much a distance is more than it is to be, mm; None if the fact is about something else."""
 
     def phrase(self, axes: tuple[str, str], sought: Collection[str]) -> str:
-        """What it says without its value, where `sought` are the unknowns to be found; empty if that says all, or if it
-        goes without saying."""
+        """The words for it without its value, where `sought` are the unknowns to be found; empty if that says all, or
+        if it goes without saying."""
 
     def places(self, at: Lookup) -> Iterator[tuple[str, tuple[float, float]]]:
         """The lines (by name) and the circles (by centre) that it is about, each with where it holds."""
@@ -260,7 +260,7 @@ class Arc(Struct, frozen=True):
 
 
 class CornerShape(Enum):
-    """What replaces a virtual intersection."""
+    """The shape that replaces a virtual intersection."""
 
     FILLET = "fillet"
     """An arc tangent to both elements; its size is the radius."""
@@ -342,7 +342,7 @@ class Figure(Struct, frozen=True):
 
 
 class BlockRole(Struct, frozen=True):
-    """What some blocks of a contour are together, by the name under which rules speak of it.
+    """The part that some blocks of a contour play together, by the name under which rules speak of it.
 
     `prefixes` begin the names of what each of these blocks states. A rule about one block sees the names without
     the prefix, a rule about several sees `1:`, `2:`, ... in its place.

@@ -318,7 +318,7 @@ def _ends(advance: tuple[tuple[str, ...], ...], axis: int) -> Iterator[str]:
 
 
 def moves_of(at: Lookup, advance: tuple[tuple[str, ...], ...], axis: int) -> list[Any]:
-    """How far each part of a path advances along an axis, mm, or that part of a line's direction."""
+    """The distances by which the parts of a path advance along an axis, mm, or that part of a line's direction."""
     found = []
     for name, *head in advance:
         found.append(at.coordinate(head[0], axis) - at.coordinate(name, axis) if head else at.bearing(name)[axis])
@@ -326,13 +326,13 @@ def moves_of(at: Lookup, advance: tuple[tuple[str, ...], ...], axis: int) -> lis
 
 
 def way(at: Lookup, advance: tuple[tuple[str, ...], ...], axis: int) -> Any:
-    """How a path advances along an axis, by the first of its lines that moves along it at all."""
+    """The advance of a path along an axis, by the first of its lines that moves along it at all."""
     moves = moves_of(at, advance, axis)
     return next((move for move in moves if not at.vanishes(move)), moves[0])
 
 
 def left_of(at: Lookup, line: str, point: str) -> Any:
-    """How far to the left of a line a point lies, mm."""
+    """The distance of a point to the left of a line, mm."""
     cosine, sine, offset = at.line(line)
     return cosine * at.coordinate(point, SECOND) - sine * at.coordinate(point, FIRST) - offset
 

@@ -11,13 +11,13 @@ from contoursolve.geometry.figure import Fact, Figure
 from contoursolve.tolerance import INCREMENT, INCREMENT_ANGLE, INCREMENT_INCH, TRAVEL
 
 INCREMENT_OF = "increment:"
-"""What the name of a least increment begins with."""
+"""The beginning of the name of a least increment."""
 
 _MM, _INCH = Decimal(1), Decimal("25.4")
 
 
 class Unit(Enum):
-    """What a value measures."""
+    """The quantity that a value measures."""
 
     MM = "mm"
     DEGREE = "deg"
@@ -82,7 +82,7 @@ class Start(Struct, frozen=True):
 
 
 class Side(Enum):
-    """Which of two solutions of a step is meant, named by the geometry."""
+    """The one of two solutions of a step that is meant, named by the geometry."""
 
     NEARER = "nearer"
     """First of the two points on the line, counted along its direction."""
@@ -113,8 +113,8 @@ class Choice(Struct, frozen=True):
 
 
 class Pick(Struct, frozen=True):
-    """Which solution is meant at an element of the path: the number of the element and of the solution there, from 1,
-    in the order of travel; and the given that says so, empty for one that nothing says."""
+    """The solution that is meant at an element of the path: the number of the element and of the solution there, from
+    1, in the order of travel; and the given that says so, empty for one that nothing says."""
 
     element: int
     number: int
@@ -174,7 +174,7 @@ class Profile(Struct, frozen=True):
 
     @property
     def facts(self) -> tuple[Fact, ...]:
-        """What the words state, as far as the control uses it."""
+        """The facts that the words state, as far as the control uses them."""
         return self.layout.facts
 
 

@@ -152,7 +152,7 @@ def step(at: Lookup, tail: str, head: str) -> tuple[Any, Any]:
 
 
 def place(at: Lookup, point: str) -> tuple[float, float]:
-    """Where a point lies, mm."""
+    """The place of a point, mm."""
     return float(at.coordinate(point, FIRST)), float(at.coordinate(point, SECOND))
 
 
@@ -162,7 +162,7 @@ def size(value: Any, at: Lookup) -> Any:
 
 
 def apart(at: Lookup, tail: str, head: str) -> Any:
-    """How far apart two points lie, mm."""
+    """The distance between two points, mm."""
     first, second = step(at, tail, head)
     return at.root(first**2 + second**2)
 
@@ -248,7 +248,7 @@ class _Dependence(NamedTuple):
 
 @lru_cache(maxsize=65536)
 def _dependence(fact: Equation) -> _Dependence:
-    """What a fact asks for, at numbers that are no special ones."""
+    """The names that a fact asks for, at numbers that are no special ones."""
     names, sides = dict[str, float](), dict[str, int]()
     scalars = Created(lambda name: names.setdefault(name, (len(names) + 1) ** 1.5))
     given, turned = Created(lambda _: 0.5), Created(lambda _: (0.6, 0.8))

@@ -93,7 +93,7 @@ def apply_statements(
 
 
 def vocabulary_of(profile: Profile) -> Vocabulary:
-    """What facts about a profile may mention."""
+    """The names that facts about a profile may mention."""
     figure = profile.figure
     elements = [element.name for element in (*figure.path, *figure.corners)]
     return Vocabulary(elements, (figure.start, *figure.points), profile.plane, profile.unit)

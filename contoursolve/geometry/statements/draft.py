@@ -97,7 +97,7 @@ class Draft:
         return foot
 
     def around(self, name: str, center: str, distance: Decimal) -> Round:
-        """What lies a given distance from a point: a circle that is not drawn."""
+        """The places at a given distance from a point: a circle that is not drawn."""
         radius = self.give(f"{name}.radius", distance, Unit.MM)
         self.figure = replace(self.figure, known_radii=(*self.figure.known_radii, radius))
         return Round(center, radius)

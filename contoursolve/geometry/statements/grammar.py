@@ -39,7 +39,7 @@ _DECIMAL_COMMA = re.compile(r"[+-]?+\d++,\d++(?![\w.])")
 _PARTS = {"begin": ("begin of", "start of"), "end": ("end of",), "center": ("center of", "centre of")}
 _TOKEN = re.compile(r"[^\s(),=]+|.", re.DOTALL)
 _NAME = re.compile(r"[^\s(),=]+(?:\s+\d+)?|.", re.DOTALL)
-"""What stands where an element is expected: `line 3` is one name."""
+"""The text where an element is expected: `line 3` is one name."""
 _BLANK = re.compile(r"[\s,]*")
 LONGEST_NUMBER = 40
 """Characters of a number; 17 digits are all that a double holds."""
@@ -55,7 +55,7 @@ class GrammarError(ValueError):
 
 
 class Vocabulary(Struct, frozen=True):
-    """What a statement may mention: elements and points by name, the plane's axes, the unit of lengths."""
+    """The names that a statement may mention: elements and points by name, the plane's axes, the unit of lengths."""
 
     elements: Sequence[str]
     points: Sequence[str]
@@ -64,7 +64,8 @@ class Vocabulary(Struct, frozen=True):
 
 
 class _Measure(Struct, frozen=True):
-    """What a value is of: the statement of it, how it begins, as it is written first, and the element that follows."""
+    """The quantity that a value is of: the statement of it, how it begins, as it is written first, and
+    the element that follows."""
 
     kind: type[LengthIs] | type[StraightIs] | type[DirectionIs] | type[RadiusIs] | type[ChordIs]
     begins: tuple[str, ...]
@@ -83,7 +84,7 @@ _MEASURES = (
 
 
 class _Quantity(Struct, frozen=True):
-    """What stands before an equals sign, or behind one."""
+    """The text before an equals sign, or behind one."""
 
     state: Callable[[Decimal | None], Statement]
     name: str = ""
@@ -173,7 +174,7 @@ class _Reader:
         return _Quantity(partial(PointIs, part, name, axis), factor=factor)
 
     def _part(self, parts: Sequence[str] = tuple(_PARTS)) -> str:
-        """Which part of an element is meant; empty if none is said."""
+        """The part of an element that is meant; empty if none is said."""
         return next((part for part in parts if any(map(self._accept, _PARTS[part]))), "")
 
     def touched(self) -> str | CircleAt | LineAt:
@@ -300,7 +301,7 @@ class _Reader:
 
 
 class _Relation(Struct, frozen=True):
-    """What is said of an element: what stands behind it, as it is written first, and what follows."""
+    """A verb that says something of an element: what stands behind it, as it is written first, and what follows."""
 
     kind: Callable[..., Statement]
     verbs: tuple[str, ...]
@@ -342,7 +343,7 @@ def write_statement(statement: Statement, plane: Plane, unit: Length) -> str:
 
 
 def _object(part: str | Decimal | Place | CircleAt | LineAt | Meeting, plane: Plane, unit: Length) -> str:
-    """What stands behind the verb: an element by its name, a distance, or something that is given with its place."""
+    """The object of the verb: an element by its name, a distance, or something that is given with its place."""
     match part:
         case str():
             return part

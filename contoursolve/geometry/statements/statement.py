@@ -45,7 +45,7 @@ class LineAt(Struct, frozen=True):
 
 
 class Statement(Struct, frozen=True):
-    """What a user states or asks about a drawing."""
+    """A fact that a user states or asks about a drawing."""
 
     def state(self, draft: Draft, name: str) -> Fact:
         """Add the equations, and return the one that the statement amounts to.
