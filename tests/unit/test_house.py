@@ -20,7 +20,6 @@ import contoursolve
 FLOORS = (
     "tolerance diagnostics numeric",
     "gcode",
-    "geometry",
     "geometry execution",
     "reading solving",
     "diagnosis controls",
