@@ -296,7 +296,7 @@ class _BranchBuilder(_PathBuilder):
                 self._must_be_positive(first * cosine + second * sine, (), (line.name,))
 
     def _senses(self, fact: Fact, at: Values) -> Iterator[Any]:
-        """The numbers that must be positive; which of several lines tells how a path advances follows from the values."""
+        """The numbers that must be positive; which of several lines tells how a path advances depends on values."""
         if not isinstance(fact, Parallel | ChamferLeg) or len(fact.advance) < 2:  # noqa: PLR2004 - several lines
             yield from fact.senses(at)
             return
