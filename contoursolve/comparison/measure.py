@@ -40,7 +40,7 @@ STEP = 2e-4
 INDEPENDENT = 1e-7
 """1 (share of the largest). A singular value below this is zero: an angle of 0.001 degrees gives 100 times that."""
 
-SWEEPS, SETTLED = 20, 1e-12
+SWEEPS, SETTLED = 20, 1e-10
 """Number of passes that restore values missing in the result, and the step below which they are settled, mm."""
 
 
