@@ -5,6 +5,7 @@ words choose it, several where further facts, values that are asked for, or choi
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import product
+from math import inf
 
 import numpy
 from msgspec import Struct
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from contoursolve.diagnosis import join
 from contoursolve.families.case_classes import INSTEAD, ORIGIN, CaseClass, Follows
 from contoursolve.families.errors import NotClosedError
+from contoursolve.families.isolate import Fineness, Signs
 from contoursolve.geometry import Choice, Fact, System
 from contoursolve.numeric import Array, Bounds, Chart, Following, Intervals
 from contoursolve.solving import (
@@ -87,12 +89,12 @@ class Margins(Struct, frozen=True, eq=False):
 
 
 @lru_cache(maxsize=256)
-def compile_margins(system: System, words: int, follows: Follows) -> Margins:
-    """The margins of a system that has a closed form as functions of some words."""
+def compile_margins(system: System, follows: Follows) -> Margins:
+    """The margins of a system that has a closed form as functions of one word."""
     checked = compile_checks(system)
     kept = {number: check for number, check in enumerate(checked.checks) if check.stage not in _OF_FLOATS}
     outputs = {str(number): checked.margins[number] for number in kept}
-    return Margins(tuple(kept.values()), Chart(checked.tape, outputs, words, dict(follows)))
+    return Margins(tuple(kept.values()), Chart(checked.tape, outputs, dict(follows)))
 
 
 PLACES, LEVEL = 64, 1e-10
@@ -104,7 +106,6 @@ class Branch(Struct, frozen=True, eq=False):
     """One of the solutions of a class: its checks as margins, and the values of their other inputs."""
 
     case: CaseClass
-    words: tuple[str, ...]
     margins: Margins
     fixed: tuple[float, ...]
     signs: tuple[tuple[str, float], ...] = ()
@@ -115,10 +116,10 @@ class Branch(Struct, frozen=True, eq=False):
         # Coordinates count from the start point inside, which may follow the word.
         starts = {f"{ORIGIN}{axis}": self.case.moves.get(axis) for axis, _ in goals.values()}
         rates = {
-            name: Following(((0, float(start.factor) if start is not None else 0.0),), is_angle=False)
+            name: Following(float(start.factor) if start is not None else 0.0, is_angle=False)
             for name, start in starts.items()
         }
-        follows = (*self.case.follows(self.words), *rates.items())
+        follows = (*self.case.follows(), *rates.items())
         axes = tuple((name, axis) for name, (axis, _) in goals.items())
         chart = _compile_target(self.case.system, follows, axes, is_closed=self.case.is_closed)
         known = {**dict(self.signs), **dict.fromkeys(rates, 0.0)}
@@ -127,62 +128,94 @@ class Branch(Struct, frozen=True, eq=False):
             known[GOAL + name] = goal - (float(start.base) if start is not None else self.case.start(axis))
         return chart, self.case.fixed(chart.fixed, known)
 
-    def at(self, words: Sequence[Array]) -> Array:
-        """The margins at these values of the words, by (check, place)."""
-        return self.margins.chart.at(words, self.fixed)
+    def at(self, word: Array) -> Array:
+        """The margins at these values of the word, by (check, place)."""
+        return self.margins.chart.at(word, self.fixed)
 
-    def slopes_at(self, words: Sequence[Array]) -> Array:
-        """The derivatives of the margins by the words, by (word, check, place)."""
-        return self.margins.chart.slopes_at(words, self.fixed)
+    def slopes_at(self, word: Array) -> Array:
+        """The derivatives of the margins by the word, by (check, place)."""
+        return self.margins.chart.slopes_at(word, self.fixed)
 
-    def verdicts(self, words: Sequence[Intervals], is_level: Bits, few: int = 0) -> tuple[Bits, Bits]:
-        """In which boxes of the words all checks are passed for certain, and in which one of them fails everywhere;
-        where more boxes than `few` are not decided, they are bounded better. `is_level` are the margins that are zero
+    def verdicts(self, cells: Intervals, is_level: Bits, few: int = 0) -> tuple[Bits, Bits]:
+        """Masks of the cells in which all checks are passed for certain, and in which one of them fails everywhere;
+        where more cells than `few` are not decided, they are bounded better. `is_level` are the margins that are zero
         everywhere."""
         chart = self.margins.chart
-        bounds = chart.between(words, self.fixed)
+        bounds = chart.between(cells, self.fixed)
         passes, fails = self.margins.verdicts(bounds, is_level)
         rest = ~(passes | fails) & bounds.is_smooth
         if rest.sum() > few:
-            finer = chart.narrowed(bounds[rest], [each[rest] for each in words], self.fixed)
+            finer = chart.narrowed(bounds[rest], cells[rest], self.fixed)
             passes[rest], fails[rest] = self.margins.verdicts(finer, is_level)
         return passes, fails
 
-    def sample(self, low: Sequence[float], high: Sequence[float]) -> Array:
-        """The margins at places drawn at random in a box of the words."""
-        rng = numpy.random.default_rng(PLACES)
-        return self.at([rng.uniform(*each, PLACES) for each in zip(low, high, strict=True)])
+    def sample(self, low: float, high: float) -> Array:
+        """The margins at places drawn at random between two values of the word."""
+        return self.at(numpy.random.default_rng(PLACES).uniform(low, high, PLACES))
 
-    def find_level(self, low: Sequence[float], high: Sequence[float]) -> Bits:
-        """Which margins are zero everywhere in a box of the words."""
+    def find_level(self, low: float, high: float) -> Bits:
+        """Mask of the margins that are zero everywhere between two values of the word."""
         found: Bits = numpy.max(numpy.abs(self.sample(low, high)), axis=1) <= LEVEL
         return found
 
 
-def branches_of(
-    case: CaseClass, words: Sequence[str], low: Sequence[float], high: Sequence[float]
-) -> tuple[Branch, ...]:
-    """The branches of a class that is solved, in a box of its words. Raises NotClosedError where there is no closed
-    form."""
+class LeastMargin:
+    """The least of all margins of a branch less its limit, as a function of the word whose zeros are sought."""
+
+    fineness = finer = Fineness(64, 20, 1e-8)
+    """A cell so narrow that is not decided lies at an end."""
+
+    def __init__(self, branch: Branch, low: float, high: float) -> None:
+        self.branch, self._is_level = branch, branch.find_level(low, high)
+
+    def at(self, places: Array) -> Array:
+        """The values: below zero where a check fails, or has no value."""
+        values, is_apart = self.branch.at(places), self.branch.margins.is_apart
+        excess = numpy.where(is_apart, numpy.abs(values), values) - self.branch.margins.limits
+        excess = numpy.where(self.branch.margins.failing(values), numpy.minimum(excess, -LEAST), excess)
+        found: Array = numpy.nan_to_num(excess, nan=-inf, posinf=inf, neginf=-inf).min(axis=0)
+        return found
+
+    def signs(self, cells: Intervals) -> Signs:
+        """Signs for certain: 1 for all checks are passed, -1 for one of them fails."""
+        passes, fails = self.branch.verdicts(cells, self._is_level, FEW)
+        return numpy.where(passes, 1, numpy.where(fails, -1, 0)).astype(numpy.int8)
+
+    def ways(self, cells: Intervals) -> Signs:
+        """Nothing is known of where it rises: another margin may become the least."""
+        return numpy.zeros(cells.low.size, numpy.int8)
+
+    def part(self, low: float, high: float) -> "LeastMargin":
+        """The same between two values: what is zero everywhere may be so on a part only."""
+        return LeastMargin(self.branch, low, high)
+
+
+FEW, LEAST = 12, 5e-324
+"""Of no more cells it is quicker to divide them than to bound them better; and the least double above zero."""
+
+
+def branches_of(case: CaseClass, low: float, high: float) -> tuple[Branch, ...]:
+    """The branches of a class that is solved, between two values of its one free word. Raises NotClosedError without a
+    closed form."""
     try:
-        return _distinct(_branches(case, words), low, high)
+        return _distinct(_branches(case), low, high)
     except NotClosedError:
         # Facts that are singular at their values may have another in their place, as in a single solve.
         for profile in orders_of(case.profile):
             try:
-                return _distinct(_branches(replace(case, profile=profile), words), low, high)
+                return _distinct(_branches(replace(case, profile=profile)), low, high)
             except NotClosedError:
                 continue
         raise
 
 
-def _branches(case: CaseClass, words: Sequence[str]) -> tuple[Branch, ...]:
-    follows = case.follows(words)
+def _branches(case: CaseClass) -> tuple[Branch, ...]:
+    follows = case.follows()
     if case.is_closed:
-        margins = compile_margins(case.system, len(words), follows)
-        return (Branch(case, tuple(words), margins, tuple(case.fixed(margins.chart.fixed))),)
+        margins = compile_margins(case.system, follows)
+        return (Branch(case, margins, tuple(case.fixed(margins.chart.fixed))),)
     try:
-        form, margins = _compile(case.system, len(words), follows, case.profile.choices)
+        form, margins = _compile(case.system, follows, case.profile.choices)
     except NoClosedFormError as error:
         blamed = _texts(case, _givens(case, error.facts, error.unknowns)) or "the block"
         raise NotClosedError(f"{blamed}: {error.why}; {INSTEAD}") from None
@@ -190,12 +223,12 @@ def _branches(case: CaseClass, words: Sequence[str]) -> tuple[Branch, ...]:
     found = []
     for values in product((1.0, -1.0), repeat=len(form.signs)):
         signs = tuple(zip(form.signs, values, strict=True))
-        found.append(Branch(case, tuple(words), margins, tuple(case.fixed(margins.chart.fixed, dict(signs))), signs))
+        found.append(Branch(case, margins, tuple(case.fixed(margins.chart.fixed, dict(signs))), signs))
     return tuple(found)
 
 
-def _distinct(branches: Sequence[Branch], low: Sequence[float], high: Sequence[float]) -> tuple[Branch, ...]:
-    """The branches without those that are another one for all values in a box, as the two places of the centre of a
+def _distinct(branches: Sequence[Branch], low: float, high: float) -> tuple[Branch, ...]:
+    """The branches without those that are another one for all values, as the two places of the centre of a
     half circle. Raises NotClosedError where what is divided by is zero for all of them."""
     if branches[0].case.is_closed:
         return tuple(branches)
@@ -238,8 +271,8 @@ def _named(form: Construction, checks: Sequence[Check], case: CaseClass) -> Iter
 
 
 @lru_cache(maxsize=64)
-def _compile(system: System, words: int, follows: Follows, choices: tuple[Choice, ...]) -> tuple[Construction, Margins]:
-    """The closed form of a system, and the margins of all its branches as functions of some words."""
+def _compile(system: System, follows: Follows, choices: tuple[Choice, ...]) -> tuple[Construction, Margins]:
+    """The closed form of a system, and the margins of all its branches as functions of one word."""
     form = compile_branches(system)
     tape = form.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
@@ -247,7 +280,7 @@ def _compile(system: System, words: int, follows: Follows, choices: tuple[Choice
     facts = check_facts(source, form.checks, len(form.basis))
     found = [*_conditions(form), *_sides(form, choices), *facts, check_range(source), *check_path(source)]
     outputs = {str(number): expression for number, (_, expression) in enumerate(found)}
-    return form, Margins(tuple(each for each, _ in found), Chart(tape, outputs, words, dict(follows)))
+    return form, Margins(tuple(each for each, _ in found), Chart(tape, outputs, dict(follows)))
 
 
 @lru_cache(maxsize=256)
@@ -257,7 +290,7 @@ def _compile_target(system: System, follows: Follows, axes: tuple[tuple[str, int
     away = [tape.expression(name) + tape.input(f"{ORIGIN}{axis}") - tape.input(GOAL + name) for name, axis in axes]
     is_rate = len(away) > 1
     output = sum(each**2 for each in away) / 2 if is_rate else away[0]
-    return Chart(tape, {"away": output}, 1, dict(follows), is_rate=is_rate)
+    return Chart(tape, {"away": output}, dict(follows), is_rate=is_rate)
 
 
 def _conditions(form: Construction) -> Checks:

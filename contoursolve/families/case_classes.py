@@ -166,18 +166,24 @@ class CaseClass(Struct, frozen=True, eq=False):
                 found[name] = Input(own.word, column if start is None else difference(column, float(start)))
         return found
 
-    def follows(self, words: Sequence[str]) -> Follows:
-        """How the inputs that vary follow the free words."""
+    def along(self, word: str) -> "CaseClass":
+        """The class with one free word alone, the others as they are in its profile."""
+        free = {name: each for name, each in self.free.items() if each.word == word}
+        moves = {axis: each for axis, each in self.moves.items() if each.word == word}
+        return replace(self, free=free, moves=moves)
+
+    def follows(self) -> Follows:
+        """How the inputs that vary follow the one free word."""
         found: dict[str, Following] = {}
         for name, own, start in self._varying():
-            parts = [(words.index(own.word), float(own.factor))] if own is not None else []
-            parts += [(words.index(start.word), -float(start.factor))] if isinstance(start, Linear) else []
+            factor = own.factor if own is not None else Decimal(0)
+            factor -= start.factor if isinstance(start, Linear) else 0
             is_angle = own is not None and self.profile.givens[name].unit is Unit.DEGREE
-            found[name] = Following(tuple(parts), is_angle)
+            found[name] = Following(float(factor), is_angle)
         return tuple(found.items())
 
     def fixed(self, names: Iterable[str], signs: Mapping[str, float] | None = None) -> list[float]:
-        """What a chart of the free words needs besides them, by name; of a value that follows a word, what is added.
+        """What a chart of the free word needs besides it, by name; of a value that follows a word, what is added.
         `signs` are inputs that choose a branch."""
         numbers = {**self.numbers(), **(signs or {})}
         for name, own, start in self._varying():

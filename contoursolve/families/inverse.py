@@ -14,6 +14,7 @@ from contoursolve.families.branches import Branch
 from contoursolve.families.case_classes import results_of
 from contoursolve.families.errors import FamilyError, NotClosedError, NotMovedError
 from contoursolve.families.free_words import check_block
+from contoursolve.families.isolate import Zero, isolate
 from contoursolve.families.range_pieces import LEAST_GAP, RangePiece, RangeSearch, short
 from contoursolve.families.sensitivities import slopes_of
 from contoursolve.families.spec import BlockOptions, Template, first_error, spec_of, with_value, write
@@ -21,10 +22,8 @@ from contoursolve.families.targets import (
     CONSTANT,
     Goal,
     TargetCurve,
-    Zero,
     asked_values,
     end_name,
-    find_zeros,
     place_of,
     read_goal,
 )
@@ -271,7 +270,8 @@ class _TargetSearch:
             moves = True
             # A piece may end a little before the contour does; what is beyond it is decided by single solves.
             low, high = max(ends[0], piece.low - LEAST_GAP), min(ends[1], piece.high + LEAST_GAP)
-            found += [each for zero in find_zeros(curve, low, high) for each in self._of_zero(zero, curve, piece)]
+            for zero in isolate(curve, low, high).zeros:
+                found += self._of_zero(zero, curve, piece)
             found += [_Candidate(value) for value in self._ends(curve, piece)]
         if not is_there and any(piece.is_solved and not piece.is_value for piece in pieces):
             raise FamilyError(
@@ -283,15 +283,16 @@ class _TargetSearch:
 
     def _of_zero(self, zero: Zero, curve: TargetCurve, piece: RangePiece) -> Iterator[_Candidate]:
         """What a zero of the curve may be."""
-        if self.goal.is_nearest and zero.way < 0:
+        is_proven = not zero.width
+        if self.goal.is_nearest and is_proven and zero.way < 0:
             return  # farther than its neighbours
         is_inside, doubt = piece.low < zero.value < piece.high, ""
-        if zero.way and is_inside:
+        if is_proven and is_inside:
             doubt = "there is a value, and single solves do not confirm it"
         elif is_inside and zero.width > UNDECIDED * max(1.0, abs(zero.value)):
             doubt = f"{self.goal.point} may be there, or comes as near as rounding can tell"
         give = ARRIVED
-        if zero.way and not self.goal.is_nearest:
+        if is_proven and not self.goal.is_nearest:
             # Where the point moves fast, no number of 16 digits brings it nearer.
             slope = curve.slopes(Intervals(numpy.array([zero.value]), numpy.array([zero.value])))
             steepest = float(max(-slope.low[0], slope.high[0]))

@@ -9,17 +9,16 @@ from math import copysign, inf, isfinite, sqrt
 import numpy
 from msgspec import Struct
 from msgspec.structs import replace
-from numpy.typing import NDArray
 
 from contoursolve.diagnosis import value_text
-from contoursolve.families.branches import Branch, branches_of
+from contoursolve.families.branches import Bits, Branch, LeastMargin, branches_of
 from contoursolve.families.case_classes import INSTEAD, CaseClass, FreeWords
 from contoursolve.families.errors import FamilyError, NotClosedError
+from contoursolve.families.isolate import SAMPLES, Piece, Zero, isolate, section
 from contoursolve.families.spec import Template
-from contoursolve.families.subdivision import FEW, SAMPLES, STRETCHES, STRETCHES_FIRST, section, subdivide
 from contoursolve.families.traced_reading import Alike, place_of_contour, read_alone, trace_reading
 from contoursolve.geometry import Unit
-from contoursolve.numeric import Array, Intervals
+from contoursolve.numeric import Array
 from contoursolve.solving import Check
 from contoursolve.tolerance import LENGTH
 
@@ -40,13 +39,6 @@ for zero a little earlier."""
 CLOSE = 1e-6
 """Share of a value (at least of 1) within which the zero of a margin lies from where the check begins to fail."""
 
-
-DEPTH = 1
-"""How often what is left is tried by itself."""
-
-WIDE = 2_000.0
-"""A range wider than this is divided by decades about zero."""
-
 READ = 64
 """Values that are read by themselves between two limits, where each value decides how the block is read."""
 
@@ -58,68 +50,6 @@ SMALL = 1e-4
 
 TOGETHER = 1e-9
 """Share of a value (at least of 1). Values this close at which two branches change are one."""
-
-
-class Stretch(Struct, frozen=True):
-    """Part of a range: all checks are passed (True), or one fails everywhere (False), or that is not decided."""
-
-    low: float
-    high: float
-    is_passed: bool | None
-
-
-def find_stretches(
-    branch: Branch, low: float, high: float, *, near: Sequence[float] = (), depth: int = 0
-) -> list[Stretch]:
-    """Stretches from `low` to `high` in order, neighbours of one kind joined. Those that are not decided are narrow,
-    unless the search was given up. `near` are values at which to divide first."""
-    edges, is_level = _first(low, high, near), branch.find_level([low], [high])
-    done: list[tuple[Array, Array, NDArray[numpy.int8]]] = []
-
-    def decide(cells: Intervals) -> Intervals:
-        passes, fails = branch.verdicts([cells], is_level, FEW)
-        for mask, kind in ((passes, 1), (fails & ~passes, 0)):
-            done.append((cells.low[mask], cells.high[mask], numpy.full(mask.sum(), kind, numpy.int8)))
-        return cells[~(passes | fails)]
-
-    left = subdivide(Intervals(edges[:-1], edges[1:]), decide, STRETCHES)
-    done.append((left.low, left.high, numpy.full(left.low.size, -1, numpy.int8)))
-    found = _joined(*(numpy.concatenate(each) for each in zip(*done, strict=True)))
-    if depth == DEPTH or len(found) == 1:
-        return found
-    # What is zero everywhere may be so on a part only.
-    return [
-        part
-        for each in found
-        for part in (
-            find_stretches(branch, each.low, each.high, depth=depth + 1)
-            if each.is_passed is None and each.high - each.low > (high - low) / STRETCHES_FIRST
-            else [each]
-        )
-    ]
-
-
-def _first(low: float, high: float, near: Sequence[float]) -> Array:
-    """Where a range is divided first."""
-    if high - low <= WIDE:
-        cells = numpy.linspace(low, high, STRETCHES_FIRST + 1)
-    else:
-        decades = numpy.logspace(-2, 6, STRETCHES_FIRST + 1)
-        cells = numpy.concatenate([-decades[::-1], [0.0], decades])
-    cells = numpy.concatenate([cells, near])
-    inner = cells[(cells > low) & (cells < high)]
-    return numpy.unique(numpy.concatenate([[low], inner, [high]]))
-
-
-def _joined(lows: Array, highs: Array, kinds: NDArray[numpy.int8]) -> list[Stretch]:
-    order = numpy.argsort(lows, kind="stable")
-    lows, highs, kinds = lows[order], highs[order], kinds[order]
-    begins = numpy.flatnonzero(numpy.concatenate([[True], kinds[1:] != kinds[:-1]]))
-    ends = numpy.append(begins[1:], kinds.size) - 1
-    return [
-        Stretch(float(lows[begin]), float(highs[end]), {1: True, 0: False}.get(int(kinds[begin])))
-        for begin, end in zip(begins, ends, strict=True)
-    ]
 
 
 class RangePiece(Struct, frozen=True):
@@ -165,10 +95,10 @@ class _Passing(Struct, frozen=True):
         return len(self.passing) == 1
 
 
-def _passing(lines: Sequence[Sequence[Stretch]]) -> list[_Passing]:
+def _passing(lines: Sequence[Sequence[Piece]]) -> list[_Passing]:
     """The parts in order, from those of each solution."""
     low, high = lines[0][0].low, lines[0][-1].high
-    changes = {one.high for parts in lines for one, other in pairwise(parts) if one.is_passed is not other.is_passed}
+    changes = {one.high for parts in lines for one, other in pairwise(parts) if one.sign != other.sign}
     cuts = [low]
     for value in sorted(changes):
         if value - cuts[-1] > TOGETHER * max(1.0, abs(value)):
@@ -179,7 +109,7 @@ def _passing(lines: Sequence[Sequence[Stretch]]) -> list[_Passing]:
         passing = tuple(
             number
             for number, parts in enumerate(lines)
-            if any(part.low <= middle <= part.high and part.is_passed for part in parts)
+            if any(part.low <= middle <= part.high and part.sign > 0 for part in parts)
         )
         if found and found[-1].passing == passing:
             found[-1] = replace(found[-1], high=end)
@@ -304,11 +234,11 @@ class RangeSearch(FreeWords):
         if case.status is not None:
             yield RangePiece(low, high, is_solved=False, case=case)
             return
-        branches = branches_of(case, [self.word], [low], [high])
+        branches = branches_of(case, low, high)
         lines = [self._parts(branch, low, high) for branch in branches]
         if case.is_closed:
             ((parts, holes),) = lines
-            for is_passed, group in groupby(parts, key=lambda part: part.is_passed):
+            for is_passed, group in groupby(parts, key=lambda part: part.sign > 0):
                 own = list(group)
                 branch = branches[0] if is_passed else None
                 piece = RangePiece(own[0].low, own[-1].high, branch is not None, case, branch)
@@ -328,19 +258,44 @@ class RangeSearch(FreeWords):
             self.doubt(piece.low, piece.high, "rounding is too large for the closed form")
             yield RangePiece(piece.low, piece.high, not piece.is_solved, case)
 
-    def _parts(self, branch: Branch, low: float, high: float) -> tuple[list[Stretch], list[float]]:
-        """Where the checks of one solution are passed, and single values that may differ from the parts."""
-        parts: list[Stretch] = []
-        holes: list[float] = []
-        near = [self.stated] if low < self.stated < high else []
-        stretches = find_stretches(branch, low, high, near=near)
-        for before, stretch, after in zip([None, *stretches], stretches, [*stretches[1:], None], strict=False):
-            more, between = [stretch], list[float]()
-            if stretch.is_passed is None:
-                more, between = _Undecided(self, branch).decide(stretch, before, after)
-            parts += more
-            holes += between
+    def _parts(self, branch: Branch, low: float, high: float) -> tuple[list[Piece], list[float]]:
+        """Pieces in which the checks of one solution are passed or not, as far as samples tell where nothing is proven,
+        and single values that may differ from them."""
+        found = isolate(LeastMargin(branch, low, high), low, high, near=[self.stated])
+        parts, holes = list[Piece](), list[float]()
+        for before, piece, after in zip([None, *found.pieces], found.pieces, [*found.pieces[1:], None], strict=False):
+            if piece.sign:
+                parts.append(piece)
+                continue
+            if piece.high - piece.low > LEAST_GAP:
+                self.doubt(piece.low, piece.high, "the search for a proof was given up")
+            own = [each for each in found.zeros if piece.low <= each.value <= piece.high]
+            begin = piece.low
+            for zero in (each for each in own if each.way):
+                end = self._onset(branch, zero)
+                parts.append(Piece(begin, end, -zero.way))
+                begin = end
+            beside = before or after
+            sign = own[-1].way or (beside.sign if beside is not None else -1 if self.failing(branch, piece.low) else 1)
+            parts.append(Piece(begin, piece.high, sign))
+            if not own[-1].way and sign > 0:
+                holes += _zeros_apart(branch, piece)
+            elif not own[-1].way:
+                half = (piece.high - piece.low) / 2
+                holes.append(short(piece.low + half, half))
         return parts, holes
+
+    def _onset(self, branch: Branch, zero: Zero) -> float:
+        """The value at which a check begins to fail, which is noted."""
+        outside, margins = zero.before if zero.way > 0 else zero.after, branch.margins
+        number = int(margins.first_failing(branch.at(numpy.array([outside])))[0])
+        value, is_closed = _exact(branch, number, outside)
+        value = short(value, REGULAR_ROUNDING if margins.is_apart[number, 0] else ROUNDING)
+        if abs(round(value, 3) - value) <= 2 * LENGTH * max(1.0, abs(value)):
+            # A length that counts as zero is not quite.
+            value = round(value, 3) + 0.0
+        self.onsets[value] = Onset(margins.checks[number], branch, is_closed)
+        return value
 
     def _parted(self, piece: RangePiece, holes: Sequence[float]) -> Iterator[RangePiece]:
         """A piece, parted by the single values in it that differ from it."""
@@ -353,7 +308,7 @@ class RangeSearch(FreeWords):
         yield replace(piece, low=begin)
 
     def _together(
-        self, case: CaseClass, branches: Sequence[Branch], lines: Sequence[tuple[Sequence[Stretch], Sequence[float]]]
+        self, case: CaseClass, branches: Sequence[Branch], lines: Sequence[tuple[Sequence[Piece], Sequence[float]]]
     ) -> Iterator[RangePiece]:
         """Pieces of several solutions: there is a contour where one of them alone passes its checks."""
         holes = sorted({hole for _, own in lines for hole in own})
@@ -391,86 +346,40 @@ class RangeSearch(FreeWords):
 
     def failing(self, branch: Branch, value: float) -> list[Check]:
         """The checks that fail at a value, in their order."""
-        values = branch.at([numpy.array([value])])
+        values = branch.at(numpy.array([value]))
         return [branch.margins.checks[number] for number in branch.margins.failing(values)[:, 0].nonzero()[0]]
 
 
-class _Undecided:
-    """A narrow stretch in which intervals cannot tell whether all checks are passed: there they begin to fail, or one
-    is passed by rounding alone."""
+def _exact(branch: Branch, number: int, value: float) -> tuple[float, bool]:
+    """The zero of a margin near a value, and whether it has a closed form: with that, about the value itself."""
+    is_closed = branch.margins.chart.is_quadratic[number]
+    found = value
+    for _ in range(1 if is_closed else 3):
+        places = numpy.array([found, found + 1.0])
+        at = float(branch.at(places)[number, 0])
+        slope, next_slope = map(float, branch.slopes_at(places)[number])
+        square = slope * slope - 2 * at * (next_slope - slope) if is_closed else slope * slope
+        divisor = slope + copysign(sqrt(max(square, 0.0)), slope) if isfinite(square) else 0.0
+        step = -2 * at / divisor if divisor else inf
+        if not abs(step) <= CLOSE * max(1.0, abs(value)):  # true for NaN
+            return value, False
+        found += step
+    return found, is_closed
 
-    def __init__(self, search: RangeSearch, branch: Branch) -> None:
-        self.search, self.branch, self.margins = search, branch, branch.margins
 
-    def decide(
-        self, stretch: Stretch, before: Stretch | None, after: Stretch | None
-    ) -> tuple[list[Stretch], list[float]]:
-        """Its parts, as far as samples tell, and single values that may differ from them."""
-        if stretch.high - stretch.low > LEAST_GAP:
-            self.search.doubt(stretch.low, stretch.high, "the search for a proof was given up")
-        places = numpy.linspace(stretch.low, stretch.high, SAMPLES)
-        values = self.branch.at([places])
-        states = (self.margins.first_failing(values) < 0).tolist()
-        if before is not None:
-            states[0] = before.is_passed
-        if after is not None:
-            states[-1] = after.is_passed
-        parts: list[Stretch] = []
-        begin = stretch.low
-        for number in range(1, SAMPLES):
-            if states[number] is not states[number - 1]:
-                end = self._crossing(float(places[number - 1]), float(places[number]), states[number - 1])
-                parts.append(Stretch(begin, end, states[number - 1]))
-                begin = end
-        parts.append(Stretch(begin, stretch.high, states[-1]))
-        if len(parts) > 1:
-            return parts, []
-        if not states[0]:
-            half = (stretch.high - stretch.low) / 2
-            return parts, [short(stretch.low + half, half)]
-        rows = numpy.flatnonzero(self.margins.is_apart[:, 0]).tolist()
-        zeros = [self._zero(places, values[row], row) for row in rows]
-        return parts, sorted({short(each, REGULAR_ROUNDING) for each in zeros if each is not None})
+def _zeros_apart(branch: Branch, piece: Piece) -> list[float]:
+    """Values of a piece at which a margin that must not be zero changes its sign, in order."""
+    places = numpy.linspace(piece.low, piece.high, SAMPLES)
+    values, found = branch.at(places), set[float]()
+    for row in numpy.flatnonzero(branch.margins.is_apart[:, 0]).tolist():
+        signs = numpy.sign(values[row])
+        for first in numpy.flatnonzero(signs[1:] != signs[:-1])[:1]:
 
-    def _crossing(self, low: float, high: float, state: bool) -> float:
-        """Where the verdict changes."""
-        low, high = section(
-            low, high, lambda places: (self.margins.first_failing(self.branch.at([places])) < 0) != state
-        )
-        outside = high if state else low
-        number = int(self.margins.first_failing(self.branch.at([numpy.array([outside])]))[0])
-        value, is_closed = self._exact(number, outside)
-        value = short(value, REGULAR_ROUNDING if self.margins.is_apart[number, 0] else ROUNDING)
-        if abs(round(value, 3) - value) <= 2 * LENGTH * max(1.0, abs(value)):
-            # A length that counts as zero is not quite.
-            value = round(value, 3) + 0.0
-        self.search.onsets[value] = Onset(self.margins.checks[number], self.branch, is_closed)
-        return value
+            def is_beyond(finer: Array, row: int = row, sign: float = signs[first]) -> Bits:
+                return numpy.asarray(numpy.sign(branch.at(finer)[row]) != sign)
 
-    def _exact(self, number: int, value: float) -> tuple[float, bool]:
-        """The zero of a margin near a value, and whether it has a closed form: with that, about the value itself."""
-        is_closed = self.margins.chart.is_quadratic[number]
-        found = value
-        for _ in range(1 if is_closed else 3):
-            places = [numpy.array([found, found + 1.0])]
-            at = float(self.branch.at(places)[number, 0])
-            slope, next_slope = map(float, self.branch.slopes_at(places)[0, number])
-            square = slope * slope - 2 * at * (next_slope - slope) if is_closed else slope * slope
-            divisor = slope + copysign(sqrt(max(square, 0.0)), slope) if isfinite(square) else 0.0
-            step = -2 * at / divisor if divisor else inf
-            if not abs(step) <= CLOSE * max(1.0, abs(value)):  # true for NaN
-                return value, False
-            found += step
-        return found, is_closed
-
-    def _zero(self, places: Array, values: Array, row: int) -> float | None:
-        """Where a margin that must not be zero changes its sign, by bisection; None where it does not."""
-        changes = numpy.flatnonzero(numpy.sign(values[1:]) != numpy.sign(values[:-1]))
-        if not changes.size:
-            return None
-        low, high = float(places[changes[0]]), float(places[changes[0] + 1])
-        sign = numpy.sign(values[changes[0]])
-        return section(low, high, lambda finer: numpy.sign(self.branch.at([finer])[row]) != sign)[1]
+            found.add(short(section(places[first], places[first + 1], is_beyond)[1], REGULAR_ROUNDING))
+    return sorted(found)
 
 
 def short(value: float, give: float = ROUNDING) -> float:

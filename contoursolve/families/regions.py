@@ -171,7 +171,7 @@ class _RegionSearch(FreeWords):
         # Where there is no closed form, a search for every row takes minutes; it says so.
         for case in ready.cases if not ready.by_row else ():
             if case.status is None and not case.is_closed:
-                branches_of(case, self.names, *zip(*self.within, strict=True))
+                branches_of(case.along(self.names[0]), *self.within[0])
         self.cases += ready.cases
         found = solve_sweep(ready)
         return outcomes_of(found["status"], found["reason"])

@@ -5,12 +5,11 @@ form as a fact, with the word asked for.
 import re
 from collections.abc import Iterator, Mapping
 from decimal import Decimal, InvalidOperation
-from math import hypot, isfinite
+from math import hypot
 
 import numpy
 from msgspec import Struct
 from msgspec.structs import replace
-from numpy.typing import NDArray
 
 from contoursolve.diagnosis import (
     Answer,
@@ -25,8 +24,8 @@ from contoursolve.diagnosis import (
 from contoursolve.diagnostics import Span
 from contoursolve.families.branches import PLACES, Branch
 from contoursolve.families.errors import FamilyError, NotMovedError
+from contoursolve.families.isolate import VOID, Fineness, Signs
 from contoursolve.families.spec import Template, first_error, is_same, with_value, write
-from contoursolve.families.subdivision import SAMPLES, SECTIONS, Fineness, bisect, subdivide
 from contoursolve.gcode import Word, read_directive
 from contoursolve.geometry import Figure, Length, Plane, Unit
 from contoursolve.numeric import Array, Intervals
@@ -35,18 +34,6 @@ from contoursolve.solving import Contour, Point, Status
 
 CONSTANT = 1e-10
 """mm for each unit of the word. A coordinate whose rate is less at places drawn at random never changes."""
-
-ZEROS, FINEST, ZEROS_FIRST = Fineness(16, 24, 1e-9), Fineness(4, 24, 1e-13), 32
-"""For zeros: those that are closer than the first tells apart count as one; what is not decided in a part so narrow is
-divided by itself, as the second says. Into how many parts a range is divided first."""
-
-FEW_PARTS = 64
-"""Of no more parts that are not decided it is worth while to divide each by itself."""
-
-BISECTIONS = 64
-"""From any part to neighbouring numbers."""
-
-Bits = NDArray[numpy.bool_]
 
 
 class Goal(Struct, frozen=True):
@@ -121,132 +108,58 @@ class TargetCurve:
     which the square of the distance to the goal grows. `goals` are the outputs that are coordinates, each with its axis
     and its goal, mm. `within` are the values of the word between which the solution is the contour."""
 
-    def __init__(self, branch: Branch, goals: Mapping[str, tuple[int, float]], within: tuple[float, float]) -> None:
-        self.branch, self.within = branch, within
+    fineness, finer = Fineness(16, 24, 1e-9), Fineness(4, 24, 1e-13)
+    """Zeros that are closer than the first tells apart count as one."""
+
+    def __init__(
+        self,
+        branch: Branch,
+        goals: Mapping[str, tuple[int, float]],
+        within: tuple[float, float],
+        *,
+        is_part: bool = False,
+    ) -> None:
+        self.branch, self.goals, self.within, self.is_part = branch, goals, within, is_part
         self.chart, self.fixed = branch.target(goals)
-        several = goals.items() if len(goals) > 1 else ()
-        self.parts = [TargetCurve(branch, {name: goal}, within) for name, goal in several]
 
     def is_constant(self) -> bool:
         """Whether the word does not move the point."""
-        if self.parts:
-            return all(part.is_constant() for part in self.parts)
+        if len(self.goals) > 1:
+            return all(
+                TargetCurve(self.branch, {name: goal}, self.within).is_constant() for name, goal in self.goals.items()
+            )
         places = numpy.random.default_rng(PLACES).uniform(*self.within, PLACES)
-        return bool((numpy.abs(self.chart.slopes_at([places], self.fixed)) <= CONSTANT).all())
-
-    def is_void(self, cells: Intervals) -> Bits:
-        """Where there is no contour for certain, so that no zero counts."""
-        low, high = self.within
-        # Bounds as they are: what is not decided by them is divided.
-        return self.branch.verdicts([cells], self.branch.find_level([low], [high]), cells.low.size)[1]
+        return bool((numpy.abs(self.chart.slopes_at(places, self.fixed)) <= CONSTANT).all())
 
     def at(self, places: Array) -> Array:
         """The values."""
-        found: Array = self.chart.at([places], self.fixed)[0]
+        found: Array = self.chart.at(places, self.fixed)[0]
         return found
 
-    def between(self, cells: Intervals) -> tuple[Intervals, Bits]:
-        """What the values lie between, and where nothing jumps."""
-        bounds = self.chart.between([cells], self.fixed)
-        bounds = self.chart.narrowed(bounds, [cells], self.fixed)
-        return Intervals(bounds.low[0], bounds.high[0]), bounds.is_smooth
+    def signs(self, cells: Intervals) -> Signs:
+        """Signs for certain; no zero counts where there is no contour for certain, which is asked for parts alone."""
+        bounds = self.chart.narrowed(self.chart.between(cells, self.fixed), cells, self.fixed)
+        signs = numpy.where(bounds.low[0] > 0, 1, numpy.where(bounds.high[0] < 0, -1, 0)).astype(numpy.int8)
+        if self.is_part:
+            # Bounds as they are: what is not decided by them is divided.
+            fails = self.branch.verdicts(cells, self.branch.find_level(*self.within), cells.low.size)[1]
+            signs[(signs == 0) & fails] = VOID
+        return signs
+
+    def ways(self, cells: Intervals) -> Signs:
+        """The cells in which it only rises, or only falls, and does not jump."""
+        is_smooth, slopes = self.chart.between(cells, self.fixed).is_smooth, self.slopes(cells)
+        ways = numpy.where(slopes.low > 0, 1, numpy.where(slopes.high < 0, -1, 0))
+        return numpy.where(is_smooth, ways, 0).astype(numpy.int8)
+
+    def part(self, _low: float, _high: float) -> "TargetCurve":
+        """The same, with what is no contour left out."""
+        return TargetCurve(self.branch, self.goals, self.within, is_part=True)
 
     def slopes(self, cells: Intervals) -> Intervals:
-        """What the derivatives lie between."""
-        bounds = self.chart.slopes_between([cells], self.fixed)
+        """Bounds of the derivatives."""
+        bounds = self.chart.slopes_between(cells, self.fixed)
         return Intervals(bounds.low[0], bounds.high[0])
-
-
-class Zero(Struct, frozen=True):
-    """A zero, and whether the function rises there (1) or falls (-1); both are proven.
-
-    With 0, nothing is proven: it is the best value of a part of this width in which the function may cross or touch
-    zero, or jumps, or does neither.
-    """
-
-    value: float
-    way: int
-    width: float = 0.0
-
-
-def find_zeros(curve: TargetCurve, low: float, high: float) -> list[Zero]:
-    """The zeros between two values in order, each to the last digit of a double, and one for each part that could not
-    be decided: there is no other."""
-    edges, found = numpy.linspace(low, high, ZEROS_FIRST + 1), list[Zero]()
-    with numpy.errstate(all="ignore"):
-        left = _without_zeros(curve, Intervals(edges[:-1], edges[1:]), ZEROS, found)
-        parts = _clusters(left)
-        for begin, end in parts:
-            rest = Intervals(numpy.array([begin]), numpy.array([end]))
-            if len(parts) <= FEW_PARTS:
-                rest = _without_zeros(curve, rest, FINEST, found)
-            found += [Zero(_best(curve, *part), 0, part[1] - part[0]) for part in _clusters(rest)]
-    return sorted(found, key=lambda each: each.value)
-
-
-def _without_zeros(curve: TargetCurve, cells: Intervals, fineness: Fineness, found: list[Zero]) -> Intervals:
-    """The narrow parts of cells that cannot be decided; the zeros in the others are `found`."""
-
-    def decide(cells: Intervals) -> Intervals:
-        values, is_smooth = curve.between(cells)
-        may = ~((values.low > 0) | (values.high < 0))
-        cells, is_smooth = cells[may], is_smooth[may]
-        if not cells.low.size:
-            return cells
-        slopes = curve.slopes(cells)
-        ways = numpy.where(is_smooth, numpy.where(slopes.low > 0, 1, numpy.where(slopes.high < 0, -1, 0)), 0)
-        zeros, is_done = _crossings(curve, cells, ways)
-        found.extend(zeros)
-        if fineness is FINEST:
-            is_done |= curve.is_void(cells)
-        return cells[~is_done]
-
-    return subdivide(cells, decide, fineness)
-
-
-def _crossings(curve: TargetCurve, cells: Intervals, ways: NDArray[numpy.int64]) -> tuple[list[Zero], Bits]:
-    """The zeros in cells in which the function only rises (1) or only falls (-1), by bisection of all of them at once;
-    and which cells are decided. One without a value at an end is not."""
-    first, last = ways * curve.at(cells.low), ways * curve.at(cells.high)
-    is_done = (ways != 0) & numpy.isfinite(first) & numpy.isfinite(last)
-    # A zero on the edge of two parts belongs to the left one, where both see it.
-    has = is_done & ((first < 0) & (last >= 0) | (first == 0))
-    ways = ways[has]
-    low, high = bisect(cells.low[has], cells.high[has], lambda places: ways * curve.at(places) < 0, BISECTIONS)
-    if low.size:
-        high = numpy.where(numpy.abs(curve.at(low)) < numpy.abs(curve.at(high)), low, high)
-    return [Zero(float(value), int(way)) for value, way in zip(high, ways, strict=True)], is_done
-
-
-def _clusters(cells: Intervals) -> list[tuple[float, float]]:
-    """Cells that touch, as one part."""
-    parts: list[tuple[float, float]] = []
-    for low, high in sorted(zip(cells.low.tolist(), cells.high.tolist(), strict=True)):
-        if parts and low <= parts[-1][1]:
-            parts[-1] = parts[-1][0], max(parts[-1][1], high)
-        else:
-            parts.append((low, high))
-    return parts
-
-
-def _best(curve: TargetCurve, low: float, high: float) -> float:
-    """Where the function changes its sign between two values, or else is nearest to zero; the middle where it has no
-    value."""
-    found = (low + high) / 2
-    for _ in range(SECTIONS):
-        places = numpy.linspace(low, high, SAMPLES)
-        values = curve.at(places)
-        if not numpy.isfinite(values).any():
-            break
-        signs = numpy.sign(values)
-        changes = numpy.flatnonzero(signs[1:] * signs[:-1] < 0)
-        least = int(numpy.nanargmin(numpy.where(numpy.isfinite(values), numpy.abs(values), numpy.nan)))
-        found = float(places[least])
-        around = (changes[0], changes[0] + 1) if changes.size else (max(least - 1, 0), min(least + 1, SAMPLES - 1))
-        low, high = float(places[around[0]]), float(places[around[1]])
-        if not isfinite(high - low) or high <= low:
-            break
-    return found
 
 
 def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> tuple[list[float], list[str]]:

@@ -1,10 +1,8 @@
-"""Numbers of a contour as functions of the words that vary: at many values at once, their derivatives, and bounds that
-hold for whole ranges of values."""
+"""Numbers of a contour as functions of one word: at many values at once, their derivatives, and bounds that hold for
+whole ranges of values."""
 
 from collections.abc import Mapping, Sequence
-from functools import reduce
 from math import pi
-from operator import add
 from typing import Any
 
 import casadi
@@ -25,15 +23,14 @@ NO_ROOT = -1e-10
 
 
 class Following(Struct, frozen=True):
-    """A value that follows words, and is linear in each: the words' numbers, with the mm or degrees for each unit of
-    them. Of an angle there is one."""
+    """A value that is linear in the word: the mm or degrees for each unit of it."""
 
-    words: tuple[tuple[int, float], ...]
+    factor: float
     is_angle: bool
 
 
 class Bounds(Struct, frozen=True, eq=False):
-    """Bounds of outputs over many boxes, by (output, box). The masks tell the boxes in which every root, or no root,
+    """Bounds of outputs over many cells, by (output, cell). The masks tell the cells in which every root, or no root,
     has a value for certain."""
 
     low: Array
@@ -41,11 +38,11 @@ class Bounds(Struct, frozen=True, eq=False):
     is_defined: NDArray[numpy.bool_]
     is_undefined: NDArray[numpy.bool_]
     is_smooth: NDArray[numpy.bool_]
-    """Mask of the boxes in which no output jumps."""
+    """Mask of the cells in which no output jumps."""
 
-    def __getitem__(self, boxes: NDArray[numpy.bool_]) -> "Bounds":
-        rest = (self.is_defined[boxes], self.is_undefined[boxes], self.is_smooth[boxes])
-        return Bounds(self.low[:, boxes], self.high[:, boxes], *rest)
+    def __getitem__(self, cells: NDArray[numpy.bool_]) -> "Bounds":
+        rest = (self.is_defined[cells], self.is_undefined[cells], self.is_smooth[cells])
+        return Bounds(self.low[:, cells], self.high[:, cells], *rest)
 
 
 _JUMPING = (casadi.OP_SIGN, casadi.OP_EQ, casadi.OP_LE, casadi.OP_LT)
@@ -61,7 +58,7 @@ class _Floats(Rows):
 class _Enclosure(Replay):
     """The instructions on intervals, and what roots are taken of."""
 
-    def __init__(self, function: Any, words: int) -> None:
+    def __init__(self, function: Any) -> None:
         super().__init__(function, intervals, constant)
         kinds = {target: function.instruction_id(target) for *_, target in self._steps}
         self._roots = [first for _, first, _, target in self._steps if kinds[target] == casadi.OP_SQRT]
@@ -74,8 +71,7 @@ class _Enclosure(Replay):
             if not torn.isdisjoint((first, second, target)):
                 torn.add(target)
                 self._torn.append((first, second, target))
-        self._words = words
-        moving = {target for source, target in self._inputs if source < words}
+        moving = {target for source, target in self._inputs if source == WORD}
         for _, first, second, target in self._steps:
             if first in moving or second in moving:
                 moving.add(target)
@@ -84,13 +80,14 @@ class _Enclosure(Replay):
         self._known: tuple[tuple[float, ...], list[Any]] = ((), [])
         """The inputs that stay, as they were last, and all that follows from them alone."""
 
-    def bounds(self, words: Sequence[Intervals], fixed: Sequence[float], count: int) -> Bounds:
-        """The bounds of the outputs over boxes of the words."""
+    def bounds(self, cells: Intervals, fixed: Sequence[float]) -> Bounds:
+        """Bounds of the outputs."""
+        count = cells.low.size
         with numpy.errstate(all="ignore"):
             work = self._prepared(tuple(fixed)).copy()
             for source, target in self._inputs:
-                if source < self._words:
-                    work[target] = words[source]
+                if source == WORD:
+                    work[target] = cells
             run_steps(self._moving, work)
         low, high = numpy.zeros((self._count, count)), numpy.zeros((self._count, count))
         for source, target in self._outputs:
@@ -102,8 +99,8 @@ class _Enclosure(Replay):
         return Bounds(low, high, is_defined, is_undefined, is_defined & ~self._is_torn(work, count))
 
     def _is_torn(self, work: Sequence[Any], count: int) -> NDArray[numpy.bool_]:
-        """In which boxes an output may jump: what is one number all the same, as a choice that is not taken, does not
-        hand on the jump of what it follows from."""
+        """Mask of the cells in which an output may jump: what is one number all the same, as a choice that is not
+        taken, does not hand on the jump of what it follows from."""
         torn: dict[int, Any] = {place: work[place].low != work[place].high for place in self._jumps}
         for first, second, target in self._angles:
             torn[target] = ~((work[first].low > 0) | (work[first].high < 0) | (work[second].low > 0))
@@ -123,98 +120,92 @@ class _Enclosure(Replay):
         if known != fixed or not work:
             work = self._constants.copy()
             for source, target in self._inputs:
-                if source >= self._words:
-                    work[target] = constant(fixed[source - self._words])
+                if source != WORD:
+                    work[target] = constant(fixed[source - 1])
             run_steps(self._still, work)
             self._known = fixed, work
         return work
 
 
-class Chart:
-    """Some outputs as functions of some words, at fixed values of the other inputs.
+WORD = 0
+"""The place of the word among the inputs."""
 
-    `fixed` names those inputs; one that follows a word is what is added to it. With `is_rate` it is about the
-    derivatives of the outputs by the first word in place of the outputs.
+
+class Chart:
+    """Some outputs as functions of one word, at fixed values of the other inputs.
+
+    `fixed` names those inputs; one that follows the word is what is added to it. With `is_rate` it is about the
+    derivatives of the outputs in place of the outputs.
     """
 
     def __init__(
         self,
         tape: Tape,
         outputs: Mapping[str, Any],
-        words: int,
         follows: Mapping[str, Following],
         *,
         is_rate: bool = False,
     ) -> None:
-        symbols = [symbol(f"word {number}") for number in range(words)]
+        word = symbol("word")
         added, inputs = dict[str, Any](), dict[str, Any]()
         for given, each in follows.items():
             added[given] = symbol(given)
+            value = word * each.factor + added[given]
             if each.is_angle:
-                ((word, factor),) = each.words
-                turned = (symbols[word] * factor + added[given]) * (pi / 180)
+                turned = value * (pi / 180)
                 inputs |= {given + COSINE: cosine(turned), given + SINE: sine(turned)}
             else:
-                parts = [symbols[word] * factor for word, factor in each.words]
-                inputs[given] = reduce(add, parts) + added[given]
+                inputs[given] = value
         stay, expressions = tape.replaced(inputs, outputs)
         self.outputs = tuple(outputs)
         self.fixed = (*added, *(name for name in tape.inputs if name not in inputs))
-        self._words = words
-        arguments = casadi.vertcat(*(each.sx for each in (*symbols, *added.values(), *stay)))
+        arguments = casadi.vertcat(*(each.sx for each in (word, *added.values(), *stay)))
         values = casadi.SX(casadi.vertcat(*(each.sx for each in expressions)))
         if is_rate:
-            values = casadi.SX(casadi.densify(casadi.jacobian(values, symbols[0].sx)))
-        slopes = casadi.densify(casadi.jacobian(values, casadi.vertcat(*(each.sx for each in symbols))))
+            values = casadi.SX(casadi.densify(casadi.jacobian(values, word.sx)))
+        slopes = casadi.densify(casadi.jacobian(values, word.sx))
         self._function = casadi.Function("chart", [arguments], [casadi.cse(casadi.densify(values))])
-        self._derivative = casadi.Function("slopes", [arguments], [casadi.cse(casadi.vec(slopes))])
-        rates = casadi.which_depends(casadi.vec(slopes), casadi.vertcat(*(each.sx for each in symbols)), 2, True)
-        count = len(self.outputs)
-        self.is_quadratic = [not any(rates[number::count]) for number in range(count)]
-        """Which outputs are polynomials of degree 2 at most in the words."""
+        self._derivative = casadi.Function("slopes", [arguments], [casadi.cse(slopes)])
+        self.is_quadratic = [not each for each in casadi.which_depends(slopes, word.sx, 2, True)]
+        """Outputs that are polynomials of degree 2 at most in the word."""
         self._values = Replay(self._function, _Floats, numpy.float64)
         self._slopes = Replay(self._derivative, _Floats, numpy.float64)
-        self._enclosure = _Enclosure(self._function, words)
+        self._enclosure = _Enclosure(self._function)
         self._steepness: _Enclosure | None = None
 
-    def at(self, words: Sequence[Array], fixed: Sequence[float]) -> Array:
-        """The outputs at these values of the words, by (output, place)."""
-        return _run(self._values, words, fixed)
+    def at(self, word: Array, fixed: Sequence[float]) -> Array:
+        """The outputs at these values of the word, by (output, place)."""
+        return _run(self._values, word, fixed)
 
-    def slopes_at(self, words: Sequence[Array], fixed: Sequence[float]) -> Array:
-        """The derivatives of the outputs by the words, by (word, output, place)."""
-        return _run(self._slopes, words, fixed).reshape(self._words, len(self.outputs), -1)
+    def slopes_at(self, word: Array, fixed: Sequence[float]) -> Array:
+        """The derivatives of the outputs by the word, by (output, place)."""
+        return _run(self._slopes, word, fixed)
 
-    def between(self, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
-        """The bounds of the outputs over boxes of the words."""
-        return self._enclosure.bounds(words, fixed, words[0].low.size)
+    def between(self, cells: Intervals, fixed: Sequence[float]) -> Bounds:
+        """Bounds of the outputs in cells of the word."""
+        return self._enclosure.bounds(cells, fixed)
 
-    def narrowed(self, bounds: Bounds, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
-        """The bounds narrowed by the mean value theorem, where nothing jumps: about the middle of each box, by the
+    def narrowed(self, bounds: Bounds, cells: Intervals, fixed: Sequence[float]) -> Bounds:
+        """The bounds narrowed by the mean value theorem, where nothing jumps: about the middle of each cell, by the
         derivatives in it. It takes twice as long as the bounds themselves."""
-        middles = [each.low / 2 + each.high / 2 for each in words]
-        center = self.between([Intervals(each, each) for each in middles], fixed)
-        slopes = self.slopes_between(words, fixed)
-        found, count = Intervals(center.low, center.high), len(self.outputs)
+        middle = cells.low / 2 + cells.high / 2
+        center, slopes = self.between(Intervals(middle, middle), fixed), self.slopes_between(cells, fixed)
         with numpy.errstate(all="ignore"):
-            for number, (each, middle) in enumerate(zip(words, middles, strict=True)):
-                rows = slice(number * count, (number + 1) * count)
-                away = Intervals(down(each.low - middle), up(each.high - middle))
-                found = found + Intervals(slopes.low[rows], slopes.high[rows]) * away
+            away = Intervals(down(cells.low - middle), up(cells.high - middle))
+            found = Intervals(center.low, center.high) + Intervals(slopes.low, slopes.high) * away
         usable = bounds.is_smooth & numpy.isfinite(found.low) & numpy.isfinite(found.high)
         low = numpy.where(usable, numpy.fmax(bounds.low, found.low), bounds.low)
         high = numpy.where(usable, numpy.fmin(bounds.high, found.high), bounds.high)
         return Bounds(low, high, bounds.is_defined, bounds.is_undefined, bounds.is_smooth)
 
-    def slopes_between(self, words: Sequence[Intervals], fixed: Sequence[float]) -> Bounds:
-        """The bounds of the derivatives, by (word and output, box)."""
+    def slopes_between(self, cells: Intervals, fixed: Sequence[float]) -> Bounds:
+        """Bounds of the derivatives, by (output, cell)."""
         if self._steepness is None:
-            self._steepness = _Enclosure(self._derivative, self._words)
-        return self._steepness.bounds(words, fixed, words[0].low.size)
+            self._steepness = _Enclosure(self._derivative)
+        return self._steepness.bounds(cells, fixed)
 
 
-def _run(replay: Replay, words: Sequence[Array], fixed: Sequence[float]) -> Array:
+def _run(replay: Replay, word: Array, fixed: Sequence[float]) -> Array:
     with numpy.errstate(all="ignore"):
-        found = replay([*words, *map(numpy.float64, fixed)])
-    size = words[0].size
-    return numpy.stack([numpy.broadcast_to(numpy.asarray(each, dtype=float), size) for each in found])
+        found = replay([word, *map(numpy.float64, fixed)])
+    return numpy.stack([numpy.broadcast_to(numpy.asarray(each, dtype=float), word.size) for each in found])

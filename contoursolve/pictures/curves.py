@@ -16,6 +16,10 @@ _LINE = 3.0
 """Pixels of a line; it covers the steps of the cells under it."""
 
 
+_GIVE = 0.3
+"""Pixels by which a point may be off a line that leaves it out."""
+
+
 class Curve(Struct, frozen=True, eq=False):
     """A boundary on the page: its points, places on it a pixel apart, and the unit directions to its failing side
     there."""
@@ -38,7 +42,7 @@ def curves_of(boundaries: Iterable[Boundary], chart: ValuePlane) -> list[Curve]:
 
 
 def _curve(boundary: Boundary, chart: ValuePlane) -> Curve:
-    rough = chart.spots(numpy.array(boundary.points))
+    rough = _thinned(chart.spots(numpy.array(boundary.points)))
     steps = numpy.concatenate([[0.0], numpy.cumsum(numpy.hypot(*numpy.diff(rough, axis=0).T))])
     along = numpy.linspace(0.0, steps[-1], max(2, int(steps[-1]) + 1))
     spots = numpy.stack([numpy.interp(along, steps, rough[:, axis]) for axis in (0, 1)], axis=1)
@@ -52,6 +56,22 @@ def _curve(boundary: Boundary, chart: ValuePlane) -> Curve:
     if float((there[1] - there[0]) @ normals[nearest]) < 0:
         normals = -normals
     return Curve(boundary, rough, spots, normals)
+
+
+def _thinned(points: Array) -> Array:
+    """A line on the page without the points that are as good as on it."""
+    kept, pending = {0, len(points) - 1}, [(0, len(points) - 1)]
+    while pending:
+        first, last = pending.pop()
+        along, away = points[last] - points[first], points[first + 1 : last] - points[first]
+        size = float(numpy.hypot(*along))
+        # Of a closed line, how far from where it begins.
+        off = numpy.abs(away[:, 0] * along[1] - away[:, 1] * along[0]) / size if size else numpy.hypot(*away.T)
+        if off.size and off.max() > _GIVE:
+            middle = first + 1 + int(off.argmax())
+            kept.add(middle)
+            pending += [(first, middle), (middle, last)]
+    return points[sorted(kept)]
 
 
 def strokes(curves: Sequence[Curve]) -> list[Stroke]:

@@ -20,7 +20,7 @@ class ClosedStep(Struct, frozen=True, eq=False):
 
     parameters: tuple[str, ...]
     regular: Replay
-    """The numbers that must not be zero."""
+    """What must not be zero."""
     discriminant: Replay | None
     values: Replay
     """The unknowns at the parameters and the sign."""

@@ -13,8 +13,8 @@ from contoursolve.solving.solution import Certificate, Status
 
 
 class Stated(Struct, frozen=True):
-    """The content of a sketch: its profile, the texts of its facts by the names of what they give, and the facts that
-    ask for a value by the same names."""
+    """What a sketch states: its profile, the texts of its facts by the names of what they give, and the facts that ask
+    for a value by the same names."""
 
     profile: Profile
     texts: Mapping[str, str]
@@ -115,7 +115,7 @@ class Drawings(Shown, Sequence[Drawn]):
 
     @property
     def summary(self) -> str:
-        """The number of them, and whether these are all."""
+        """How many there are, and whether these are all."""
         if self.free:
             return f"still open: {', '.join(map(_unknown, self.free))}"
         shown = "closed form" if self.reach is None else f"search within {self.reach:.0f} mm of the start point"

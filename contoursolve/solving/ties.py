@@ -56,11 +56,11 @@ class Ties(Struct, frozen=True):
         return told if is_radius or abs(told - off) <= RESIDUAL else off
 
     def _compare(self, circuit: Circuit, at: Values) -> Refusal | Note | None:
-        """The event about the last fact of a circuit, compared with the others."""
+        """How the last fact of a circuit compares with the others."""
         return compare_fact(circuit.facts[-1], circuit.off[-1], self.profile, assemble(self.profile), at)
 
     def givens(self, circuit: Circuit) -> tuple[str, ...]:
-        """The givens of the facts of a circuit, see `givens_of_facts`."""
+        """What states the facts of a circuit, see `givens_of_facts`."""
         return givens_of_facts(circuit.facts, assemble(self.profile))
 
 
@@ -140,7 +140,7 @@ def tied_with(system: System, fact: Fact) -> tuple[str, ...]:
 
 @lru_cache(maxsize=256)
 def _ties(system: System) -> Mapping[Fact, tuple[str, ...]]:
-    """The answers of `tied_with` for every fact that is tied with others."""
+    """What `tied_with` says of every fact that is tied with others."""
     found: dict[Fact, tuple[str, ...]] = {}
     for fact, others in circuits_of(system).items():
         found[fact] = givens_of_facts((*others, fact), system)
@@ -150,6 +150,5 @@ def _ties(system: System) -> Mapping[Fact, tuple[str, ...]]:
 
 
 def givens_of_facts(facts: tuple[Fact, ...], system: System) -> tuple[str, ...]:
-    """The givens of some facts. Of one without unknowns, which is about the givens alone, the angles among them
-    tell."""
+    """What states some facts. Of one without unknowns, which is about the givens alone, the angles among them tell."""
     return tuple(dict.fromkeys(name for fact in facts for name in (*headings_of(fact, system), fact.given) if name))

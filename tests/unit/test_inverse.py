@@ -10,6 +10,7 @@ from click.testing import CliRunner
 from examples import some_of
 from generate_lx3 import random_g11, random_g112
 from generate_nct import FORMS, random_chain, random_cornered, random_pair
+from msgspec.structs import replace
 from test_boundary import FACTS
 from test_family import CASES, filled, text_of
 
@@ -329,12 +330,13 @@ def test_a_value_that_exists_is_found_to_the_last_digit(block, start, word, goal
 @pytest.mark.parametrize("give", [1e-5, -1.0])
 def test_a_value_that_single_solves_do_not_confirm_leaves_the_list_open(give, monkeypatch):
     """Whatever is dropped, the list says so."""
-    find = inverse.find_zeros
+    isolate = inverse.isolate
 
     def worse(curve, low, high):
-        return [inverse.Zero(zero.value + give, zero.way, zero.width) for zero in find(curve, low, high)]
+        found = isolate(curve, low, high)
+        return replace(found, zeros=tuple(replace(zero, value=zero.value + give) for zero in found.zeros))
 
-    monkeypatch.setattr(inverse, "find_zeros", worse)
+    monkeypatch.setattr(inverse, "isolate", worse)
     found = find_word(BLOCK, "A", "end Z-50.", start=START)
     assert (found.hits, found.is_complete) == ((), False)
     assert found.doubts[0].endswith("deg: there is a value, and single solves do not confirm it")
