@@ -11,7 +11,7 @@ from contoursolve.diagnostics import OWN, Evidence, Severity, Source
 from contoursolve.execution import MOST_BLOCKS, Limit
 from contoursolve.gcode import FaultKind
 from contoursolve.reading import Dialect, ReadIssue, Rule, Setting, WithoutPoint
-from contoursolve.solving import NoteKind, RefusalKind
+from contoursolve.solving import event_of
 from contoursolve.tolerance import LARGEST, TRAVEL
 
 _GOOD = "G00 X40. Z0.\nG111 A180. K-30. B120. X100."
@@ -26,6 +26,13 @@ _CALLING = "G00 X40. Z0.\nM98 P100\n{}\nM98 P100\nM30\nO0100\nG111 A180. K-30. B
 
 def _own(place: str) -> Source:
     return Source(OWN, place, Evidence.ASSUMED)
+
+
+def about_event(code: str, source: Source, accepted: tuple[str, ...], rejected: tuple[str, ...]) -> Rule:
+    """The row about the geometric event that the end of a code names, as every control tells it."""
+    kind = event_of(code)
+    event = kind.event
+    return Rule(code, event.message, event.help, source, accepted, rejected, about=kind, severity=event.severity)
 
 
 def setting(
@@ -565,52 +572,18 @@ SYSTEM_RULES = (
         accepted=(_CUT.replace("3 FL", "3 FL X+20"),),
         rejected=(_CUT,),
     ),
-    Rule(
-        code="several-contours",
-        message="{count} contours fit the block, and no word chooses one",
-        help="add the word or the fact that chooses: `contoursolve solve` lists them, each with what selects it",
-        source=_GEOMETRY,
-        about=NoteKind.SEVERAL,
-        accepted=("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1",),
-        rejected=(_START + "G111 X100. Z-47. B120. (contoursolve: length of line 1 = 30)",),
+    about_event(
+        "several-contours",
+        _GEOMETRY,
+        ("G17 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG1 X-50 Y42.857 ,A171.87 Q-1",),
+        (_START + "G111 X100. Z-47. B120. (contoursolve: length of line 1 = 30)",),
     ),
-    Rule(
-        code="count-open",
-        message="this contour fits the block; whether another one fits, too, is not proven",
-        help="state one more fact, or simpler ones",
-        source=_GEOMETRY,
-        about=NoteKind.COUNT_OPEN,
-        severity=Severity.WARNING,
-        accepted=(_GOOD,),
-        rejected=(),
+    about_event("count-open", _GEOMETRY, (_GOOD,), ()),
+    about_event("only-unproven", _GEOMETRY, (_GOOD,), ()),
+    about_event(
+        "no-point", _GEOMETRY, (_GOOD,), (_START + "G111 X100. Z-47. B120. (contoursolve: length of line 1 = 3)",)
     ),
-    Rule(
-        code="only-unproven",
-        message="undecided: one contour fits the block{within}, and that no other one {does} is not proven",
-        help="{advice}; `contoursolve solve` lists what was found",
-        source=_GEOMETRY,
-        about=RefusalKind.COUNT_OPEN,
-        accepted=(_GOOD,),
-        rejected=(),
-    ),
-    Rule(
-        code="no-point",
-        message="no {things} fits {words}{together}",
-        help="change one of the values; every combination of sides has been tried, so this is proven",
-        source=_GEOMETRY,
-        about=RefusalKind.NO_POINT,
-        accepted=(_GOOD,),
-        rejected=(_START + "G111 X100. Z-47. B120. (contoursolve: length of line 1 = 3)",),
-    ),
-    Rule(
-        code="search-unfinished",
-        message="undecided: the search found no {things} for {words}{together}, and did not prove that there is none",
-        help="{advice}",
-        source=_GEOMETRY,
-        about=RefusalKind.SEARCH_UNFINISHED,
-        accepted=(_GOOD,),
-        rejected=(),
-    ),
+    about_event("search-unfinished", _GEOMETRY, (_GOOD,), ()),
     Rule(
         code="facts-singular",
         message="at these values {words} {do} not fix {free}",
@@ -700,61 +673,16 @@ SYSTEM_RULES = (
         accepted=(_START + "G111 A180. K-30. B120. (contoursolve: length of line 2 = 20)",),
         rejected=(_START + "G111 A180. K-30. B120. (contoursolve: radius of line 2 = 20)",),
     ),
-    Rule(
-        code="words-conflict",
-        message="{words} disagrees with {others} by {off}: it states {actual}, {they} {give} {expected}",
-        help="delete it, or write {meant}",
-        source=_GEOMETRY,
-        about=RefusalKind.WORDS_DISAGREE,
-        accepted=(_GOOD,),
-        rejected=(_GOOD + " U50.",),
-    ),
-    Rule(
-        code="fact-conflict",
-        message="{words} is not true of what {others} {give}: it is off by {off}",
-        help="delete it, or change what it is about",
-        source=_GEOMETRY,
-        about=RefusalKind.FACT_DISAGREES,
-        accepted=(_GOOD,),
-        rejected=(_GOOD + " (contoursolve: line 2 passes through [Z-40. X80.])",),
-    ),
-    Rule(
-        code="words-redundant",
-        message="{words} repeats {others}",
-        help="delete it",
-        source=_GEOMETRY,
-        about=NoteKind.WORDS_AGREE,
-        severity=Severity.WARNING,
-        accepted=(_GOOD,),
-        rejected=(_GOOD + " U60.",),
-    ),
-    Rule(
-        code="not-verified",
-        message="the result does not satisfy the equations of the block: off by {actual}, allowed {limit}",
-        help="please report this block: it is an error of contoursolve",
-        source=_GEOMETRY,
-        about=RefusalKind.NOT_VERIFIED,
-        accepted=(_GOOD,),
-        rejected=(),
-    ),
-    Rule(
-        code="out-of-range",
-        message="{subject} lies {actual} from the start point, and words reach {limit} at most",
-        help="look for two directions that are almost the same, or for a lost decimal point",
-        source=_GEOMETRY,
-        about=RefusalKind.OUT_OF_RANGE,
-        accepted=(_GOOD,),
-        rejected=("G00 X40. Z0.\nG111 A180. K-10. B179.9999999999 X41.",),
-    ),
-    Rule(
-        code="contour-sensitive",
-        message="the points are sure to {actual} only: a small change of a word moves them far",
-        help="choose words that fix the points more firmly, such as coordinates instead of angles",
-        source=_GEOMETRY,
-        about=NoteKind.SENSITIVE,
-        severity=Severity.WARNING,
-        accepted=(_GOOD,),
-        rejected=("G17 G41 G0 X5000 Y0\nG3 I-5000 J0\nG1 X-6000 Y4999.9999999999 ,A180 Q-1",),
+    about_event("words-conflict", _GEOMETRY, (_GOOD,), (_GOOD + " U50.",)),
+    about_event("fact-conflict", _GEOMETRY, (_GOOD,), (_GOOD + " (contoursolve: line 2 passes through [Z-40. X80.])",)),
+    about_event("words-redundant", _GEOMETRY, (_GOOD,), (_GOOD + " U60.",)),
+    about_event("not-verified", _GEOMETRY, (_GOOD,), ()),
+    about_event("out-of-range", _GEOMETRY, (_GOOD,), ("G00 X40. Z0.\nG111 A180. K-10. B179.9999999999 X41.",)),
+    about_event(
+        "contour-sensitive",
+        _GEOMETRY,
+        (_GOOD,),
+        ("G17 G41 G0 X5000 Y0\nG3 I-5000 J0\nG1 X-6000 Y4999.9999999999 ,A180 Q-1",),
     ),
     Rule(
         code="axis-crossed",
@@ -770,16 +698,7 @@ SYSTEM_RULES = (
             "G00 X0 Z0.\nG111 A60. I10. B-45. Z30.",
         ),
     ),
-    Rule(
-        code="line-vanishes",
-        message="{subject} has no length and is left out",
-        help="check the words that place its ends",
-        source=_GEOMETRY,
-        about=NoteKind.LINE_VANISHES,
-        severity=Severity.WARNING,
-        accepted=(_GOOD,),
-        rejected=(_START + "G111 I0 K0 B120. X100.",),
-    ),
+    about_event("line-vanishes", _GEOMETRY, (_GOOD,), (_START + "G111 I0 K0 B120. X100.",)),
 )
 
 COMMON_RULES = GRAMMAR_RULES + READING_RULES + SYSTEM_RULES

@@ -14,7 +14,7 @@ from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, FaultKind, Word, lookalike_at, number_of
 from contoursolve.geometry import Given, Length, Unit
 from contoursolve.reading import Lexicon, ParsedContour, ReadIssue
-from contoursolve.solving import BESIDE, RefusalKind
+from contoursolve.solving import RefusalKind
 from contoursolve.tolerance import INCREMENT
 
 _FEW = 8
@@ -73,7 +73,8 @@ def marked(answer: Answer) -> Iterator[tuple[Edit, ...]]:
             yield (change(Word(FACT, None, False, old, each.span), each.text),)
 
 
-OF_CORNERS = (RefusalKind.CORNER_TOO_LARGE, RefusalKind.CORNERS_OVERLAP, RefusalKind.BEVEL_IN_BAND)
+OF_CORNERS = tuple(kind for kind in RefusalKind if kind.event.limits)
+"""What a smaller corner mends."""
 
 
 def fitting(answer: Answer) -> Iterator[tuple[Edit, ...]]:
@@ -95,7 +96,7 @@ def fitting(answer: Answer) -> Iterator[tuple[Edit, ...]]:
 
 def _limits(finding: Diagnostic) -> list[float]:
     """The largest sizes of the corners that a finding is about, in the order of its labels, mm."""
-    keys = BESIDE if finding.about is RefusalKind.CORNERS_OVERLAP else ("limit",)
+    keys = finding.about.event.limits if isinstance(finding.about, RefusalKind) else ()
     return [finding.values[key] for key in keys if key in finding.values]
 
 

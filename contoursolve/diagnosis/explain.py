@@ -428,10 +428,10 @@ def explain_result(
     labels = [f"expected {fields['expected']}"] if "expected" in fields else []
     if event.kind is RefusalKind.RADIUS_TOO_SMALL:
         fields["limit"] = value_text(float(length_limit(values["limit"], context.unit, -1)), context.unit.value)
-    if event.kind is RefusalKind.CORNER_TOO_LARGE and isinstance(event, Refusal):
+    if "fits" in event.kind.event.needs and isinstance(event, Refusal):
         more, labels = _room(event, values, profile)
         fields |= more
-    if event.kind is RefusalKind.CORNERS_OVERLAP:
+    if event.kind.event.limits == BESIDE:
         rooms = _rooms(event, values, words, profile)
         labels = [label for _, label in rooms]
         advice = [advice for advice, _ in rooms if advice]
@@ -455,7 +455,7 @@ def _off(event: Refusal | Note, turned: float | None, unit: Length, profile: Pro
 
 def _outside(event: Refusal | Note, unit: Length, profile: Profile) -> dict[str, str]:
     """By how much a corner is outside its lines, and along which axis: as a diameter where that is one."""
-    if event.kind is not RefusalKind.BEVEL_OUTSIDE or not isinstance(event, Refusal):
+    if "axis" not in event.kind.event.needs or not isinstance(event, Refusal):
         return {}
     (axis,) = event.elements
     is_diameter = profile.plane.diameters[profile.plane.axes.index(axis)]

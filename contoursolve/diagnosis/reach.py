@@ -36,11 +36,7 @@ _BESIDE = 3
 have a corner at their other ends."""
 
 _OF_ELEMENTS = (
-    RefusalKind.CORNER_TOO_LARGE,
-    RefusalKind.CORNERS_OVERLAP,
-    RefusalKind.CORNER_STRAIGHT,
-    RefusalKind.CORNER_REVERSES,
-    RefusalKind.LINE_REVERSED,
+    *(kind for kind in RefusalKind if kind.event.is_local),
     ReadIssue.CORNER_DROPPED,
     ReadIssue.CORNER_NEGATIVE,
 )

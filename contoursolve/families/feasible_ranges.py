@@ -15,6 +15,7 @@ from contoursolve.families.free_words import check_block
 from contoursolve.families.range_pieces import Onset, RangePiece, RangeSearch
 from contoursolve.families.spec import BlockOptions, called, errors_of, first_error, spec_of
 from contoursolve.geometry import Line
+from contoursolve.numeric import Created
 from contoursolve.reading import Premises
 from contoursolve.solving import Check, NoteKind, RefusalKind
 
@@ -241,7 +242,7 @@ def refused(code: str, event: Enum | None, values: str) -> str:
 
 def phrase(check: Check, kind: RefusalKind, case: CaseClass) -> str:
     """What fails where a check does not pass, without values."""
-    return _PHRASES[kind](check, case)
+    return kind.event.phrase.format_map(Created(lambda field: _FIELDS[field](check, case)))
 
 
 def _parallel(check: Check, case: CaseClass) -> str:
@@ -284,44 +285,20 @@ def _reversed(check: Check, case: CaseClass) -> str:
     return f"{angle} points away from the end of {element}" if angle else f"{element} would run backwards"
 
 
-def _disagrees(check: Check, case: CaseClass) -> str:
-    return f"{case.words((check.subject,))} disagrees with the other words"
-
-
 def _apart(check: Check, case: CaseClass) -> str:
     words = case.words(check.givens) or "the words"
     return f"{words} {'cannot hold together' if len(check.givens) > 1 else 'does not hold'}"
 
 
-def _always(text: str) -> Callable[[Check, CaseClass], str]:
-    return lambda check, _: text.format(subject=element_text(check.subject))
-
-
-_PHRASES: Mapping[RefusalKind, Callable[[Check, CaseClass], str]] = {
-    RefusalKind.LINES_PARALLEL: _parallel,
-    RefusalKind.NOT_FIXED: _parallel,
-    RefusalKind.POINT_IS_START: _always("the point of the line is its start point"),
-    RefusalKind.CIRCLE_MISSED: _always("the line misses the circle"),
-    RefusalKind.RADIUS_TOO_SMALL: _always("the radius is less than half the distance between its two points"),
-    RefusalKind.CIRCLES_APART: _always("the circles do not meet"),
-    RefusalKind.CIRCLE_UNDEFINED: _always("the radius of the circle is 0"),
-    RefusalKind.WORDS_DISAGREE: _disagrees,
-    RefusalKind.FACT_DISAGREES: _always("the words disagree about {subject}"),
-    RefusalKind.RADIUS_DIFFERENCE: _always("two points of the circle differ in their distance from its centre"),
-    RefusalKind.LINE_REVERSED: _reversed,
-    RefusalKind.LINE_BACKWARDS: _always("{subject} would run backwards"),
-    RefusalKind.CORNER_TOO_LARGE: _too_large,
-    RefusalKind.CORNERS_OVERLAP: _too_large,
-    RefusalKind.CORNER_STRAIGHT: _always("{subject} joins two lines of one direction"),
-    RefusalKind.CORNER_REVERSES: _always("{subject} turns back by 180 deg"),
-    RefusalKind.BEVEL_OUTSIDE: _always("the bevel of {subject} lies outside the rectangle of its lines"),
-    RefusalKind.BEVEL_IN_BAND: _always("no 45 deg bevel joins the lines of {subject}"),
-    RefusalKind.LANDING_UNKNOWN: _always("no line advances along the line that {subject} lands on"),
-    RefusalKind.NO_POINT: _apart,
-    RefusalKind.ARC_EMPTY: _always("{subject} ends where it begins"),
-    RefusalKind.CORNER_SIGN: _always("{subject} runs against the sign of its corner"),
-    RefusalKind.OUT_OF_RANGE: _always("a point lies farther away than words reach"),
+_FIELDS: Mapping[str, Callable[[Check, CaseClass], str]] = {
+    "subject": lambda check, _: element_text(check.subject),
+    "parallel": _parallel,
+    "large": _too_large,
+    "reversed": _reversed,
+    "disagreeing": lambda check, case: case.words((check.subject,)),
+    "apart": _apart,
 }
+"""What the phrases of events are about (see `GeometricEvent`)."""
 
 
 def same(one: RefusalKind, other: RefusalKind) -> bool:

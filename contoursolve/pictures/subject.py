@@ -50,6 +50,7 @@ from contoursolve.solving import (
     LineSegment,
     NoteKind,
     Point,
+    PointsAt,
     Refusal,
     RefusalKind,
     Segment,
@@ -67,17 +68,6 @@ from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
     from contoursolve.solving import Alternative
-
-_CORNERS = (
-    RefusalKind.CORNER_TOO_LARGE,
-    RefusalKind.CORNERS_OVERLAP,
-    RefusalKind.CORNER_STRAIGHT,
-    RefusalKind.CORNER_REVERSES,
-    RefusalKind.BEVEL_OUTSIDE,
-    RefusalKind.BEVEL_IN_BAND,
-    RefusalKind.LANDING_UNKNOWN,
-)
-"""Refusals after which the lines of the path are as they should be, without their corners."""
 
 
 class PartialDrawing(Struct, frozen=True):
@@ -404,7 +394,8 @@ def trace_known(profile: Profile, known: Known) -> Iterator[tuple[Segment, Role]
     cut: they stand beside the path, refused."""
     corners = {corner.at: corner for corner in profile.figure.corners}
     refused = {refusal.subject for refusal in known.refusals}
-    is_uncut = any(refusal.kind in _CORNERS for refusal in known.refusals)
+    # The lines of the path are as they should be then, without their corners.
+    is_uncut = any(refusal.kind.event.points_at is PointsAt.CORNER for refusal in known.refusals)
     here: Point | None = known.points.get(profile.figure.start)
     for element in profile.figure.path:
         corner = corners.get(element.head)

@@ -98,6 +98,16 @@ from .enumerate import (
     Enumeration as Enumeration,
     enumerate_many as enumerate_many,
 )
+from .events import (
+    BESIDE as BESIDE,
+    GeometricEvent as GeometricEvent,
+    GeometricEventKind as GeometricEventKind,
+    NoteKind as NoteKind,
+    PointsAt as PointsAt,
+    RefusalKind as RefusalKind,
+    Status as Status,
+    event_of as event_of,
+)
 from .exact_inputs import (
     BALLS as BALLS,
     SMALLEST as SMALLEST,
@@ -153,17 +163,13 @@ from .sketch import (
     Sketch as Sketch,
 )
 from .solution import (
-    BESIDE as BESIDE,
     Certificate as Certificate,
     CornerSolution as CornerSolution,
     Note as Note,
-    NoteKind as NoteKind,
     Point as Point,
     Proof as Proof,
     Refusal as Refusal,
-    RefusalKind as RefusalKind,
     Solution as Solution,
-    Status as Status,
     up_to_one_digit as up_to_one_digit,
 )
 from .solve import (

@@ -22,30 +22,21 @@ from contoursolve.geometry import (
     scalar,
 )
 from contoursolve.numeric import COSINE, SINE, Number, ball, direction
-from contoursolve.solving.compare import compare_fact
+from contoursolve.solving.checks import Source
+from contoursolve.solving.compare import compare_fact, increments_of
 from contoursolve.solving.compile import compile_path
 from contoursolve.solving.determinacy import analyse, groups_of, spare_of
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import Doubt, Found, enumerate_solutions
+from contoursolve.solving.events import NoteKind, RefusalKind, Status
 from contoursolve.solving.exact_inputs import ground_of
 from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range
 from contoursolve.solving.krawczyk import Prover, radius_of
-from contoursolve.solving.numbers import corner_of, sizes_of
+from contoursolve.solving.numbers import corner_of, scalars_of, sizes_of
 from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.solving.picks import Alternative, Alternatives, pick
 from contoursolve.solving.sides import BOTH, sides_of
-from contoursolve.solving.solution import (
-    Certificate,
-    CornerSolution,
-    Note,
-    NoteKind,
-    Point,
-    Proof,
-    Refusal,
-    RefusalKind,
-    Solution,
-    Status,
-)
+from contoursolve.solving.solution import Certificate, CornerSolution, Note, Point, Proof, Refusal, Solution
 from contoursolve.tolerance import LENGTH, RESIDUAL
 
 
@@ -113,12 +104,14 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: Found)
     refusals, remarks = _compare(profile, system, at, scalars)
     if not refusals:
         sizes = _sizes(profile, scalars)
+        numbers = Values(scalars_of(points), {}, {})
+        source = Source(system.figure, numbers, measures, values.__getitem__, increments_of(profile))
         path = MeasuredPath(
-            profile, points, sizes, lambda sizes: machine.path.read(machine.function({**values, **sizes}).__getitem__)
+            profile, source, sizes, lambda sizes: machine.path.read(machine.function({**values, **sizes}).__getitem__)
         )
         refusals += judge_range(path)
         if not refusals:
-            refusals, notes = judge_path(path, measures)
+            refusals, notes = judge_path(path)
             remarks += notes
     sides = sides_of(system, at, {choice.point for choice in profile.choices})
     # A circle about the middle of two of its points is an ordinary half circle.

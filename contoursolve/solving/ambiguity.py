@@ -32,10 +32,11 @@ from contoursolve.solving.construction import is_closed
 from contoursolve.solving.determinacy import analyse, groups_of
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import enumerate_solutions
+from contoursolve.solving.events import NoteKind, RefusalKind, Status
 from contoursolve.solving.identities import is_affine
 from contoursolve.solving.partition import Group
 from contoursolve.solving.picks import Alternative, Alternatives
-from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind, Solution, Status
+from contoursolve.solving.solution import Note, Refusal, Solution
 from contoursolve.solving.solve import solve
 
 

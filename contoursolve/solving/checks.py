@@ -32,6 +32,7 @@ from contoursolve.geometry import (
 )
 from contoursolve.numeric import (
     COSINE,
+    FLOATS,
     SINE,
     Array,
     Functions,
@@ -40,7 +41,6 @@ from contoursolve.numeric import (
     difference,
     directions,
     largest,
-    magnitude,
     replay_rows,
     true,
 )
@@ -49,10 +49,10 @@ from contoursolve.solving.compile import compile_plainly, compile_system
 from contoursolve.solving.construction import Construction, ConstructionStep, StepKind, is_closed
 from contoursolve.solving.corners import Pair
 from contoursolve.solving.determinacy import analyse
+from contoursolve.solving.events import RefusalKind
 from contoursolve.solving.inputs import EXPRESSIONS, input_values
 from contoursolve.solving.numbers import axes_of, inputs_of
 from contoursolve.solving.path_outputs import PathOutputs
-from contoursolve.solving.solution import RefusalKind
 from contoursolve.tolerance import LARGEST, LENGTH, REGULAR, RESIDUAL, TOUCHING
 
 
@@ -184,7 +184,7 @@ def compile_checks(system: System) -> Checked:
     basis = largest(tape.expression(name) for name in machine.residuals)
     corners = largest(source.path.residuals)
     pairs = [
-        *check_steps(source, machine.steps),
+        *(pair for pair in check_steps(source, machine.steps) if not _is_half_circle(pair[0])),
         check_range(source),
         check_residuals(basis),
         *check_facts(source, machine.checks, len(machine.basis)),
@@ -195,6 +195,12 @@ def compile_checks(system: System) -> Checked:
     tape.output("worst", largest([basis, corners]))
     checks, margins = zip(*pairs, strict=True)
     return Checked(checks, margins, machine.path, tape, is_clear)
+
+
+def _is_half_circle(check: Check) -> bool:
+    """Whether a check is about two centres that may be one: a circle about the middle of two points is an ordinary half
+    circle."""
+    return check.stage is Stage.TOUCHING and check.kind is RefusalKind.RADIUS_TOO_SMALL
 
 
 def _source_of(system: System, machine: Construction) -> tuple[Tape, Source]:
@@ -243,13 +249,19 @@ def is_passed(check: Check, margin: Any, functions: Functions) -> Any:
             return functions.below(check.limit, functions.magnitude(margin))
 
 
+def is_failing(check: Check, margin: float) -> bool:
+    """Whether a check fails by its margin; what is more than its limit passes whatever the test."""
+    return not margin > check.limit and not is_passed(check, margin, FLOATS)
+
+
 def check_steps(source: Source, steps: Sequence[ConstructionStep]) -> Checks:
     """Whether each step of a construction has a solution."""
     for number, step in enumerate(steps):
-        yield from _check_step(source, number, step)
+        yield from check_step(source, number, step)
 
 
-def _check_step(source: Source, number: int, step: ConstructionStep) -> Checks:
+def check_step(source: Source, number: int, step: ConstructionStep) -> Checks:
+    """Whether a step of a construction has a solution."""
     out = source.out
     for tail, through in step.lines_through():
         yield Check(RefusalKind.POINT_IS_START, through, "", Test.ABOVE, LENGTH), source.distance(tail, through)
@@ -268,15 +280,13 @@ def _check_step(source: Source, number: int, step: ConstructionStep) -> Checks:
         kind = RefusalKind.RADIUS_TOO_SMALL if is_half else RefusalKind.CIRCLES_APART
         undefined = RefusalKind.CIRCLE_UNDEFINED if is_half else kind
         yield Check(undefined, subject, "", Test.ABOVE, LENGTH), out(f"distance:{number}")
-    offset, radius = out(f"offset:{number}"), out(f"radius:{number}")
+    offset, radius, magnitude = out(f"offset:{number}"), out(f"radius:{number}"), source.at.functions.magnitude
     give = out(f"scale:{number}") * TOUCHING
     meets = Check(kind, subject, "", Test.AT_LEAST, 0.0)
     yield meets, out(f"gap:{number}") + give
     yield meets, radius + offset + give
-    if not is_half:
-        # A circle about the middle of two points is an ordinary half circle.
-        apart = magnitude(radius - magnitude(offset)) - give
-        yield Check(kind, subject, "", Test.ABOVE, 0.0, stage=Stage.TOUCHING, is_doubtful=True), apart
+    apart = magnitude(radius - magnitude(offset)) - give
+    yield Check(kind, subject, "", Test.ABOVE, 0.0, stage=Stage.TOUCHING, is_doubtful=True), apart
 
 
 def check_residuals(worst: Any) -> tuple[Check, Any]:

@@ -23,8 +23,9 @@ from contoursolve.geometry import (
 )
 from contoursolve.solving.affine import AffineFacts, Circuit, IndependentFacts
 from contoursolve.solving.determinacy import analyse, circuits_of
+from contoursolve.solving.events import NoteKind, RefusalKind
 from contoursolve.solving.numbers import lookup
-from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind
+from contoursolve.solving.solution import Note, Refusal
 from contoursolve.tolerance import AGREEMENT, LENGTH, RESIDUAL
 
 QUARTER_TURN, FULL_TURN = 90.0, 360.0

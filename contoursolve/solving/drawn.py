@@ -9,7 +9,8 @@ from msgspec import Struct
 from contoursolve.diagnostics import Shown
 from contoursolve.geometry import Fact, Profile, Unit
 from contoursolve.solving.contour import ArcSegment, Contour
-from contoursolve.solving.solution import Certificate, Status
+from contoursolve.solving.events import Status
+from contoursolve.solving.solution import Certificate
 
 
 class Stated(Struct, frozen=True):

@@ -29,8 +29,9 @@ from contoursolve.geometry import (
 from contoursolve.solving.alternatives import find_alternatives
 from contoursolve.solving.ambiguity import restrict, settle
 from contoursolve.solving.determinacy import analyse
+from contoursolve.solving.events import Status
 from contoursolve.solving.picks import Alternatives
-from contoursolve.solving.solution import Point, Status
+from contoursolve.solving.solution import Point
 from contoursolve.tolerance import LENGTH
 
 _SHIFTS = (-0.25, 0.25, 0.0)

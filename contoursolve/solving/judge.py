@@ -1,15 +1,14 @@
 """What is refused of a path in numbers: the checks that fail first, with the values that a refusal states."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import groupby
-from math import nan
+from itertools import groupby, islice
+from math import isnan, nan
 
 from msgspec import Struct
+from msgspec.structs import replace
 
-from contoursolve.geometry import Arc, Corner, Line, Profile, Values
-from contoursolve.numeric import FLOATS
+from contoursolve.geometry import Arc, Corner, Line, Profile
 from contoursolve.solving.checks import (
-    NO_PATH,
     Check,
     Source,
     Stage,
@@ -18,14 +17,13 @@ from contoursolve.solving.checks import (
     check_residuals,
     check_room,
     elements_at,
-    is_passed,
+    is_failing,
     setbacks_of,
 )
-from contoursolve.solving.compare import increments_of
+from contoursolve.solving.events import BESIDE, NoteKind, RefusalKind
 from contoursolve.solving.fitting import LEAST, NEAR, largest_fitting
-from contoursolve.solving.numbers import scalars_of
 from contoursolve.solving.path_outputs import PathOutputs
-from contoursolve.solving.solution import BESIDE, Note, NoteKind, Point, Refusal, RefusalKind
+from contoursolve.solving.solution import Note, Refusal
 from contoursolve.tolerance import LARGEST, LENGTH, RESIDUAL
 
 Failing = list[tuple[Check, float]]
@@ -36,53 +34,43 @@ Sizes = Mapping[str, float]
 
 
 class MeasuredPath(Struct, frozen=True, eq=False):
-    """A path in numbers: its points and its measures, mm, and the measures at other sizes of its corners."""
+    """A path in numbers, mm, which count from its start point, and its measures at other sizes of its corners."""
 
     profile: Profile
-    points: Mapping[str, Point]
+    source: Source
     sizes: Sizes
     resize: Callable[[Sizes], PathOutputs]
-
-    def source(self, path: PathOutputs) -> Source:
-        """The numbers of which margins are made."""
-        at = Values(scalars_of(self.points), {}, {})
-        return Source(self.profile.figure, at, path, _nothing, increments_of(self.profile))
-
-
-def _nothing(name: str) -> float:
-    raise KeyError(name)
 
 
 def judge_range(path: MeasuredPath) -> list[Refusal]:
     """The point of a path that lies farthest from the start, if no word reaches it."""
-    source = path.source(NO_PATH)
-    return _judge(path, NO_PATH, [check_range(source)] if source.figure.path else [])
+    check, margin = check_range(path.source)
+    is_there = margin >= check.limit or not path.profile.figure.path
+    return [] if is_there else _judge(path, [(check, margin)])
 
 
-def judge_path(path: MeasuredPath, measures: PathOutputs) -> tuple[list[Refusal], list[Note]]:
+def judge_path(path: MeasuredPath) -> tuple[list[Refusal], list[Note]]:
     """Everything that speaks against the path between points that satisfy the equations and lie within reach."""
-    source = path.source(measures)
+    source, measures = path.source, path.source.path
     lines = (each.name for each in source.figure.path if isinstance(each, Line))
     notes = [Note(NoteKind.LINE_VANISHES, name) for name in lines if abs(measures.lengths[name]) <= LENGTH]
     residuals = [abs(each) for each in measures.residuals]
-    worst = max(residuals, default=0.0) if all(each == each for each in residuals) else nan
-    return _judge(path, measures, [*check_path(source), check_residuals(worst)]), notes
+    worst = nan if isnan(sum(residuals)) else max(residuals, default=0.0)
+    return _judge(path, [*check_path(source), check_residuals(worst)]), notes
 
 
-def _judge(path: MeasuredPath, measures: PathOutputs, checks: Sequence[tuple[Check, float]]) -> list[Refusal]:
+def _judge(path: MeasuredPath, checks: Sequence[tuple[Check, float]]) -> list[Refusal]:
     """The refusals of the first stage of which a check fails."""
-    for stage, pairs in groupby(checks, lambda pair: pair[0].stage):
-        failing = [(check, margin) for check, margin in pairs if not is_passed(check, margin, FLOATS)]
-        if failing:
-            return list(_Told(path, measures).refusals(stage, failing))
-    return []
+    failing = [pair for pair in checks if is_failing(*pair)]
+    stages = groupby(failing, lambda pair: pair[0].stage)
+    return [refusal for stage, pairs in islice(stages, 1) for refusal in _Told(path).refusals(stage, list(pairs))]
 
 
 class _Told:
     """What the checks of one stage that fail say of a path."""
 
-    def __init__(self, path: MeasuredPath, measures: PathOutputs) -> None:
-        self.path, self.measures = path, measures
+    def __init__(self, path: MeasuredPath) -> None:
+        self.path, self.measures = path, path.source.path
         self.figure = path.profile.figure
         self.corners = {corner.name: corner for corner in self.figure.corners}
 
@@ -102,9 +90,8 @@ class _Told:
         kind, subject, margin = check.kind, check.subject, failing[0][1]
         match kind:
             case RefusalKind.OUT_OF_RANGE:
-                start = self.path.points[self.figure.start]
-                far = ((abs(at), name) for name in self.figure.points for at in _step(start, self.path.points[name]))
-                away, name = max(far)
+                way, start = self.path.source.way, self.figure.start
+                away, name = max((abs(at), name) for name in self.figure.points for at in way(start, name))
                 return Refusal(kind, name, (), {"limit": LARGEST, "actual": away})
             case RefusalKind.NOT_VERIFIED:
                 return Refusal(kind, "", (), {"limit": RESIDUAL, "actual": -margin})
@@ -119,7 +106,7 @@ class _Told:
                 values = {"limit": 0.0, "actual": self.path.sizes[size]}
                 return Refusal(kind, subject, (size,), values, (), (check.element, check.element))
             case RefusalKind.BEVEL_OUTSIDE:
-                increment, axes = increments_of(self.path.profile), self.path.profile.plane.axes
+                increment, axes = self.path.source.increment, self.path.profile.plane.axes
                 off, axis = max((increment(each.element) - own, axes[int(each.element)]) for each, own in failing)
                 return Refusal(kind, subject, (size,), {"off_by_mm": off}, (), (axis,))
             case RefusalKind.BEVEL_IN_BAND:
@@ -216,7 +203,7 @@ class _Told:
         leave less; not a number where a corner is none."""
         names = {corner.name for corner in corners}
         elements = {name for corner in corners for name in elements_at(corner, path)}
-        room = check_room(self.path.source(path))
+        room = check_room(replace(self.path.source, path=path))
         left = [(path.corners[corner.name].setback_out + LENGTH, corner.before) for corner in corners]
         left += [
             (margin - check.limit, check.element) for check, margin in room if {check.subject} & (names | elements)
@@ -228,7 +215,3 @@ class _Told:
 def _numbers(values: Mapping[str, float]) -> dict[str, float]:
     """The values without what is no number."""
     return {name: value for name, value in values.items() if value == value}
-
-
-def _step(tail: Point, head: Point) -> Point:
-    return head[0] - tail[0], head[1] - tail[1]

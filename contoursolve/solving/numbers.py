@@ -18,7 +18,8 @@ from contoursolve.geometry import (
 )
 from contoursolve.numeric import COSINE, SINE, direction
 from contoursolve.solving.corners import CornerPath
-from contoursolve.solving.solution import CornerSolution, Point, Solution, Status
+from contoursolve.solving.events import Status
+from contoursolve.solving.solution import CornerSolution, Point, Solution
 
 Kind = TypeVar("Kind")
 """A kind of numbers: floats, or what `numeric.ball` makes."""

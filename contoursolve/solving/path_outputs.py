@@ -5,9 +5,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.solving.corners import CornerPath
-
-Pair = tuple[Any, Any]
+from contoursolve.solving.corners import CornerPath, Pair
 
 
 class PathOutputs(Struct, frozen=True, eq=False):
@@ -31,37 +29,51 @@ class PathOutputs(Struct, frozen=True, eq=False):
     def named(self, declare: Callable[[str, Any], None]) -> "PathOutputs":
         """The names of these measures, each of which is declared as an output of a function."""
 
-        def name(text: str, value: Any) -> str:
-            declare(text, value)
+        def name(kind: str, of: str, value: Any) -> str:
+            declare(text := f"{kind}:{of}", value)
             return text
 
-        return self._each(name)
+        def pair(kind: str, of: str, values: Pair) -> Pair:
+            return name(kind, f"{of}.0", values[0]), name(kind, f"{of}.1", values[1])
+
+        def corner(of: str, each: CornerPath) -> CornerPath:
+            return CornerPath(
+                name("setback-in", of, each.setback_in),
+                name("setback-out", of, each.setback_out),
+                pair("begin", of, each.begin),
+                pair("end", of, each.end),
+                None if each.center is None else pair("center", of, each.center),
+                name("turn", of, each.turn),
+                name("cosine", of, each.cosine),
+                tuple(name(f"corner-residual:{of}", str(n), value) for n, value in enumerate(each.residuals)),
+            )
+
+        return PathOutputs(
+            {of: name("length", of, value) for of, value in self.lengths.items()},
+            {of: name("room", of, value) for of, value in self.rooms.items()},
+            {of: corner(of, each) for of, each in self.corners.items()},
+            {of: name("landing", of, value) for of, value in self.landings.items()},
+        )
 
     def read(self, out: Callable[[str], Any]) -> "PathOutputs":
         """What is behind these names: numbers, columns or expressions."""
-        return self._each(lambda _, name: out(name))
-
-    def _each(self, of: Callable[[str, Any], Any]) -> "PathOutputs":
-        def part(kind: str, values: Mapping[str, Any]) -> dict[str, Any]:
-            return {name: of(f"{kind}:{name}", value) for name, value in values.items()}
-
-        corners = {name: _corner(name, corner, of) for name, corner in self.corners.items()}
         return PathOutputs(
-            part("length", self.lengths), part("room", self.rooms), corners, part("landing", self.landings)
+            {name: out(value) for name, value in self.lengths.items()},
+            {name: out(value) for name, value in self.rooms.items()},
+            {name: _read(corner, out) for name, corner in self.corners.items()},
+            {name: out(value) for name, value in self.landings.items()},
         )
 
 
-def _corner(name: str, corner: CornerPath, of: Callable[[str, Any], Any]) -> CornerPath:
-    def pair(kind: str, values: Pair) -> Pair:
-        return of(f"{kind}:{name}.0", values[0]), of(f"{kind}:{name}.1", values[1])
-
+def _read(corner: CornerPath, out: Callable[[str], Any]) -> CornerPath:
+    (a, b), (c, d), center = corner.begin, corner.end, corner.center
     return CornerPath(
-        setback_in=of(f"setback-in:{name}", corner.setback_in),
-        setback_out=of(f"setback-out:{name}", corner.setback_out),
-        begin=pair("begin", corner.begin),
-        end=pair("end", corner.end),
-        center=None if corner.center is None else pair("center", corner.center),
-        turn=of(f"turn:{name}", corner.turn),
-        cosine=of(f"cosine:{name}", corner.cosine),
-        residuals=tuple(of(f"corner-residual:{name}:{place}", each) for place, each in enumerate(corner.residuals)),
+        out(corner.setback_in),
+        out(corner.setback_out),
+        (out(a), out(b)),
+        (out(c), out(d)),
+        None if center is None else (out(center[0]), out(center[1])),
+        out(corner.turn),
+        out(corner.cosine),
+        tuple([out(each) for each in corner.residuals]),
     )

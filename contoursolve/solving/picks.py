@@ -11,7 +11,8 @@ from msgspec import Struct
 from contoursolve.geometry import Arc, Line, Pick, Profile, System, assemble
 from contoursolve.solving.determinacy import analyse, groups_of
 from contoursolve.solving.enumerate import Doubt
-from contoursolve.solving.solution import Certificate, Note, NoteKind, Point, Refusal, RefusalKind, Solution, Status
+from contoursolve.solving.events import NoteKind, RefusalKind, Status
+from contoursolve.solving.solution import Certificate, Note, Point, Refusal, Solution
 from contoursolve.tolerance import LENGTH
 
 

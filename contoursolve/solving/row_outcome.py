@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from contoursolve.numeric import Array
 from contoursolve.solving.checks import Check, Stage
+from contoursolve.solving.events import RefusalKind, Status
 from contoursolve.solving.path_outputs import PathOutputs
-from contoursolve.solving.solution import RefusalKind, Status
 
 Mask = NDArray[numpy.bool_]
 Codes = NDArray[numpy.uint8]

@@ -36,9 +36,9 @@ from contoursolve.solving.alternatives import decide, find_alternatives
 from contoursolve.solving.contour import trace
 from contoursolve.solving.determinacy import analyse
 from contoursolve.solving.drawn import Asked, Drawings, Drawn, Stated, worded
+from contoursolve.solving.events import RefusalKind, Status
 from contoursolve.solving.numbers import lookup, scalars_of
 from contoursolve.solving.picks import Alternative, Alternatives
-from contoursolve.solving.solution import RefusalKind, Status
 from contoursolve.tolerance import LARGEST
 
 Number = Decimal | float | int | str

@@ -6,6 +6,8 @@ from math import floor, inf, log10
 
 from msgspec import Struct, field
 
+from contoursolve.solving.events import NoteKind, RefusalKind, Status
+
 
 class Proof(Enum):
     """What is proven about a solution; the values are those of the JSON."""
@@ -58,106 +60,6 @@ def up_to_one_digit(value: float) -> float:
     while number * digit < value:
         number += 1
     return number * digit
-
-
-class Status(Enum):
-    """The verdict on one contour; the order is the order of precedence."""
-
-    REJECTED = "rejected"
-    """The control's rules refuse it, whatever the geometry: write what the rule asks for."""
-    CONFLICTING = "conflicting"
-    """More words than needed, and they disagree: drop or correct one."""
-    UNDERDETERMINED = "underdetermined"
-    """Words are missing: add one."""
-    OVERDETERMINED = "overdetermined"
-    """More words than needed that agree: drop one."""
-    AMBIGUOUS = "ambiguous"
-    """Several contours satisfy it, and nothing chooses: add the word or the fact that does."""
-    NO_SOLUTION = "no-solution"
-    """Determined, but the geometry does not exist or the control cannot make it: change a value."""
-    UNDECIDED = "undecided"
-    """Determined, but that there is no contour, or no other one than was found, is not proven: state simpler facts."""
-    SOLVED = "solved"
-
-
-class RefusalKind(Enum):
-    """Why a determined system gives no contour at the values of this block."""
-
-    LINES_PARALLEL = "lines-parallel"
-    NOT_FIXED = "not-fixed"
-    POINT_IS_START = "point-is-start"
-    """A line through two points, which are one."""
-    CIRCLE_MISSED = "circle-missed"
-    RADIUS_TOO_SMALL = "radius-too-small"
-    CIRCLES_APART = "circles-apart"
-    CIRCLE_UNDEFINED = "circle-undefined"
-    WORDS_DISAGREE = "words-disagree"
-    FACT_DISAGREES = "fact-disagrees"
-    """A fact without a value of its own is not true of what the others give."""
-    RADIUS_DIFFERENCE = "radius-difference"
-    LINE_REVERSED = "line-reversed"
-    LINE_BACKWARDS = "line-backwards"
-    CORNER_TOO_LARGE = "corner-too-large"
-    CORNERS_OVERLAP = "corners-overlap"
-    CORNER_STRAIGHT = "corner-straight"
-    CORNER_REVERSES = "corner-reverses"
-    BEVEL_OUTSIDE = "bevel-outside"
-    BEVEL_IN_BAND = "bevel-in-band"
-    LANDING_UNKNOWN = "landing-unknown"
-    ARC_EMPTY = "arc-empty"
-    NO_POINT = "no-point"
-    SEARCH_UNFINISHED = "search-unfinished"
-    COUNT_OPEN = "only-unproven"
-    """One contour was found, no word has chosen it from others, and that there is no other one is not proven."""
-    NOT_VERIFIED = "not-verified"
-    OUT_OF_RANGE = "out-of-range"
-    """A point lies farther from the start than any word reaches."""
-    CORNER_SIGN = "corner-sign"
-    """The sign of a corner word says that the next line runs the other way."""
-
-    PICK_NONE = "pick-none"
-    """A word chooses a solution that is not there."""
-
-    @property
-    def status(self) -> Status:
-        """The status that this refusal gives a contour."""
-        if self is RefusalKind.NOT_FIXED:
-            return Status.UNDERDETERMINED
-        if self in (RefusalKind.SEARCH_UNFINISHED, RefusalKind.COUNT_OPEN):
-            return Status.UNDECIDED
-        if self in (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES, RefusalKind.RADIUS_DIFFERENCE):
-            return Status.CONFLICTING
-        return Status.NO_SOLUTION
-
-
-class NoteKind(Enum):
-    """What a user should know about a contour that was solved."""
-
-    TOUCHES = "touches"
-    """The line touches the circle: both solutions are one."""
-    DOUBLE = "double"
-    """Two solutions have become one, and not because a line of the path touches a circle."""
-    HALF_CIRCLE = "half-circle"
-    """Half the distance of its ends is more than a radius, by as little as words are exact to."""
-    SEVERAL = "several"
-    """More than one contour satisfies the block."""
-    COUNT_OPEN = "count-open"
-    """Whether these are all contours is not proven."""
-    SENSITIVE = "sensitive"
-    """Rounding alone may move a point by more than a thousandth of the least increment."""
-    LINE_VANISHES = "line-vanishes"
-    PICK_OPEN = "pick-open"
-    """A word chooses among solutions, and the other words leave one alone."""
-    PICK_FIRST = "pick-first"
-    """Nothing chooses, and a setting takes the first of several contours."""
-    WORDS_AGREE = "words-agree"
-    """A word that was not needed agrees."""
-    RADIUS_DIFFERS = "radius-differs"
-    """Two points of a circle differ in radius, by less than the control allows."""
-
-
-BESIDE = ("limit_first", "limit_second")
-"""For two corners that overlap: the largest size of either, mm, if the other one stays."""
 
 
 class Refusal(Struct, frozen=True):

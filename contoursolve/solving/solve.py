@@ -3,12 +3,13 @@
 from collections.abc import Iterable, Iterator, Mapping
 from decimal import Decimal
 from itertools import combinations
-from math import asin, atan2, degrees, dist, hypot, inf, isfinite
+from math import asin, atan2, degrees, hypot, inf, isfinite
 
 from msgspec.structs import replace
 
 from contoursolve.geometry import (
     FIRST,
+    INCREMENT_OF,
     SECOND,
     Collinear,
     Coordinate,
@@ -18,31 +19,24 @@ from contoursolve.geometry import (
     Profile,
     Radius,
     System,
+    Values,
     assemble,
     scalar,
 )
 from contoursolve.numeric import direction, inverse_norm
 from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.certify import certify, decide_meeting
+from contoursolve.solving.checks import Check, Source, Stage, Test, at_origin, check_step, is_failing
 from contoursolve.solving.compare import compare_affine, compare_fact, givens_of
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.construction import ConstructionStep, StepKind, is_closed
 from contoursolve.solving.determinacy import analyse
+from contoursolve.solving.events import NoteKind, RefusalKind, Status
 from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range
 from contoursolve.solving.numbers import inputs_of, lookup, scalars_of, sizes_of, solution_at
 from contoursolve.solving.path_outputs import PathOutputs
-from contoursolve.solving.solution import (
-    Certificate,
-    Note,
-    NoteKind,
-    Point,
-    Refusal,
-    RefusalKind,
-    Solution,
-    Status,
-    up_to_one_digit,
-)
-from contoursolve.tolerance import ERROR_BOUND_WARNING, LENGTH, REGULAR, RESIDUAL, TOUCHING
+from contoursolve.solving.solution import Certificate, Note, Point, Refusal, Solution, up_to_one_digit
+from contoursolve.tolerance import ERROR_BOUND_WARNING, RESIDUAL, TOUCHING
 
 ROUNDING = 2.0**-50
 """1 (share of the coordinates). Rounding of one formula of about four operations."""
@@ -112,12 +106,18 @@ class _Attempt:
         self.machine = compile_system(system)
         self.inputs = inputs_of(profile, system)
         self.out = self.machine.function(self.inputs)
+        at = Values({**self.out, **at_origin(system.figure)}, {}, {})
+        measures = self.machine.path.read(self.out.__getitem__)
+        self.source = Source(system.figure, at, measures, self.out.__getitem__, self._increment)
         self.refusals: list[Refusal] = []
         self.remarks: list[Note] = []
         self.doubles: dict[int, dict[str, float]] = {}
         self.split = 0.0
         self.stuck: frozenset[Fact] = frozenset()
         """The facts of the step that is singular at these values, if one is."""
+
+    def _increment(self, name: str) -> float:
+        return self.inputs[INCREMENT_OF + name]
 
     def _resize(self, sizes: Mapping[str, float]) -> PathOutputs:
         """The measures of the path for other sizes of corners."""
@@ -130,17 +130,15 @@ class _Attempt:
                 self.refusals.append(refusal)
                 self._compare_all()
                 return self._refused()
-        points = {name: self._point(name) for name in (self.system.figure.start, *self.system.figure.points)}
         sizes = sizes_of(self.profile)
-        path = MeasuredPath(self.profile, points, sizes, self._resize)
-        measures = self.machine.path.read(self.out.__getitem__)
+        path = MeasuredPath(self.profile, self.source, sizes, self._resize)
         self.refusals += judge_range(path)
         if self.refusals:
             self._compare_all()
         else:
             self._check_equations()
         if not self.refusals:
-            refusals, remarks = judge_path(path, measures)
+            refusals, remarks = judge_path(path)
             self.refusals += refusals
             self.remarks += remarks
         if self.refusals:
@@ -150,7 +148,7 @@ class _Attempt:
             self.remarks.append(Note(NoteKind.SENSITIVE, "", (), {"limit": ERROR_BOUND_WARNING, "actual": bound}))
         agrees = any(remark.kind is NoteKind.WORDS_AGREE for remark in self.remarks)
         return replace(
-            solution_at(self.system, self.profile.start, sizes, self.out, measures.corners),
+            solution_at(self.system, self.profile.start, sizes, self.out, self.source.path.corners),
             status=Status.OVERDETERMINED if agrees else Status.SOLVED,
             remarks=tuple(self.remarks),
             error_bound=bound,
@@ -176,25 +174,36 @@ class _Attempt:
         return self.origin[FIRST] + point[FIRST], self.origin[SECOND] + point[SECOND]
 
     def _examine_step(self, number: int, step: ConstructionStep) -> Refusal | None:
-        for tail, through in step.lines_through():
-            ends = (self._point(name) for name in (tail, through))
-            if not dist(*ends) > LENGTH:  # true for NaN
-                at = {scalar(through, axis) for axis in (FIRST, SECOND)}
-                facts = (fact for fact in self.system.facts if at & {*self.system.unknowns_of(fact)})
-                givens = tuple(fact.given for fact in facts if fact.given)
-                return Refusal(RefusalKind.POINT_IS_START, through, givens)
-        if step.kind is StepKind.AFFINE:
-            return self._examine_determinant(number, step)
-        if step.kind is StepKind.RADIUS:
-            (circle,) = step.circles
-            no_radius = not self.out[circle.radius] > LENGTH  # true for NaN
-            givens = self._givens_of(circle)
-            return Refusal(RefusalKind.CIRCLE_UNDEFINED, circle.center, givens) if no_radius else None
-        return self._examine_discriminant(number, step)
+        """The refusal by the first check of a step that fails; whether elements meet that floats cannot tell from
+        touching ones is decided on the exact words."""
+        for check, margin in check_step(self.source, number, step):
+            if is_failing(check, margin):
+                refusal = self._refusal(check, number, step)
+                if check.stage is not Stage.TOUCHING:
+                    return refusal
+                short = self.out.get(f"short:{number}", 0.0)
+                sign, discriminant = decide_meeting(self.profile, self.system, number) if not short else (0, 0.0)
+                if sign < 0:
+                    off = -discriminant / (2 * self.out[f"radius:{number}"])
+                    return replace(refusal, values={"off_by_mm": off, **self._meeting(number, step)[1]})
+                self._note_double(number, step, refusal, short)
+        return None
 
-    def _examine_determinant(self, number: int, step: ConstructionStep) -> Refusal | None:
-        if abs(self.out[f"determinant:{number}"]) > REGULAR:
-            return None
+    def _refusal(self, check: Check, number: int, step: ConstructionStep) -> Refusal:
+        """What the words say of a step of which a check fails."""
+        if check.kind is RefusalKind.POINT_IS_START:
+            at = {scalar(check.subject, axis) for axis in (FIRST, SECOND)}
+            facts = (fact for fact in self.system.facts if at & {*self.system.unknowns_of(fact)})
+            return Refusal(check.kind, check.subject, tuple(fact.given for fact in facts if fact.given))
+        if step.kind is StepKind.AFFINE:
+            return self._singular(check, number, step)
+        givens, values = self._meeting(number, step)
+        if check.test is Test.ABOVE:
+            return Refusal(check.kind, check.subject, givens, {} if step.is_equal else values)
+        off = abs(abs(self.out[f"offset:{number}"]) - self.out[f"radius:{number}"])
+        return Refusal(check.kind, check.subject, givens, {"off_by_mm": off, **values})
+
+    def _singular(self, check: Check, number: int, step: ConstructionStep) -> Refusal:
         self.stuck = frozenset(step.facts)
         size = range(len(step.unknowns))
         rows = [[self.out[f"entry:{number}:{row}:{column}"] for column in size] for row in size]
@@ -208,45 +217,23 @@ class _Attempt:
         ]
         givens = tuple(fact.given for facts in (step.facts, *earlier) for fact in facts if fact.given)
         if abs(off) <= RESIDUAL:
-            return Refusal(RefusalKind.NOT_FIXED, ",".join(step.unknowns), givens)
-        return _refuse(RefusalKind.LINES_PARALLEL, ",".join(step.unknowns), givens, off_by_mm=abs(off))
+            return Refusal(RefusalKind.NOT_FIXED, check.subject, givens)
+        return _refuse(check.kind, check.subject, givens, off_by_mm=abs(off))
 
-    def _examine_discriminant(self, number: int, step: ConstructionStep) -> Refusal | None:
+    def _meeting(self, number: int, step: ConstructionStep) -> tuple[tuple[str, ...], dict[str, float]]:
+        """The words by which a point lies on a line or a circle and on another circle, and what is compared, mm."""
+        if step.kind is StepKind.RADIUS:
+            return self._givens_of(step.circles[0]), {}
         offset, radius = abs(self.out[f"offset:{number}"]), self.out[f"radius:{number}"]
-        is_center = step.is_equal
-        subject = step.point
         if step.kind is StepKind.LINE_CIRCLE:
-            kind = RefusalKind.CIRCLE_MISSED
             is_stated = bool(self.profile.words_of([step.line])) or isinstance(step.line, Collinear)
+            angles = self._meeting_angles(step, radius) if is_stated else {}
             givens = self._givens_of(step.line if is_stated else step.circles[0])
-            values = {"limit": radius, "actual": offset}
-            values |= self._meeting_angles(step, radius) if is_stated else {}
-        elif is_center:
-            kind, givens = RefusalKind.RADIUS_TOO_SMALL, self._givens_of(step.circles[0])
-            values = {"limit": offset, "actual": radius}
-        else:
-            kind = RefusalKind.CIRCLES_APART
-            givens = tuple(given for circle in step.circles for given in self._givens_of(circle))
-            values = self._reach(step, self.out[f"distance:{number}"])
-        if step.kind is StepKind.TWO_CIRCLES and not self.out[f"distance:{number}"] > LENGTH:  # true for NaN
-            if is_center:
-                return Refusal(RefusalKind.CIRCLE_UNDEFINED, subject, givens)
-            return Refusal(kind, subject, givens, values)
-        if abs(offset - radius) <= TOUCHING * self.out[f"scale:{number}"]:
-            short = self.out.get(f"short:{number}", 0.0)
-            sign, discriminant = decide_meeting(self.profile, self.system, number) if not short else (0, 0.0)
-            if sign < 0:
-                off = -discriminant / (2 * radius)
-                return Refusal(kind, subject, givens, {"off_by_mm": off, **values})
-            self._note_double(number, step)
-            # A circle about the middle of two points is an ordinary half circle.
-            if is_center:
-                self._note_half_circle(offset, short, subject, givens)
-            else:
-                self.remarks.append(Note(NoteKind.TOUCHES, subject, givens, values))
-        elif not offset < radius:  # true for NaN
-            return Refusal(kind, subject, givens, {"off_by_mm": abs(offset - radius), **values})
-        return None
+            return givens, {"limit": radius, "actual": offset, **angles}
+        if step.is_equal:
+            return self._givens_of(step.circles[0]), {"limit": offset, "actual": radius}
+        givens = tuple(given for circle in step.circles for given in self._givens_of(circle))
+        return givens, self._reach(step, self.out[f"distance:{number}"])
 
     def _reach(self, step: ConstructionStep, distance: float) -> dict[str, float]:
         """How far apart the centres of two circles are, and the nearest distance at which they would meet, mm."""
@@ -254,10 +241,19 @@ class _Attempt:
         limit = one + other if distance >= max(one, other) else abs(one - other)
         return {"limit": limit, "actual": distance, "off_by_mm": abs(distance - limit)}
 
-    def _note_double(self, number: int, step: ConstructionStep) -> None:
+    def _note_double(self, number: int, step: ConstructionStep, refusal: Refusal, short: float) -> None:
         """A double solution, as far as floats can tell: in the error bound, a row that holds the point where it
         is along the direction in which the two solutions part takes the place of its circle's, and how far
-        apart they could be is added."""
+        apart they could be is added. `refusal` is what it would be if they did not meet."""
+        if not step.is_equal:
+            values = self._meeting(number, step)[1]
+            self.remarks.append(Note(NoteKind.TOUCHES, refusal.subject, refusal.givens, values))
+        elif short:
+            # A circle about the middle of two points is an ordinary half circle; a stated radius may be less than half
+            # of its chord within what the words are exact to.
+            half = abs(self.out[f"offset:{number}"])
+            values = {"limit": half, "actual": half - short, "off_by_mm": short}
+            self.remarks.append(Note(NoteKind.HALF_CIRCLE, refusal.subject, refusal.givens, values))
         circle, point = step.circles[-1], step.point
         if step.kind is StepKind.LINE_CIRCLE:
             first, second = self._line_direction(step)
@@ -277,12 +273,6 @@ class _Attempt:
         tail, through = self._point(step.line.tail), self._point(step.line.through)
         length = hypot(through[0] - tail[0], through[1] - tail[1])
         return (through[0] - tail[0]) / length, (through[1] - tail[1]) / length
-
-    def _note_half_circle(self, half: float, short: float, subject: str, givens: tuple[str, ...]) -> None:
-        """A half circle whose stated radius is less than half of its chord, within what the words are exact to."""
-        if short:
-            values = {"limit": half, "actual": half - short, "off_by_mm": short}
-            self.remarks.append(Note(NoteKind.HALF_CIRCLE, subject, givens, values))
 
     def _is_half_circle(self, step: ConstructionStep, number: int) -> bool:
         """Whether the radius is exactly half the chord from the start point, in decimals, or is taken to be."""

@@ -22,8 +22,9 @@ from contoursolve.solving.ambiguity import headings_of, nearest_of_determined, r
 from contoursolve.solving.compare import compare_fact, is_conflict
 from contoursolve.solving.construction import is_closed
 from contoursolve.solving.determinacy import analyse, circuits_of
+from contoursolve.solving.events import NoteKind, RefusalKind
 from contoursolve.solving.inputs import input_values
-from contoursolve.solving.solution import Note, NoteKind, Refusal, RefusalKind
+from contoursolve.solving.solution import Note, Refusal
 from contoursolve.tolerance import REGULAR, RESIDUAL
 
 

@@ -20,12 +20,11 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
 )
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told_by
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told
 from contoursolve.controls.rule_rows import rule_row
 from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
 from contoursolve.gcode import FaultKind
 from contoursolve.reading import AnglesParallel, Condition, Rule, Value, all_of, some
-from contoursolve.solving import RefusalKind
 
 ANY, LINES = (LINE, OVER_LINE, ARC), (LINE, OVER_LINE)
 BESIDE = ("beside-X", "beside-Y", "beside-Z")
@@ -289,17 +288,17 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
 def rules_of(
     manual: Manual,
     own: Iterable[Rule],
-    told: Mapping[RefusalKind, tuple[str, str]],
+    examples: Mapping[str, tuple[str, str]],
     helps: Mapping[FaultKind, tuple[str, str]] | None = None,
 ) -> tuple[Rule, ...]:
     """All rules of a control: those of every control, these of its kind, its own, and those about geometry.
 
-    `told` are right and wrong examples of its own for some of the latter, `helps` what to do about characters that
-    cannot be read, with a wrong example.
+    `examples` are right and wrong ones of its own for some of the latter, by the codes of their events, `helps` what to
+    do about characters that cannot be read, with a wrong example.
     """
     geometry = (
-        told_by(manual.prefix, about, good, bad, alarm=manual.alarms.get(about.value))
-        for about, (good, bad) in told.items()
+        told(f"{manual.prefix}-{code}", good, bad, alarm=manual.alarms.get(code))
+        for code, (good, bad) in examples.items()
     )
     return (*_common(manual, helps or {}), *chain_rules(manual), *own, *geometry, *GEOMETRY_RULES)
 

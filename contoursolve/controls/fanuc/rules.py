@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from enum import Enum
 
 from contoursolve.controls.chain.language import (
     ARC,
@@ -30,10 +29,9 @@ from contoursolve.controls.fanuc.language import (
     WRONG_PLANE,
 )
 from contoursolve.controls.fanuc.lexicon import CORNERS, DRAWING, HAAS
-from contoursolve.controls.geometry_rules import COMMA_MISSING, GEOMETRY_RULES
+from contoursolve.controls.geometry_rules import COMMA_MISSING, GEOMETRY_RULES, Otherwise, told
 from contoursolve.diagnostics import Alarm, Book, Evidence, Source
 from contoursolve.reading import AngleAlong, AnglesParallel, ReadIssue, Rule, all_of, at_least, some
-from contoursolve.solving import RefusalKind
 
 _ANY = (LINE, OVER_LINE, ARC)
 _CORNER = (",C", ",R")
@@ -166,7 +164,7 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
     good, angle = machine.square, (machine.angle,) if machine.angle else ()
     lines = (LINE, OVER_LINE) if machine.start == _TURNING else _ANY
     (first, second), is_taper = LEAVES, all_of(_FIRST, _SECOND) | some(*angle)
-    told = "I, K or R" if machine.start == _TURNING else "I, J, K or C"
+    letters = "I, K or R" if machine.start == _TURNING else "I, J, K or C"
     rows = (
         (
             "two-amounts",
@@ -179,7 +177,7 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
         ),
         (
             "corner-taper",
-            f"{{words}}: a corner by {told} stands behind a line along one axis",
+            f"{{words}}: a corner by {letters} stands behind a line along one axis",
             "write ,C or ,R",
             "054 (taper with a chamfer or a rounding)",
             some(*_SIGNED) & is_taper,
@@ -199,7 +197,7 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
         ),
         (
             "corner-not-square",
-            f"behind a corner by {told} the next line must run along the other axis alone",
+            f"behind a corner by {letters} the next line must run along the other axis alone",
             "write ,C or ,R for another corner",
             _NOT_SQUARE,
             (some(first) & (~some(*_FIRST) | some(*_SECOND, *angle)))
@@ -222,14 +220,12 @@ def _square_rules(machine: _Machine, amount: str, own: str, line: str) -> tuple[
         )
         for code, message, advice, alarm, when, roles, rejected in rows
     )
-    general = {rule.about: rule for rule in GEOMETRY_RULES}
-    sign = replace(
-        general[RefusalKind.CORNER_SIGN],
-        code=f"{machine.prefix}-corner-sign",
+    sign = told(
+        f"{machine.prefix}-corner-sign",
+        good,
+        (amount, f"{amount[0]}-{amount[1:]}"),
         source=machine.source(_ALARM_LIST, Evidence.DERIVED),
         alarm=machine.alarm(_NOT_SQUARE, Evidence.DERIVED),
-        accepted=(good,),
-        rejected=(good.replace(amount, f"{amount[0]}-{amount[1:]}"),),
     )
     return (*own_rows, sign)
 
@@ -465,24 +461,20 @@ _NO_VERTEX = Rule(
 )
 
 
-def _geometry(machine: _Machine, examples: Mapping[Enum, tuple[str, str]]) -> tuple[Rule, ...]:
-    """The rows about geometry with a control's alarm and with examples of its own."""
-    rows = {rule.about: rule for rule in GEOMETRY_RULES}
-    too_large = machine.alarm("055 MISSING MOVE VALUE IN CHF/CNR")
+def _geometry(machine: _Machine, examples: Mapping[str, tuple[str, str]]) -> tuple[Rule, ...]:
+    """The rows about geometry with a control's alarm and with examples of its own, by the ends of their codes."""
     dropped = replace(
-        rows[ReadIssue.CORNER_DROPPED],
+        next(rule for rule in GEOMETRY_RULES if rule.about is ReadIssue.CORNER_DROPPED),
         code=f"{machine.prefix}-corner-dropped",
         source=machine.source("printed for a sibling", Evidence.ASSUMED),
         accepted=(machine.cut,),
         rejected=(machine.cut.replace(machine.turn, "Z-40. X20.2" if machine.angle else "X60. Y0.3"),),
     )
-    straight = replace(
-        rows[RefusalKind.CORNER_STRAIGHT],
-        code=f"{machine.prefix}-corner-straight",
+    straight = told(
+        f"{machine.prefix}-corner-straight",
+        machine.cut,
         message="{words}: at {subject} the path goes on, or turns by less than 1 deg, so it is no corner",
         source=machine.source("not described", Evidence.ASSUMED),
-        accepted=(machine.cut,),
-        rejected=(),
     )
     meant = "is a rounding between two axes" if machine.start == _TURNING else "belongs to an arc"
     axes = "A and C are axes" if machine.angle.startswith(",") else "C is an axis"
@@ -494,44 +486,37 @@ def _geometry(machine: _Machine, examples: Mapping[Enum, tuple[str, str]]) -> tu
         accepted=(machine.cut,),
         rejected=(machine.cut.replace(",C", "C"),),
     )
-    large = (RefusalKind.CORNER_TOO_LARGE, RefusalKind.CORNERS_OVERLAP)
-    told: dict[Enum, tuple[str, str]] = {
-        RefusalKind.CORNER_TOO_LARGE: (machine.cut, machine.cut.replace(",C5.", ",C31.")),
-        RefusalKind.CORNER_REVERSES: (machine.cut, machine.cut.replace(machine.turn, machine.line.replace("0.", "."))),
+    own = {
+        "corner-too-large": (machine.cut, machine.cut.replace(",C5.", ",C31.")),
+        "corner-reverses": (machine.cut, machine.cut.replace(machine.turn, machine.line.replace("0.", "."))),
         **examples,
     }
-    return (
-        dropped,
-        straight,
-        comma,
-        *(
-            replace(
-                rows[about],
-                code=f"{machine.prefix}-{rows[about].code}",
-                source=machine.source(_ALARM_LIST) if about in large else rows[about].source,
-                alarm=too_large if about in large else None,
-                accepted=(accepted,),
-                rejected=(rejected,),
-            )
-            for about, (accepted, rejected) in told.items()
-        ),
+    no_room: Otherwise = {
+        "source": machine.source(_ALARM_LIST),
+        "alarm": machine.alarm("055 MISSING MOVE VALUE IN CHF/CNR"),
+    }
+    rows = (
+        told(f"{machine.prefix}-{code}", good, bad, **(no_room if code in _WITHOUT_ROOM else {}))
+        for code, (good, bad) in own.items()
     )
+    return (dropped, straight, comma, *rows)
 
 
+_WITHOUT_ROOM = ("corner-too-large", "corners-overlap")
 _MILLED_TWICE = _MILLING + "G01 X30. ,C20.\nY30. ,C20.\nX60."
 _TURNED_TWICE = _TURNING + "G01 Z-20. ,R9.\nX40. ,C2.\nZ-50."
-_MILL_EXAMPLES: dict[Enum, tuple[str, str]] = {
-    RefusalKind.CORNERS_OVERLAP: (_MILLED_TWICE.replace("20.", "10."), _MILLED_TWICE),
-    RefusalKind.RADIUS_TOO_SMALL: (_ARC_BEHIND, _ARC_BEHIND.replace("I20. J0", "R10.")),
-    RefusalKind.RADIUS_DIFFERENCE: (_ARC_BEHIND, _ARC_BEHIND.replace("I20.", "I18.")),
+_MILL_EXAMPLES: dict[str, tuple[str, str]] = {
+    "corners-overlap": (_MILLED_TWICE.replace("20.", "10."), _MILLED_TWICE),
+    "radius-too-small": (_ARC_BEHIND, _ARC_BEHIND.replace("I20. J0", "R10.")),
+    "radius-difference": (_ARC_BEHIND, _ARC_BEHIND.replace("I20.", "I18.")),
 }
 
 
-def _lathe_examples(machine: _Machine) -> dict[Enum, tuple[str, str]]:
+def _lathe_examples(machine: _Machine) -> dict[str, tuple[str, str]]:
     angled = f"{_TURNING}G01 X40. {machine.angle}150."
     return {
-        RefusalKind.CORNERS_OVERLAP: (_TURNED_TWICE.replace("R9.", "R8."), _TURNED_TWICE),
-        ReadIssue.ANGLE_OPPOSITE: (angled, angled.replace("150.", "-30.")),
+        "corners-overlap": (_TURNED_TWICE.replace("R9.", "R8."), _TURNED_TWICE),
+        "angle-opposite": (angled, angled.replace("150.", "-30.")),
     }
 
 
@@ -568,6 +553,6 @@ HAAS_MILL_RULES = (
     *_mill_rules(_HAAS_MILL),
     *_shared_rules(_HAAS_MILL),
     _straight_only(_HAAS_MILL),
-    *_geometry(_HAAS_MILL, {RefusalKind.CORNERS_OVERLAP: _MILL_EXAMPLES[RefusalKind.CORNERS_OVERLAP]}),
+    *_geometry(_HAAS_MILL, {"corners-overlap": _MILL_EXAMPLES["corners-overlap"]}),
     *GEOMETRY_RULES,
 )

@@ -7,7 +7,7 @@ from functools import partial, reduce
 from operator import or_
 
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told
 from contoursolve.controls.heidenhain.elements import ARC, CORNERS, LINE, PLAIN, POLAR, POLE, TANGENCY
 from contoursolve.controls.heidenhain.find import (
     APART,
@@ -206,11 +206,8 @@ _OWN = (
 
 def _touching() -> Rule:
     """An arc often ends at a quadrant, where its end only just fits."""
-    row = next(rule for rule in GEOMETRY_RULES if rule.about is NoteKind.TOUCHES)
-    return replace(
-        row, code="heidenhain-touches", severity=Severity.INFO, accepted=(_LINES,),
-        rejected=(START + "2 FL X+40 Y+0\n3 FC DR- R20 CCX+60 CCY+0 X+80\n4 FLT Y-20",),
-    )  # fmt: skip
+    wrong = START + "2 FL X+40 Y+0\n3 FC DR- R20 CCX+60 CCY+0 X+80\n4 FLT Y-20"
+    return told("heidenhain-touches", _LINES, wrong, severity=Severity.INFO)
 
 
 def _repeated() -> Rule:
@@ -224,12 +221,9 @@ def _repeated() -> Rule:
 
 def _agreeing() -> Rule:
     """The rows about words that say something twice: where they agree, that is accepted, with a note."""
-    row = next(rule for rule in COMMON_RULES if rule.about is NoteKind.WORDS_AGREE)
-    return replace(
-        row, code="heidenhain-redundant", severity=Severity.INFO, accepted=(_LINES,),
-        help="nothing has to be changed: the control accepts data that agree",
-        rejected=(_LINES.replace("AN+60", "AN+60 LEN57.321"),),
-    )  # fmt: skip
+    advice = "nothing has to be changed: the control accepts data that agree"
+    wrong = _LINES.replace("AN+60", "AN+60 LEN57.321")
+    return told("heidenhain-redundant", _LINES, wrong, as_="words-redundant", severity=Severity.INFO, help=advice)
 
 
 _PARAMETER = Rule(

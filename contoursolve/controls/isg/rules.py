@@ -15,7 +15,6 @@ from contoursolve.controls.isg.language import NO_SIZE
 from contoursolve.controls.isg.lexicon import BOOK
 from contoursolve.diagnostics import Alarm, Evidence
 from contoursolve.reading import Count, all_of, some
-from contoursolve.solving import RefusalKind
 
 _IDS = {
     "angles-parallel": "21892 (two lines with equal angles, or 180 deg apart)",
@@ -74,8 +73,8 @@ _OWN = (
 
 
 _GEOMETRY = {
-    RefusalKind.CORNER_TOO_LARGE: (MANUAL.cut, MANUAL.cut.replace("#RND=5", "#CHR=31")),
-    RefusalKind.CORNER_STRAIGHT: (MANUAL.cut, MANUAL.cut.replace("X40 Y40", "X60")),
-    RefusalKind.LINE_REVERSED: (MANUAL.angled, MANUAL.angled.replace("X40", "X-40")),
+    "corner-too-large": (MANUAL.cut, MANUAL.cut.replace("#RND=5", "#CHR=31")),
+    "corner-straight": (MANUAL.cut, MANUAL.cut.replace("X40 Y40", "X60")),
+    "line-reversed": (MANUAL.angled, MANUAL.angled.replace("X40", "X-40")),
 }
 RULES = rules_of(MANUAL, _OWN, _GEOMETRY)

@@ -21,7 +21,7 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
 )
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told_by
+from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told
 from contoursolve.controls.mitsubishi.language import (
     ALONG_ARC,
     FROM_END,
@@ -37,7 +37,6 @@ from contoursolve.controls.mitsubishi.lexicon import BOOK
 from contoursolve.controls.rule_rows import rule_row
 from contoursolve.diagnostics import Alarm, Evidence, Severity
 from contoursolve.reading import AnglesParallel, Value, all_of, some
-from contoursolve.solving import RefusalKind
 
 _BESIDE = tuple(f"beside-{axis}" for axis in "XYZ")
 _GUARD = Decimal("0.9999999")
@@ -180,10 +179,10 @@ _ROWS = (
 
 _MISSED = _alarm("P397 (no crossing or contact)")
 _OWN = (
-    told_by("mitsubishi", RefusalKind.CIRCLE_MISSED, _CROSSING, ("A10.", "A80."), alarm=_MISSED),
-    told_by("mitsubishi", RefusalKind.NO_POINT, _TOUCHING, ("R30.", "R3."), alarm=_MISSED),
-    told_by("mitsubishi", RefusalKind.RADIUS_DIFFERENCE, _ARC, ("I20.", "I18.")),
-    told_by("mitsubishi", RefusalKind.CORNER_TOO_LARGE, _CUT, (",C5.", ",C31.")),
+    told("mitsubishi-circle-missed", _CROSSING, ("A10.", "A80."), alarm=_MISSED),
+    told("mitsubishi-no-point", _TOUCHING, ("R30.", "R3."), alarm=_MISSED),
+    told("mitsubishi-radius-difference", _ARC, ("I20.", "I18.")),
+    told("mitsubishi-corner-too-large", _CUT, (",C5.", ",C31.")),
 )
-_COMMON = tuple(rule for rule in COMMON_RULES if rule.about is not RefusalKind.NO_POINT)
+_COMMON = tuple(rule for rule in COMMON_RULES if rule.code != "no-point")
 RULES = (*_COMMON, *_ROWS, *_OWN, *GEOMETRY_RULES)

@@ -26,7 +26,6 @@ from contoursolve.controls.geometry_rules import COMMA_MISSING, told
 from contoursolve.controls.nct_99m.lexicon import BESIDE, BOOK, SINGLE_BLOCK, UNCOMPENSATED
 from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
 from contoursolve.reading import Rule, Value, all_of, at_most, some
-from contoursolve.solving import NoteKind, RefusalKind
 
 _ANY = (LINE, ARC, OVER_LINE, OVER_CIRCLE)
 _OVER = (OVER_LINE, OVER_CIRCLE)
@@ -344,21 +343,18 @@ COMBINATION_RULES = (
 
 GEOMETRY_RULES = (
     replace(COMMA_MISSING, code="nct-comma-missing", source=BOOK.printed("16.1, 16.2: ,A ,C ,R have a comma")),
-    Rule(
-        code="nct-point-is-start",
+    told(
+        "nct-point-is-start",
+        _LINES.replace("G1 ,A150", "G1 X50 Y33.094"),
+        _LINES.replace("G1 ,A150", "G1 X90 Y10"),
+        _TO_CIRCLE.replace("X-30 Y-20", "X100 Y20"),
         message="{words}: this point of the line is its start point, so it gives the line no direction",
         help="give another point of the line, or ,A alone",
         source=BOOK.printed("16.3.1, p. 123"),
-        about=RefusalKind.POINT_IS_START,
-        accepted=(_LINES.replace("G1 ,A150", "G1 X50 Y33.094"),),
-        rejected=(_LINES.replace("G1 ,A150", "G1 X90 Y10"), _TO_CIRCLE.replace("X-30 Y-20", "X100 Y20")),
     ),
-    told(
-        "nct-circle-missed", RefusalKind.CIRCLE_MISSED, _GOOD, _START + _ARC + "G1 X-50 Y80 ,A180 Q-1", source=_GEOMETRY
-    ),
+    told("nct-circle-missed", _GOOD, _START + _ARC + "G1 X-50 Y80 ,A180 Q-1", source=_GEOMETRY),
     told(
         "nct-circle-touched",
-        NoteKind.TOUCHES,
         _GOOD,
         _START + _ARC + "G1 X-50 Y50 ,A180 Q-1",
         source=BOOK.derived("16.3.3, p. 129"),
@@ -366,46 +362,43 @@ GEOMETRY_RULES = (
     ),
     told(
         "nct-double",
-        NoteKind.DOUBLE,
         _GOOD,
         _START + "G3 X? Y50 R50 (contoursolve: X of C = 0)\n" + _LINE,
         source=Source("contoursolve", "further facts", Evidence.ASSUMED),
     ),
-    Rule(
-        code="nct-radius-too-small",
+    told(
+        "nct-radius-too-small",
+        _GOOD,
+        _START + "G3 X-50 Y0 R40\n" + _LINE,
         message="{words}: the radius of {actual} is less than half the distance from the start to the "
         "point, {limit}: no circle passes through both",
         help="write at least {limit}",
         source=BOOK.derived("p. 25: R; no alarm is printed for it"),
-        about=RefusalKind.RADIUS_TOO_SMALL,
-        accepted=(_GOOD,),
-        rejected=(_START + "G3 X-50 Y0 R40\n" + _LINE,),
     ),
-    Rule(
-        code="nct-circle-degenerate",
+    told(
+        "nct-circle-degenerate",
+        (_GOOD, _CENTERED),
+        _START + "G3 X50 Y0 R40\n" + _LINE,
+        _START + "G3 I0 J0\n" + _LINE,
         message="{words} {define} no circle: the radius is 0, or the point is the start point",
         help="give a centre away from the start, or a point away from it",
         source=BOOK.printed("p. 26 (4.3): alarm 3012, end equals start"),
         alarm=_CIRCLE_R,
-        about=RefusalKind.CIRCLE_UNDEFINED,
-        accepted=(_GOOD, _CENTERED),
-        rejected=(_START + "G3 X50 Y0 R40\n" + _LINE, _START + "G3 I0 J0\n" + _LINE),
     ),
-    Rule(
-        code="nct-radius-difference",
+    told(
+        "nct-radius-difference",
+        _START + "G3 X-50 Y0 I-50 J0\n" + _LINE,
+        _START + "G3 X-50 Y2 I-50 J0\n" + _LINE,
+        _START + "G3 X-49 Y0 I-50 J0\n" + _LINE,
         message="{words}: the arc has a radius of {radius}, and one of its points is {distance} from its centre; "
         "that differs by {off}, allowed {limit}",
         help="correct the point, the centre or the radius; a centre counts from where the arc begins, but that of an "
         "over-defined circle is absolute",
         source=BOOK.assumed("p. 26 (4.3): alarm 3011; the allowed difference is a machine parameter"),
         alarm=Alarm("3011 RADIUS DIFFERENCE", Evidence.PRINTED),
-        about=RefusalKind.RADIUS_DIFFERENCE,
-        accepted=(_START + "G3 X-50 Y0 I-50 J0\n" + _LINE,),
-        rejected=(_START + "G3 X-50 Y2 I-50 J0\n" + _LINE, _START + "G3 X-49 Y0 I-50 J0\n" + _LINE),
     ),
     told(
         "nct-radius-differs",
-        NoteKind.RADIUS_DIFFERS,
         _START + "G3 X-50 Y0 I-50 J0\n" + _LINE,
         _START + "G3 X-49.995 Y0 I-50 J0\n" + _LINE,
         source=BOOK.assumed("p. 26 (4.3): alarm 3011; the allowed difference is a machine parameter"),
@@ -414,47 +407,40 @@ GEOMETRY_RULES = (
     ),
     told(
         "nct-half-circle",
-        NoteKind.HALF_CIRCLE,
         _GOOD,
         _START + "G3 X-50 Y0 R49.9995\n" + _LINE,
         source=BOOK.assumed("16.3.3, p. 130: an example of this shape; that the increments count"),
     ),
-    Rule(
-        code="nct-reversed",
+    told(
+        "nct-reversed",
+        _GOOD,
+        _START + _ARC + "G1 X-50 Y42.857 ,A-8.13 Q-1",
         message="{words} points away from the end of the line, which lies {off} behind its start; the control "
         "gives no alarm and makes the wrong motion",
         help="check the signs: as its ends lie, the line would run at {expected}; next to a circle the other angle "
         "also exchanges the meanings of Q",
         source=BOOK.printed("16.3.3, p. 129: movements contrary to programmer's needs"),
-        about=RefusalKind.LINE_REVERSED,
-        accepted=(_GOOD,),
-        rejected=(_START + _ARC + "G1 X-50 Y42.857 ,A-8.13 Q-1",),
     ),
     told(
         "nct-arc-empty",
-        RefusalKind.ARC_EMPTY,
         _GOOD,
         _START + _ARC + "G1 X90 Y0 ,A0 Q1",
         source=_ASSUMED,
         help="choose the other point by Q, or drop the arc",
     ),
-    told("nct-circles-apart", RefusalKind.CIRCLES_APART, _CIRCLES, ("I-40 J20 R40", "I-40 J160 R40"), source=_GEOMETRY),
-    Rule(
-        code="nct-backwards",
+    told("nct-circles-apart", _CIRCLES, ("I-40 J20 R40", "I-40 J160 R40"), source=_GEOMETRY),
+    told(
+        "nct-backwards",
+        _LINES,
+        _LINES.replace("G1 ,A150", "G1 X130 Y-13.094"),
         message="{subject} would run backwards: the intersection lies {off} behind where it begins",
         help="choose the other point by Q, or move the point of the line",
         source=BOOK.assumed("16.3.1: the line runs towards its point"),
-        about=RefusalKind.LINE_BACKWARDS,
-        accepted=(_LINES,),
-        rejected=(_LINES.replace("G1 ,A150", "G1 X130 Y-13.094"),),
     ),
-    told("nct-parallel", RefusalKind.LINES_PARALLEL, _LINES, (",A225", ",A150"), source=_GEOMETRY),
-    told(
-        "nct-not-fixed", RefusalKind.NOT_FIXED, _BY_ANGLE, "G17 G90 G0 X0 Y0\nG1 X0 ,A90", source=BOOK.derived("16.2")
-    ),
+    told("nct-parallel", _LINES, (",A225", ",A150"), source=_GEOMETRY),
+    told("nct-not-fixed", _BY_ANGLE, "G17 G90 G0 X0 Y0\nG1 X0 ,A90", source=BOOK.derived("16.2")),
     told(
         "nct-corner-too-large",
-        RefusalKind.CORNER_TOO_LARGE,
         (_CUT, _ROUNDED),
         (",C10", ",C31"),
         _ROUNDED.replace(",R8", ",R40"),
@@ -464,7 +450,6 @@ GEOMETRY_RULES = (
     ),
     told(
         "nct-corners-overlap",
-        RefusalKind.CORNERS_OVERLAP,
         _CUT,
         "G17 G90 G0 X0 Y0\nG1 X30 ,C20\nY30 ,C20\nX60",
         source=BOOK.derived("16.1; alarm 3084"),
@@ -473,14 +458,12 @@ GEOMETRY_RULES = (
     ),
     told(
         "nct-no-corner",
-        RefusalKind.CORNER_STRAIGHT,
         _CUT,
         ("X40 Y40", "X60"),
         source=BOOK.assumed("16.1: not described"),
     ),
     told(
         "nct-corner-reverses",
-        RefusalKind.CORNER_REVERSES,
         _CUT,
         ("X40 Y40", "X10"),
         source=BOOK.assumed("16.1: not described"),

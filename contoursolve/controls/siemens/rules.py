@@ -20,7 +20,6 @@ from contoursolve.controls.siemens.lexicon import BOOK
 from contoursolve.diagnostics import Alarm, Evidence, Severity
 from contoursolve.gcode import FaultKind
 from contoursolve.reading import Value, all_of, some
-from contoursolve.solving import RefusalKind
 
 _ALARMS = {
     "plane-changes": "10790 (plane change)",
@@ -80,9 +79,9 @@ _OWN = (
 
 
 _GEOMETRY = {
-    RefusalKind.CORNER_TOO_LARGE: (MANUAL.cut, MANUAL.cut.replace("RND=5", "CHR=31")),
-    RefusalKind.CORNER_STRAIGHT: (MANUAL.cut, MANUAL.cut.replace("X40 Y40", "X60")),
-    RefusalKind.RADIUS_DIFFERENCE: (MANUAL.arc, MANUAL.arc.replace("I20", "I18")),
+    "corner-too-large": (MANUAL.cut, MANUAL.cut.replace("RND=5", "CHR=31")),
+    "corner-straight": (MANUAL.cut, MANUAL.cut.replace("X40 Y40", "X60")),
+    "radius-difference": (MANUAL.arc, MANUAL.arc.replace("I20", "I18")),
 }
 _HELPS = {
     FaultKind.STRAY_CHARACTER: (

@@ -10,6 +10,7 @@ from string import ascii_uppercase
 
 from msgspec.structs import replace
 
+from contoursolve.controls.geometry_rules import told
 from contoursolve.controls.yasnac_lx3.claim import BlockReader
 from contoursolve.controls.yasnac_lx3.g111 import START
 from contoursolve.controls.yasnac_lx3.lexicon import BOOK
@@ -43,7 +44,6 @@ from contoursolve.reading import (
     at_most,
     some,
 )
-from contoursolve.solving import NoteKind, RefusalKind
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 
 CENTER, END, RADIUS = "C", "E", "r"
@@ -175,46 +175,43 @@ ARC_RULES = (
         accepted=(_CENTERED + _BEFORE,),
         rejected=(_START + "G02 X70. Z-10. I10. J0",),
     ),
-    Rule(
-        code="arc-radius-too-small",
+    told(
+        "arc-radius-too-small",
+        _GOOD + _BEFORE,
+        _START + "G02 X70. Z-10. R5.",
         message="{words}: the radius of {actual} is less than half the distance from the start to the end, {limit}",
         help="write at least {limit}, or correct the end",
         source=_ARCS,
         roles=(_ROLE,),
-        about=RefusalKind.RADIUS_TOO_SMALL,
-        accepted=(_GOOD + _BEFORE,),
-        rejected=(_START + "G02 X70. Z-10. R5.",),
     ),
-    Rule(
-        code="arc-undefined",
+    told(
+        "arc-undefined",
+        (_GOOD + _BEFORE, _START + "G02 I5. K0" + _BEFORE),
+        _START + "G02 X50. Z0. R10.",
+        _START + "G02 R10.",
+        _START + "G02 X70. Z-10. I0 K0",
         message="{words} {define} no circle: the radius is 0, or the arc ends where it begins",
         help="give an end away from the start, or a full circle by I and K",
         source=_ARCS,
         roles=(_ROLE,),
-        about=RefusalKind.CIRCLE_UNDEFINED,
-        accepted=(_GOOD + _BEFORE, _START + "G02 I5. K0" + _BEFORE),
-        rejected=(_START + "G02 X50. Z0. R10.", _START + "G02 R10.", _START + "G02 X70. Z-10. I0 K0"),
     ),
-    Rule(
-        code="arc-radius-difference",
+    told(
+        "arc-radius-difference",
+        (_CENTERED + _BEFORE, _START + "G02 X70. Z-10.005 I10. K0" + _BEFORE),
+        _START + "G02 X70. Z-10.5 I10. K0",
         message="{words}: start and end of the arc differ in their distance from the centre by {off}, allowed {limit}",
         help="correct the end or the centre",
         source=BOOK.assumed("circular interpolation; the allowed difference is our choice"),
         roles=(_ROLE,),
-        about=RefusalKind.RADIUS_DIFFERENCE,
-        accepted=(_CENTERED + _BEFORE, _START + "G02 X70. Z-10.005 I10. K0" + _BEFORE),
-        rejected=(_START + "G02 X70. Z-10.5 I10. K0",),
     ),
-    Rule(
-        code="arc-radius-differs",
+    told(
+        "arc-radius-differs",
+        _CENTERED + _BEFORE,
         message="{words}: start and end of the arc differ in their distance from the centre by {off}, within the "
         "allowed {limit}",
         help="correct the end or the centre",
         source=BOOK.assumed("circular interpolation; the allowed difference is our choice"),
         roles=(_ROLE,),
         severity=Severity.INFO,
-        about=NoteKind.RADIUS_DIFFERS,
-        accepted=(_CENTERED + _BEFORE,),
-        rejected=(),
     ),
 )

@@ -27,7 +27,6 @@ from contoursolve.reading import (
     at_most,
     some,
 )
-from contoursolve.solving import NoteKind, RefusalKind
 
 START, V1, V2 = "S", "V1", "V2"
 
@@ -286,15 +285,14 @@ _TOUCHING = Source("contoursolve", "further facts", Evidence.ASSUMED)
 _GEOMETRY_RULES = (
     told(
         "g111-touches",
-        NoteKind.DOUBLE,
         _GOOD,
         "G00 X40. Z0.\nG111 A180. K-30. X100. (contoursolve: length of line 2 = 30)",
+        as_="double",
         source=_TOUCHING,
         roles=(_ROLE,),
     ),
     told(
         "g111-parallel",
-        RefusalKind.LINES_PARALLEL,
         _GOOD,
         _START + "G111 A180. B180. X100. Z-50.",
         _START + "G111 A180. I5. B120. X100.",
@@ -305,7 +303,6 @@ _GEOMETRY_RULES = (
     ),
     told(
         "g111-not-fixed",
-        RefusalKind.NOT_FIXED,
         _GOOD,
         _START + "G111 A180. I0 B120. X100.",
         source=BOOK.derived("2.8.30, p. 146: no intersection"),
@@ -314,7 +311,6 @@ _GEOMETRY_RULES = (
     ),
     told(
         "g111-reversed",
-        RefusalKind.LINE_REVERSED,
         _GOOD,
         _START + "G111 X100. A0 K-30. B120.",
         _START + "G111 X100. A180. K-30. B-60.",
@@ -324,7 +320,6 @@ _GEOMETRY_RULES = (
     ),
     told(
         "g111-corner-too-large",
-        RefusalKind.CORNER_TOO_LARGE,
         _GOOD + " P5. Q5.",
         _GOOD + " P60.",
         _GOOD + " D40.",
@@ -335,7 +330,6 @@ _GEOMETRY_RULES = (
     ),
     told(
         "g111-corners-overlap",
-        RefusalKind.CORNERS_OVERLAP,
         _GOOD + " P5. Q5.",
         _GOOD + " P35. Q35.",
         source=_FITS,
@@ -345,7 +339,6 @@ _GEOMETRY_RULES = (
     ),
     told(
         "g111-no-corner",
-        RefusalKind.CORNER_STRAIGHT,
         _GOOD + " P5.",
         _START + "G111 A135. K-30. B135. X120. P2.",
         source=BOOK.derived("2.8.30, p. 146: no intersection"),
@@ -355,7 +348,6 @@ _GEOMETRY_RULES = (
     ),
     told(
         "g111-corner-reverses",
-        RefusalKind.CORNER_REVERSES,
         _GOOD + " P5.",
         _START + "G111 A135. K-30. B-45. X60. P2.",
         source=BOOK.derived("2.8.30, p. 146: no intersection"),
@@ -363,32 +355,30 @@ _GEOMETRY_RULES = (
         alarm=_GEOMETRY,
         help="change an angle",
     ),
-    Rule(
-        code="g111-bevel-outside",
+    told(
+        "g111-bevel-outside",
+        _GOOD + " C5.",
+        _START + "G111 X100. A180. K-30. B60. C5.",
         message="{words}: the virtual intersection lies {off} in {axis} outside the rectangle between start and end "
         "of line 2",
         help="use a rounding P, or a sharp corner",
         source=BOOK.printed("2.8.30, p. 140 Note 3"),
         alarm=_GEOMETRY,
         roles=(_ROLE,),
-        about=RefusalKind.BEVEL_OUTSIDE,
-        accepted=(_GOOD + " C5.",),
-        rejected=(_START + "G111 X100. A180. K-30. B60. C5.",),
     ),
-    Rule(
-        code="g111-bevel-band",
+    told(
+        "g111-bevel-band",
+        _GOOD + " C5. D5.",
+        _START + "G111 X60. A180. K-30. B160. C2.",
+        _START + "G111 X60. A180. K-30. B160. D2.",
         message="{words}: no 45 deg segment joins the two lines of {subject}",
         help="use a rounding, or a sharp corner: the virtual intersection lies in the band between the 45 deg lines",
         source=BOOK.derived("2.8.30, p. 140 Note 3: printed for C, the same for D by symmetry"),
         alarm=_GEOMETRY,
         roles=(_ROLE,),
-        about=RefusalKind.BEVEL_IN_BAND,
-        accepted=(_GOOD + " C5. D5.",),
-        rejected=(_START + "G111 X60. A180. K-30. B160. C2.", _START + "G111 X60. A180. K-30. B160. D2."),
     ),
     told(
         "g111-landing-unknown",
-        RefusalKind.LANDING_UNKNOWN,
         _GOOD + " Q5.",
         _START + "G111 A90. I10. B90. X100. Q2.",
         source=BOOK.derived("2.8.30, p. 137, Tables 2.35 and 2.36"),

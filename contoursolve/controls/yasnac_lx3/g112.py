@@ -47,7 +47,6 @@ from contoursolve.reading import (
     at_most,
     some,
 )
-from contoursolve.solving import NoteKind, RefusalKind
 
 CENTER, LANDING, RADIUS, WAY = "C", "landing line", "r", "way"
 """LANDING is the foot of the centre on the line on which corner 2 lands, WAY the direction of both lines."""
@@ -361,64 +360,60 @@ _WAY_RULES = (
 
 # The two corners cannot overlap: each of them stays on its side of the arc's lowest or highest point.
 _GEOMETRY_RULES = (
-    Rule(
-        code="g112-missed",
+    told(
+        "g112-missed",
+        _GOOD,
+        _START + "G112 U0 I40. K-50. R30.",
+        _START + "G112 U-60. I10. K-50. R30.",
         message="the line through {subject} misses the arc: it passes the centre at {actual}, the radius is {limit}",
         help="write a larger R, or move the centre or the line nearer to each other by {off}",
         source=_IMPOSSIBLE,
         alarm=_PRINTED_GEOMETRY,
         roles=(_ROLE,),
-        about=RefusalKind.CIRCLE_MISSED,
-        accepted=(_GOOD,),
-        rejected=(_START + "G112 U0 I40. K-50. R30.", _START + "G112 U-60. I10. K-50. R30."),
     ),
-    Rule(
-        code="g112-touches",
+    told(
+        "g112-touches",
+        _GOOD,
+        _START + "G112 U-40. I10. K-50. R30.",
         message="the line through {subject} just touches the arc, so the path has no corner there",
         help="check that it is meant to touch",
         source=_WAY,
         severity=Severity.INFO,
         roles=(_ROLE,),
-        about=NoteKind.TOUCHES,
-        accepted=(_GOOD,),
-        rejected=(_START + "G112 U-40. I10. K-50. R30.",),
     ),
-    Rule(
-        code="g112-reversed",
+    told(
+        "g112-reversed",
+        _GOOD,
+        _START + "G112 U0 I10. K-20. R30.",
         message="{subject} would have to run back: it meets the arc first {off} behind its start",
         help="start farther from the arc, or change the centre or the radius",
         source=_IMPOSSIBLE,
         alarm=_PRINTED_GEOMETRY,
         roles=(_ROLE,),
-        about=RefusalKind.LINE_REVERSED,
-        accepted=(_GOOD,),
-        rejected=(_START + "G112 U0 I10. K-20. R30.",),
     ),
-    Rule(
-        code="g112-arc-empty",
+    told(
+        "g112-arc-empty",
+        _GOOD,
+        _START + "G112 U0 I30. K-50. R30.",
         message="{subject} ends where it begins: both lines touch it in the same point",
         help="move the centre or the line on which corner 2 lands",
         source=_FITS,
         alarm=_GEOMETRY,
         roles=(_ROLE,),
-        about=RefusalKind.ARC_EMPTY,
-        accepted=(_GOOD,),
-        rejected=(_START + "G112 U0 I30. K-50. R30.",),
     ),
-    Rule(
-        code="g112-corner-too-large",
+    told(
+        "g112-corner-too-large",
+        (_GOOD + " P5. Q5.", _GOOD + " C5. D5."),
+        _GOOD + " P60.",
+        _GOOD + " D40.",
         message="{subject} does not fit: {words} is {actual}, {fits} on line 1 and on the arc",
         help="{smaller}, or make line 1 and the arc longer",
         source=_FITS,
         alarm=_GEOMETRY,
         roles=(_ROLE,),
-        about=RefusalKind.CORNER_TOO_LARGE,
-        accepted=(_GOOD + " P5. Q5.", _GOOD + " C5. D5."),
-        rejected=(_GOOD + " P60.", _GOOD + " D40."),
     ),
     told(
         "g112-no-corner",
-        RefusalKind.CORNER_STRAIGHT,
         _GOOD + " P5.",
         _START + "G112 U-40. I10. K-50. R30. Q5.",
         source=_FITS,
@@ -428,7 +423,6 @@ _GEOMETRY_RULES = (
     ),
     told(
         "g112-bevel-band",
-        RefusalKind.BEVEL_IN_BAND,
         _GOOD + " C5. D5.",
         _START + "G112 U0 I28. K-50. R30. C1.",
         source=_IMPOSSIBLE,

@@ -3,6 +3,7 @@
 from decimal import Decimal
 from functools import cache
 
+from contoursolve.controls.geometry_rules import told
 from contoursolve.controls.yasnac_lx3.claim import OTHER_G, BlockReader
 from contoursolve.controls.yasnac_lx3.g111 import START, V1
 from contoursolve.controls.yasnac_lx3.lexicon import BOOK
@@ -26,7 +27,6 @@ from contoursolve.reading import (
     at_most,
     some,
 )
-from contoursolve.solving import RefusalKind
 
 ALONG_Z, ALONG_X = "leaving Z", "leaving X"
 SIZE, END = "corner", "end"
@@ -204,14 +204,15 @@ LEAVING_RULES = (
         accepted=(_GOOD,),
         rejected=(_START + "G01 G11 Z-20. I8.",),
     ),
-    Rule(
-        code="g11-corner-too-large",
+    told(
+        "g11-corner-too-large",
+        (_GOOD, _START + "G11 Z-8. I8."),
+        _START + "G11 Z-5. I8.",
+        _START + "G12 U10. K-7.",
+        _START + "G01 W-2. I3.",
         message="{words} is larger than the move: {actual}, {fits}",
         help="{smaller}, or move farther",
         source=_PAGE,
         roles=(_ROLE,),
-        about=RefusalKind.CORNER_TOO_LARGE,
-        accepted=(_GOOD, _START + "G11 Z-8. I8."),
-        rejected=(_START + "G11 Z-5. I8.", _START + "G12 U10. K-7.", _START + "G01 W-2. I3."),
     ),
 )

@@ -30,7 +30,6 @@ from contoursolve.numeric import (
 from contoursolve.postprocess.formulas.word_dependence import FormulaError, Reader, less
 from contoursolve.solving import (
     Check,
-    RefusalKind,
     Source,
     Test,
     axes_of,
@@ -124,10 +123,7 @@ def body_of(reader: Reader, profile: Profile, stated: Mapping[str, Affine], writ
         if corner.size in free_sizes(profile, stated)
     }
     """Added to what is asked of corners, where their size may be 0: then there is none."""
-    margins = [
-        _failing(check, margin, absent.get(check.subject) if check.kind in _ABOUT_CORNERS else None)
-        for check, margin in checks
-    ]
+    margins = [_failing(check, margin, absent.get(check.subject)) for check, margin in checks]
     path = list(_path(tape, source, profile, writing))
     outputs = [margin for margin, *_ in margins]
     for leg in path:
@@ -218,16 +214,6 @@ def _path(tape: Tape, source: Source, profile: Profile, writing: Mapping[str, Bl
             end = built.end
             yield way(corner.name, end, built.center, built.turn)
             here = end
-
-
-_ABOUT_CORNERS = (
-    RefusalKind.CORNER_TOO_LARGE,
-    RefusalKind.CORNER_STRAIGHT,
-    RefusalKind.CORNER_REVERSES,
-    RefusalKind.BEVEL_OUTSIDE,
-    RefusalKind.BEVEL_IN_BAND,
-    RefusalKind.LANDING_UNKNOWN,
-)
 
 
 def free_sizes(profile: Profile, stated: Mapping[str, Affine]) -> list[str]:
@@ -367,34 +353,9 @@ def depth_of(term: Term) -> int:
     return 1 + max(map(depth_of, term.arguments)) if isinstance(term, Apply) else 0
 
 
-MESSAGES: Mapping[RefusalKind, str] = {
-    RefusalKind.LINES_PARALLEL: "LINES ARE PARALLEL",
-    RefusalKind.POINT_IS_START: "TWO POINTS ARE ONE",
-    RefusalKind.CIRCLE_MISSED: "LINE MISSES THE CIRCLE",
-    RefusalKind.RADIUS_TOO_SMALL: "RADIUS IS TOO SMALL",
-    RefusalKind.CIRCLES_APART: "CIRCLES DO NOT MEET",
-    RefusalKind.CIRCLE_UNDEFINED: "CIRCLE HAS NO RADIUS",
-    RefusalKind.WORDS_DISAGREE: "{} DISAGREES",
-    RefusalKind.FACT_DISAGREES: "WORDS DISAGREE",
-    RefusalKind.RADIUS_DIFFERENCE: "RADII DIFFER",
-    RefusalKind.LINE_REVERSED: "LINE RUNS BACKWARDS",
-    RefusalKind.LINE_BACKWARDS: "LINE RUNS BACKWARDS",
-    RefusalKind.CORNER_TOO_LARGE: "{} DOES NOT FIT",
-    RefusalKind.CORNERS_OVERLAP: "CORNERS OVERLAP",
-    RefusalKind.CORNER_STRAIGHT: "NO CORNER FOR {}",
-    RefusalKind.CORNER_REVERSES: "NO CORNER FOR {}",
-    RefusalKind.BEVEL_OUTSIDE: "{} IS OUTSIDE THE LINES",
-    RefusalKind.BEVEL_IN_BAND: "{} DOES NOT FIT",
-    RefusalKind.LANDING_UNKNOWN: "NO LINE BEHIND {}",
-    RefusalKind.ARC_EMPTY: "ARC HAS NO LENGTH",
-    RefusalKind.CORNER_SIGN: "SIGN OF {} IS WRONG",
-}
-"""Alarm texts of a machine that stops; controls show 26 characters."""
-
-
 def message_of(check: Check, profile: Profile) -> str:
     """The alarm text of a failing check."""
     sizes = [corner.size for corner in profile.figure.corners if check.subject in (corner.name, corner.at)]
     givens = (*sizes, check.fact, *check.givens)
     words = (profile.givens[name].word for name in givens if name in profile.givens)
-    return MESSAGES[check.kind].format(next((word.address.lstrip(",") for word in words if word), "IT"))
+    return check.kind.event.stop.format(next((word.address.lstrip(",") for word in words if word), "IT"))
