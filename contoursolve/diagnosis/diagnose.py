@@ -53,11 +53,11 @@ def diagnose(
     the next blocks, `previous` those before it, of which it may be the end, with the state before them."""
     profile = answer.profile
     is_readable = not any(block.faults for block in answer.claim.blocks)
+    affine = affine_facts(profile, (*profile.facts, *profile.ignored))
     found = None
-    if is_readable and answer.start.is_known:
+    if answer.start.is_known and (is_readable or affine is None):
         is_told = any(each.about in (*SAID_AGAIN, *_ABOUT_RADII) for each in answer.diagnostics)
         found = find_ties(profile, is_told=is_told)
-    affine = affine_facts(profile, (*profile.facts, *profile.ignored))
     freedoms = affine.freedoms() if affine and is_readable else ()
     # What a contour needs and nobody reads here is no slip.
     repairs = Repairs((), is_complete=False)
@@ -67,7 +67,7 @@ def diagnose(
         layers=list_layers(answer, policy),
         freedoms=freedoms,
         ties=tuple(_tie(answer, found, each) for each in found.circuits.found) if found else (),
-        ties_complete=found is not None and found.circuits.is_complete,
+        ties_complete=is_readable and found is not None and found.circuits.is_complete,
         repairs_complete=repairs.is_complete,
     )
     findings = []
