@@ -10,10 +10,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
+from contoursolve.diagnosis import join
 from contoursolve.families.case_classes import case_in
 from contoursolve.families.feasible_ranges import Reason, failure_of, phrase, refused
 from contoursolve.families.free_words import stated_by
-from contoursolve.families.spec import Template
+from contoursolve.families.spec import Template, called, errors_of
 from contoursolve.numeric import Array
 from contoursolve.solving import REASONS, Check, Point, RefusalKind, StatusCode, Test
 
@@ -174,7 +175,10 @@ def reason_at(template: Template, values: Mapping[str, float]) -> Reason:
     answer = template.solve(values)
     failure, event = failure_of(answer)
     if not isinstance(event, RefusalKind):
-        text = failure.message if event is not None else refused(failure.code, event, "these values")
+        about = next((each.addresses for each in errors_of(answer)), ())
+        free = [called(name) for name, word in template.words.items() if word.address in about]
+        values = f"such values of {join(free)}" if free else "these values"
+        text = failure.message if event is not None else refused(failure.code, event, values)
         return replace(failure, text=text) if failure.code else Reason("there is no contour", "", "")
     words = {name: word for name, word in template.words.items() if stated_by(word, answer.profile)}
     case = case_in(answer, words, values)

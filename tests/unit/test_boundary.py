@@ -246,7 +246,7 @@ def test_rules_bound_a_region_too():
     assert texts == [
         "P is too large for line 1",
         "P is too large for line 2",
-        "the control refuses these values (g111-corner-sign)",
+        "the control refuses such values of P (g111-corner-sign)",
         "A points away from the end of line 1",
     ]
 
