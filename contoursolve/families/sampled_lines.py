@@ -177,8 +177,8 @@ def reason_at(template: Template, values: Mapping[str, float]) -> Reason:
     if not isinstance(event, RefusalKind):
         about = next((each.addresses for each in errors_of(answer)), ())
         free = [called(name) for name, word in template.words.items() if word.address in about]
-        values = f"such values of {join(free)}" if free else "these values"
-        text = failure.message if event is not None else refused(failure.code, event, values)
+        which = f"such values of {join(free)}" if free else "these values"
+        text = failure.message if event is not None else refused(failure.code, event, which)
         return replace(failure, text=text) if failure.code else Reason("there is no contour", "", "")
     words = {name: word for name, word in template.words.items() if stated_by(word, answer.profile)}
     case = case_in(answer, words, values)
