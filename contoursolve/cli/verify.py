@@ -40,9 +40,9 @@ def verify(
     """Check RESULT.json against the words of PROGRAM (one of them may be -), without the solver.
 
     RESULT.json is what solve printed with --format json. verify measures the value of each word at the points and
-    elements of the result: joints, tangency, senses, sizes, planes, and each answer to a ?. The rank of the equations
-    tells the status. verify solves nothing. It shares with solve which contours a program has and what their words
-    state. It also names what it did not check. It reads the program with the settings that RESULT.json
+    elements of the result: joints, tangency, senses, sizes, planes, and each answer to a ?. How many numbers the
+    equations fix there tells the status. verify solves nothing. It shares with solve which contours a program has and
+    what their words state. It also names what it did not check. It reads the program with the settings that RESULT.json
     names. Give --block, --start, --fact, --let and --path as you gave them to solve.
 
     Exit status: 0 what was checked is right, 1 something is wrong, 2 could not run, or nothing could be checked.

@@ -374,7 +374,7 @@ def _check_place(own: Measured, ledger: Ledger) -> None:
     ledger.require("the certificate is of a known kind", (), is_right, f"{ascii(certificate.kind)[:40]}, {radius:g} mm")
     if rank.open is None:
         why = "several solutions have become one there" if rank.fold is not None else "there are too many unknowns"
-        ledger.omit("whether the words fix the points", f"the rank of the equations does not tell it: {why}")
+        ledger.omit("whether the words fix the points", f"the equations do not tell it here: {why}")
         return
     remark = f"{rank.open} of {len(own.case.unknowns)} numbers are open"
     if not ledger.require("the words fix the points", own.case.words(*own.facts), not rank.open, remark):
@@ -679,19 +679,21 @@ def _check_status(of: ContourEvidence, ledger: Ledger) -> None:
     elif status == "underdetermined":
         _judge_open(case, ledger)
     else:
-        ledger.omit("the status", f"{status}: that there is no solution, or no path, is not decided by a rank")
+        ledger.omit("the status", f"{status}: that there is no solution, or no path, is not worked out")
 
 
 def _judge_path(of: ContourEvidence, rank: Rank, ledger: Ledger) -> None:
     """Check the status of a path: its words are as many as it takes to fix it, or more."""
     words = of.case.words(*(rank.surplus or ()))
     if rank.open is None or rank.surplus is None:
-        ledger.omit("the status", "the rank of the equations does not tell it, see above")
+        ledger.omit("the status", "the equations do not tell it here, see above")
     elif rank.surplus and of.claimed.count and of.claimed.count.solutions > 1:
         ledger.omit("the status", f"whether {', '.join(words)} repeats others or chooses among the solutions")
     else:
         has = "overdetermined" if rank.surplus else "solved"
-        ledger.require("the status is that of the rank", words, of.claimed.status == has, f"by the rank it is {has}")
+        ledger.require(
+            "the status is that of the equations", words, of.claimed.status == has, f"by the equations it is {has}"
+        )
 
 
 def _judge_open(case: Case, ledger: Ledger) -> None:
@@ -704,13 +706,18 @@ def _judge_open(case: Case, ledger: Ledger) -> None:
         at = with_sides(facts, replace(case.blank, scalars={**values, **case.blank.scalars}))
         ranks.append(len(facts) - len(dependent(slopes(facts, at, names))))
     if case.hints or not ranks or max(ranks) < len(facts) or len(corners) > len({*corners}):
-        ledger.omit("the status", "equations follow from others, or a rule refuses them: no rank tells what that means")
+        ledger.omit(
+            "the status", "equations follow from others, or a rule refuses them: their number does not tell the status"
+        )
     elif case.loose or max(ranks) < len(names):
         ledger.require(name, (), holds=True)
     elif all(isinstance(each, Coordinate | Offset | Heading) for each in facts):
-        ledger.require(name, (), holds=False, remark="the rank of the equations is the number of the unknowns")
+        ledger.require(name, (), holds=False, remark="there are as many independent equations as unknowns")
     else:
-        ledger.omit("the status", "the rank at arbitrary points is that of the unknowns; at others it may be less")
+        ledger.omit(
+            "the status",
+            "there are as many independent equations as unknowns at arbitrary points; at others there may be fewer",
+        )
 
 
 CONTOUR_CHECKS: Mapping[str, Callable[[ContourEvidence, Ledger], None]] = {

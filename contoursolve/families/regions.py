@@ -98,7 +98,7 @@ def region(
         within: the range of each, lower value first.
         options: as for `family`, with the same errors.
 
-    Values all over the box are solved, and around each change of the outcome all those that a picture can tell apart.
+    Values all over the box are solved. Around each change of the outcome, so are all that a picture can tell apart.
     Between them nothing is proven.
 
     >>> found = region("G111 X100. A180. K-30. B120. P5. Q5.", ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")

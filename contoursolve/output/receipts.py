@@ -8,12 +8,15 @@ from contoursolve.tolerance import AGREEMENT, RESIDUAL
 
 SCHEMA = "contoursolve/verify/1"
 
+_CHECK = " ".join(("kind", "name", "words", "residual", "limit", "unit", "passed", "remark"))
+"""The members of one check."""
+
 
 def receipt_json(receipt: Receipt) -> str:
     """The receipt as JSON: the same bytes for the same inputs."""
     contours = list[dict[str, object]]()
     for each in receipt.contours:
-        checks = [members(check, "kind name words residual limit unit passed remark") for check in each.checks]
+        checks = [members(check, _CHECK) for check in each.checks]
         for check in checks:
             # More than three digits would be the noise of the machine's sine.
             check |= {key: float(f"{check[key]:.3g}") for key in ("residual", "limit") if check[key] is not None}
