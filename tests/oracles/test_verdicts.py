@@ -78,6 +78,10 @@ class _Point:
     radius = amount = _value
     root = staticmethod(sqrt)
 
+    @staticmethod
+    def vanishes(value: float) -> bool:
+        return value == 0
+
     def direction(self, given: str) -> tuple[float, float]:
         angle = radians(self._value(f"angle {given}") * 40)
         return cos(angle), sin(angle)
