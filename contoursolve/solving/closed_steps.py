@@ -19,9 +19,9 @@ class ClosedStep(Struct, frozen=True, eq=False):
     """The unknowns of a group as functions of what is known, and of the sign of a root where it has one."""
 
     parameters: tuple[str, ...]
-    regular: Replay
-    """What must not be zero."""
-    discriminant: Replay | None
+    conditions: Replay
+    """The numbers that must not be zero, and last the discriminant of the root."""
+    has_root: bool
     values: Replay
     """The unknowns at the parameters and the sign."""
 
@@ -29,12 +29,12 @@ class ClosedStep(Struct, frozen=True, eq=False):
         """All solutions at these values of the parameters, in ascending order of what differs most; None where the
         numbers are too wide to tell, or the group is singular at them."""
         try:
-            if not all(map(ball.sign, self.regular(numbers))):
+            *regular, last = map(ball.sign, self.conditions(numbers))
+            if not all(regular):
                 return None
-            if self.discriminant is None:
-                return [_root(self.values(numbers), is_double=False)]
-            (found,) = self.discriminant(numbers)
-            match ball.sign(found):
+            if not self.has_root:
+                return [_root(self.values(numbers), is_double=False)] if last else None
+            match last:
                 case None:
                     return None
                 case -1:
@@ -73,9 +73,10 @@ def close_step(system: System, group: Group) -> ClosedStep | None:
     def replay(names: Sequence[str], inputs: Sequence[str]) -> Replay:
         return Replay(builder.tape.of(inputs, names).function(), ball, ball.exact)
 
-    discriminant = replay(outputs[Need.REAL], parameters) if root else None
-    regular = replay([*outputs[Need.REGULAR], *(["leading:0"] if root else [])], parameters)
-    return ClosedStep(parameters, regular, discriminant, replay(group.unknowns, (*parameters, *root)))
+    conditions = [*outputs[Need.REGULAR], *(["leading:0", *outputs[Need.REAL]] if root else [])]
+    return ClosedStep(
+        parameters, replay(conditions, parameters), bool(root), replay(group.unknowns, (*parameters, *root))
+    )
 
 
 class _StepBuilder(Builder):
