@@ -19,34 +19,46 @@ class ClosedStep(Struct, frozen=True, eq=False):
     """The unknowns of a group as functions of what is known, and of the sign of a root where it has one."""
 
     parameters: tuple[str, ...]
-    conditions: Replay
-    """The numbers that must not be zero, and last the discriminant of the root."""
+    size: int
     has_root: bool
-    values: Replay
-    """The unknowns at the parameters and the sign."""
+    function: Replay
+    """At the parameters and the sign: the unknowns, so many as is the size, then numbers that must not be zero, and
+    last the discriminant of the root."""
 
     def solve(self, numbers: Sequence[Number]) -> list[Root] | None:
         """All solutions at these values of the parameters, in ascending order of what differs most; None where the
         numbers are too wide to tell, or the group is singular at them."""
         try:
-            *regular, last = map(ball.sign, self.conditions(numbers))
+            found = self.function([*numbers, _PLUS])
+            *regular, last = map(ball.sign, found[self.size :])
             if not all(regular):
                 return None
             if not self.has_root:
-                return [_root(self.values(numbers), is_double=False)] if last else None
+                return [_root(found[: self.size], is_double=False)] if last else None
             match last:
                 case None:
                     return None
                 case -1:
                     return []
                 case 0:
-                    return [_root(self.values([*numbers, _PLUS]), is_double=True)]
-            places = [self.values([*numbers, sign]) for sign in (_MINUS, _PLUS)]
+                    return [_root(found[: self.size], is_double=True)]
+            places = [self.function([*numbers, _MINUS])[: self.size], found[: self.size]]
         except (ArithmeticError, ValueError):
             return None
         apart = [abs(ball.middle(one - other)) for one, other in zip(*places, strict=True)]
         index = max(range(len(apart)), key=lambda each: (apart[each], each))
         return [_root(each, is_double=False) for each in sorted(places, key=lambda each: ball.middle(each[index]))]
+
+
+class _Open:
+    """Functions of numbers among which the root of a negative one is no number."""
+
+    cosine, sine, magnitude = staticmethod(ball.cosine), staticmethod(ball.sine), staticmethod(ball.magnitude)
+
+    @staticmethod
+    def root(value: Number) -> Number:
+        """The square root."""
+        return ball.root(value if ball.sign(value) != -1 else ball.wider(value, 0.0))
 
 
 _PLUS, _MINUS = ball.exact(1.0), ball.exact(-1.0)
@@ -69,14 +81,9 @@ def close_step(system: System, group: Group) -> ClosedStep | None:
     for name in group.unknowns:
         builder.tape.output(name, builder.scalars[name])
     parameters = tuple(name for name in builder.tape.inputs if name not in root)
-
-    def replay(names: Sequence[str], inputs: Sequence[str]) -> Replay:
-        return Replay(builder.tape.of(inputs, names).function(), ball, ball.exact)
-
     conditions = [*outputs[Need.REGULAR], *(["leading:0", *outputs[Need.REAL]] if root else [])]
-    return ClosedStep(
-        parameters, replay(conditions, parameters), bool(root), replay(group.unknowns, (*parameters, *root))
-    )
+    tape = builder.tape.of((*parameters, *root), (*group.unknowns, *conditions))
+    return ClosedStep(parameters, len(group.unknowns), bool(root), Replay(tape.function(), _Open, ball.exact))
 
 
 class _StepBuilder(Builder):
