@@ -104,7 +104,7 @@ class AffineFacts(Struct, frozen=True, dict=True):
         return Circuits(tuple(filter(None, circuits)), is_complete and None not in circuits)
 
     def _circuit(self, rows: Sequence[int]) -> Circuit | None:
-        """What ties these rows; None where rounding alone made them look tied once."""
+        """The circuit that ties these rows; None where rounding alone made them look tied once."""
         matrix = self.matrix[list(rows)]
         tied = _decompose(matrix[:, matrix.any(axis=0)]).tied
         if tied.shape[1] != 1:
@@ -115,7 +115,7 @@ class AffineFacts(Struct, frozen=True, dict=True):
         return Circuit(tuple(self.facts[row] for row in present), tuple(abs(gap / weights[row]) for row in present))
 
     def freedoms(self) -> tuple[Freedom, ...]:
-        """What can still move, point by point, in the order of the unknowns."""
+        """The freedoms that are left, point by point, in the order of the unknowns."""
         basis = IndependentFacts(self)
         for row in range(len(self.facts)):
             basis.add_row(row)
@@ -198,7 +198,7 @@ class IndependentFacts:
         }
 
     def rank_with(self, further: Iterable[Fact]) -> int:
-        """How many facts would be independent with further ones."""
+        """The number of facts that would be independent with further ones."""
         rests = Echelon(REGULAR)
         for fact in further:
             row = self._affine.places[fact]

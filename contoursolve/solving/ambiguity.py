@@ -217,7 +217,7 @@ def _blame(solution: Solution, blamed: list[Group], groups: tuple[Group, ...], s
 
 
 def _givens(blamed: list[Group], groups: tuple[Group, ...], system: System) -> tuple[str, ...]:
-    """What states the facts of some groups; for a fact that nothing states, what it builds on."""
+    """The givens of the facts of some groups; for a fact that nothing states, what it builds on."""
     names: dict[str, None] = {}
     for fact in (fact for group in blamed for fact in group.facts):
         names |= dict.fromkeys(name for name in (fact.given, *headings_of(fact, system)) if name)
@@ -229,7 +229,7 @@ def _givens(blamed: list[Group], groups: tuple[Group, ...], system: System) -> t
 
 
 def _affine(profile: Profile, groups: tuple[Group, ...], doubtful: list[Group]) -> Solution | None:
-    """What the solver of ordinary words says of a group, where it and all before it are about such words."""
+    """The answer of the solver of ordinary words about a group, where it and all before it are about such words."""
     part = _first(profile, groups[: groups.index(doubtful[0]) + 1])
     system = assemble(part)
     if not is_affine(part.facts) or not analyse(system).is_determined or not is_closed(system):
@@ -247,7 +247,7 @@ _COMPARED = (
 
 
 def said_twice(profile: Profile) -> tuple[Refusal | Note, ...]:
-    """How the facts that are not needed compare with the others, as far as these determine what they speak about.
+    """The comparison of facts that are not needed with the others, as far as these determine what they speak about.
 
     Facts about lines are compared whatever the others leave free. Of the others, where they leave several places, the
     one with which most of them agree counts; where they leave none, what speaks against that is told.
@@ -284,12 +284,12 @@ def _determined(profile: Profile) -> Profile | None:
 
 
 def _compared(item: Alternative) -> tuple[Refusal | Note, ...]:
-    """What a solution says of facts that were not needed."""
+    """The events of a solution about facts that were not needed."""
     events: tuple[Refusal | Note, ...] = (*item.solution.refusals, *item.solution.remarks)
     return tuple(event for event in events if event.kind in _COMPARED)
 
 
 def _disagreements(events: tuple[Refusal | Note, ...]) -> tuple[int, float]:
-    """How many facts disagree, and by how much together, mm."""
+    """The number of facts that disagree, and by how much together, mm."""
     refusals = [event for event in events if isinstance(event, Refusal)]
     return len(refusals), sum(each.values.get("off_by_mm", 0.0) for each in refusals)

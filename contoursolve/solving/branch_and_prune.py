@@ -37,7 +37,7 @@ from contoursolve.solving.partition import Group
 from contoursolve.solving.step_equations import Kernel
 
 BATCH = 1024
-"""How many boxes are looked at together."""
+"""The number of boxes that are looked at together."""
 
 FEW = 32
 """Fewer boxes than these are divided further before they are looked at."""
@@ -57,12 +57,12 @@ STARTS, STEPS, TRIED = 2000, 25, 64
 places to which it leads are tried to be proven to hold a solution."""
 
 PASSES, WORTHWHILE = 3, 0.8
-"""How often boxes are narrowed by each equation before they are by all, and the share of an unknown's range that must
-be left after a pass for another one not to be worthwhile."""
+"""The number of times that boxes are narrowed by each equation before they are by all, and the share of an unknown's
+range that must be left after a pass for another one not to be worthwhile."""
 
 
 class Conditions(Struct, frozen=True, eq=False):
-    """What a group's unknowns must satisfy, for intervals.
+    """The conditions that a group's unknowns must satisfy, for intervals.
 
     `narrower` has the equations, what follows from them, and what must not be negative; `equations` the equations
     and their derivatives, row by row.
@@ -80,8 +80,8 @@ Range = tuple[float, float]
 
 
 class Task(Struct, frozen=True, eq=False):
-    """Where solutions of a group are searched for: cases, each with the values of the group's other inputs, the range
-    of each unknown, and how many intervals may be looked at for all of the cases together.
+    """The places where solutions of a group are searched for: cases, each with the values of the group's other inputs,
+    the range of each unknown, and how many intervals may be looked at for all of the cases together.
 
     The box of `inner` ranges, if there is one, is left out: it was searched before. `sizes` are an ordinary value of
     each unknown, and how far others ordinarily are from it: what is farther away is divided by magnitude. With

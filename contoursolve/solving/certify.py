@@ -69,7 +69,7 @@ def decide_meeting(profile: Profile, system: System, number: int) -> tuple[int, 
 
 
 class _Proof(Struct, frozen=True, eq=False):
-    """What the outputs of a machine are, by index."""
+    """The outputs of a machine, by index."""
 
     machine: ProofMachine
     signs: tuple[tuple[int, tuple[int, ...]], ...]

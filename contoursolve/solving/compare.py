@@ -33,15 +33,15 @@ QUARTER_TURN, FULL_TURN = 90.0, 360.0
 
 
 def allowance(fact: Fact, at: Values, increment: Increments) -> Any:
-    """How far a fact may miss what the others say, mm: every coordinate and every word is exact to half its
+    """The distance by which a fact may miss the others, mm: every coordinate and every word is exact to half its
     increment."""
     reach = fact.reach(at, increment)
     return AGREEMENT if reach is None else reach / 2 + RESIDUAL
 
 
 def agreement(fact: Fact, off: Any, at: Values, increment: Increments, figure: Figure) -> Iterator[Any]:
-    """What is not below 0 (mm) where a fact agrees that was not needed and is off by so much at these points; numbers
-    or expressions."""
+    """Margins that are not below 0 (mm) where a fact agrees that was not needed and is off by so much at these points;
+    numbers or expressions."""
     limit, excess = allowance(fact, at, increment), fact.excess(at)
     larger = at.functions.larger
     if fact.circle is not None and not fact.given:
@@ -62,8 +62,8 @@ def agreement(fact: Fact, off: Any, at: Values, increment: Increments, figure: F
 def half_circle_allowance(
     chord: tuple[Any, Any], length: Any, radius: str, increment: Increments, magnitude: Callable[[Any], Any]
 ) -> Any:
-    """How much more than a given radius half of a chord may be, mm: both ends and the radius are exact to half their
-    increments."""
+    """The amount by which half of a chord may be more than a radius, mm: both ends and the radius are exact to half
+    their increments."""
     across = magnitude(chord[FIRST]) * increment(str(FIRST)) + magnitude(chord[SECOND]) * increment(str(SECOND))
     return (across / length + increment(radius)) / 2 + RESIDUAL
 
@@ -105,7 +105,7 @@ def runs_against(facts: Iterable[Fact], profile: Profile, at: Values) -> bool:
 
 
 def compare(fact: Fact, profile: Profile, at: Values) -> dict[str, float]:
-    """What a fact states beside what it would need to state at these points, and the gap in mm.
+    """The value that a fact states beside the one that it would need to state at these points, and the gap in mm.
 
     An expected angle is given by the turn number of the stated one, so that the two can be compared; of two that are
     half a turn away, by the smaller number.
@@ -132,7 +132,7 @@ def givens_of(fact: Fact, system: System) -> tuple[str, ...]:
 
 
 def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: Values) -> Refusal | Note | None:
-    """What to say of a fact that was not needed and is off by so much (mm) at the points that the others give."""
+    """The event about a fact that was not needed and is off by so much (mm) at the points that the others give."""
     circle = fact.circle
     if circle is not None and not fact.given:
         # The residual is the difference of the radii to first order only.
@@ -165,8 +165,9 @@ def _agrees(fact: Fact, off: float, profile: Profile, at: Values) -> bool:
 
 
 def compare_affine(profile: Profile, affine: AffineFacts) -> Iterator[Refusal | Note]:
-    """How each fact that the facts before it make unnecessary compares with them, whether they determine everything or
-    not: words that say the same, whatever their values, and lines that are parallel, or the same, at these values."""
+    """The comparison of each fact that facts before it make unnecessary with these, whether they determine everything
+    or not: words that say the same, whatever their values, and lines that are parallel, or the same, at these
+    values."""
     system = assemble(profile)
     basis, independent = IndependentFacts(affine), dict[Fact, None]()
     here = lookup(profile, {})

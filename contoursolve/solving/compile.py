@@ -63,7 +63,7 @@ class _PathBuilder(Builder):
         """Points that are compared with a circle that others determine, with its centre."""
         self.lengths: dict[str, Any] = {}
         self.rooms: dict[str, Any] = {}
-        """What the corners leave of each element."""
+        """The rest that corners leave of each element."""
 
     def outputs(self) -> None:
         """The unknowns, and the residuals of all facts."""
@@ -123,7 +123,7 @@ class _PathBuilder(Builder):
         return PathOutputs(self.lengths, self.rooms, corners, landings).named(self.tape.output)
 
     def _edge(self, element: Line | Arc, at: str) -> Edge:
-        """How an element passes one of its ends."""
+        """The edge by which an element passes one of its ends."""
         if isinstance(element, Line):
             return Edge(self._direction(element))
         center, point = self.point(element.center), self.point(at)
@@ -280,7 +280,7 @@ class _BranchBuilder(_PathBuilder):
         self._need(Need.POSITIVE, output, facts, unknowns)
 
     def _check_senses(self) -> None:
-        """What must run in its stated sense, as `enumerate` says."""
+        """Declare the conditions on senses that are stated, as `enumerate` has them."""
         at, figure = self.at(), self.system.figure
         for fact in self.system.facts:
             for value in self._senses(fact, at):
@@ -296,7 +296,7 @@ class _BranchBuilder(_PathBuilder):
                 self._must_be_positive(first * cosine + second * sine, (), (line.name,))
 
     def _senses(self, fact: Fact, at: Values) -> Iterator[Any]:
-        """What must be positive; which of several lines tells how a path advances follows from the values."""
+        """The numbers that must be positive; which of several lines tells how a path advances depends on values."""
         if not isinstance(fact, Parallel | ChamferLeg) or len(fact.advance) < 2:  # noqa: PLR2004 - several lines
             yield from fact.senses(at)
             return

@@ -84,7 +84,7 @@ class NoClosedFormError(Exception):
 
 
 class StepKind(Enum):
-    """How a group of a construction is closed."""
+    """The ways in which a group of a construction is closed."""
 
     AFFINE = "one or two unknowns from as many facts that are affine in them"
     RADIUS = "a radius as the distance from a known centre to a known point"
@@ -140,7 +140,7 @@ class ConstructionStep(Struct, frozen=True):
 
 
 class Need(Enum):
-    """What must hold of a step besides its equations."""
+    """The conditions on a step besides its equations."""
 
     REGULAR = "its determinant is not zero"
     REAL = "its discriminant is not negative"
@@ -148,7 +148,7 @@ class Need(Enum):
 
 
 class SideCondition(Struct, frozen=True):
-    """What must hold of a solution besides the equations: the output that is compared with zero, the facts that it is
+    """A condition on a solution besides the equations: the output that is compared with zero, the facts that it is
     about, the unknowns that they give, and the sign of a root."""
 
     need: Need
@@ -177,7 +177,7 @@ class Construction(Struct, frozen=True, eq=False):
     signs: tuple[str, ...] = ()
     """The inputs, each +1 or -1, that tell its solutions apart."""
     conditions: tuple[SideCondition, ...] = ()
-    """What must hold of each solution, where it was built for all signs."""
+    """The conditions on each solution, where it was built for all signs."""
     sides: Mapping[str, tuple[str, str]] = {}
     """By the point between whose places a control chooses: the output that tells on which side it lies, and the name of
     the side where that is positive."""
@@ -297,7 +297,7 @@ class Builder:
         self.conditions: list[SideCondition] = []
 
     def at(self, symbols: Mapping[str, Any] | None = None) -> Values:
-        """What is known so far, with symbols for what is not."""
+        """A lookup of all that is known so far, with symbols for other unknowns."""
         scalars, sides = {**self.scalars, **(symbols or {})}, named_inputs(self.tape, prefix=SIDE)
         return Values(scalars, self.amounts, self.directions, self.system.headed, sides, EXPRESSIONS)
 

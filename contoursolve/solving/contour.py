@@ -110,8 +110,8 @@ class Contour(Shown):
 
     @property
     def crossing(self) -> Crossing | None:
-        """Where the path goes across the spindle axis, by more than the least increment; None where it does not, or the
-        machine is no lathe. A path may begin on either side."""
+        """The place where the path goes across the spindle axis, by more than the least increment; None where it does
+        not, or the machine is no lathe. A path may begin on either side."""
         axis = next((number for number, is_diameter in enumerate(self.plane.diameters) if is_diameter), None)
         if axis is None:
             return None

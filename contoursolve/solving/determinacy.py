@@ -1,4 +1,5 @@
-"""What determines what, under which condition: the rank at random values, and sympy's verdict for all values."""
+"""The facts that determine each unknown, and on which condition: the rank at random values, and sympy's verdict for all
+values."""
 
 import json
 import pkgutil
@@ -158,7 +159,8 @@ LARGEST_DETERMINANT = 5
 
 
 def _condition(system: System, matrix: Any, basis: Sequence[int]) -> str:
-    """What must not be zero: the product of the determinants of the groups that are solved one after the other."""
+    """The value that must not be zero: the product of the determinants of the groups that are solved one after the
+    other."""
     from contoursolve.numeric import symbolic  # noqa: PLC0415 - see analyse
 
     groups = order(system, [system.facts[index] for index in basis])

@@ -14,8 +14,8 @@ from contoursolve.solving.solution import Certificate
 
 
 class Stated(Struct, frozen=True):
-    """What a sketch states: its profile, the texts of its facts by the names of what they give, and the facts that ask
-    for a value by the same names."""
+    """The content of a sketch: its profile, the texts of its facts by the names of what they give, and the facts that
+    ask for a value by the same names."""
 
     profile: Profile
     texts: Mapping[str, str]
@@ -116,7 +116,7 @@ class Drawings(Shown, Sequence[Drawn]):
 
     @property
     def summary(self) -> str:
-        """How many there are, and whether these are all."""
+        """The number of them, and whether these are all."""
         if self.free:
             return f"still open: {', '.join(map(_unknown, self.free))}"
         shown = "closed form" if self.reach is None else f"search within {self.reach:.0f} mm of the start point"

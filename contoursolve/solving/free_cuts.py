@@ -35,7 +35,7 @@ from contoursolve.solving.solution import Point
 from contoursolve.tolerance import LENGTH
 
 _SHIFTS = (-0.25, 0.25, 0.0)
-"""Where a cut is tried, as parts of the way to the next one: the middle last."""
+"""The places where a cut is tried, as parts of the way to the next one: the middle last."""
 
 _SAME = 1e-7
 """mm. How far the other points of a path may move where only a cut does."""
@@ -66,8 +66,8 @@ class _Element(Struct, frozen=True):
         return self._on_circle(begin + sign * part * swept)
 
     def near(self) -> Iterator[tuple[Point, int]]:
-        """Where a point a little way behind its begin may be, and the axis along which it is put: both ways along both
-        axes, for a line whose direction is not known yet."""
+        """The places where a point a little way behind its begin may be, and the axis along which it is put: both ways
+        along both axes, for a line whose direction is not known yet."""
         first = _at(self.known, self.path.tail)
         if isinstance(self.path, Line):
             for axis, sign in product((FIRST, SECOND), (1, -1)):
@@ -181,7 +181,7 @@ def _bent(profile: Profile) -> frozenset[str]:
 
 
 def _singular(found: Alternatives) -> list[str]:
-    """What its equations do not fix at their values: two arcs on one circle meet in no point."""
+    """The unknowns that its equations do not fix at their values: two arcs on one circle meet in no point."""
     doubts = () if found.items else found.doubts
     return [name for doubt in doubts for name in doubt.unknowns]
 
@@ -215,7 +215,7 @@ def _has(known: Mapping[str, float], point: str) -> bool:
 
 
 def _known(profile: Profile, open_: Sequence[str]) -> Mapping[str, float]:
-    """Where points are, and the radii, as far as that is determined without what is open."""
+    """The places of points, and the radii, as far as that is determined without what is open."""
     system, figure = assemble(profile), profile.figure
     start = {scalar(figure.start, axis): float(profile.start.values[axis] or 0) for axis in (FIRST, SECOND)}
     out = _points_of([*open_, *analyse(system).free])

@@ -25,7 +25,7 @@ def derive_identity(system: System, facts: Sequence[Fact]) -> str:
 
 
 def derive_circle_identity(system: System, facts: Sequence[Fact]) -> str:
-    """What two points of one circle make their words satisfy, as a formula that is zero; empty if the tie is
+    """The equation that two points of one circle make their words satisfy, a formula that is zero; empty if the tie is
     another one. S.0 and S.1 are the start point's coordinates."""
     from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see analyse
 

@@ -1,4 +1,4 @@
-"""What follows from facts taken together: nothing new, but it excludes boxes that no fact excludes alone."""
+"""Equations that follow from facts taken together: nothing new, but it excludes boxes that no fact excludes alone."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
@@ -37,7 +37,8 @@ from contoursolve.solving.exact_inputs import SMALLEST
 
 
 class _Known:
-    """What all facts say of points on lines and circles, as far as the unknowns of some facts tell where these are."""
+    """The knowledge that all facts give of points on lines and circles, as far as the unknowns of some facts tell where
+    these are."""
 
     def __init__(self, facts: Sequence[Fact], true: Sequence[Fact], headed: Mapping[str, tuple[str, str]]) -> None:
         self.read = {name for fact in facts for name in fact.reads()}
@@ -102,8 +103,8 @@ def consequences(
 
 
 def _on_circles(true: Sequence[Fact], known: _Known, at: Lookup) -> Iterator[Any]:
-    """What every two points of a circle tell: of a large one how their chord runs, and of one far away how long it is,
-    which the distances from its centre do not."""
+    """The equations that every two points of a circle give: of a large one how their chord runs, and of one far away
+    how long it is, which the distances from its centre do not."""
     for center, points in known.on_circle.items():
         for one, other in combinations(points, 2):
             if known.has(center, one, other):
@@ -124,7 +125,7 @@ def _on_circles(true: Sequence[Fact], known: _Known, at: Lookup) -> Iterator[Any
 
 
 def _of(fact: Fact, known: _Known, at: Lookup) -> Iterator[Any]:
-    """What follows from one fact, together with the points on its lines and circles."""
+    """The equations that follow from one fact, together with the points on its lines and circles."""
     radius_of = known.radius_of
     match fact:
         case ArcLength(tail=tail, head=head, center=center, radius=radius) if (

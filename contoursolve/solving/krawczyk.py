@@ -12,7 +12,7 @@ from contoursolve.solving.step_equations import Kernel, make_kernel
 
 
 class Content(Enum):
-    """What a box is proven to hold."""
+    """The number of solutions that a box is proven to hold."""
 
     ONE = "exactly one solution"
     NONE = "no solution"
@@ -61,7 +61,7 @@ def content_of(kernel: Kernel, box: Sequence[Number], inputs: Mapping[str, Numbe
 
 
 REFINEMENTS = 64
-"""How often a box is made smaller; each time doubles its digits, once it is small."""
+"""The number of times that a box is made smaller; each time doubles its digits, once it is small."""
 
 
 def refine(kernel: Kernel, box: Sequence[Number], inputs: Mapping[str, Number]) -> list[Number]:
@@ -95,11 +95,11 @@ def keep(box: list[Number], found: list[list[Number]]) -> None:
 
 
 MARGIN = 2.0**-100
-"""How far the box that is tested reaches beyond a solution's ball, as a share of the coordinates."""
+"""The distance by which the box that is tested reaches beyond a solution's ball, as a share of the coordinates."""
 
 
 Box = tuple[Proof, Sequence[Number]]
-"""What is proven of a step's solution, and a ball for each of its unknowns."""
+"""The proof of a step's solution, and a ball for each of its unknowns."""
 
 
 class Prover:

@@ -43,8 +43,8 @@ def sides_of(system: System, at: Values, chosen: Set[str]) -> dict[str, str]:
 
 
 def side_values(system: System, at: Values, chosen: Set[str]) -> dict[str, tuple[Any, str, str]]:
-    """What tells on which side points and centres lie: numbers of any kind, each with the names of the sides on which
-    it is positive and negative."""
+    """The numbers (of any kind) that tell on which side points and centres lie, each with the names of the sides on
+    which it is positive and negative."""
 
     def step(tail: str, head: str) -> tuple[Any, Any]:
         first, second = (at.coordinate(head, axis) - at.coordinate(tail, axis) for axis in (FIRST, SECOND))

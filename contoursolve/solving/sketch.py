@@ -50,7 +50,7 @@ PLANE = Plane("", ("X", "Y"), ("I", "J"))
 """The axes of every sketch."""
 
 _INTERNAL = re.compile(r"fact \d+", re.IGNORECASE)
-"""What facts are called among the givens."""
+"""The names of facts among the givens."""
 
 
 def checked_element(call: str, name: str, taken: Iterable[str]) -> str:
@@ -133,7 +133,7 @@ def _decimal(value: object) -> Decimal | None:
 
 
 Questions = Mapping[str, tuple[Fact, Unit]]
-"""What is asked for, by the name of the fact."""
+"""The questions, by the name of the fact."""
 
 
 class Sketch(Shown):
@@ -326,7 +326,7 @@ def _doubts(alternatives: Alternatives) -> tuple[str, ...]:
 
 
 def _far(alternatives: Alternatives) -> list[str]:
-    """What is said of drawings that are left out because they reach too far."""
+    """The remark on drawings that are left out because they reach too far."""
     kinds = {refusal.kind for item in alternatives.items for refusal in item.solution.refusals}
     is_far = RefusalKind.OUT_OF_RANGE in kinds
     return [f"a drawing that reaches farther than {LARGEST:,.0f} mm is left out"] if is_far else []

@@ -57,11 +57,11 @@ class Ties(Struct, frozen=True):
         return told if is_radius or abs(told - off) <= RESIDUAL else off
 
     def _compare(self, circuit: Circuit, at: Values) -> Refusal | Note | None:
-        """How the last fact of a circuit compares with the others."""
+        """The event about the last fact of a circuit, compared with the others."""
         return compare_fact(circuit.facts[-1], circuit.off[-1], self.profile, assemble(self.profile), at)
 
     def givens(self, circuit: Circuit) -> tuple[str, ...]:
-        """What states the facts of a circuit, see `givens_of_facts`."""
+        """The givens of the facts of a circuit, see `givens_of_facts`."""
         return givens_of_facts(circuit.facts, assemble(self.profile))
 
 
@@ -141,7 +141,7 @@ def tied_with(system: System, fact: Fact) -> tuple[str, ...]:
 
 @lru_cache(maxsize=256)
 def _ties(system: System) -> Mapping[Fact, tuple[str, ...]]:
-    """What `tied_with` says of every fact that is tied with others."""
+    """The answers of `tied_with` for every fact that is tied with others."""
     found: dict[Fact, tuple[str, ...]] = {}
     for fact, others in circuits_of(system).items():
         found[fact] = givens_of_facts((*others, fact), system)
@@ -151,5 +151,6 @@ def _ties(system: System) -> Mapping[Fact, tuple[str, ...]]:
 
 
 def givens_of_facts(facts: tuple[Fact, ...], system: System) -> tuple[str, ...]:
-    """What states some facts. Of one without unknowns, which is about the givens alone, the angles among them tell."""
+    """The givens of some facts. Of one without unknowns, which is about the givens alone, the angles among them
+    tell."""
     return tuple(dict.fromkeys(name for fact in facts for name in (*headings_of(fact, system), fact.given) if name))
