@@ -1,5 +1,5 @@
-"""What may still be written: the words that a block may take, the sets of them that complete it, and the legal forms of
-a control."""
+"""Words that may still be written: those that a block may take, the sets of them that complete it, and the legal forms
+of a control."""
 
 from collections.abc import Iterator
 from itertools import islice

@@ -92,7 +92,7 @@ class Repair(Struct, frozen=True):
     slips: tuple[Slip | None, ...] = ()
     """The slip that explains each edit."""
     drawbacks: tuple[str, ...] = ()
-    """What makes it unlikely to be meant, in words."""
+    """The reason, in words, for which it is unlikely to be meant."""
 
 
 class Repairs(Struct, frozen=True):
@@ -123,11 +123,11 @@ class Trial(Struct, frozen=True):
     blamed: frozenset[Span] = frozenset()
     """The words that findings are about."""
     previous: tuple[Sequence[Block], State] | None = None
-    """What is before it, and the state before that: with its commas in place, it may be the end of it."""
+    """The blocks before it, and the state before those: with its commas in place, it may be the end of it."""
     is_redundant: bool = False
     """Whether its words say something twice, and agree."""
     reach: Reach | None = None
-    """What edits leave as it is."""
+    """The parts that edits leave as they are."""
 
     def repair(self, edits: tuple[Edit, ...]) -> Repair | None:
         """The repair with the reasons for it, if it is one."""
@@ -241,7 +241,7 @@ class Trial(Struct, frozen=True):
         return examine(found, self.dialect.rules, Policy.ENFORCE, lambda: self.next_place, Depth.TRIAL)
 
     def extra(self, edits: tuple[Edit, ...]) -> int:
-        """How many more drafts trying these edits counts for."""
+        """The number of further drafts that trying these edits counts for."""
         found = self.find(edits) if self.claim.directives else None
         return SLOW - 1 if found and EASY_STEP < self._largest_step(found) <= LARGEST_STEP else 0
 
@@ -366,7 +366,7 @@ _LINE = 1
 
 
 def _place(state: State) -> Point | None:
-    """Where the tool is in the plane, mm, if that is known."""
+    """The place of the tool in the plane, mm, if that is known."""
     first, second = state.start().values
     return None if first is None or second is None else (float(first), float(second))
 
@@ -464,8 +464,8 @@ def choose_repairs(
 
 
 def _order(repair: Repair) -> tuple[object, ...]:
-    """What a colleague would name first: what a slip of typing explains, then what agrees with the other words, what
-    fits, what is missing, what is one too many; among equals the smallest change."""
+    """The order in which a colleague would name them: what a slip of typing explains, then what agrees with the other
+    words, what fits, what is missing, what is one too many; among equals the smallest change."""
     slip = max((min(SLIPS.index(each), len(FEW) + 1) for each in repair.slips if each), default=0)
     # Of signs that may be lost or too many, the one with which the contour does not go to and fro.
     is_sign = repair.contour is not None and {*repair.slips} <= {SIGN_LOST, SIGN_ADDED}

@@ -163,8 +163,8 @@ _NOT_MENDED = (
     ReadIssue.MODE_UNKNOWN,
     ReadIssue.VARIABLE,
 )
-"""What no repair of the contour is about: its start point, a path that may be meant, and what is right but not known:
-without a corner, it would be another contour that is as little known."""
+"""Matters that no repair of the contour is about: its start point, a path that may be meant, and what is right but not
+known: without a corner, it would be another contour that is as little known."""
 
 _FROM_START = (ReadIssue.WORD_IGNORED, RefusalKind.WORDS_DISAGREE, RefusalKind.LINE_REVERSED)
 

@@ -50,8 +50,8 @@ def commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
 
 
 def mended_words(answer: Answer) -> Iterator[tuple[Edit, ...]]:
-    """What is almost a word as the word that it is meant to be, in G codes and where something cannot be read: all,
-    and each of a few alone."""
+    """Text that is almost a word as the word that it is meant to be, in G codes and where something cannot be read:
+    all, and each of a few alone."""
     claim = answer.claim
     meant = {each.span: each for each in meant_words(claim)}
     for block in claim.blocks:
@@ -74,7 +74,7 @@ def marked(answer: Answer) -> Iterator[tuple[Edit, ...]]:
 
 
 OF_CORNERS = tuple(kind for kind in RefusalKind if kind.event.limits)
-"""What a smaller corner mends."""
+"""The events that a smaller corner mends."""
 
 
 def fitting(answer: Answer) -> Iterator[tuple[Edit, ...]]:
@@ -144,7 +144,7 @@ def has_faults(claim: ParsedContour) -> bool:
 
 
 def unreadable(claim: ParsedContour) -> Iterator[tuple[Edit, ...]]:
-    """What every repair must take out or correct: characters, addresses without a meaning, repetitions. Of an
+    """Mistakes that every repair must take out or correct: characters, addresses without a meaning, repetitions. Of an
     address that is given twice, either word may be the one that is meant. Letters for digits become these."""
     meant = meant_words(claim)
     edits = [mend(each) for each in meant]

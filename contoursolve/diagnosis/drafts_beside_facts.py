@@ -98,7 +98,7 @@ def _picked(answer: Answer) -> Iterator[tuple[Edit, ...]]:
 
 
 def next_place_of(profile: Profile) -> tuple[Decimal, Decimal] | None:
-    """Where the line of the next block ends, if a fact is about it and it was known."""
+    """The end of the line of the next block, if a fact is about it and it was known."""
     landing = (line for line in profile.figure.lines if line.name.endswith(".landing") and line.head)
     for line in landing:
         names = scalar(line.head, FIRST), scalar(line.head, SECOND)
@@ -127,7 +127,7 @@ def _decimal_commas(answer: Answer) -> Iterator[tuple[Edit, ...]]:
 
 
 def _useless(answer: Answer, findings: list[Diagnostic]) -> Iterator[tuple[Edit, ...]]:
-    """What cannot be read or says nothing, taken out."""
+    """Drafts without the text that cannot be read or says nothing."""
     spans = [each.span for each in findings if each.about in _USELESS]
     facts = [word for word in map(word_of, answer.claim.directives) if any(_holds(word.span, span) for span in spans)]
     dropped = tuple(drop(word) for word in facts)

@@ -30,7 +30,7 @@ PLACEHOLDER = "?"
 
 
 class EditKind(Enum):
-    """What is done to a word."""
+    """The change that is made to a word."""
 
     DROP = "delete"
     ADD = "add"
@@ -39,15 +39,15 @@ class EditKind(Enum):
 
 
 class InsertionSide(Enum):
-    """Where a word goes that gets a block of its own."""
+    """The place of a word that gets a block of its own."""
 
     BEFORE = "before"
     BEHIND = "behind"
 
 
 class Errand(Struct, frozen=True):
-    """What a word does besides the contour, and when: before the motion of its block or behind it. None where a block
-    of its own is no place for it."""
+    """The effect of a word besides the contour, and its time: before the motion of its block or behind it. None where a
+    block of its own is no place for it."""
 
     address: str
     numbers: tuple[int, ...]
@@ -76,7 +76,7 @@ ERRANDS = (
 
 
 def errand_of(address: str, text: str) -> Errand | None:
-    """What a word, as it is written, does besides the contour; None for the words of a contour."""
+    """The effect of a word, as it is written, besides the contour; None for the words of a contour."""
     number = re.fullmatch(r"0*(\d+)\.?0*", number_of(text, address))
     fitting = (
         row
@@ -87,7 +87,7 @@ def errand_of(address: str, text: str) -> Errand | None:
 
 
 class Why(IntEnum):
-    """Why an edit is proposed, the reason that a colleague would think of first before the others."""
+    """The reason for which an edit is proposed, the one that a colleague would think of first before the others."""
 
     ROUNDED = 0
     """It differs by what rounding explains."""
@@ -120,7 +120,7 @@ class Edit:
 
     @property
     def reason(self) -> Why:
-        """Why it is proposed."""
+        """The reason for which it is proposed."""
         return _REASONS.get(self.kind, self.why)
 
     def __str__(self) -> str:
@@ -144,7 +144,7 @@ class Edit:
 
     @property
     def errand(self) -> Errand | None:
-        """What the old word does besides the contour."""
+        """The effect of the old word besides the contour."""
         return errand_of(self.address, self.old)
 
     def _shown(self, text: str) -> str:
@@ -172,7 +172,7 @@ def change(word: Word, text: str, why: Why = Why.OTHER) -> Edit:
 
 
 def mend(word: Lookalike) -> Edit:
-    """What is almost a word, written as the word that it is meant to be."""
+    """Text that is almost a word, written as the word that it is meant to be."""
     return Edit(EditKind.CHANGE, word.address, word.span, word.old, word.new)
 
 
@@ -265,7 +265,7 @@ def _insert(text: str, word: str, syntax: Syntax) -> str:
 
 
 AT_MOST, AT_LEAST = ROUND_DOWN, ROUND_UP
-"""How the size of a limit is rounded, whatever its sign."""
+"""The way in which the size of a limit is rounded, whatever its sign."""
 
 
 def write_word(address: str, value: float, lexicon: Lexicon, unit: Length, rounding: str = ROUND_HALF_EVEN) -> str:

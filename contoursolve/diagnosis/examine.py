@@ -74,7 +74,7 @@ if TYPE_CHECKING:
 
 
 class Policy(Enum):
-    """What the rules of the manual do to a block that they refuse."""
+    """The effect of the manual's rules on a block that they refuse."""
 
     ENFORCE = "enforce"
     """It is reported and not solved."""
@@ -85,7 +85,7 @@ class Policy(Enum):
 
 
 class Depth(Enum):
-    """How much is worked out about a contour that has an error or a warning."""
+    """The amount that is worked out about a contour that has an error or a warning."""
 
     VERDICT = "verdict"
     """Its findings."""
@@ -94,7 +94,7 @@ class Depth(Enum):
     FULL = "full"
     """Also why they are so, and every repair; some milliseconds a contour."""
     TRIAL = "trial"
-    """Whether there is a contour without a finding; of one with findings, not every word that is to blame."""
+    """Only whether there is a contour without a finding; of one with findings, not every word that is to blame."""
 
 
 class AskedValue(Struct, frozen=True):
@@ -113,7 +113,7 @@ class Filled(Struct, frozen=True):
 
 
 class Answer(Shown, Struct, frozen=True):
-    """What became of one contour of a program.
+    """The result for one contour of a program.
 
     `contour` is None unless the status is solved or overdetermined. `sides` are the solutions that the
     block chose where two exist, by the point. `diagnostics` are the findings about this contour alone.
@@ -145,7 +145,7 @@ class Answer(Shown, Struct, frozen=True):
 
     @property
     def assumptions(self) -> tuple[Assumption, ...]:
-        """What the contour rests on, of all that the control is taken to accept."""
+        """Assumptions on which the contour rests, of all that the control is taken to accept."""
         return self.claim.rests_on([AT_ITS_LIMIT] if self._has_bevel_at_its_limit() else [])
 
     @property
@@ -412,7 +412,7 @@ def _examine_geometry(
 
 
 def _each_word_once(events: Sequence[Refusal | Note]) -> list[Refusal | Note]:
-    """What is said of each word: where a word states several facts, such as both parts of a direction, what is most
+    """The events about each word: where a word states several facts, such as both parts of a direction, what is most
     wrong of them."""
     said = [each for each in events if each.kind in _OF_A_WORD and each.subject]
     worst: dict[str, Refusal | Note] = {}
@@ -430,7 +430,7 @@ _OF_A_WORD = (RefusalKind.WORDS_DISAGREE, NoteKind.WORDS_AGREE)
 
 
 def _behind(finding: Diagnostic, against: Sequence[Diagnostic], claim: ParsedContour) -> Diagnostic:
-    """What is missing, told behind what contradicts itself: no word that is added can mend that."""
+    """The finding about missing words, told behind what contradicts itself: no word that is added can mend that."""
     first = min((each.span.line for each in against), default=0)
     if finding.about is not ReadIssue.UNDERDETERMINED or first <= finding.span.line:
         return finding
@@ -485,7 +485,7 @@ def _solve(
 
 
 _LEAVING_OPEN = (RefusalKind.NOT_FIXED, RefusalKind.SEARCH_UNFINISHED)
-"""What tells of unknowns that words leave open at their values."""
+"""Refusals that tell of unknowns that words leave open at their values."""
 
 
 def _has_choice(profile: Profile) -> bool:
@@ -500,7 +500,7 @@ _ABOUT_WORDS = (*SAID_AGAIN, RefusalKind.RADIUS_DIFFERENCE, RefusalKind.LINES_PA
 def _examine_system(
     context: Context, claim: ParsedContour, profile: Profile, *, is_brief: bool
 ) -> Iterator[tuple[Status, Diagnostic]]:
-    """Why the facts alone, whatever their values, make no single contour."""
+    """The reasons for which the facts alone, whatever their values, make no single contour."""
     system = assemble(profile)
     verdict = analyse(system)
     if not verdict.is_determined:

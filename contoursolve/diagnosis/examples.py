@@ -196,7 +196,7 @@ def _apart(count: int, few: int) -> list[int]:
 
 
 def _reach(profile: Profile, names: Sequence[str]) -> float:
-    """How far from the start point, or from zero, lengths are looked for, mm."""
+    """The distance from the start point, or from zero, within which lengths are looked for, mm."""
     lengths = (
         abs(float(given.value) - _start_of(profile, name))
         for name, given in profile.givens.items()

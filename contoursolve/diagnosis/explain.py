@@ -102,13 +102,13 @@ class Able(Struct, frozen=True):
 
 
 class Context(Struct, frozen=True, dict=True):
-    """What a message may mention: the stated words by name, the unit to show lengths in."""
+    """The names that a message may mention: the stated words by name, the unit to show lengths in."""
 
     rules: Sequence[Rule]
     unit: Length
     words: Mapping[str, Word] = field(default_factory=dict)
     place: Span = _BEGINNING
-    """Where to point if no word is to blame."""
+    """The place to point at if no word is to blame."""
 
     @cached_property
     def typed(self) -> Mapping[str, str]:
@@ -258,7 +258,7 @@ def explain_ignored(context: Context, offence: Offence, profile: Profile, soluti
 
 
 def _compared(values: Mapping[str, float], allowed: float, unit: Length) -> str:
-    """How an angle that is ignored compares with the one that the other words give."""
+    """The comparison of an angle that is ignored with the one that the other words give."""
     gap, off = abs(values["actual"] - values["expected"]), values["off_by_mm"]
     given = f"; they make it {tell_apart((values['expected'], values['actual']), angle_text)[0]}"
     if opposes(values, Unit.DEGREE):
@@ -323,7 +323,7 @@ _MOST_NAMED = 8
 
 
 def _open_elements(free: set[str], number: int, profile: Profile) -> tuple[str, str]:
-    """How many words are missing, and which elements they leave open; and the first of these."""
+    """The number of missing words, and which elements they leave open; and the first of these."""
     things = {name.rpartition(".")[0] or name for name in free}
     open_ = [
         each.name
@@ -464,7 +464,7 @@ def _outside(event: Refusal | Note, unit: Length, profile: Profile) -> dict[str,
 
 
 def _counted(event: Refusal | Note) -> dict[str, str]:
-    """How many contours there are, or how many solutions at an element."""
+    """The number of contours, or of solutions at an element."""
     if event.kind is NoteKind.SEVERAL:
         return {"count": f"{event.values['actual']:.0f}"}
     if event.kind in _OF_PICKS:
@@ -503,7 +503,7 @@ def _with_what_helps(
 
 
 def _room(event: Refusal, values: Mapping[str, float], profile: Profile) -> tuple[dict[str, str], list[str]]:
-    """How much room there is for a corner, as fields of its row, and its label."""
+    """The room for a corner, as fields of its row, and its label."""
     largest, shown = _largest(values["limit"], profile.unit)
     others = (profile.givens[name].word for name in event.beside if name in profile.givens)
     beside = join([_named_in(word, profile) for word in others if word])
@@ -518,7 +518,7 @@ def _room(event: Refusal, values: Mapping[str, float], profile: Profile) -> tupl
 
 
 def _for_both(values: Mapping[str, float], unit: Length) -> list[str]:
-    """What corners that leave each other no room may be if all of them come down."""
+    """The sizes that corners may have, which leave each other no room, if all of them come down."""
     largest, shown = _largest(values.get("together", 0.0), unit)
     return [f"write at most {shown} for both"] if largest else []
 
@@ -601,7 +601,7 @@ _ADVICE = {
 
 
 def _search_notes(profile: Profile, alternatives: Alternatives) -> Iterator[str]:
-    """What was tried, and what is not decided."""
+    """Notes on what was tried, and what is not decided."""
     way = "in closed form"
     if alternatives.reach is not None:
         way = f"by a search within {length_text(alternatives.reach, profile.unit)} of the start point"
@@ -617,7 +617,7 @@ def explain_singular(context: Context, names: Sequence[str], loose: Sequence[str
 
 
 def explain_path(context: Context, profile: Profile, solution: Solution, contour: Contour) -> Iterator[Diagnostic]:
-    """What a path does that may not be meant: it goes on across the spindle axis, lines run against the angle that
+    """Findings about a path that may not be meant: it goes on across the spindle axis, lines run against the angle that
     states them where that is no direction of travel, and corners are left out where it hardly turns."""
     crossing = contour.crossing
     if crossing is not None:

@@ -36,7 +36,7 @@ def _fix(answer: Answer, repair: Repair, outcome: str) -> Fix:
 
 
 def _outcomes(answer: Answer, contours: Sequence[Contour | None]) -> list[str]:
-    """What each contour is: where it ends or turns, and what tells it from those of which that is the same."""
+    """A text for each contour: where it ends or turns, and what tells it from those of which that is the same."""
     texts = [_place(answer, contour) if contour else "" for contour in contours]
     features = [_features(answer.profile, contour) if contour else {} for contour in contours]
     while groups := _alike(texts, features):
@@ -61,7 +61,7 @@ def _at(profile: Profile, place: Point) -> str:
 
 
 def _features(profile: Profile, contour: Contour) -> dict[str, str]:
-    """What can be told of a contour, by what it is about: its points, its elements, its end."""
+    """The texts about a contour, by their subjects: its points, its elements, its end."""
     found = {name: f"{name} at {_at(profile, at)}" for name, at in contour.points.items()}
     corners = {each.name for each in contour.elements if each.name.startswith("corner ")}
     # A corner is what is meant to differ; that its neighbours end elsewhere follows from it.
@@ -86,6 +86,6 @@ def _alike(texts: Sequence[str], features: Sequence[Mapping[str, str]]) -> list[
 
 
 def _most_different(features: Sequence[Mapping[str, str]]) -> str:
-    """What differs most among some contours, the first of those that do."""
+    """The text that differs most among some contours, the first of those that do."""
     names = dict.fromkeys(name for each in features for name in each)
     return max(names, key=lambda name: len({each.get(name) for each in features}))

@@ -114,7 +114,7 @@ def _sample(form: ContourForm) -> Sample:
 
 
 def _faults(profile: Profile) -> Iterator[str]:
-    """What keeps the facts from determining one contour."""
+    """The reason for which the facts do not determine one contour."""
     system = assemble(profile)
     verdict = analyse(system)
     if verdict.free:

@@ -1,4 +1,4 @@
-"""Which words complete a contour, as its equations tell at the values that it has: how many, and which say the same."""
+"""Words that complete a contour, as its equations tell at the values that it has: how many, and which say the same."""
 
 from collections.abc import Callable, Collection, Sequence
 from itertools import combinations
@@ -27,7 +27,7 @@ class Lack(Struct, frozen=True):
 
 
 def lack_of(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> Lack | None:
-    """What a contour lacks, of some names that it does not state; None where these help nothing."""
+    """The words that a contour lacks, of some names that it does not state; None where these help nothing."""
     able, rank = list(names), _rank_with(claim, profile, names)
     least = rank(())
     able = [name for name in able if rank((name,)) > least]
@@ -51,8 +51,8 @@ def lack_of(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> Lac
 
 
 def _rank_with(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> Callable[[Collection[str]], int]:
-    """How much a contour determines with some of these words besides its own: for lines between points at the values
-    that it has, else at most values."""
+    """The number of unknowns that a contour determines with some of these words besides its own: for lines between
+    points at the values that it has, else at most values."""
     own = frozenset(fact.given for fact in profile.ignored)
     whole = read(stating(claim, names), own)
     affine = affine_facts(whole, whole.facts)
@@ -90,7 +90,7 @@ def _and(texts: Sequence[str]) -> str:
 
 
 def still_able(lack: Lack, unable: Collection[str]) -> Lack | None:
-    """What is lacking without words that help nothing after all; None if so little is left that it tells nothing."""
+    """The lack without words that help nothing after all; None if so little is left that it tells nothing."""
     kept = [tuple(name for name in kind if name not in unable) for kind in lack.kinds]
     places = [place for place, kind in enumerate(kept) if kind]
     if len(places) < lack.number:

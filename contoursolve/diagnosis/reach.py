@@ -1,4 +1,4 @@
-"""What a change of words in a long chain cannot mend: problems that rest on other blocks alone.
+"""Problems that a change of words in a long chain cannot mend: those that rest on other blocks alone.
 
 A rule sees the blocks of one role, and an element rests on the facts that determine its points. A problem whose blocks
 no edit touches is there behind the edit as before it, so that nothing has to be read or solved to refuse the repair.
@@ -40,10 +40,10 @@ _OF_ELEMENTS = (
     ReadIssue.CORNER_DROPPED,
     ReadIssue.CORNER_NEGATIVE,
 )
-"""What a problem is about that rests on the form of the elements around its block alone, wherever they lie."""
+"""Matters of a problem that rests on the form of the elements around its block alone, wherever they lie."""
 
 _ENDS = frozenset({"first", "second", "first-step", "second-step", "X", "Y", "Z", "IX", "IY", "IZ"})
-"""What a block states of its end. Whatever is before it, it is no line that the next block ends."""
+"""Names that a block states of its end. Whatever is before it, it is no line that the next block ends."""
 
 
 class Held(Struct, frozen=True):
@@ -67,7 +67,7 @@ class Reach(Struct, frozen=True, dict=True):
 
     @cached_property
     def held(self) -> tuple[Held, ...]:
-        """What some of the problems rest on, all over the contour."""
+        """The blocks on which some of the problems rest, all over the contour."""
         count = len(self._claim.blocks)
         if count <= 2 * _BESIDE + 1 or self._claim.directives:
             return ()
@@ -202,7 +202,7 @@ _ADDRESS = re.compile(r",?[A-Z]+", re.IGNORECASE)
 
 
 def _scalars_of(element: Line | Arc) -> tuple[str, ...]:
-    """What determines where an element lies."""
+    """The facts that determine where an element lies."""
     ends = both(element.tail, element.head)
     return (*ends, *both(element.center), element.radius) if isinstance(element, Arc) else ends
 

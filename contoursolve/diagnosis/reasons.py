@@ -34,8 +34,8 @@ from contoursolve.tolerance import REGULAR
 
 
 def identity(profile: Profile, facts: Iterable[Fact]) -> str:
-    """How the words of these facts depend on one another, such as `K = I/tan(A)`; empty where no formula is
-    kept. The start point's coordinates are called Zstart, Xstart and so on."""
+    """The formula by which the words of these facts depend on one another, such as `K = I/tan(A)`; empty where no
+    formula is kept. The start point's coordinates are called Zstart, Xstart and so on."""
     names = sorted(fact.given for fact in facts if fact.given)
     formula = _shipped().get(f"{profile.form}: {' '.join(names)}", "")
     for name in sorted(names, key=len, reverse=True):
@@ -60,7 +60,7 @@ def _shipped() -> dict[str, str]:
 def conflict_reasons(
     profile: Profile, affine: AffineFacts, circuit: Circuit, *, is_about_direction: bool
 ) -> Iterator[str]:
-    """Where the facts of a circuit put the point that they are about, and how far apart.
+    """Sentences on where the facts of a circuit put their point, and how far apart.
 
     The last fact that is not an angle is compared with the others, because a place can be compared; where a direction
     is only opposite (`is_about_direction`), no place tells.
@@ -114,7 +114,7 @@ def _agreeing(profile: Profile, affine: AffineFacts, circuit: Circuit, fact: Fac
 
 
 def freedom_reasons(profile: Profile, freedoms: Sequence[Freedom]) -> Iterator[str]:
-    """What can still move, and how."""
+    """Sentences on what can still move, and how."""
     for freedom in freedoms:
         if freedom.direction is None:
             yield f"{freedom.point} can still lie anywhere"
@@ -125,7 +125,7 @@ def freedom_reasons(profile: Profile, freedoms: Sequence[Freedom]) -> Iterator[s
 
 
 def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnostic) -> Iterator[str]:
-    """What the numbers of a finding about the path come from."""
+    """Sentences on the source of the numbers in a finding about the path."""
     values = finding.values
     yield from _placed_before(profile, finding)
     if "angle_from" in values:
@@ -157,7 +157,7 @@ def _ends_on_arc(profile: Profile, finding: Diagnostic) -> bool:
 
 
 def _placed_before(profile: Profile, finding: Diagnostic) -> Iterator[str]:
-    """Which words of earlier blocks put the beginning of an element of a later one where it is."""
+    """Sentences on the words of earlier blocks that put the beginning of an element of a later one where it is."""
     if finding.about is not RefusalKind.RADIUS_DIFFERENCE or len(profile.blocks) != len(profile.figure.path):
         return
     for element, block in zip(profile.figure.path, profile.blocks, strict=True):

@@ -1,4 +1,4 @@
-"""What to write instead: every smallest change of a block's words that the control accepts and that has a
+"""Repairs: every smallest change of a block's words that the control accepts and that has a
 contour. Each one is applied to the text, read, checked and solved again before it is offered."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -168,7 +168,7 @@ def _agreeing(claim: ParsedContour, name: str) -> Iterator[tuple[Edit, ...]]:
 
 
 class _Geometry(Struct, frozen=True):
-    """What some words fix of the drawing, as far as they do not contradict each other."""
+    """The values that some words fix of the drawing, as far as they do not contradict each other."""
 
     profile: Profile
     affine: AffineFacts | None
@@ -388,7 +388,7 @@ def _gap(answer: Answer | None) -> float | None:
 
 
 def _zeros(gaps: list[float]) -> Iterator[float]:
-    """Where a quadratic function vanishes that is known a step before, at and behind 0."""
+    """The zeros of a quadratic function that is known a step before, at and behind 0."""
     if len(gaps) != 3:  # noqa: PLR2004
         return
     before, at, behind = gaps

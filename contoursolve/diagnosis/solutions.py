@@ -52,8 +52,8 @@ class Listing(Struct, frozen=True):
     doubts: tuple[str, ...]
     chosen_by: str
     within: float | None = None
-    """How far from the start point these are all, mm, where they were searched for; None where a closed form gives
-    them."""
+    """The distance from the start point within which these are all, mm, where they were searched for; None where a
+    closed form gives them."""
 
     @property
     def is_closed(self) -> bool:
@@ -196,7 +196,7 @@ def printed_certificate(certificate: Certificate | None) -> Certificate | None:
 
 
 def decimals_of(certificate: Certificate | None, most: int = DECIMALS) -> int:
-    """How many decimals of a coordinate in mm mean something: the radius is not larger than the last one."""
+    """The number of decimals of a coordinate in mm that mean something: the radius is not larger than the last one."""
     if certificate is None or not 0 < certificate.radius < inf:
         return most
     return max(0, min(most, floor(-log10(certificate.radius))))

@@ -31,7 +31,7 @@ from contoursolve.tolerance import LARGEST
 
 
 def explain_spelling(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
-    """What keeps the words of a contour from being read: nothing can be said of what they mean then."""
+    """Findings that keep the words of a contour from being read: nothing can be said of what they mean then."""
     words = [word for block in claim.blocks for word in block.words]
     for block in claim.blocks:
         yield from (_with_corner(each, block, claim.lexicon) for each in explain_faults(context, block))
@@ -216,7 +216,7 @@ def _comma_behind(number: Word | None, word: Word) -> Lookalike | None:
 
 
 def _ask(meant: Lookalike) -> str:
-    """Whether what is almost a word means one."""
+    """Findings about text that is almost a word."""
     if not meant.has_letters:
         return f"{meant.old} is not a number that a control reads: did you mean {meant.new}?"
     pairs = dict(pair for pair in zip(meant.old, meant.new, strict=True) if pair[0] != pair[1])
@@ -295,7 +295,7 @@ def _roundings(claim: ParsedContour) -> list[str]:
 
 
 def respelled(word: Word, claim: ParsedContour) -> str:
-    """What a word of a contour was most plausibly meant to be by its address; empty if it is like none."""
+    """The address that a word of a contour was most plausibly meant to have; empty if it is like none."""
     if word.address == "R" and (radius := _radius(word, claim)):
         return spell(radius, number_of(word.text, word.address))
     allowed = [each for each in claim.lexicon.addresses if each in claim.form.allowed]
@@ -312,13 +312,13 @@ def with_comma(word: Word, claim: ParsedContour) -> str:
 
 
 def explain_modes(context: Context, claim: ParsedContour) -> Iterator[Diagnostic]:
-    """What is not known to be in force where a contour is read."""
+    """Findings about what is not known to be in force where a contour is read."""
     for what, why in claim.open_modes():
         yield report(context, ReadIssue.MODE_UNKNOWN, Basis.RULE, [], what=what, reason=why)
 
 
 def explain_start(context: Context, claim: ParsedContour) -> Diagnostic:
-    """Which axes of the start point are unknown, and which line made them so."""
+    """Findings about axes of the start point that are unknown, and the line that made them so."""
     unknown = [axis for axis in claim.before.plane.axes if claim.before.axes[axis].value is None]
     places = [claim.before.axes[axis] for axis in unknown]
     reasons = dict.fromkeys(f"{each.reason}{_on_line(each)}" for each in places)
@@ -337,7 +337,7 @@ def explain_start(context: Context, claim: ParsedContour) -> Diagnostic:
 
 
 def _on_line(place: Position) -> str:
-    """Where a position was lost, unless the reason says so."""
+    """The place where a position was lost, unless the reason says so."""
     if place.span is None or re.search(rf"\bline {place.span.line}\b", place.reason):
         return ""
     return f" (program line {place.span.line})" if place.span.line else " (--start)"

@@ -1,4 +1,4 @@
-"""Which words may be left out or added so that the control accepts the rest, as far as no equation has to be solved for
+"""Words that may be left out or added so that the control accepts the rest, as far as no equation has to be solved for
 it."""
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
@@ -37,8 +37,8 @@ def block_of(name: str) -> str:
 
 
 def blocks_at_fault(answer: Answer) -> frozenset[str]:
-    """What begins the names of the blocks that a finding is about and of those beside them; of all blocks, where a
-    rule can see them at once."""
+    """The beginnings of the names of the blocks that a finding is about and of those beside them; of all blocks, where
+    a rule can see them at once."""
     claim = answer.claim
     near = lines_near(claim, blamed_spans(answer))
     is_short = len(claim.blocks) <= LARGEST_ROLE or not near

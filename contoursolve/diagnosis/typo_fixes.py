@@ -59,7 +59,7 @@ class Typed(Struct, frozen=True):
 
     @property
     def unit(self) -> Unit | None:
-        """What its number counts; None for a word that the contour does not know."""
+        """The unit of its number; None for a word that the contour does not know."""
         row = self.claim.lexicon.addresses.get(self.word.address) if self.claim else None
         return row.unit if row else None
 
@@ -224,7 +224,7 @@ SLIPS = (*FEW, CODE, *OF_DIGITS, ROUND)
 
 
 def texts_of(slip: Slip, word: Word, claim: ParsedContour) -> Iterator[str]:
-    """What a word may have been meant to be if a slip happened to it."""
+    """Words that a word may have been meant to be if a slip happened to it."""
     typed = _typed(word, claim)
     if typed is None or (slip.is_of_digits and typed.is_choice):
         return
@@ -279,7 +279,7 @@ def recognise(edit: Edit, claim: ParsedContour) -> Slip | None:
 
 
 def explained(word: Word, value: float, claim: ParsedContour) -> Iterator[str]:
-    """What a word may have been meant to be with about this value, mm (radius) or degrees."""
+    """Words that a word may have been meant to be with about this value, mm (radius) or degrees."""
     unit = claim.after.unit
     for slip in SLIPS:
         for text in texts_of(slip, word, claim):

@@ -1,4 +1,4 @@
-"""Whether the control has the words of a block, and which of its words one that it has not was meant to be."""
+"""Words of a block that the control has not, and those of its words that they were meant to be."""
 
 import re
 from bisect import bisect_right
@@ -26,7 +26,7 @@ _ROLES = (
     ("chamfer", ("CHR", "CHF", "CH", "FAS", "BEV", "C")),
     ("angle", ("ANG", "AN", "WI", "A")),
 )
-"""What the meanings of corners and angles begin with, and how such words begin on one control or another."""
+"""The beginnings of the meanings of corners and angles, and how such words begin on one control or another."""
 
 
 def meant_by(word: Word, known: Collection[str], lexicon: Lexicon) -> list[str]:
@@ -56,7 +56,7 @@ def _meant(word: Word, known: Collection[str], lexicon: Lexicon) -> list[str]:
 
 
 def _typed(address: str) -> str:
-    """How the name of a word is typed."""
+    """The pattern of the name of a word."""
     return spell(address, "").split()[0].strip("=") if " " in spell(address, "") else address
 
 
@@ -85,11 +85,11 @@ _PARTS = (
     *(("chamfer", f"amount of the {which} bevel") for which in ("first", "second")),
     ("angle", "travel direction of line"),
 )
-"""What the meanings of such words begin with."""
+"""The beginnings of the meanings of such words."""
 
 
 def _begins_like(address: str) -> str:
-    """What a word means on another control, by how it begins; of one letter, it is the letter."""
+    """The meaning of a word on another control, by how it begins; of one letter, it is the letter."""
     bare, has_sign = address.lstrip(",#"), address[0] in ",#"
     if len(bare) == 1 and not has_sign:
         # A and C are axes of many machines.
@@ -131,12 +131,12 @@ _STRETCH = re.compile(
     r"(?P<between>[ \t]*+[=:,]*+[ \t]*+)(?P<number>[+-]?+(?:\d[\d.,]*+|\.\d[\d.,]*+))",
     re.IGNORECASE | re.ASCII,
 )
-"""What is typed like a word of a contour, however it is spelled."""
+"""Text that is typed like a word of a contour, however it is spelled."""
 
 
 @lru_cache(maxsize=16)
 def _stretches(text: str) -> list[re.Match[str]]:
-    """What in a line is typed like words; a line may have many faults, and each is looked up in it."""
+    """The parts of a line that are typed like words; a line may have many faults, and each is looked up in it."""
     return [*_STRETCH.finditer(text)]
 
 
@@ -193,7 +193,7 @@ _MEANT = "if that is meant"
 
 
 UNITS = ("mm", "in", "inch", "deg", "grad", "\N{DEGREE SIGN}")
-"""What readers write behind a number, and no control reads."""
+"""Text that readers write behind a number, and no control reads."""
 
 
 def corner_words(lexicon: Lexicon) -> Iterator[str]:
@@ -225,7 +225,7 @@ _OF_A_MOVE = (
     Effect.SHIFT,
     Effect.CONTOUR,
 )
-"""What the codes of a block do whose axis words are where it ends."""
+"""The effects of the codes of a block whose axis words are where it ends."""
 _LINES, _ARCS = (0, 1), (2, 3)
 _PLAIN = (0, 1, 2, 3, 17, 18, 19, 20, 21, 40, 41, 42, 70, 71, 90, 91)
 """Codes that have no argument."""
@@ -291,7 +291,7 @@ def like_corners(block: Block, modes: Modes, others: Collection[str]) -> bool:
 
 
 _NAMES = frozenset(name for _, names in _ROLES for name in names if len(name) > 1)
-"""How corners and angles are called on one control or another, by more than a letter."""
+"""The names of corners and angles on one control or another, by more than a letter."""
 
 
 def is_known(address: str, lexicon: Lexicon) -> bool:
@@ -348,12 +348,12 @@ def explain_call(context: Context, name: str, modes: Modes) -> Iterator[Diagnost
 
 
 def _weight(code: Code) -> int:
-    """How much a code has to do with contours."""
+    """A measure of how much a code has to do with contours."""
     return (code.effect in (Effect.CONTOUR, Effect.CORNER)) * 2 + (code.effect is Effect.MOTION)
 
 
 def name_of(word: Word) -> str:
-    """What a word is called apart from its value."""
+    """The name of a word apart from its value."""
     return not_read(word.text).split()[-2] if word.address in ("G", "M") else word.address
 
 

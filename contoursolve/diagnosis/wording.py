@@ -241,7 +241,7 @@ def count(number: int, noun: str, several: str = "") -> str:
 
 
 def statuses_text(statuses: Mapping[Status, int]) -> str:
-    """How many contours have each status, the best first."""
+    """The number of contours with each status, the best first."""
     return ", ".join(
         f"{statuses[each]} {_STATUSES.get(each, each.value)}" for each in reversed(Status) if statuses.get(each)
     )

@@ -297,8 +297,8 @@ def check_residuals(worst: Any) -> tuple[Check, Any]:
 def check_range(source: Source) -> tuple[Check, Any]:
     """Whether words reach every point from the start."""
     start, functions = source.figure.start, source.at.functions
-    ways = (way for name in source.figure.points for way in source.way(start, name))
-    farthest: Any = reduce(functions.larger, map(functions.magnitude, ways))
+    ways = [functions.magnitude(way) for name in source.figure.points for way in source.way(start, name)]
+    farthest: Any = reduce(functions.larger, ways) if ways else 0.0
     return Check(RefusalKind.OUT_OF_RANGE, "", "", Test.NOT_BELOW, 0.0, stage=Stage.RANGE), LARGEST - farthest
 
 

@@ -250,6 +250,7 @@ MENDED = [
     "cli",
     "comparison",
     "controls",
+    "diagnosis",
     "diagnostics",
     "execution",
     "gcode",
@@ -263,7 +264,7 @@ MENDED = [
     "program",
     "reading",
 ]
-MOST_RIDDLES = 314
+MOST_RIDDLES = 169
 """In the other rooms. It falls with each that is mended, and never rises."""
 
 
