@@ -189,7 +189,8 @@ def _tie(answer: Answer, ties: Ties, circuit: Circuit) -> Tie:
     return Tie(
         addresses=tuple(word.text if word.address == FACT else word.address for word in words),
         identity=identity(profile, circuit.facts),
-        off_by_mm=ties.off_by(circuit),
+        # Below the rounding of the arithmetic, which is another one on other machines.
+        off_by_mm=round(ties.off_by(circuit), 12),
         is_conflict=ties.is_conflict(circuit) or _is_turned(answer, ties, circuit),
     )
 
