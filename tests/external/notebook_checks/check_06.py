@@ -3,7 +3,7 @@
 A, B = (symbols.direction(letter) for letter in "AB")
 assert sympy.simplify(determinant**2 - (A[1] * B[0] - A[0] * B[1]) ** 2) == 0  # sin(A - B), up to its sign
 assert verdict.condition == "sin(A - B)"
-assert [len(step.unknowns) for step in plan.steps] == [1, 1, 2]
+assert [len(step.unknowns) for step in construction.steps] == [1, 1, 2]
 
 # By hand: V1 lies on X40, 30 / tan(60 deg) before the end.
 by_hand = -47.3205 + 30 / numpy.tan(numpy.radians(60))
