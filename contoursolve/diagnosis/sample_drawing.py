@@ -62,6 +62,8 @@ def sample_drawing(claim: ParsedContour, profile: Profile, names: Sequence[str])
     if not profile.start.is_known or len(system.unknowns) > MOST_UNKNOWNS:
         return None
     profiled, own = {*profile.facts}, assemble(profile).unknowns
+    if not {*own} <= {*system.unknowns}:
+        return None  # with those words some corner is none
     stated = [fact for fact in system.facts if fact in profiled or not fact.given]
     equations = _Equations(whole, system)
     for number in range(TRIES):

@@ -913,7 +913,9 @@ def test_no_other_status_passes_for_what_lists_solutions_and_answers(desk, name)
             assert verdict == "failed" or is_open or (verdict == "nothing-checked" and not has_paths), (other, verdict)
 
 
-WORKED = {path.name: path for folder in (PROGRAMS, PAGES) for path in sorted(folder.iterdir())}
+WORKED = [path for folder in (PROGRAMS, PAGES) for path in sorted(folder.iterdir()) if path.suffix != ".toml"]
+OF_SEVERAL = {PAGES / "plate.nc": "fanuc-mill"}
+"""Programs that controls read differently, and the one that they are for."""
 
 
 def examples() -> Iterator[Any]:
@@ -922,8 +924,10 @@ def examples() -> Iterator[Any]:
         for rule in control.rules:
             for number, text in enumerate((*rule.rejected, *rule.accepted)):
                 yield pytest.param(name, text, id=f"{name} {rule.code} {number}")
-    for name, path in WORKED.items():
-        yield pytest.param(None, path.read_text(encoding="utf-8"), id=name)
+    for path in WORKED:
+        yield pytest.param(
+            OF_SEVERAL.get(path), path.read_text(encoding="utf-8"), id=f"{path.parent.parent.name} {path.name}"
+        )
 
 
 DECIDED = ("solved", "overdetermined", "ambiguous", "underdetermined")

@@ -276,7 +276,7 @@ def test_the_derivative_of_casadi_is_the_central_difference(fact: Any) -> None:
     symbols = {name: casadi.SX.sym(name) for name in names}
     for seed in range(5):
         place = random_place(seed)
-        functions = Functions(casadi.sqrt, casadi.cos, casadi.sin)
+        functions = Functions(casadi.sqrt, casadi.cos, casadi.sin, vanishes=lambda _: False)
         formula = fact.residual(place.lookup(symbols, functions))
         values = casadi.vertcat(*symbols.values())
         slopes = casadi.Function("slopes", [values], [casadi.jacobian(formula, values)])

@@ -339,3 +339,10 @@ def test_a_rounding_that_nearly_touches_is_solved_or_does_not_fit(text):
             )
             off = off_edge(rounding.center, each) - rounding.radius
             assert abs(off) <= 1e-8 / min(1, length)
+
+
+def test_a_size_that_is_asked_for_beside_a_full_circle_is_told_and_no_traceback():
+    text = "1 L X+0 Y+0\n2 CC X+20 Y+0\n3 L X+40 Y+0\n4 RND R2\n5 CP IPA+360 DR-\n6 RND R?\n7 L X+60 Y+20"
+    found = contoursolve.check(f"0 BEGIN PGM A MM\n{text}", control="heidenhain")
+    (finding,) = (each for each in found if each.is_error)
+    assert (finding.code, finding.span.line) == ("words-missing", 7)

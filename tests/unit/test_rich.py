@@ -15,7 +15,7 @@ from examples import some_of
 import contoursolve
 from contoursolve import Status
 from contoursolve.controls import DIALECTS
-from contoursolve.notebook import records as bundles
+from contoursolve.notebook import mime_bundle, records
 from contoursolve.output import html as style
 from contoursolve.solving.contour import ArcSegment
 from contoursolve.solving.enumerate import Effort
@@ -313,9 +313,9 @@ def test_questions_are_told_as_the_terminal_tells_them(name, arguments):
 def test_a_large_program_stays_small():
     text = "G00 X40. Z0.\n" + "G111 A180. K-3. B120. X60. P1.\nG00 X40. Z0.\n" * 400
     data = contoursolve.solve(text)._repr_mimebundle_()
-    assert all(len(each) < bundles.MOST_CHARACTERS for each in data.values())
+    assert all(len(each) < mime_bundle.MOST_CHARACTERS for each in data.values())
     assert "381 more" in "".join(Page(data[HTML]).words) or "380 more" in "".join(Page(data[HTML]).words)
-    assert len(data[TEXT].splitlines()) <= bundles.MOST_LINES + 1
+    assert len(data[TEXT].splitlines()) <= records.MOST_LINES + 1
 
 
 def test_what_cannot_be_drawn_is_told_and_what_cannot_be_made_is_left_out(monkeypatch):
