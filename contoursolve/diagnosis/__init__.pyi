@@ -102,7 +102,6 @@ from .wording import (
     length_text as length_text,
     limit_text as limit_text,
     measured as measured,
-    place_text as place_text,
     short_name as short_name,
     statuses_text as statuses_text,
     unknowns_text as unknowns_text,

@@ -60,10 +60,8 @@ from .profile import (
     Side as Side,
     Start as Start,
     Unit as Unit,
-    least_increments as least_increments,
 )
 from .statements.apply import (
-    UnusedFact as UnusedFact,
     apply_statements as apply_statements,
     rank as rank,
     word_of as word_of,

@@ -28,7 +28,6 @@ from .expressions import (
     angle as angle,
     at_most as at_most,
     below as below,
-    cosine as cosine,
     inverse_norm as inverse_norm,
     inverse_norms as inverse_norms,
     is_affine as is_affine,
@@ -38,10 +37,8 @@ from .expressions import (
     larger as larger,
     largest as largest,
     magnitude as magnitude,
-    opposite as opposite,
     quadratic_parts as quadratic_parts,
     sign as sign,
-    sine as sine,
     sqrt as sqrt,
     symbol as symbol,
     true as true,
@@ -82,7 +79,6 @@ from .linear_algebra import (
     Array as Array,
     condition as condition,
     pinv as pinv,
-    shortest_solution as shortest_solution,
     svd as svd,
 )
 from .modular_rank import (

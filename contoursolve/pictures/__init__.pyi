@@ -18,17 +18,9 @@ from .known_points import (
     Known as Known,
 )
 from .layout import (
-    lay_out as lay_out,
     path_data as path_data,
 )
-from .maps import (
-    lay_out_map as lay_out_map,
-    lay_out_region as lay_out_region,
-)
 from .overview import (
-    compose_fan as compose_fan,
-    compose_overview as compose_overview,
-    describe_overview as describe_overview,
     plain_trail as plain_trail,
 )
 from .page import (
@@ -36,11 +28,6 @@ from .page import (
 )
 from .scene import (
     Viewport as Viewport,
-)
-from .sheet import stack_sheets as stack_sheets
-from .sketches import (
-    compose_drawings as compose_drawings,
-    compose_drawn as compose_drawn,
 )
 from .subject import (
     corner_segment as corner_segment,
@@ -50,11 +37,8 @@ from .subject import (
 )
 from .svg import (
     Picture as Picture,
-    finish as finish,
 )
 from .sweeps import (
-    count_statuses as count_statuses,
-    solve_shown as solve_shown,
     sweep_title as sweep_title,
 )
 from .theme import (
@@ -63,9 +47,6 @@ from .theme import (
     LIGHT_COLORS as LIGHT_COLORS,
     Role as Role,
     Theme as Theme,
-)
-from .value_axes import (
-    lay_out_range as lay_out_range,
 )
 from .vectors import (
     SAME as SAME,

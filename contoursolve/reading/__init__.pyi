@@ -19,7 +19,6 @@ from .contour_form import (
     stated_sets as stated_sets,
 )
 from .control_flow import (
-    Ahead as Ahead,
     Ways as Ways,
 )
 from .dialect import (

@@ -78,7 +78,6 @@ from .determinacy import (
     Determinacy as Determinacy,
     analyse as analyse,
     basis_of as basis_of,
-    circuits_of as circuits_of,
     derive as derive,
     groups_of as groups_of,
     spare_of as spare_of,
@@ -135,9 +134,7 @@ from .numbers import (
 )
 from .partition import (
     Group as Group,
-    Parts as Parts,
     decompose as decompose,
-    match as match,
     order as order,
 )
 from .picks import (
