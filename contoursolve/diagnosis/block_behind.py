@@ -30,4 +30,5 @@ def report_behind(found: Behind, rules: tuple[Rule, ...]) -> Diagnostic:
             return finding
         end = {"end.0": answer.contour.end[FIRST], "end.1": answer.contour.end[SECOND]}
         advice = f"{advice} -> the contour ends at {place_text(answer.profile, end)}"
-    return replace(finding, fixes=(Fix(advice, found.meant.text, Applicability.CHANGES_CONTOUR),))
+    fix = Fix(advice, found.meant.text, Applicability.CHANGES_CONTOUR, replaced=found.block.text)
+    return replace(finding, fixes=(fix,))

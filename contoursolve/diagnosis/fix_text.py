@@ -32,7 +32,8 @@ def _fix(answer: Answer, repair: Repair, outcome: str) -> Fix:
     is_beside = len(dropped) == len(repair.edits)
     effect = f"drops {join(dropped)}" if is_beside else ""
     example = edited(blocks, repair.example) if numbers else ""
-    return Fix(description, repair.replacement, repair.applicability, effect, example)
+    replaced = "\n".join(block.text for block in blocks)
+    return Fix(description, repair.replacement, repair.applicability, effect, example, replaced)
 
 
 def _outcomes(answer: Answer, contours: Sequence[Contour | None]) -> list[str]:

@@ -396,11 +396,12 @@ def explain_commas(
         finding = report(context, ReadIssue.COMMA_MISSING, Basis.RULE, [word], meant=text)
         edit = change(word, text)
         found, replacement = _read(dialect, blocks, [edit], before)
-        fixes = tuple(_tried(dialect, found, [edit], replacement))
+        fixes = tuple(_tried(dialect, blocks[0], found, [edit], replacement))
         if previous and not fixes:
             edited = parse_block(replacement, block.line, block.syntax)
             other = dialect.find([*previous[0], edited, *blocks[1:]], 0, previous[1], dialect.modes)
-            fixes = tuple(_tried(dialect, other if other and edited in other.blocks else None, [edit], replacement))
+            other = other if other and edited in other.blocks else None
+            fixes = tuple(_tried(dialect, block, other, [edit], replacement))
         if fixes or any(map(block.find, after.plane.axes)):
             yield replace(finding, fixes=fixes)
 
@@ -415,7 +416,7 @@ def explain_codes(
         for text in mistyped_codes(word, dialect.modes) if word.number not in dialect.modes.codes else ():
             edit = change(word, text)
             found, replacement = _read(dialect, blocks, [edit], before)
-            fixes = tuple(_tried(dialect, found, [edit], replacement))
+            fixes = tuple(_tried(dialect, blocks[0], found, [edit], replacement))
             if fixes:
                 finding = report(context, ReadIssue.CODE_MISTYPED, Basis.RULE, [word], meant=text)
                 yield replace(finding, fixes=fixes)
@@ -432,7 +433,7 @@ def explain_letters(
     if found is None or not any(each.is_code for each in meant):
         yield from findings
         return
-    fixes = tuple(_tried(dialect, found, edits, replacement))
+    fixes = tuple(_tried(dialect, blocks[0], found, edits, replacement))
     # A letter for a digit is no word.
     findings = [each for each in findings if each.about not in _OF_WORDS or not lookalike_at(meant, each.span)]
     blamed = [each for each in findings if lookalike_at(meant, each.span)]
@@ -456,7 +457,10 @@ def _read(
     return (found if isinstance(found, ParsedContour) and found.form.is_contour else None), text
 
 
-def _tried(dialect: Dialect, found: ParsedContour | None, edits: Sequence[Edit], replacement: str) -> Iterator[Fix]:
-    """The edits as a fix, if they make a contour that is solved."""
+def _tried(
+    dialect: Dialect, block: Block, found: ParsedContour | None, edits: Sequence[Edit], replacement: str
+) -> Iterator[Fix]:
+    """The edits of a block as a fix, if they make a contour that is solved."""
     if found is not None and examine(found, dialect.rules, Policy.ENFORCE, depth=Depth.VERDICT).contour:
-        yield Fix("; ".join(map(str, edits)), replacement, Applicability.CHANGES_CONTOUR)
+        told = "; ".join(map(str, edits))
+        yield Fix(told, replacement, Applicability.CHANGES_CONTOUR, replaced=block.text)

@@ -1,6 +1,6 @@
 """One finding about a program, complete enough for a terminal, JSON and an editor."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from enum import Enum
 from math import atan2, degrees
 
@@ -50,13 +50,16 @@ class Fix(Struct, frozen=True):
     """Effect of applying it, in words, where `applicability` alone does not say it."""
     example: str = ""
     """The replacement with numbers that make a contour, where it leaves gaps and such numbers are known."""
+    replaced: str = ""
+    """The text that it replaces, a line for each block of the contour."""
 
-    def by_line(self, old: Mapping[int, str]) -> dict[int, str]:
-        """The new text of each line that it replaces (`old`, their texts); a line that it drops is missing."""
-        lines, before = [*old], [*old.values()]
+    def by_line(self, lines: Sequence[int]) -> dict[int, str]:
+        """The new text of each of the lines that it replaces: empty for a line that it drops, several lines where it
+        adds some."""
         texts = [self.replacement] if len(lines) == 1 else self.replacement.split("\n")
         if len(texts) == len(lines):
             return dict(zip(lines, texts, strict=True))
+        before = self.replaced.split("\n")
         # What stays as it is on both sides tells which lines the others replace.
         most = min(len(texts), len(lines) - 1)
         head = next((at for at in range(most) if texts[at] != before[at]), most)

@@ -89,9 +89,8 @@ def actions_of(opened: Opened, wanted: types.Range) -> Iterator[types.CodeAction
         if not _meets(place, wanted):
             continue
         shown = _diagnostic(opened, finding)
-        old = {line: opened.places.text(line) for line in lines} if finding.fixes else {}
         for fix in finding.fixes:
-            changes = edits(opened.places, [*fix.by_line(old).items()], opened.line_end)
+            changes = edits(opened.places, [*fix.by_line(lines).items()], opened.line_end)
             title = fix.description
             yield types.CodeAction(
                 title=title if len(title) <= LONGEST_TITLE else f"{title[: LONGEST_TITLE - 3]}...",

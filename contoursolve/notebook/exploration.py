@@ -174,7 +174,7 @@ def apply_fix(exploration: Exploration, finding: int, number: int, *, is_example
     if is_example:
         fix = replace(fix, replacement=fix.example or fix.replacement)
     old = {block.line: block.text for block in result.program.blocks}
-    new = old | fix.by_line({line: old[line] for line in result.lines_of(findings[finding])})
+    new = old | fix.by_line(result.lines_of(findings[finding]))
     return write(exploration, "\n".join(text for line, text in new.items() if text or not old[line]))
 
 

@@ -88,7 +88,7 @@ def _location(result: Result, finding: Diagnostic) -> dict[str, Any]:
 def _fix(result: Result, finding: Diagnostic, fix: Fix) -> dict[str, Any]:
     texts = {block.line: block.text for block in result.program.blocks}
     changes = []
-    for line, text in fix.by_line({line: texts[line] for line in result.lines_of(finding)}).items():
+    for line, text in fix.by_line(result.lines_of(finding)).items():
         if text != texts[line]:
             region = {"startLine": line, "startColumn": 1, "endColumn": len(texts[line]) + 1}
             changes.append({"deletedRegion": region, "insertedContent": {"text": text}})

@@ -123,7 +123,7 @@ def _kept_right(step: Step, shared: Set[int]) -> Step:
     is_once = len(texts) == len(answer.lines)
 
     def is_right(fix: Fix) -> bool:
-        new = fix.by_line(texts)
+        new = fix.by_line(answer.lines)
         return is_once and all(new.get(line) == texts[line] for line in shared & texts.keys())
 
     told = (replace(each, fixes=tuple(filter(is_right, each.fixes))) for each in answer.diagnostics)
@@ -347,4 +347,5 @@ def _fix(fix: Fix, lines: Sequence[int], blocks: Sequence[Block], here: _Substit
                     if len(told.findall(texts[place])) == 1:
                         meant = f"={each.typed}".replace("\\", r"\\")
                         texts[place], description = told.sub(meant, texts[place]), told.sub(meant, description)
-    return replace(fix, description=description, replacement="\n".join(texts))
+    replaced = "\n".join(blocks[line - first].text for line in lines)
+    return replace(fix, description=description, replacement="\n".join(texts), replaced=replaced)

@@ -121,8 +121,8 @@ def test_a_fix_of_a_chain_is_in_sarif_line_by_line(tmp_path):
     ],
 )
 def test_lines_that_a_fix_drops_or_adds_leave_the_others_where_they_are(new, wanted):
-    fix = Fix("", new, Applicability.CHANGES_CONTOUR)
-    assert fix.by_line({3: "a", 4: "b", 6: "c"}) == dict(zip((3, 4, 6), wanted, strict=True))
+    fix = Fix("", new, Applicability.CHANGES_CONTOUR, replaced="a\nb\nc")
+    assert fix.by_line((3, 4, 6)) == dict(zip((3, 4, 6), wanted, strict=True))
 
 
 def test_contours_are_the_same_if_every_element_is_not_if_the_named_points_and_the_end_are():
