@@ -88,6 +88,11 @@ class CompiledSweep(Struct, eq=False):
             return ""
         return f"each value of {join([called(word) for word in self.template.words])} decides how its row is read"
 
+    def covers(self, ranges: Ranges) -> bool:
+        """Whether it has an example for each row of other values, and reads none of them by itself."""
+        known = [each.key for each in self.examples.rows]
+        return not self.by_row and bool(numpy.isin(self.examples.keys_of(ranges), known).all())
+
     def columns(self) -> dict[str, type[numpy.generic]]:
         """The names and types of all results, in order."""
         found: dict[str, type[numpy.generic]] = {"status": numpy.uint8, "reason": numpy.uint8}
@@ -301,5 +306,5 @@ def cases_of(
         if row.is_by_row:
             like = None if row.is_compared else place_of_contour(template, values)
             own = by_row.setdefault(row.key, ByRow(like, {}))
-            own.classes[read_alone(template, values, own.like).kind] = numbers[-1]
+            own.classes[read_alone(template, values, own.like, is_kept=True).kind] = numbers[-1]
     return tuple(items), numpy.array(numbers, numpy.int64), by_row

@@ -93,8 +93,11 @@ def sweep(
     return compile_sweep(spec_of(block, **options), ranges)
 
 
-def compile_sweep(spec: SweepSpec, ranges: Ranges) -> CompiledSweep:
-    """The sweep of a case over some values, whatever words it had free; errors as for `family`."""
+def compile_sweep(spec: SweepSpec, ranges: Ranges, before: CompiledSweep | None = None) -> CompiledSweep:
+    """The sweep of a case over some values, whatever words it had free, with the functions of one `before` if that
+    has them for all these values; errors as for `family`."""
+    if before is not None and before.covers(ranges):
+        return replace(before, ranges=ranges)
     spec = replace(spec, names=tuple(ranges.values))
     template = spec.template()
     ready = _compiled(spec, examples_of(template, ranges), ranges, template)

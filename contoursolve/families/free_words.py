@@ -189,6 +189,11 @@ class Examples(Struct, frozen=True):
         words = zip(values, places, self.limits, strict=True)
         return _key_of([limits.intervals(each)[at] for each, at, limits in words], self.limits)
 
+    def keys_of(self, columns: Ranges) -> Places:
+        """The keys of the rows of columns."""
+        values = columns.values.values()
+        return _key_of([limits.intervals(each) for each, limits in zip(values, self.limits, strict=True)], self.limits)
+
 
 MOST_BY_ROW = 200_000
 """Rows that are read one by one: some minutes."""
@@ -240,7 +245,7 @@ def _with_others(found: Examples, ranges: Ranges) -> Iterator[Example]:
     others: dict[int, dict[tuple[float, ...], None]] = {row.key: {row.others[0]: None} for row in found.rows}
     for number in rows:
         part = ranges.rows(number, number + 1)
-        key = int(found.key(list(part.values.values()), [numpy.zeros(1, numpy.int64)] * len(part.values))[0])
+        key = int(found.keys_of(part)[0])
         others[key][tuple(float(each[0]) for each in part.values.values())] = None
     for row in found.rows:
         yield replace(row, others=tuple(each for each in others[row.key] if each != row.values))
@@ -264,10 +269,10 @@ def _kinds_of(
     kinds: dict[tuple[int, Alike], Example] = {}
     for first, last in stretches(ranges.count, LONGEST):
         part = ranges.rows(first, last)
-        keys = found.key(list(part.values.values()), [numpy.arange(last - first)] * len(names))
+        keys = found.keys_of(part)
         for row in numpy.flatnonzero(numpy.isin(keys, [*rest])).tolist():
             key, values = int(keys[row]), {name: float(column[row]) for name, column in part.values.items()}
-            kind = key, read_alone(template, values, likes.get(key)).kind
+            kind = key, read_alone(template, values, likes.get(key), is_kept=True).kind
             before = kinds.get(kind) or Example(key, tuple(values.values()), 0, is_by_row=True, is_compared=is_compared)
             kinds[kind] = replace(before, count=before.count + 1)
     yield from kinds.values()

@@ -12,12 +12,12 @@ from contoursolve.diagnosis import short_name
 from contoursolve.diagnostics import Shown
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords, resting_of
+from contoursolve.families.compiled_sweep import CompiledSweep
 from contoursolve.families.errors import ByRowError, FamilyError
 from contoursolve.families.evaluate import compile_sweep, solve_sweep
 from contoursolve.families.free_words import are_compared, check_block
 from contoursolve.families.sampled_lines import (
     Boundary,
-    Crossings,
     Outcomes,
     boundaries_of,
     crossings_of,
@@ -43,9 +43,6 @@ class Lattice(Struct, frozen=True):
 
 PICTURE, BY_ROW = Lattice(305, 201, 4), Lattice(65, 41, 2)
 """As many as a picture has cells; and fewer where each row is read by itself, some seconds."""
-
-SECTIONS = 8
-"""Parts into which the way between two neighbours is divided of which one has the contour."""
 
 UNKNOWN = -1
 
@@ -129,6 +126,7 @@ class _RegionSearch(FreeWords):
         counts = self.lattice.columns, self.lattice.rows
         self.axes = [numpy.linspace(*ends, count) for ends, count in zip(self.within, counts, strict=True)]
         self.cases: list[CaseClass] = []
+        self._sweep: CompiledSweep | None = None
 
     def _is_by_row(self) -> bool:
         """Whether each row tells how it is read, at the stated values or in the middle."""
@@ -144,7 +142,7 @@ class _RegionSearch(FreeWords):
     def run(self) -> Region:
         """The region."""
         outcomes = self._sample()
-        crossings = self._nearer(crossings_of(self.axes, outcomes))
+        crossings = crossings_of(self.axes, outcomes, self._outcomes)
         cell, seen = ([float(each[step] - each[0]) for each in self.axes] for step in (1, self.lattice.coarse))
         return Region(
             words=_two(self.names),
@@ -165,13 +163,14 @@ class _RegionSearch(FreeWords):
         """The outcomes at values of both words, by (point, word)."""
         ranges = Ranges(dict(zip(self.names, points.T.copy(), strict=True)), is_paired=True)
         try:
-            ready = compile_sweep(self.spec, ranges)
+            ready = compile_sweep(self.spec, ranges, self._sweep)
         except RefusedError:  # each of these values, for the same reason
             return numpy.full(len(points), StatusCode.REJECTED * len(REASONS), numpy.int64)
         # Where there is no closed form, a search for every row takes minutes; it says so.
         for case in ready.cases if not ready.by_row else ():
             if case.status is None and not case.is_closed:
                 branches_of(case.along(self.names[0]), *self.within[0])
+        self._sweep = ready
         self.cases += ready.cases
         found = solve_sweep(ready)
         return outcomes_of(found["status"], found["reason"])
@@ -191,21 +190,6 @@ class _RegionSearch(FreeWords):
                 wanted[i * coarse : i * coarse + size, j * coarse : j * coarse + size] = True
         corners = found[::coarse, ::coarse].repeat(coarse, axis=0).repeat(coarse, axis=1)
         return numpy.where(found == UNKNOWN, corners[: found.shape[0], : found.shape[1]], found)
-
-    def _nearer(self, crossings: Crossings) -> Crossings:
-        """Crossings with a line nearer to where the contour begins to exist, by values between the neighbours."""
-        if not len(crossings.nodes):
-            return crossings
-        inside, outside = (
-            numpy.stack([self.axes[word][crossings.nodes[:, end, word]] for word in (0, 1)], axis=1) for end in (0, 1)
-        )
-        shares = numpy.linspace(0.0, 1.0, SECTIONS + 1)[1:-1, None, None]
-        between = inside + shares * (outside - inside)
-        solved = is_contour(self._outcomes(between.reshape(-1, 2))).reshape(SECTIONS - 1, -1)
-        number = numpy.where(solved.all(axis=0), SECTIONS - 1, solved.argmin(axis=0))[:, None]
-        step = (outside - inside) / SECTIONS
-        beyond = numpy.where(number == SECTIONS - 1, outside, inside + (number + 1) * step)
-        return replace(crossings, points=inside + (number + 0.5) * step, outside=beyond)
 
 
 def _rounded_up(value: float) -> str:

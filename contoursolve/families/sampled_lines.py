@@ -2,7 +2,7 @@
 with what fails beyond it.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise
 
 import numpy
@@ -21,8 +21,12 @@ from contoursolve.solving import REASONS, Check, Point, RefusalKind, StatusCode,
 Outcomes = NDArray[numpy.int64]
 """Outcome of each value: its status and the reason against it, as one number."""
 
-STRIDE = 8
+STRIDE = 16
 """Points of a line of which one is solved by itself for what fails beyond it."""
+
+
+SECTIONS = 8
+"""Parts into which the way between two neighbours is divided of which one has the contour."""
 
 
 class Boundary(Struct, frozen=True):
@@ -55,9 +59,11 @@ def is_contour(outcomes: Outcomes) -> NDArray[numpy.bool_]:
     return numpy.isin(outcomes, [code * len(REASONS) for code in (StatusCode.SOLVED, StatusCode.OVERDETERMINED)])
 
 
-def crossings_of(axes: Sequence[Array], outcomes: Outcomes) -> Crossings:
-    """The neighbours in a grid, by (first word, second word), of which one has the contour; the line is taken to run
-    half-way between them."""
+def crossings_of(
+    axes: Sequence[Array], outcomes: Outcomes, solve: Callable[[Array], Outcomes] | None = None
+) -> Crossings:
+    """The neighbours in a grid, by (first word, second word), of which one has the contour. With a function that solves
+    values, by (point, word), the line runs near where the contour begins to exist; else half-way between them."""
     solved, found = is_contour(outcomes), []
     for along in (0, 1):
         other = tuple(slice(1, None) if axis == along else slice(None) for axis in (0, 1))
@@ -67,8 +73,17 @@ def crossings_of(axes: Sequence[Array], outcomes: Outcomes) -> Crossings:
         is_first = solved[tuple(here.T)]
         found.append(numpy.where(is_first[:, None, None], pairs, pairs[:, ::-1]))
     nodes = numpy.concatenate(found)
-    ends = numpy.stack([axes[word][nodes[:, :, word]] for word in (0, 1)], axis=2)
-    return Crossings(nodes, ends.mean(axis=1), ends[:, 1])
+    inside, outside = numpy.stack([axes[word][nodes[:, :, word]] for word in (0, 1)], axis=2).transpose(1, 0, 2)
+    sections, number = 1, numpy.zeros((len(nodes), 1))
+    if solve is not None and len(nodes):
+        sections = SECTIONS
+        shares = numpy.linspace(0.0, 1.0, sections + 1)[1:-1, None, None]
+        between = inside + shares * (outside - inside)
+        is_solved = is_contour(solve(between.reshape(-1, 2))).reshape(sections - 1, -1)
+        number = numpy.where(is_solved.all(axis=0), sections - 1, is_solved.argmin(axis=0))[:, None]
+    step = (outside - inside) / sections
+    beyond = numpy.where(number == sections - 1, outside, inside + (number + 1) * step)
+    return Crossings(nodes, inside + (number + 0.5) * step, beyond)
 
 
 def boundaries_of(template: Template, outcomes: Outcomes, crossings: Crossings) -> Iterator[Boundary]:

@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal, InvalidOperation
 from math import isfinite
-from typing import TypedDict
+from typing import Any, TypedDict
 
 import numpy
-from msgspec import Struct
+from msgspec import Struct, field
 from msgspec.structs import replace
 from numpy.typing import ArrayLike, NDArray
 
@@ -191,6 +191,8 @@ class Template(Struct, frozen=True, eq=False):
     words: Mapping[str, Word] = {}
     variables: Mapping[str, tuple[int, int]] = {}
     """Variables that stand for a word: by their names, the line and the column of its value."""
+    readings: dict[tuple[float | None, ...], Any] = field(default_factory=dict)
+    """Rows that were read by themselves, until they are asked for again (see `traced_reading.read_alone`)."""
 
     def with_words(self, names: Sequence[str]) -> "Template":
         """The same block with the words of these names free. Raises FamilyError as `find_words`."""

@@ -316,9 +316,19 @@ def _may_have_cuts(claim: ParsedContour) -> bool:
     return claim.form.is_general and bool(joints_among(profile.figure, analyse(assemble(profile)).free))
 
 
-def read_alone(template: Template, values: Mapping[str, float], like: ParsedContour | None) -> RowReading:
+def read_alone(
+    template: Template, values: Mapping[str, float], like: ParsedContour | None, *, is_kept: bool = False
+) -> RowReading:
     """How the row of these values is read, by itself: at the place of a contour, or else with all of the program.
-    Raises FamilyError as `Template.solve`."""
+    One that `is_kept` is not read again the next time. Raises FamilyError as `Template.solve`."""
+    key = (*values.values(), like.blocks[0].line if like is not None else None)
+    found = template.readings.pop(key, None) or _read_alone(template, values, like)
+    if is_kept:
+        template.readings[key] = found
+    return found
+
+
+def _read_alone(template: Template, values: Mapping[str, float], like: ParsedContour | None) -> RowReading:
     claim = read_row(template, values, like) if like is not None else None
     kind, numbers = tuple[object, ...](), dict[str, Decimal]()
     if claim is None:

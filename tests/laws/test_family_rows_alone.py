@@ -10,7 +10,7 @@ from examples import few_and_many
 from generate_families import BLOCKS, ROWS, draw
 
 from contoursolve import FamilyError, family, find_word, sensitivity, solve, tolerances
-from contoursolve.families import feasible, is_contour, region, regions
+from contoursolve.families import feasible, is_contour, region, regions, traced_reading
 from contoursolve.families.spec import name_of, spec_of
 from contoursolve.families.traced_reading import Traced
 from contoursolve.output.families import rest_lines
@@ -194,7 +194,14 @@ def test_a_value_is_found_on_either_side_of_where_an_arc_turns_over(goal, value)
 )
 def test_a_region_of_words_that_each_decide_is_sampled_row_by_row(monkeypatch, block, words, within, options):
     monkeypatch.setattr(regions, "BY_ROW", regions.Lattice(17, 17, 2))
+    read, own = Counter(), traced_reading._read_alone
+    monkeypatch.setattr(
+        traced_reading,
+        "_read_alone",
+        lambda template, values, like: read.update([tuple(values.values())]) or own(template, values, like),
+    )
     found = region(block, words, within, **options)
+    assert read.total() == len(read) > 17, "no row is read twice"
     assert found.exists
     assert found.boundaries
     for each in found.boundaries:

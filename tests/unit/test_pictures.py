@@ -663,13 +663,17 @@ def test_the_lines_of_a_map_part_values_that_have_a_contour_from_those_that_have
     # The middles of the outer cells are half a cell from the frame.
     half = {word: (high - low) / 120 for word, (low, high) in within.items()}
     whole = [(low - half[word], high + half[word]) for word, (low, high) in within.items()]
-    # Where cells beside each other are not alike, a line runs between their middles.
+    # Where cells beside each other are not alike, a line runs where the contour begins to exist between their middles.
     spots = numpy.concatenate([dense(line) for line in drawn])
-    has_contour = family.has_contour
-    first, second = axes.values()
-    for row, column in zip(*numpy.nonzero(has_contour[:-1] != has_contour[1:]), strict=True):
-        middle = spot_of(((first[row] + first[row + 1]) / 2, second[column]), whole)
-        assert numpy.hypot(*(spots - middle).T).min() < 1.5, (first[row], second[column])
+    (one, first), (two, second) = axes.items()
+    rows, columns = numpy.nonzero(family.has_contour[:-1] != family.has_contour[1:])
+    fine = first[rows, None] + (first[1] - first[0]) * numpy.linspace(0, 1, 65)
+    vary = {one: fine.ravel(), two: numpy.repeat(second[columns], fine.shape[1])}
+    is_solved = contoursolve.family(block, vary=vary, paired=True, **options).has_contour.reshape(fine.shape)
+    for values, solved, column in zip(fine, is_solved, columns, strict=True):
+        edges = values[:-1][solved[1:] != solved[:-1]]
+        nearest = min(numpy.hypot(*(spots - spot_of((edge, second[column]), whole)).T).min() for edge in edges)
+        assert nearest < 2, (edges, second[column])
 
 
 def dense(line):
