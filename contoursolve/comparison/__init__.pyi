@@ -3,7 +3,6 @@ from .claims import (
     ClaimCheck as ClaimCheck,
     ContourReceipt as ContourReceipt,
     Document as Document,
-    Outcome as Outcome,
     Receipt as Receipt,
     ReceiptVerdict as ReceiptVerdict,
     read_document as read_document,

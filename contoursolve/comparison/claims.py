@@ -208,14 +208,6 @@ def _unambiguous(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 # --- The receipt -------------------------------------------------------------------------------------
 
 
-class Outcome(Enum):
-    """Outcome of one claim."""
-
-    HOLDS = "holds"
-    BROKEN = "broken"
-    NOT_CHECKED = "not-checked"
-
-
 class ReceiptVerdict(Enum):
     """The answer; that nothing was checked is not the same as that nothing is wrong."""
 
@@ -228,7 +220,7 @@ class ReceiptVerdict(Enum):
 
 
 class ClaimCheck(Struct, frozen=True):
-    """One claim and its outcome; `kind` is what it is about.
+    """One claim, and whether it holds; None where that was not checked. `kind` is what it is about.
 
     `residual` says by how much it is off and `limit` how much is allowed, in `unit` (mm or deg), None where the answer
     is yes or no. `remark` says what was found where it is broken, and why where it was not checked.
@@ -236,17 +228,12 @@ class ClaimCheck(Struct, frozen=True):
 
     kind: str
     name: str
-    outcome: Outcome
+    passed: bool | None
     words: tuple[str, ...] = ()
     residual: float | None = None
     limit: float | None = None
     unit: str | None = None
     remark: str = ""
-
-    @property
-    def passed(self) -> bool:
-        """Whether it holds."""
-        return self.outcome is Outcome.HOLDS
 
 
 STEPS = 10
@@ -264,25 +251,25 @@ class Ledger(Struct):
         """Write down by how much something is off, which must not be more than the limit; whether it is not."""
         size, holds = abs(off), abs(off) <= limit  # false for NaN
         size = round(size / limit * STEPS) * limit / STEPS if holds and limit > 0 else size
-        told, outcome = size if isfinite(size) else None, Outcome.HOLDS if holds else Outcome.BROKEN
-        self.checks.append(ClaimCheck(self.kind, self.prefix + name, outcome, tuple(words), told, limit, unit))
+        told = size if isfinite(size) else None
+        self.checks.append(ClaimCheck(self.kind, self.prefix + name, holds, tuple(words), told, limit, unit))
         return holds
 
     def require(self, name: str, words: Iterable[str], holds: bool, remark: str = "") -> bool:
         """Write down a question of yes or no; the remark is kept where the answer is no."""
-        outcome, told = (Outcome.HOLDS, "") if holds else (Outcome.BROKEN, remark)
-        self.checks.append(ClaimCheck(self.kind, self.prefix + name, outcome, tuple(words), remark=told))
+        told = "" if holds else remark
+        self.checks.append(ClaimCheck(self.kind, self.prefix + name, holds, tuple(words), remark=told))
         return holds
 
     def omit(self, what: str, why: str) -> None:
         """Write down what was not checked, once."""
-        check = ClaimCheck(self.kind, self.prefix + what, Outcome.NOT_CHECKED, remark=why)
+        check = ClaimCheck(self.kind, self.prefix + what, passed=None, remark=why)
         self.checks += [check] if check not in self.checks else []
 
     @property
     def is_broken(self) -> bool:
         """Whether a claim is broken."""
-        return any(check.outcome is Outcome.BROKEN for check in self.checks)
+        return any(check.passed is False for check in self.checks)
 
 
 class ContourReceipt(Struct, frozen=True):
@@ -298,12 +285,12 @@ class ContourReceipt(Struct, frozen=True):
     @property
     def checks(self) -> list[ClaimCheck]:
         """The claims that were checked."""
-        return [each for each in self.told if each.outcome is not Outcome.NOT_CHECKED]
+        return [each for each in self.told if each.passed is not None]
 
     @property
     def omissions(self) -> list[ClaimCheck]:
         """The claims that were not checked."""
-        return [each for each in self.told if each.outcome is Outcome.NOT_CHECKED]
+        return [each for each in self.told if each.passed is None]
 
 
 class Receipt(Struct, frozen=True):

@@ -4,8 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from decimal import Decimal
 from functools import cached_property
 from itertools import combinations, islice, pairwise
-from math import degrees, floor, inf, log10, radians
-from typing import Any
+from math import degrees, floor, inf, log10
 
 import numpy
 from msgspec import Struct
@@ -14,46 +13,34 @@ from msgspec.structs import replace
 from contoursolve.comparison.claims import PRINTED, ClaimedArc, ClaimedContour, ClaimedPath, Ledger
 from contoursolve.comparison.measure import (
     INDEPENDENT,
-    MEANINGS,
-    SENSES,
-    Array,
-    MeasuredFigure,
+    PRINTED_FLOATS,
     Move,
+    Place,
     check_element,
     cross,
-    direction,
     dot,
-    measured,
     missing,
     name_moves,
-    residual,
-    settle,
     side_of,
-    slopes,
     unit,
-    with_sides,
 )
 from contoursolve.diagnostics import Severity
 from contoursolve.gcode import FaultKind
 from contoursolve.geometry import (
     INCREMENT_OF,
     Arc,
-    Coordinate,
     Draft,
     Fact,
-    Heading,
     Line,
-    Offset,
-    OnCircle,
     Profile,
-    Radius,
     Unit,
+    Values,
     apply_statements,
     both,
-    headed_lines,
+    build_system,
     line_scalars,
 )
-from contoursolve.numeric import pinv, svd
+from contoursolve.numeric import Array, direction, pinv, svd
 from contoursolve.reading import Dialect, ParsedContour, offences_of, read, unused_words
 from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENGTH, RESIDUAL
 
@@ -77,8 +64,7 @@ class Case(Struct, frozen=True):
     claim: ParsedContour
     claimed: ClaimedContour
     profile: Profile
-    blank: MeasuredFigure
-    unknowns: tuple[str, ...]
+    blank: Place
     unreadable: str
     loose: str
     rejected: str
@@ -88,34 +74,36 @@ class Case(Struct, frozen=True):
     @property
     def size(self) -> float:
         """The largest number that the words state, mm."""
-        return max([1.0, *map(abs, self.blank.amounts.values())])
+        return float(max([1.0, *map(abs, self.blank.at.amounts.values())]))
 
     def words(self, *facts: Fact) -> list[str]:
         """The words that state facts, as typed."""
         given = [self.profile.givens[fact.given].word for fact in facts if fact.given in self.profile.givens]
         return [word.text for word in given if word]
 
-    def name(self, fact: Fact) -> str:
-        """The name of a fact in checks."""
-        fields = {name: getattr(fact, name) for name in type(fact).__struct_fields__}  # type: ignore[attr-defined]
-        axis = self.profile.plane.axes[fields["axis"]] if "axis" in fields else ""
-        told = MEANINGS[type(fact)][0].format_map({**fields, "axis": axis})
-        return "the fact holds" if fact.given.startswith("fact ") else told
+    @property
+    def unknowns(self) -> tuple[str, ...]:
+        """The names of what the words are to fix."""
+        return self.blank.system.unknowns
 
-    def allowance(self, fact: Fact, at: MeasuredFigure) -> float:
+    def name(self, fact: Fact) -> str:
+        """The name of a fact in checks: what it is about."""
+        axes, placed = self.profile.plane.axes, fact.placed
+        if fact.given.startswith("fact "):
+            return "the fact holds"
+        if placed is not None:
+            return f"{axes[placed.axis]} {f'from {placed.origin} to' if placed.origin else 'of'} {placed.point}"
+        subjects = dict.fromkeys(name.rpartition(".")[0] or name for name in fact.reads())
+        return fact.phrase(axes, ()) or f"what is stated about {', '.join(subjects)}"
+
+    def allowance(self, fact: Fact, at: Values) -> float:
         """The allowed difference of a fact from the others, mm: coordinates and words are exact to half of their
         increments."""
+        if fact.circle is not None and not fact.given:
+            return fact.circle.slack
         steps = self.profile.increments
-        own = steps.get(INCREMENT_OF + fact.given, 0.0)
-        if isinstance(fact, OnCircle) and not fact.given:
-            return fact.slack
-        if isinstance(fact, Coordinate | Offset):
-            return (steps[f"{INCREMENT_OF}{fact.axis}"] * (1 + isinstance(fact, Offset)) + own) / 2 + RESIDUAL
-        if isinstance(fact, Heading):
-            along, swing = at.directions[fact.given], abs(at.way(fact.tail, fact.head)) * radians(own)
-            across = abs(along.imag) * steps[f"{INCREMENT_OF}0"] + abs(along.real) * steps[f"{INCREMENT_OF}1"]
-            return across + swing / 2 + RESIDUAL
-        return own + RESIDUAL if isinstance(fact, Radius) else AGREEMENT
+        reach = fact.reach(at, lambda name: steps.get(INCREMENT_OF + name, 0.0))
+        return AGREEMENT if reach is None else float(reach) / 2 + RESIDUAL
 
 
 def prepare(
@@ -145,24 +133,19 @@ def prepare(
         lands = each.after is not None or each.lands_on is not None or each.lands_parallel_to is not None
         loose += [] if lands else [f"no word says where {each.name} lands"]
     figure, start = profile.figure, [value or Decimal(0) for value in profile.start.values]
-    facts = (*profile.facts, *profile.ignored, *(question.fact for question in profile.questions))
-    shifts = {fact.given: start[fact.axis] for fact in facts if isinstance(fact, Coordinate)}
+    facts = [*profile.facts, *profile.ignored, *(question.fact for question in profile.questions)]
+    shifts = {fact.given: start[fact.placed.axis] for fact in facts if fact.placed and not fact.placed.origin}
     shifts |= {name: start[axis] for place in figure.places for axis, name in enumerate(both(place))}
-    givens = profile.givens.values()
-    amounts = {
-        each.name: float(each.value - shifts.get(each.name, 0)) for each in givens if each.unit is not Unit.DEGREE
-    }
-    directions = {each.name: direction(each.value) for each in givens if each.unit is Unit.DEGREE}
+    lengths = [each for each in profile.givens.values() if each.unit is not Unit.DEGREE]
+    amounts = {each.name: float(each.value - shifts.get(each.name, 0)) for each in lengths}
+    directions = {each.name: direction(each.value) for each in profile.givens.values() if each.unit is Unit.DEGREE}
     known = dict.fromkeys(both(figure.start), 0.0)
     known |= {name: amounts[name] for name in (*both(*figure.places), *figure.known_radii)}
-    blank = MeasuredFigure(figure, known, amounts, directions, headed_lines(figure), {})
+    system = build_system(figure, profile.facts)
+    blank = Place(system, Values(known, amounts, directions, system.headed, functions=PRINTED_FLOATS))
     origin, hints = complex(*map(float, start)), [each.rule.code for each in offences] if is_strict else []
     told = ["; ".join(each) for each in (wrong, loose, refusals, hints)]
-    return Case(claim, claimed, profile, blank, _unknowns(figure), told[0], told[1], told[2], told[3], origin)
-
-
-def _unknowns(figure: Any) -> tuple[str, ...]:
-    return (*both(*figure.points), *figure.radii, *(name for line in figure.carriers for name in line_scalars(line)))
+    return Case(claim, claimed, profile, blank, told[0], told[1], told[2], told[3], origin)
 
 
 def _unreadable(claim: ParsedContour) -> Iterator[str]:
@@ -186,51 +169,53 @@ def _unreadable(claim: ParsedContour) -> Iterator[str]:
 
 
 class Measured(Struct, frozen=True, dict=True):
-    """A claimed path at its figure: the elements by their names, the values of all scalars, the facts about them, and
-    how far each may be off."""
+    """A claimed path at its figure: the elements by their names, the values of all scalars with the facts about them,
+    and how far each may be off."""
 
     case: Case
     path: ClaimedPath
     named: Mapping[str, Move]
-    at: MeasuredFigure
-    facts: tuple[Fact, ...]
+    place: Place
     limit: float
 
     def off(self, fact: Fact) -> tuple[float, float]:
         """The error of a fact, and its limit, mm."""
-        off = residual(fact, self.at)
-        allowed = max(self.limit, self.case.allowance(fact, self.at)) if fact in self.spare else self.limit
+        off, allowance = self.place.error(fact), self.case.allowance(fact, self.place.at)
+        allowed = max(self.limit, allowance) if fact in self.spare else self.limit
         if fact not in self.case.profile.facts:
             # A corner is cut in the stated direction, which is exact to its increment only.
             allowed += self.beside.get(getattr(fact, "line", ""), 0.0)
-        if isinstance(fact, Radius) and self.limit < off <= self.case.allowance(fact, self.at):
+        if fact.sizes and self.limit < off <= allowance:
             # It may be too small for its half circle, by no more than words are exact to.
-            ends = [each.point for each in self.facts if isinstance(each, OnCircle) and each.radius == fact.radius]
-            spans = (abs(self.at.way(one, other)) for one, other in combinations(ends, 2))
-            off = 0.0 if any(abs(span - 2 * self.at.radius(fact.radius)) <= 4 * self.limit for span in spans) else off
-        wrong = SENSES[type(fact)](fact, self.at) if type(fact) in SENSES else 0.0
+            circles = [each.circle for each in self.place.system.facts if each.circle]
+            ends = [each.point for each in circles if each.radius == fact.sizes]
+            spans = (abs(self.place.way(one, other)) for one, other in combinations(ends, 2))
+            diameter = 2 * self.place.at.radius(fact.sizes)
+            off = 0.0 if any(abs(span - diameter) <= 4 * self.limit for span in spans) else off
+        wrong = self.place.sense(fact)
         return (wrong if wrong < -PRINTED else off), allowed
 
     @cached_property
     def beside(self) -> dict[str, float]:
         """The distance, mm, by which each line of a stated direction leads past its last point."""
-        lines = (
-            each for each in self.case.profile.figure.path if isinstance(each, Line) and each.name in self.at.headed
-        )
-        return {each.name: abs(cross(self.at.bearing(each.name), self.at.way(each.tail, each.head))) for each in lines}
+        lines = [each for each in self.case.profile.figure.path if isinstance(each, Line)]
+        headed = [each for each in lines if each.name in self.place.at.headed]
+        return {
+            each.name: abs(cross(self.place.heading(each), self.place.way(each.tail, each.head))) for each in headed
+        }
 
     @cached_property
     def spare(self) -> frozenset[Fact]:
         """The facts that follow from those before them: what they state may be off as far as words are exact."""
         facts, names = self.case.profile.facts, self.case.unknowns
         if len(names) > MOST_UNKNOWNS:
-            return frozenset(fact for fact in facts if isinstance(fact, OnCircle))
-        return frozenset(facts[row] for row in dependent(slopes(facts, self.at, names)))
+            return frozenset(fact for fact in facts if fact.circle)
+        return frozenset(facts[row] for row in dependent(self.place.slopes(facts, names)))
 
     @cached_property
     def sides(self) -> list[tuple[float, float] | None]:
         """For each choice, on which side its point is, see `side_of`."""
-        return [side_of(self.at, self.facts, choice) for choice in self.case.profile.choices]
+        return [side_of(self.place, choice) for choice in self.case.profile.choices]
 
     def is_on_its_sides(self, band: float = 0.0) -> bool:
         """Whether each point of which there are two is the one that words choose; both are one within a band, mm."""
@@ -335,18 +320,18 @@ def _measure(
                 told[f"{name}.radius"] = own.radius
     for name, at in points.items():
         put(name, at)
-    facts, unknowns = tuple(draft.facts), _unknowns(draft.figure)
-    scalars = {**dict.fromkeys(unknowns, 0.0), **guessed, **case.blank.scalars, **told}
-    place = replace(case.blank, figure=draft.figure, scalars=scalars, headed=headed_lines(draft.figure))
-    rest = [name for name in unknowns if name not in told]
+    system = build_system(draft.figure, tuple(draft.facts))
+    scalars = {**dict.fromkeys(system.unknowns, 0.0), **guessed, **case.blank.at.scalars, **told}
+    values = replace(case.blank.at, scalars=scalars, headed=system.headed)
+    found, rest = Place(system, values), [name for name in system.unknowns if name not in told]
     for _ in range(2):
-        place = settle(facts, with_sides(facts, place), rest)
-    return Measured(case, path, named, with_sides(facts, place), facts, limit)
+        found = found.with_sides().settled(rest)
+    return Measured(case, path, named, found.with_sides(), limit)
 
 
 def _check_words(own: Measured, ledger: Ledger) -> None:
     """Measure what words, forms and corners state about the points."""
-    for fact in own.facts:
+    for fact in own.place.system.facts:
         ledger.measure(own.case.name(fact), own.case.words(fact), *own.off(fact))
 
 
@@ -354,13 +339,15 @@ def _check_elements(own: Measured, ledger: Ledger) -> None:
     """Each element goes from its first to its last point; corners turn as the path does, or have no size."""
     figure, givens = own.case.profile.figure, own.case.profile.givens
     for element in figure.path:
-        for name, off in check_element(own.at, element, own.named[element.name]) if element.name in own.named else ():
+        for name, off in (
+            check_element(own.place, element, own.named[element.name]) if element.name in own.named else ()
+        ):
             ledger.measure(name, (), off, 2 * own.limit)
     for corner in figure.corners:
         move, given = own.named.get(corner.name), givens.get(corner.size)
         words = [given.word.text] if given and given.word else []
         if move is None:
-            ledger.measure(f"{corner.name} is there", words, missing(own.at, corner), LENGTH)
+            ledger.measure(f"{corner.name} is there", words, missing(own.place, corner), LENGTH)
         elif move.turn:
             is_right = cross(move.start - move.center, move.end - move.center) * move.turn > 0
             ledger.require(f"{corner.name} turns as the path does", words, is_right, "it turns the other way")
@@ -377,7 +364,7 @@ def _check_place(own: Measured, ledger: Ledger) -> None:
         ledger.omit("whether the words fix the points", f"the equations do not tell it here: {why}")
         return
     remark = f"{rank.open} of {len(own.case.unknowns)} numbers are open"
-    if not ledger.require("the words fix the points", own.case.words(*own.facts), not rank.open, remark):
+    if not ledger.require("the words fix the points", own.case.words(*own.place.system.facts), not rank.open, remark):
         return
     if rank.fold is not None:
         ledger.measure("two solutions have become one", (), rank.fold, FOLDED)
@@ -410,13 +397,14 @@ def _check_answers(own: Measured, ledger: Ledger) -> None:
         ):
             continue
         rest.remove(answer)
-        (value, reach), limit = measured(question.fact, own.at), own.limit
-        if own.rank.fold is not None or (is_angle and reach <= LENGTH):
+        fact, value, limit = question.fact, question.fact.implied(own.place.at), own.limit
+        reach = abs(own.place.way(*fact.heading)) if fact.heading else 1.0
+        if own.rank.fold is not None or value is None:
             ledger.omit(word, "two solutions have become one there, or what has no length has no direction")
             continue
-        if isinstance(question.fact, Coordinate):
-            value += (case.origin.real, case.origin.imag)[question.fact.axis]
-        off = inf if answer.value is None else answer.value - (degrees(value) if is_angle else value)
+        if fact.placed and not fact.placed.origin:
+            value += (case.origin.real, case.origin.imag)[fact.placed.axis]
+        off = inf if answer.value is None else answer.value - value
         if is_angle:
             limit, off = limit + degrees((2 * PRINTED + ROUNDING * case.size) / reach), (off + 180) % 360 - 180
         unit_of = "deg" if is_angle else "mm"
@@ -465,7 +453,7 @@ class Rank(Struct, frozen=True):
 
 def rank_at(own: Measured) -> Rank:
     """The rank of the words' derivatives at a claimed path."""
-    case, names, facts, values = own.case, own.case.unknowns, own.case.profile.facts, own.at.scalars
+    case, names, facts, values = own.case, own.case.unknowns, own.case.profile.facts, own.place.at.scalars
     exact, most = [fact for fact in facts if abs(own.off(fact)[0]) <= own.limit], len(names)
     if most > MOST_UNKNOWNS:
         return Rank(None)
@@ -473,11 +461,11 @@ def rank_at(own: Measured) -> Rank:
     if not names:
         return Rank(0, surplus)
 
-    def moved(along: Array) -> MeasuredFigure:
-        by = zip(names, along.tolist(), strict=True)
-        return replace(own.at, scalars={**values, **{name: values[name] + step for name, step in by}})
+    def moved(along: Array) -> Place:
+        by = {name: values[name] + step for name, step in zip(names, along.tolist(), strict=True)}
+        return replace(own.place, at=replace(own.place.at, scalars={**values, **by}))
 
-    rows, off = slopes(exact, own.at, names), numpy.array([residual(fact, own.at) for fact in exact])
+    rows, off = own.place.slopes(exact, names), numpy.array([own.place.error(fact) for fact in exact])
     cuts = _free_cuts(own)
     rows, off = numpy.vstack([rows, cuts]), numpy.concatenate([off, numpy.zeros(len(cuts))])
     left, sizes, right = svd(rows)
@@ -487,7 +475,7 @@ def rank_at(own: Measured) -> Rank:
         bends = list[float]()
         for way in (*numpy.eye(most - near), numpy.ones(most - near)):
             along = BEND * (way @ right[near:])
-            ends = [[residual(fact, at) for fact in exact] for at in (moved(-along), own.at, moved(along))]
+            ends = [[at.error(fact) for fact in exact] for at in (moved(-along), own.place, moved(along))]
             bent = left[:, near:most].T @ (numpy.array([1.0, -2.0, 1.0]) @ numpy.array(ends))
             bends.append(float(numpy.linalg.norm(bent)) / BEND**2)
         hides = inf if own.path.certificate.double else ROUNDING * case.size / 8
@@ -495,7 +483,7 @@ def rank_at(own: Measured) -> Rank:
             # How far off they are is told where only two are one.
             fold = float(sizes[-1]) / bends[0] if most == near + 1 else 0.0
             return Rank(0, () if len(facts) == most else None, fold=fold)
-        away = slopes(exact, moved(numpy.random.default_rng(16).normal(0, 0.1, most)), names)
+        away = moved(numpy.random.default_rng(16).normal(0, 0.1, most)).slopes(exact, names)
         if found < most == len(away) - len(dependent(away)):
             return Rank(None, fold=0.0)
     inverse, noise = pinv(rows, rcond=INDEPENDENT), ROUNDING * case.size + 3 * PRINTED + own.limit - RESIDUAL
@@ -703,15 +691,15 @@ def _judge_open(case: Case, ledger: Ledger) -> None:
     rng, corners = numpy.random.default_rng(16), [corner.name for corner in case.profile.figure.corners]
     for _ in range(3 if len(names) <= MOST_UNKNOWNS else 0):
         values = dict(zip(names, rng.uniform(1, 2, len(names)).tolist(), strict=True))
-        at = with_sides(facts, replace(case.blank, scalars={**values, **case.blank.scalars}))
-        ranks.append(len(facts) - len(dependent(slopes(facts, at, names))))
+        at = replace(case.blank.at, scalars={**values, **case.blank.at.scalars})
+        ranks.append(len(facts) - len(dependent(replace(case.blank, at=at).with_sides().slopes(facts, names))))
     if case.hints or not ranks or max(ranks) < len(facts) or len(corners) > len({*corners}):
         ledger.omit(
             "the status", "equations follow from others, or a rule refuses them: their number does not tell the status"
         )
     elif case.loose or max(ranks) < len(names):
         ledger.require(name, (), holds=True)
-    elif all(isinstance(each, Coordinate | Offset | Heading) for each in facts):
+    elif all(each.is_affine for each in facts):
         ledger.require(name, (), holds=False, remark="there are as many independent equations as unknowns")
     else:
         ledger.omit(

@@ -1,21 +1,18 @@
-"""Formulas for each kind of constraint and element at claimed points: one table, without the package's equations.
+"""A figure at claimed values: the residuals of its facts there, its elements, corners and sides.
 
-A point is a complex number, mm from the start point: real is the plane's first axis, imaginary its second.
+The residual of a fact is that of its kind, in plain floats. A point is a complex number, mm from the start point: real
+is the plane's first axis, imaginary its second.
 """
 
-from cmath import phase, rect
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from decimal import Decimal
+from cmath import phase
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
-from math import copysign, radians, tau
-from typing import Any
+from math import copysign, tau
 
 import numpy
 from msgspec import Struct
 from msgspec.structs import replace
-from numpy.typing import NDArray
 
-from contoursolve import geometry as kinds
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -23,16 +20,15 @@ from contoursolve.geometry import (
     Choice,
     Corner,
     CornerShape,
+    Fact,
     Figure,
     Line,
     Side,
-    line_scalars,
-    scalar,
+    System,
+    Values,
 )
-from contoursolve.numeric import pinv
+from contoursolve.numeric import Array, Functions, pinv
 from contoursolve.tolerance import LENGTH, RESIDUAL
-
-Array = NDArray[numpy.float64]
 
 STEP = 2e-4
 """mm (1 for a direction). Of central differences of fourth order."""
@@ -42,6 +38,9 @@ INDEPENDENT = 1e-7
 
 SWEEPS, SETTLED = 20, 1e-10
 """Number of passes that restore values missing in the result, and the step below which they are settled, mm."""
+
+PRINTED_FLOATS = Functions(vanishes=lambda value: abs(value) <= LENGTH)
+"""Of numbers that were printed: a length that is zero may show the rounding of both its ends."""
 
 
 class Move(Struct, frozen=True):
@@ -54,74 +53,91 @@ class Move(Struct, frozen=True):
     radius: float = 0.0
 
 
-class MeasuredFigure(Struct, frozen=True):
-    """A figure at claimed values: scalars by name, given lengths and directions, the signs of open sides; `headed` are
-    the lines whose direction is a given, each with that and a point of it."""
+class Place(Struct, frozen=True):
+    """A figure with its facts, and the values that are claimed for it."""
 
-    figure: Figure
-    scalars: Mapping[str, float]
-    amounts: Mapping[str, float]
-    directions: Mapping[str, complex]
-    headed: Mapping[str, tuple[str, str]]
-    signs: Mapping[str, int]
+    system: System
+    at: Values
 
     def point(self, name: str) -> complex:
-        return complex(self.scalars[scalar(name, FIRST)], self.scalars[scalar(name, SECOND)])
+        return complex(self.at.coordinate(name, FIRST), self.at.coordinate(name, SECOND))
 
     def way(self, tail: str, head: str) -> complex:
         return self.point(head) - self.point(tail)
 
-    def radius(self, name: str) -> float:
-        return self.scalars[name] if name in self.scalars else self.amounts[name]
-
-    def bearing(self, line: str) -> complex:
-        """The direction in which a line runs."""
-        if line in self.headed:
-            return self.directions[self.headed[line][0]]
-        return complex(self.scalars[f"{line}.cos"], self.scalars[f"{line}.sin"])
-
-    def left(self, line: str, point: str) -> float:
-        """The distance of a point from a line, mm; positive to its left."""
-        if line in self.headed:
-            return cross(self.bearing(line), self.way(self.headed[line][1], point))
-        return cross(self.bearing(line), self.point(point)) - self.scalars[f"{line}.off"]
-
-    def side(self, name: str | int) -> int:
-        return self.signs[name] if isinstance(name, str) else name
-
-    def travel(self, of: Any) -> complex:
-        """The direction in which an element is travelled (`Along`, `Chord` or `Tangent`)."""
-        if isinstance(of, kinds.Along):
-            return self.bearing(of.line)
-        if isinstance(of, kinds.Chord):
-            return unit(self.way(of.tail, of.head))
-        return complex(of.turn.sign * 1j * unit(self.way(of.center, of.point)))
-
-    def advance(self, own: Any) -> float:
-        """The advance of a path along an axis: by the lines between which it is, or by its first part that moves along
-        it."""
-        if getattr(own, "between", ()):
-            return sum(part(self.bearing(line), own.axis) for line in own.between)
-        ways = (self.way(*each) if len(each) > 1 else self.bearing(each[0]) for each in own.advance)
-        return next((part(each, own.axis) for each in ways if abs(part(each, own.axis)) > LENGTH), 0.0)
-
     def heading(self, line: Line) -> complex:
         """The direction of a line: as stated, or from point to point."""
-        if line.name in self.headed or f"{line.name}.cos" in self.scalars:
-            return self.bearing(line.name)
+        if line.name in self.at.headed or f"{line.name}.cos" in self.at.scalars:
+            return complex(*self.at.bearing(line.name))
         return unit(self.way(line.tail, line.toward or line.head))
 
-    def with_drawn_lines(self, limit: float) -> "MeasuredFigure":
-        """The same, where lines whose ends are off the stated direction, which is exact to its increment only, run from
-        one end to the other."""
-        scalars, headed = dict(self.scalars), dict(self.headed)
-        for line in (each for each in self.figure.path if isinstance(each, Line) and each.name in headed):
-            along = unit(self.way(line.tail, line.head))
-            if abs(cross(self.bearing(line.name), self.way(line.tail, line.head))) > limit:
-                values = along.real, along.imag, cross(along, self.point(line.tail))
-                scalars.update(zip(line_scalars(line.name), values, strict=True))
-                del headed[line.name]
-        return replace(self, scalars=scalars, headed=headed)
+    def error(self, fact: Fact) -> float:
+        """The residual of a fact, mm (1 for a direction)."""
+        try:
+            return float(fact.residual(self.at))
+        except ZeroDivisionError:
+            return float(fact.equation(self.at))  # about something that has no size
+
+    def sense(self, fact: Fact) -> float:
+        """A number that is negative where a fact is true of the opposite of what it states."""
+        return min(map(float, fact.senses(self.at)), default=0.0)
+
+    def slopes(self, facts: Sequence[Fact], names: Sequence[str]) -> Array:
+        """The derivatives of facts (rows) by unknowns (columns), by central differences."""
+        column, found = {name: number for number, name in enumerate(names)}, numpy.zeros((len(facts), len(names)))
+        values = dict(self.at.scalars)
+        here = replace(self, at=replace(self.at, scalars=values))
+        for row, fact in enumerate(facts):
+            for name in column.keys() & {*self.system.unknowns_of(fact)}:
+                own, errors = values[name], list[float]()
+                for step in (-2, -1, 1, 2):
+                    values[name] = own + step * STEP
+                    errors.append(here.error(fact))
+                values[name] = own
+                found[row, column[name]] = (errors[0] - 8 * errors[1] + 8 * errors[2] - errors[3]) / (12 * STEP)
+        return found
+
+    def settled(self, names: Sequence[str]) -> "Place":
+        """The place with what a result does not list, such as the direction of a line, where the facts about it put
+        that, one after the other; everything else stays as it is claimed."""
+        values, unsettled, owners = dict(self.at.scalars), {*names}, dict[str, list[str]]()
+        here = replace(self, at=replace(self.at, scalars=values))
+        for name in names:
+            owners.setdefault(name.rpartition(".")[0], []).append(name)
+        reads = [(fact, {*self.system.unknowns_of(fact)}) for fact in self.system.facts]
+        about = {owner: [each for each in reads if each[1] & {*own}] for owner, own in owners.items()}
+        for _ in range(SWEEPS):
+            largest = 0.0
+            for owner, own in owners.items():
+                known = [fact for fact, read in about[owner] if not (read & unsettled) - {*own}]
+                if len(known) < len(own) and unsettled & {*own}:
+                    continue
+                unsettled -= {*own}
+                for _ in range(SWEEPS):
+                    off = numpy.array([here.error(fact) for fact in known])
+                    step = pinv(here.slopes(known, own), rcond=INDEPENDENT) @ off
+                    values.update((name, values[name] - by) for name, by in zip(own, step.tolist(), strict=True))
+                    if len(known) > len(own) and abs(step).max() <= SETTLED and abs(off).max() > RESIDUAL:
+                        # What may be off, because it is known without it, or is exact to its increment only.
+                        slack = [fact.circle is not None and not fact.given for fact in known]
+                        known.pop(slack.index(True) if any(slack) else int(abs(off).argmax()))
+                    elif abs(step).max(initial=0.0) <= SETTLED:
+                        break
+                    largest = max(largest, float(abs(step).max(initial=0.0)))
+            if largest <= SETTLED and not unsettled:
+                break
+        return here
+
+    def with_sides(self) -> "Place":
+        """The place with each open side as the facts about it fit best."""
+        about, signs = dict[str, list[Fact]](), dict[str, int]()
+        for fact in self.system.facts:
+            for side in fact.sides():
+                about.setdefault(side, []).append(fact)
+        for side, own in about.items():
+            fits = {sign: replace(self, at=replace(self.at, signs={side: sign})) for sign in (1, -1)}
+            signs[side] = min(fits, key=lambda sign: sum(abs(fits[sign].error(each)) for each in own))
+        return replace(self, at=replace(self.at, signs=signs))
 
 
 def cross(a: complex, b: complex) -> float:
@@ -139,278 +155,24 @@ def unit(a: complex) -> complex:
     return a / abs(a) if a else 0j
 
 
-def part(a: complex, axis: int) -> float:
-    """One coordinate."""
-    return a.imag if axis else a.real
-
-
-def direction(angle: Decimal) -> complex:
-    """An angle in degrees as a unit vector, exact along the axes."""
-    quarters, rest = divmod(angle % 360 + (360 if angle % 360 < 0 else 0), 90)
-    return (rect(1, radians(float(rest))) if rest else 1 + 0j) * (1, 1j, -1, -1j)[int(quarters) % 4]
-
-
-# --- Constraints -------------------------------------------------------------------------------------
-
-
-def _arc_end(f: Any, at: MeasuredFigure) -> complex:
-    """The spoke at which an arc of a stated length ends."""
-    return at.way(f.center, f.tail) * rect(1, f.turn.sign * at.amounts[f.given] / at.radius(f.radius))
-
-
-def _touching(f: Any, at: MeasuredFigure) -> float:
-    one, two = at.radius(f.first[1]), at.radius(f.second[1])
-    return abs(at.way(f.first[0], f.second[0])) - (one + two if at.side(f.side) > 0 else abs(one - two))
-
-
-def _beside(f: Any, at: MeasuredFigure) -> float:
-    """The error of a point beside a circle, mm; the circle about the point has the distance as its radius."""
-    between = abs(at.way(f.first[0], f.second[0]))
-    return between - at.radius(f.second[1]) - at.side(f.side) * at.radius(f.first[1])
-
-
-def _in_line(f: Any, at: MeasuredFigure) -> float:
-    """The distance of a point from the line through two centres, mm. For centres that are almost one it is that of the
-    second centre from the line through the first and the point."""
-    spoke, between = at.way(f.first, f.point), at.way(f.first, f.second)
-    return cross(between, unit(spoke)) if abs(between) <= LENGTH else cross(unit(between), spoke)
-
-
-def _inside(f: Any, at: MeasuredFigure) -> float:
-    """The distance between the centres of a rounding and its arc, mm; negative beyond that of the arc."""
-    return float(at.radius(f.arc[1]) - f.turn.sign * at.side(f.side) * at.radius(f.radius))
-
-
-Formula = Callable[[Any, MeasuredFigure], Any]
-
-LENGTHS: Mapping[type, tuple[str, Formula]] = {
-    kinds.Coordinate: ("{axis} of {point}", lambda f, at: part(at.point(f.point), f.axis)),
-    kinds.Offset: ("{axis} from {origin} to {point}", lambda f, at: part(at.way(f.origin, f.point), f.axis)),
-    kinds.Radius: ("radius {radius}", lambda f, at: at.radius(f.radius)),
-    kinds.RadiusStep: ("{radius} less {origin}", lambda f, at: at.radius(f.radius) - at.radius(f.origin)),
-    kinds.Distance: ("distance from {tail} to {head}", lambda f, at: abs(at.way(f.tail, f.head))),
-    kinds.Extent: ("length of {line}", lambda f, at: dot(at.bearing(f.line), at.way(f.tail, f.head))),
-}
-"""Name in checks and measured length, mm, of each kind of constraint that states a length."""
-
-ANGLES: Mapping[type, tuple[str, Formula]] = {
-    kinds.Heading: ("direction of the line from {tail} to {head}", lambda f, at: (1 + 0j, at.way(f.tail, f.head))),
-    kinds.Ray: ("direction from {tail} to {head}", lambda f, at: (1 + 0j, at.way(f.tail, f.head))),
-    kinds.Directed: ("direction of {line}", lambda f, at: (1 + 0j, at.bearing(f.line))),
-    kinds.TurnBetween: ("the angle between both elements", lambda f, at: (at.travel(f.first), at.travel(f.second))),
-}
-"""The same where an angle is stated: the two vectors between which it is."""
-
-FORMS: Mapping[type, tuple[str, Formula]] = {
-    kinds.ArcLength: (
-        "length of the arc from {tail} to {head}",
-        lambda f, at: cross(_arc_end(f, at), at.way(f.center, f.head)) / at.radius(f.radius),
-    ),
-    kinds.Level: ("{axis} of {point} is that of {origin}", lambda f, at: part(at.way(f.origin, f.point), f.axis)),
-    kinds.Collinear: (
-        "{point} is on the line from {tail} through {through}",
-        lambda f, at: cross(unit(at.way(f.tail, f.through)), at.way(f.tail, f.point)),
-    ),
-    kinds.OnCircle: (
-        "{point} is on the circle about {center}",
-        lambda f, at: abs(at.way(f.center, f.point)) - at.radius(f.radius),
-    ),
-    kinds.EqualRadii: ("{first} is {second}", lambda f, at: at.radius(f.first) - at.radius(f.second)),
-    kinds.EqualDistances: ("both are equally long", lambda f, at: abs(at.way(*f.first)) - abs(at.way(*f.second))),
-    kinds.TangentCircles: ("both circles touch", _touching),
-    kinds.PointBeside: ("the point is as far beside the circle as stated", _beside),
-    kinds.Contact: ("{point} is in line with {first} and {second}", _in_line),
-    kinds.TangentArc: (
-        "the rounding about {center} touches the arc",
-        lambda f, at: abs(at.way(f.arc[0], f.center)) - abs(_inside(f, at)),
-    ),
-    kinds.ArcContact: (
-        "{point} is where the rounding touches the arc",
-        lambda f, at: cross(unit(at.way(f.arc[0], f.point)), at.way(f.arc[0], f.center)),
-    ),
-    kinds.Setback: (
-        "{point} is its size away from {corner}",
-        lambda f, at: f.way * dot(at.bearing(f.line), at.way(f.point, f.corner)) - at.radius(f.size),
-    ),
-    kinds.ChordSetback: (
-        "{point} is its size away from {corner}",
-        lambda f, at: abs(at.way(f.point, f.corner)) - at.radius(f.size),
-    ),
-    kinds.UnitDirection: ("{line} has one direction", lambda f, at: abs(at.bearing(f.line)) - 1),
-    kinds.Through: ("{line} passes through {point}", lambda f, at: at.left(f.line, f.point)),
-    kinds.Foot: (
-        "{point} is where {line} is touched",
-        lambda f, at: dot(at.bearing(f.line), at.way(f.center, f.point)),
-    ),
-    kinds.Leaving: (
-        "{line} leaves the circle about {center} in {point}",
-        lambda f, at: dot(at.bearing(f.line), at.way(f.center, f.point)),
-    ),
-    kinds.Parallel: ("{line} is parallel to {axis}", lambda f, at: part(at.bearing(f.line), 1 - f.axis)),
-    kinds.Spoke: (
-        "direction of the radius from {center} to {point}",
-        lambda f, at: part(
-            at.way(f.center, f.point) - at.directions[f.given] * 1j**f.quarters * at.radius(f.radius), f.axis
-        ),
-    ),
-    kinds.ParallelLines: (
-        "{first} is parallel to {second}",
-        lambda f, at: cross(at.bearing(f.first), at.bearing(f.second)),
-    ),
-    kinds.TangentLine: (
-        "{line} touches the circle about {center}",
-        lambda f, at: at.left(f.line, f.center) - at.side(f.side) * at.radius(f.radius),
-    ),
-    kinds.ChamferLeg: (
-        "extent of the bevel from {begin} to {end} along {axis}",
-        lambda f, at: part(at.way(f.begin, f.end), f.axis) - f.share * at.side(f.side) * at.radius(f.size),
-    ),
-}
-"""The same where no value is stated, or none that is measured by itself: how far it is from being true, mm (1 for a
-direction)."""
-
-MEANINGS = {**LENGTHS, **ANGLES, **FORMS}
-
-SENSES: Mapping[type, Formula] = {
-    kinds.Ray: lambda f, at: dot(at.directions[f.given], at.way(f.tail, f.head)),
-    kinds.Directed: lambda f, at: dot(at.directions[f.given], at.bearing(f.line)),
-    kinds.TurnBetween: lambda f, at: dot(at.travel(f.first) * at.directions[f.given], at.travel(f.second)),
-    kinds.ArcLength: lambda f, at: min(
-        dot(_arc_end(f, at), at.way(f.center, f.head)), tau * at.radius(f.radius) - at.amounts[f.given]
-    ),
-    kinds.Contact: lambda f, at: f.side * dot(at.way(f.first, f.point), at.way(f.point, f.second)),
-    kinds.ArcContact: lambda f, at: min(
-        _inside(f, at) * dot(at.way(f.arc[0], f.point), at.way(f.arc[0], f.center)),
-        f.way * f.turn.sign * cross(at.way(f.arc[0], f.point), at.way(f.arc[0], f.corner)),
-    ),
-    kinds.ChordSetback: lambda f, at: (
-        f.way * f.turn.sign * cross(at.way(f.center, f.point), at.way(f.center, f.corner))
-    ),
-    kinds.Foot: lambda f, at: f.way * dot(at.bearing(f.line), at.way(f.point, f.corner)) if f.corner else 0.0,
-    kinds.Leaving: lambda f, at: f.turn.sign * cross(at.way(f.center, f.point), at.bearing(f.line)),
-    kinds.Parallel: lambda f, at: part(at.bearing(f.line), f.axis) * at.advance(f),
-    kinds.ChamferLeg: lambda f, at: at.side(f.side) * at.advance(f),
-}
-"""Quantities that must not be negative, because the formula alone is true of the opposite as well."""
-
-
-def residual(fact: Any, at: MeasuredFigure) -> float:
-    """The error of a fact, mm (1 for a direction). Raises KeyError for a kind that the tables lack."""
-    found = MEANINGS[type(fact)][1](fact, at)
-    if type(fact) in ANGLES:
-        return cross(found[0] * at.directions[fact.given], found[1])
-    return float(found - at.amounts[fact.given] if type(fact) in LENGTHS else found)
-
-
-def measured(fact: Any, at: MeasuredFigure) -> tuple[float, float]:
-    """The true value of a fact, mm or radians. With an angle comes the length over which it is known, mm; else 0."""
-    if isinstance(fact, kinds.ArcLength):
-        swept = fact.turn.sign * phase(at.way(fact.center, fact.head) / at.way(fact.center, fact.tail)) % tau
-        return at.radius(fact.radius) * swept, 0.0
-    found = MEANINGS[type(fact)][1](fact, at)
-    return (phase(found[1] * found[0].conjugate()), abs(found[1])) if type(fact) in ANGLES else (float(found), 0.0)
-
-
-# --- Derivatives, and what a result does not list ---------------------------------------------------
-
-
-class _Watched(dict[str, float]):
-    """Values, and the names of those that were asked for."""
-
-    def __init__(self, values: Mapping[str, float]) -> None:
-        super().__init__(values)
-        self.asked: dict[str, None] = {}
-
-    def __getitem__(self, name: str) -> float:
-        self.asked[name] = None
-        return super().__getitem__(name)
-
-
-def slopes(facts: Sequence[Any], at: MeasuredFigure, unknowns: Sequence[str]) -> Array:
-    """The derivatives of facts (rows) by unknowns (columns), by central differences."""
-    column, found = {name: number for number, name in enumerate(unknowns)}, numpy.zeros((len(facts), len(unknowns)))
-    watched = _Watched(at.scalars)
-    here = replace(at, scalars=watched)
-    for row, fact in enumerate(facts):
-        watched.asked = {}
-        residual(fact, here)
-        for name in [name for name in watched.asked if name in column]:
-            own, values = watched.get(name, 0.0), list[float]()
-            for step in (-2, -1, 1, 2):
-                watched[name] = own + step * STEP
-                values.append(residual(fact, here))
-            watched[name] = own
-            found[row, column[name]] = (values[0] - 8 * values[1] + 8 * values[2] - values[3]) / (12 * STEP)
-    return found
-
-
-def settle(facts: Sequence[Any], at: MeasuredFigure, names: Sequence[str]) -> MeasuredFigure:
-    """The place with what a result does not list, such as the direction of a line, where the facts about it put that,
-    one after the other; everything else stays as it is claimed."""
-    scalars, owners, reads = dict(at.scalars), dict[str, list[str]](), list[tuple[Any, set[str]]]()
-    for name in names:
-        owners.setdefault(name.rpartition(".")[0], []).append(name)
-    watched = _Watched(scalars)
-    for fact in facts:
-        watched.asked = {}
-        residual(fact, replace(at, scalars=watched))
-        reads.append((fact, set(watched.asked)))
-    about = {owner: [each for each in reads if each[1] & {*own}] for owner, own in owners.items()}
-    unsettled, here = set(names), replace(at, scalars=scalars)
-    for _ in range(SWEEPS):
-        largest = 0.0
-        for owner, own in owners.items():
-            known = [fact for fact, read in about[owner] if not (read & unsettled) - {*own}]
-            if len(known) < len(own) and unsettled & {*own}:
-                continue
-            unsettled -= {*own}
-            for _ in range(SWEEPS):
-                off = numpy.array([residual(fact, here) for fact in known])
-                step = pinv(slopes(known, here, own), rcond=INDEPENDENT) @ off
-                for name, by in zip(own, step.tolist(), strict=True):
-                    scalars[name] -= by
-                if len(known) > len(own) and abs(step).max() <= SETTLED and abs(off).max() > RESIDUAL:
-                    # What may be off, because it is known without it, or is exact to its increment only.
-                    slack = [isinstance(fact, kinds.OnCircle) and not fact.given for fact in known]
-                    known.pop(slack.index(True) if any(slack) else int(abs(off).argmax()))
-                elif abs(step).max(initial=0.0) <= SETTLED:
-                    break
-                largest = max(largest, float(abs(step).max(initial=0.0)))
-        if largest <= SETTLED and not unsettled:
-            break
-    return here
-
-
-def with_sides(facts: Sequence[Any], at: MeasuredFigure) -> MeasuredFigure:
-    """The place with each open side as the facts about it fit best."""
-    about, signs = dict[str, list[Any]](), dict[str, int]()
-    for fact in facts:
-        if isinstance(getattr(fact, "side", None), str):
-            about.setdefault(fact.side, []).append(fact)
-    for side, own in about.items():
-        off = {sign: sum(abs(residual(each, replace(at, signs={side: sign}))) for each in own) for sign in (1, -1)}
-        signs[side] = min(off, key=lambda sign: off[sign])
-    return replace(at, signs=signs)
-
-
 # --- Elements, corners and sides ---------------------------------------------------------------------
 
 Found = Iterator[tuple[str, float]]
 """Names of measurements, each with its error, mm; for a wrong sense, the amount by which it is wrong."""
 
 
-def check_element(at: MeasuredFigure, element: Line | Arc, move: Move) -> Found:
+def check_element(place: Place, element: Line | Arc, move: Move) -> Found:
     """A claimed element runs in its direction or sense, from its first point to its last one."""
-    tail, head, name = at.point(element.tail), at.point(element.head), element.name
+    tail, head, name = place.point(element.tail), place.point(element.head), element.name
     if isinstance(element, Line):
-        along = at.heading(element)
+        along = place.heading(element)
         yield f"{name} runs in its direction", min(0.0, dot(along, move.end - move.start))
         yield f"{name} begins behind its first point", min(0.0, dot(along, move.start - tail))
         yield f"{name} ends before its last point", min(0.0, dot(along, head - move.end))
         if element.toward:
-            yield f"{name} runs towards its point", min(0.0, dot(at.way(element.tail, element.toward), head - tail))
+            yield f"{name} runs towards its point", min(0.0, dot(place.way(element.tail, element.toward), head - tail))
         return
-    center, radius = at.point(element.center), at.radius(element.radius)
+    center, radius = place.point(element.center), place.at.radius(element.radius)
     whole, first, own, last = (
         element.turn.sign * phase((two - center) / (one - center)) % tau if center not in (one, two) else 0.0
         for one, two in ((tail, head), (tail, move.start), (move.start, move.end), (move.end, head))
@@ -422,25 +184,25 @@ def check_element(at: MeasuredFigure, element: Line | Arc, move: Move) -> Found:
     yield f"{name} goes from its first to its last point", (first + own + last - whole) * radius
 
 
-def missing(at: MeasuredFigure, corner: Corner) -> float:
+def missing(place: Place, corner: Corner) -> float:
     """The size of a corner that is not there, mm; 0 where the control leaves it out, because the path hardly turns."""
-    number = next(number for number, each in enumerate(at.figure.path) if each.name == corner.before)
+    number = next(number for number, each in enumerate(place.system.figure.path) if each.name == corner.before)
     ways = list[complex]()
-    for each in at.figure.path[number : number + 2]:
+    for each in place.system.figure.path[number : number + 2]:
         if isinstance(each, Line):
-            ways.append(at.heading(each))
+            ways.append(place.heading(each))
         else:
-            ways.append(each.turn.sign * 1j * unit(at.point(corner.at) - at.point(each.center)))
+            ways.append(each.turn.sign * 1j * unit(place.point(corner.at) - place.point(each.center)))
     is_out = len(ways) > 1 and abs(cross(*ways)) <= corner.guard and dot(*ways) > 0
-    return 0.0 if is_out else at.scalars.get(f"{corner.name}.radius", at.amounts.get(corner.size, 0.0))
+    return 0.0 if is_out else place.at.scalars.get(f"{corner.name}.radius", place.at.amounts.get(corner.size, 0.0))
 
 
-def side_of(at: MeasuredFigure, facts: Sequence[Any], choice: Choice) -> tuple[float, float] | None:
+def side_of(place: Place, choice: Choice) -> tuple[float, float] | None:
     """On which side of a choice its point is: the number is positive on the side that is meant, and next to zero where
     there is one place; with how much (mm) that leaves between the circle and what it meets. None where the figure does
     not tell."""
-    figure, side, here = at.figure, choice.side, at.point(choice.point)
-    circles = [fact for fact in facts if isinstance(fact, kinds.OnCircle)]
+    figure, facts, side, here = place.system.figure, place.system.facts, choice.side, place.point(choice.point)
+    circles = [fact.circle for fact in facts if fact.circle]
     pairs = ((one, two) for one, two in pairwise(figure.path) if one.head == choice.point)
     arcs = next(((one, two) for one, two in pairs if isinstance(one, Arc) and isinstance(two, Arc)), None)
     # The other place is the mirror image: about a line through this point in that direction.
@@ -450,20 +212,20 @@ def side_of(at: MeasuredFigure, facts: Sequence[Any], choice: Choice) -> tuple[f
         circle = next((each for each in circles if each.point == choice.point), None)
         if line is None or circle is None:
             return None
-        through, along, radius = at.point(circle.center), -1j * at.heading(line), at.radius(circle.radius)
-        begin = at.point(line.head if choice.point == line.tail else line.tail) if line.head else 0j
+        through, along, radius = place.point(circle.center), -1j * place.heading(line), place.at.radius(circle.radius)
+        begin = place.point(line.head if choice.point == line.tail else line.tail) if line.head else 0j
     elif arcs:
-        through, begin = at.point(arcs[0].center), at.point(arcs[0].tail)
-        along, radius = unit(at.point(arcs[1].center) - through), min(at.radius(each.radius) for each in arcs)
+        through, begin = place.point(arcs[0].center), place.point(arcs[0].tail)
+        along, radius = unit(place.point(arcs[1].center) - through), min(place.at.radius(each.radius) for each in arcs)
     else:
         arc = next((each for each in figure.path if isinstance(each, Arc) and each.center == choice.point), None)
         on_it = [each.point for each in circles if arc and each.center == arc.center and each.point != arc.tail]
         if arc is None or not on_it:
             return None
-        stated = {fact.point for fact in facts if isinstance(fact, kinds.Coordinate | kinds.Offset)}
-        through = begin = at.point(arc.tail)
-        along = unit(at.point(min(on_it, key=lambda point: point not in stated)) - through)
-        radius = at.radius(arc.radius)
+        stated = {fact.placed.point for fact in facts if fact.placed and fact.placed.is_stepped}
+        through = begin = place.point(arc.tail)
+        along = unit(place.point(min(on_it, key=lambda point: point not in stated)) - through)
+        radius = place.at.radius(arc.radius)
     own = beside = cross(along, here - through)
     other = here - 2j * beside * along
     if side in (Side.SHORTER, Side.LONGER):

@@ -1,9 +1,9 @@
 """Checks claimed results: what a stranger can believe of them without the solver.
 
 What is shared with the solver is the reading alone: which contours a program has, what their words state, which rules a
-control has. Each word's value is measured at the claimed points and elements by the formulas of `measure`; the rank of
-their derivatives there, by central differences, tells the status. Nothing is solved, and what was not measured is
-listed as not checked.
+control has, and the equation of each kind of constraint. The equation of each word is evaluated at the claimed points
+and elements; the rank of its derivatives there, by central differences, tells the status. Nothing is solved, and what
+was not measured is listed as not checked.
 """
 
 from collections import Counter
@@ -22,7 +22,6 @@ from contoursolve.comparison.claims import (
     ContourReceipt,
     Document,
     Ledger,
-    Outcome,
     Receipt,
     ReceiptVerdict,
     read_result,
@@ -34,12 +33,8 @@ from contoursolve.gcode import Program
 from contoursolve.geometry import Length
 from contoursolve.reading import Dialect, ParsedContour, advance, contours_as_run, state_facts
 
-_FINDINGS = ClaimCheck(
-    "findings", "the findings", Outcome.NOT_CHECKED, remark="their words and values, and their fixes"
-)
-_NO_CONTOUR = ClaimCheck(
-    "count", "whether there is no contour", Outcome.NOT_CHECKED, remark="a finding of the result says so"
-)
+_FINDINGS = ClaimCheck("findings", "the findings", passed=None, remark="their words and values, and their fixes")
+_NO_CONTOUR = ClaimCheck("count", "whether there is no contour", passed=None, remark="a finding of the result says so")
 
 
 def verify(

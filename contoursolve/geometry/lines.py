@@ -233,7 +233,7 @@ class ChamferLeg(Equation, Struct, frozen=True):
     def senses(self, at: Lookup) -> tuple[Any, ...]:
         if self.between:
             return (at.side(self.side) * sum(at.bearing(line)[self.axis] for line in self.between),)
-        return (at.side(self.side) * way(at, self.advance, self.axis),)
+        return (at.side(self.side) * way(at, self.advance, self.axis),) if self.advance else ()
 
 
 class Along(Struct, frozen=True):

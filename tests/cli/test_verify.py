@@ -20,13 +20,10 @@ from examples import few_and_many, some_of
 from hypothesis import HealthCheck, given, settings, strategies as st
 
 import contoursolve
-from contoursolve import geometry
 from contoursolve.cli import main
 from contoursolve.comparison import CannotVerifyError, Document, ReceiptVerdict, verify
-from contoursolve.comparison.measure import MEANINGS
 from contoursolve.controls import DIALECTS
 from contoursolve.gcode import parse
-from contoursolve.geometry.system import Equation
 
 PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
 PAGES = Path(__file__).parents[2] / "docs" / "programs"
@@ -36,13 +33,10 @@ FORBIDDEN = "solving analysis numeric diagnosis program output api try_edits fam
 """Of `geometry` it knows the kinds of facts and what they are about, of `reading` which words are refused."""
 
 PLAIN = {
-    *(f"contoursolve.numeric.{name}" for name in ("pinv", "shortest_solution", "svd")),
+    *(f"contoursolve.numeric.{name}" for name in ("Array", "Functions", "direction", "pinv", "svd")),
     "contoursolve.diagnosis.count",
 }
-"""Linear algebra, and the plural of a word."""
-
-FORMULAS = {"residual", "equation", "senses", "sense_reads", "implied"}
-"""What a fact of the solver works out."""
+"""Linear algebra, the direction of an angle, and the plural of a word."""
 
 LATHE = "G00 X40. Z0.\n"
 MILL = "G17 G90 G0 X50 Y0\nG42\n"
@@ -1601,12 +1595,6 @@ def test_whatever_the_bytes_there_is_an_answer(desk, program, claimed, which):
     assert status in (0, 1, 2)
 
 
-def test_the_table_has_every_kind_of_fact():
-    kinds = {each for name in geometry.__all__ if isinstance(each := getattr(geometry, name), type)}
-    facts = {each for each in kinds if issubclass(each, Equation)}
-    assert set(MEANINGS) == facts
-
-
 # --- Independence ----------------------------------------------------------------------------------
 
 
@@ -1623,8 +1611,3 @@ def test_the_verifier_uses_nothing_of_the_solver(module):
     own = {name.split(".")[1] for name in named if name.startswith("contoursolve.")}
     assert own & set(FORBIDDEN.split()) == set()
     assert not {name.split(".")[0] for name in imported} & {"casadi", "sympy", "flint", "scipy"}
-    calls = [
-        node.func for node in ast.walk(ast.parse(module.read_text(encoding="utf-8"))) if isinstance(node, ast.Call)
-    ]
-    used = {each.attr for each in calls if isinstance(each, ast.Attribute)}
-    assert used & FORMULAS == set()
