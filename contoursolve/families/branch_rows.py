@@ -98,18 +98,18 @@ class BranchRows:
         self.steps = [_step(make_kernel(self.system, group)) for group in self.boxes.groups]
         tape = Tape()
         at = input_values(self.system, tape, {})
-        for number, fact in enumerate((*basis, *spare)):
-            tape.output(f"residual:{number}", fact.residual(at))
-        self.solved = [f"residual:{number}" for number in range(len(basis))]
+        residuals = {f"residual:{number}": fact.residual(at) for number, fact in enumerate(basis)}
+        for name, residual in residuals.items():
+            tape.output(name, residual)
+        self.solved = [*residuals]
         """The outputs of the equations that are solved."""
-        equations = check_residuals(largest(tape.expression(name) for name in self.solved))
-        stated = check_facts(source_of(self.system, tape, {}), spare, len(basis))
+        equations = check_residuals(largest(residuals.values()))
+        stated = check_facts(source_of(self.system, tape, {}), spare, [fact.residual(at) for fact in spare])
         self.path = compile_path(self.system).path
         """The names of the outputs of the path."""
         checks = [equations, *stated, *add_path(tape, self.system, case.profile.givens)]
-        add_checks(tape, checks)
+        self.outputs, _ = add_checks(tape, checks, self.path)
         self.function = Columns(compile_columns(tape, tape.inputs))
-        self.checks = tuple(check for check, _ in checks)
 
     def solve(self, values: Mapping[str, Array]) -> RowSolutions:
         """What becomes of rows with these values of the words."""
@@ -187,7 +187,7 @@ class BranchRows:
         known = {name: each if each.size == 1 else each[pairs.rows] for name, each in given.items()} | {**pairs.signs}
         scalars, is_bad = self._follow(pairs, known)
         size = pairs.rows.size
-        verdict = RowOutcome(self.checks, _run(self.function, {**known, **scalars}, size), size, self.path)
+        verdict = RowOutcome(self.outputs, _run(self.function, {**known, **scalars}, size), size)
         status, reason = verdict.status, verdict.reason
         settled.again |= count(is_bad | verdict.again | (reason == reason_of(RefusalKind.NOT_VERIFIED))) > 0
         status[(status == StatusCode.OVERDETERMINED) & (reason != 0)] = StatusCode.NO_SOLUTION

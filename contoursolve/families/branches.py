@@ -92,7 +92,7 @@ class Margins(Struct, frozen=True, eq=False):
 def compile_margins(system: System, follows: Follows) -> Margins:
     """The margins of a system that has a closed form as functions of one word."""
     checked = compile_checks(system)
-    kept = {number: check for number, check in enumerate(checked.checks) if check.stage not in _OF_FLOATS}
+    kept = {number: check for number, check in enumerate(checked.outputs.checks) if check.stage not in _OF_FLOATS}
     outputs = {str(number): checked.margins[number] for number in kept}
     return Margins(tuple(kept.values()), Chart(checked.tape, outputs, dict(follows)))
 
@@ -277,7 +277,7 @@ def _compile(system: System, follows: Follows, choices: tuple[Choice, ...]) -> t
     tape = form.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
     source = source_of(system, tape, known | at_origin(system.figure), form.path)
-    facts = check_facts(source, form.checks, len(form.basis))
+    facts = check_facts(source, form.checks, map(tape.expression, form.compared))
     found = [*_conditions(form), *_sides(form, choices), *facts, check_range(source), *check_path(source)]
     outputs = {str(number): expression for number, (_, expression) in enumerate(found)}
     return form, Margins(tuple(each for each, _ in found), Chart(tape, outputs, dict(follows)))

@@ -24,12 +24,13 @@ from contoursolve.geometry import FIRST, SECOND, CornerShape, Profile, Question,
 from contoursolve.numeric import COSINE, SINE, Affine, Array, Following, difference, directions
 from contoursolve.reading import ParsedContour, Premises, ReadIssue, all_resting
 from contoursolve.solving import (
-    Check,
+    Checked,
     Construction,
     NoteKind,
     Solution,
     Status,
     StepKind,
+    StepOutputs,
     analyse,
     axes_of,
     code_of,
@@ -42,7 +43,7 @@ from contoursolve.solving import (
     reason_of,
     solve,
 )
-from contoursolve.tolerance import LARGEST, TOUCHING
+from contoursolve.tolerance import LARGEST
 
 ORIGIN = "origin:"
 """What the inputs for the coordinates of the start point begin with."""
@@ -123,9 +124,9 @@ class CaseClass(Struct, frozen=True, eq=False):
         return compile_system(self.system)
 
     @property
-    def checks(self) -> tuple[Check, ...]:
-        """The checks of a single solve, in their order."""
-        return compile_checks(self.system).checks
+    def checked(self) -> Checked:
+        """The checks of a single solve."""
+        return compile_checks(self.system)
 
     def numbers(self) -> dict[str, float]:
         """The inputs of the function that stay."""
@@ -447,7 +448,7 @@ def shown_as(output: str) -> str:
 
 def names_of(case: CaseClass) -> dict[str, str]:
     """The names of the results, by the outputs that have them."""
-    return {"worst": "residual"} | {shown_as(output): name for name, (output, _) in results_of(case).items()}
+    return {case.checked.worst: "residual"} | {shown_as(output): name for name, (output, _) in results_of(case).items()}
 
 
 def sides_of_choice(case: CaseClass) -> dict[str, int]:
@@ -506,9 +507,13 @@ def fill_row(case: CaseClass, values: Mapping[str, float], row: int, table: Resu
         table[f"branch.{point}"][row] = 0 if point in touching else side
 
 
-def half_circles(case: CaseClass, out: Mapping[str, Any]) -> Iterator[tuple[int, Any]]:
-    """The steps whose two centres of a half circle may be one, and where they are; `out` are outputs."""
-    for number, step in enumerate(case.machine.steps):
-        if step.kind is StepKind.TWO_CIRCLES:
-            gap = abs(out[f"radius:{number}"] - abs(out[f"offset:{number}"]))
-            yield number, gap <= TOUCHING * out[f"scale:{number}"]
+def half_circles(case: CaseClass, out: Mapping[str, Any]) -> Iterator[tuple[StepOutputs, Any]]:
+    """The measures of the steps whose two centres of a half circle may be one, and where they are; `out` are outputs."""
+    for measures in half_circle_steps(case.machine):
+        yield measures, measures.is_touching(out)
+
+
+def half_circle_steps(machine: Construction) -> list[StepOutputs]:
+    """The measures of the steps that may find the centre of a half circle."""
+    pairs = zip(machine.steps, machine.measures, strict=True)
+    return [measures for step, measures in pairs if step.kind is StepKind.TWO_CIRCLES]

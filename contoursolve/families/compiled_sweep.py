@@ -24,6 +24,7 @@ from contoursolve.families.case_classes import (
     case_alone,
     case_of,
     fill_row,
+    half_circle_steps,
     half_circles,
     names_of,
     resting_of,
@@ -36,20 +37,22 @@ from contoursolve.families.free_words import Examples
 from contoursolve.families.spec import Places, Ranges, SweepSpec, Template, called, stretches
 from contoursolve.families.traced_reading import place_of_contour, read_alone
 from contoursolve.geometry import System
-from contoursolve.numeric import ROWS, Array, ColumnFunction, Columns, compile_columns, where
+from contoursolve.numeric import ROWS, SIDE, Array, ColumnFunction, Columns, compile_columns, where
 from contoursolve.reading import Premises
-from contoursolve.solving import NO_PLACE, RefusalKind, RowOutcome, StatusCode, code_of, compile_checks, reason_of
+from contoursolve.solving import (
+    NO_PLACE,
+    RefusalKind,
+    RowOutcome,
+    StatusCode,
+    code_of,
+    compile_checks,
+    compile_system,
+    reason_of,
+)
 
 Table = dict[str, NDArray[Any]]
 Target = slice | Places
 Bits = NDArray[numpy.bool_]
-
-_NEEDED = ("passed", "margin:", "worst")
-"""What the verdict reads."""
-
-_HALVES = ("offset:", "radius:", "scale:")
-"""What tells that the two places of the centre of a half circle are one."""
-
 
 _NOWHERE = [reason_of(kind) for kind in (None, *NO_PLACE)]
 """Reasons of places that do not exist; where that is so of all, no point satisfies the block."""
@@ -196,7 +199,7 @@ class _ClassRows:
         if not isinstance(target, slice):
             for output, name in names.items():
                 table[name][target] = out[output]
-        verdict = RowOutcome(self.case.checks, out, rows, self.case.machine.path)
+        verdict = RowOutcome(self.case.checked.outputs, out, rows)
         self._note(verdict.is_clear, verdict.status, verdict.reason, target, table)
         again = numpy.flatnonzero(verdict.again)
         at = again + target.start if isinstance(target, slice) else target[again]
@@ -227,11 +230,11 @@ class _ClassRows:
         function = self._function(ranges, places, rows)
         count, again = numpy.zeros(rows, numpy.int64), numpy.zeros(rows, bool)
         reason = numpy.full(rows, reason_of(RefusalKind.NO_POINT), numpy.uint8)
-        sides = [function.compiled.fixed.index(f"side:{point}") for point in self.case.open_points]
+        sides = [function.compiled.fixed.index(SIDE + point) for point in self.case.open_points]
         for signs in product((1.0, -1.0), repeat=len(sides)):
             function.fix(sides, signs)
             out = function.evaluate(rows)
-            verdict = RowOutcome(self.case.checks, out, rows, self.case.machine.path)
+            verdict = RowOutcome(self.case.checked.outputs, out, rows)
             is_path = verdict.is_clear
             again |= verdict.again
             for _, is_one in half_circles(self.case, out):
@@ -263,7 +266,7 @@ class _ClassRows:
         if self.function is None:
             shown, varied = tuple(results_of(case).values()), frozenset(self.inputs)
             self.function = Columns(_compile(case.system, varied, shown, bool(case.open_points)))
-            fixed = {f"side:{point}": 1.0 for point in case.open_points} | case.numbers()
+            fixed = {SIDE + point: 1.0 for point in case.open_points} | case.numbers()
             self.function.fix(slice(None), [fixed[name] for name in self.function.compiled.fixed])
         for place, name in enumerate(self.function.compiled.varied):
             self.inputs[name].fill(places, self.function.inputs[place, :rows])
@@ -280,10 +283,13 @@ class _ClassRows:
 def _compile(system: System, varied: frozenset[str], shown: tuple[Behind, ...], is_open: bool) -> ColumnFunction:
     """The function of a system for columns: what the verdict reads, and the results as they are shown."""
     checked = compile_checks(system)
-    tape = checked.tape
-    bends = [corner.cosine for corner in checked.path.corners.values()]
-    kept = tape.keep(_NEEDED + _HALVES if is_open else _NEEDED, bends)
-    gap, rooms = where(checked.is_clear, 0.0, nan), set(checked.path.rooms.values())
+    tape, path, outputs = checked.tape, checked.outputs.path, checked.outputs
+    needed = [outputs.passed, *outputs.margins.values(), checked.worst]
+    needed += [corner.cosine for corner in path.corners.values()]
+    for measures in half_circle_steps(compile_system(system)) if is_open else ():
+        needed += measures.of_touching
+    kept = tape.keep(needed)
+    gap, rooms = where(checked.is_clear, 0.0, nan), set(path.rooms.values())
     for output, axis in shown:
         value = tape.expression(output)
         if output not in rooms:

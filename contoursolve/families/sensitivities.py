@@ -162,9 +162,9 @@ def _singular(case: CaseClass, inputs: Mapping[str, float]) -> frozenset[str]:
     """The words by which there is no derivative: they would part the two places of a centre that have become one, as
     in a half circle."""
     found = set[str]()
-    for number, is_one in half_circles(case, case.machine.function(inputs)):
+    for measures, is_one in half_circles(case, case.machine.function(inputs)):
         if is_one:
-            rates = _slopes(case.machine.tape, [f"radius:{number}", f"offset:{number}"], inputs)
+            rates = _slopes(case.machine.tape, [measures.radius, measures.offset], inputs)
             for name, each in case.free.items():
                 radius, offset = (_by_given(case.profile.givens[name], own) for own in rates.values())
                 found |= {each.word} if abs(radius - offset) > SINGULAR else set()

@@ -2,7 +2,7 @@
 
 import threading
 from array import array
-from collections.abc import Collection, Iterable, KeysView, Mapping, Sequence
+from collections.abc import Iterable, KeysView, Mapping, Sequence
 from functools import reduce
 from math import inf, isfinite
 from typing import Any
@@ -220,15 +220,11 @@ class Tape:
         outputs = casadi.densify(_stack(self._outputs.values()))
         return casadi.Function("contour", [_stack(self._inputs.values())], [casadi.cse(outputs)])
 
-    def keep(self, prefixes: tuple[str, ...], names: Collection[str]) -> "Tape":
-        """A tape of its own with only the outputs of these names, or that begin so."""
-        kept = Tape()
-        kept._inputs = dict(self._inputs)
-        own = frozenset(names)
-        kept._outputs = {name: each for name, each in self._outputs.items() if name in own or name.startswith(prefixes)}
-        return kept
+    def keep(self, outputs: Iterable[str] = ()) -> "Tape":
+        """A tape of its own with the same inputs, and these outputs in this order."""
+        return self.of(self._inputs, outputs)
 
-    def of(self, inputs: Sequence[str], outputs: Sequence[str]) -> "Tape":
+    def of(self, inputs: Iterable[str], outputs: Iterable[str]) -> "Tape":
         """A tape of its own with these inputs and outputs, in this order."""
         chosen = Tape()
         chosen._inputs = {name: self._inputs[name] for name in inputs}
@@ -237,7 +233,7 @@ class Tape:
 
     def copy(self) -> "Tape":
         """A tape of its own with the same inputs and outputs."""
-        return self.keep(("",), ())
+        return self.keep(self._outputs)
 
     def slopes(self, outputs: Sequence[str], inputs: Sequence[str]) -> "Compiled":
         """The derivatives of some outputs by some inputs, as outputs named `output by input`."""

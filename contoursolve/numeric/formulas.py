@@ -41,7 +41,7 @@ def formulas_of(
 ) -> Formulas:
     """Expressions of a tape as formulas; the inputs of angles go by the name of the angle. `signs` are inputs that are
     the sign of a value."""
-    kept = tape.keep((), ())
+    kept = tape.keep()
     for number, output in enumerate(outputs):
         kept.output(str(number), output)
     known = [_Symbols.sign(_affine(signs[name])) if name in signs else _input(name, inputs) for name in kept.inputs]

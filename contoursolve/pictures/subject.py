@@ -26,6 +26,7 @@ from contoursolve.geometry import (
     line_scalars,
     scalar,
 )
+from contoursolve.numeric import SIDE
 from contoursolve.pictures.known_points import (
     Known,
     by_point,
@@ -307,7 +308,7 @@ def _worked_out(profile: Profile) -> Known:
     system = assemble(profile)
     figure = system.figure
     # One of two places where nothing chooses.
-    sides = {f"side:{point}": 1.0 for point in points_with_two_solutions(system)}
+    sides = {SIDE + point: 1.0 for point in points_with_two_solutions(system)}
     machine = compile_system(system)
     out = machine.function({**sides, **inputs_of(profile, system)})
     path = machine.path.read(out.__getitem__)

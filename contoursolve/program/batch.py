@@ -15,7 +15,7 @@ from contoursolve.numeric import Compiled, inverse_norms
 from contoursolve.reading import ContourForm, Dialect, ParsedContour, Rule, WithoutPoint, is_refused_by_values
 from contoursolve.solving import (
     ROUNDING,
-    Check,
+    CheckOutputs,
     Construction,
     Proof,
     RowOutcome,
@@ -32,7 +32,7 @@ from contoursolve.solving import (
     trace,
     up_to_one_digit,
 )
-from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENGTH, TOUCHING
+from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENGTH
 
 Columns = Mapping[str, NDArray[numpy.float64]]
 
@@ -52,9 +52,9 @@ class Kind(Struct, frozen=True, eq=False):
     answer: Answer
     system: System
     machine: Construction
-    checks: tuple[Check, ...]
+    outputs: CheckOutputs
     function: Compiled
-    """The function of the machine, with the margins of the checks."""
+    """The function of the machine, with the outputs of the checks."""
     wanted: tuple[str, ...]
     """The outputs of which a contour is made."""
 
@@ -106,7 +106,7 @@ class Batch(Struct):
             wanted = [*system.unknowns, *(name for each in corners for name in (*each.begin, *each.end, each.turn))]
             wanted += [name for each in corners if each.center is not None for name in each.center]
             checked = compile_checks(system)
-            kind = Kind(answer, system, machine, checked.checks, checked.tape.finish(), tuple(wanted))
+            kind = Kind(answer, system, machine, checked.outputs, checked.tape.finish(), tuple(wanted))
             self.kinds[key] = kind
 
     def _key(self, claim: ParsedContour) -> Hashable:
@@ -247,24 +247,23 @@ def _evaluate(kind: Kind, inputs: Sequence[Mapping[str, float]]) -> list[tuple[d
 def _examine(kind: Kind, out: Columns, rows: int) -> tuple[NDArray[numpy.bool_], NDArray[numpy.float64]]:
     """Mask of the rows that are solved without any finding, and bounds of their errors, mm; both of shape (rows,)."""
     figure, machine = kind.system.figure, kind.machine
-    verdict = RowOutcome(kind.checks, out, rows, machine.path)
+    verdict = RowOutcome(kind.outputs, out, rows)
     plain = (verdict.status == StatusCode.SOLVED) & (verdict.reason == 0) & ~verdict.again
     for element in figure.path:
         if isinstance(element, Line):
             plain &= numpy.abs(out[machine.path.lengths[element.name]]) > LENGTH
-    for number, step in enumerate(machine.steps):
+    for step, measures in zip(machine.steps, machine.measures, strict=True):
         if step.has_two_places:
-            gap = numpy.abs(numpy.abs(out[f"offset:{number}"]) - out[f"radius:{number}"])
-            plain &= gap > TOUCHING * out[f"scale:{number}"]
-    for number in range(len(machine.basis), len(machine.basis) + len(machine.checks)):
-        plain &= numpy.abs(out[f"residual:{number}"]) <= _FAR_BELOW * AGREEMENT
+            plain &= ~measures.is_touching(out)
+    for name in machine.compared:
+        plain &= numpy.abs(out[name]) <= _FAR_BELOW * AGREEMENT
     bounds = numpy.zeros(rows)
     chosen = numpy.flatnonzero(plain)
     unknowns = kind.system.unknowns
     if chosen.size and unknowns:
         entries = {(row, column): out[name][chosen] for row, column, name in kind.machine.slopes}
         largest = numpy.max([numpy.ones(chosen.size), *(numpy.abs(out[name][chosen]) for name in unknowns)], axis=0)
-        worst = numpy.max([numpy.abs(out[f"residual:{number}"][chosen]) for number in range(len(unknowns))], axis=0)
+        worst = numpy.max([numpy.abs(out[name][chosen]) for name in machine.residuals], axis=0)
         bounds[chosen] = inverse_norms(entries, len(unknowns), chosen.size) * (worst + ROUNDING * largest)
         plain &= bounds <= _FAR_BELOW * ERROR_BOUND_WARNING
     return plain, bounds

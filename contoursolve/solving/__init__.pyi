@@ -23,6 +23,8 @@ from .certify import (
 from .checks import (
     NO_PLACE as NO_PLACE,
     Check as Check,
+    Checked as Checked,
+    CheckOutputs as CheckOutputs,
     Checks as Checks,
     Source as Source,
     Stage as Stage,
@@ -57,7 +59,6 @@ from .compile import (
 from .construction import (
     Construction as Construction,
     ConstructionStep as ConstructionStep,
-    Need as Need,
     NoClosedFormError as NoClosedFormError,
     StepKind as StepKind,
     is_closed as is_closed,
@@ -176,6 +177,10 @@ from .solve import (
 from .step_equations import (
     Kernel as Kernel,
     make_kernel as make_kernel,
+)
+from .step_outputs import (
+    Need as Need,
+    StepOutputs as StepOutputs,
 )
 from .ties import (
     Ties as Ties,

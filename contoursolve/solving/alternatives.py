@@ -105,7 +105,7 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: Found)
     if not refusals:
         sizes = _sizes(profile, scalars)
         numbers = Values(scalars_of(points), {}, {})
-        source = Source(system.figure, numbers, measures, values.__getitem__, increments_of(profile))
+        source = Source(system.figure, numbers, measures, increments_of(profile))
         path = MeasuredPath(
             profile, source, sizes, lambda sizes: machine.path.read(machine.function({**values, **sizes}).__getitem__)
         )

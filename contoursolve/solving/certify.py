@@ -1,22 +1,16 @@
 """Certifies a contour that was solved in closed form: the same steps once more, in exact numbers and balls."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from decimal import Decimal
-from functools import lru_cache
-
-from msgspec import Struct
 
 from contoursolve.geometry import INCREMENT_OF, Profile, System
 from contoursolve.numeric import Number, ball
-from contoursolve.solving.compile import ProofMachine, compile_decision, compile_proof
+from contoursolve.solving.compile import ExactFunction, compile_decision, compile_proof
 from contoursolve.solving.numbers import inputs_as
 from contoursolve.solving.solution import Certificate, Proof, up_to_one_digit
 
 BITS = 128
 """Bits of the balls: enough for a radius far below the rounding of the floats that are certified."""
-
-_SIGNS = {"determinant": (-1, 1), "discriminant": (0, 1), "radius": (1,)}
-"""A discriminant that is exactly zero leaves one solution, too."""
 
 
 def certify(profile: Profile, system: System, out: Mapping[str, float], bound: float) -> Certificate:
@@ -26,12 +20,11 @@ def certify(profile: Profile, system: System, out: Mapping[str, float], bound: f
     discriminant is positive; the ball about it is computed with outward rounding, and the equations are tried on it.
     `bound` is what is known of the error otherwise, mm.
     """
-    proof = _proof_of(system)
+    proof = compile_proof(system)
     with ball.precision(BITS):
         start = [(ball.exact(value), float(value)) for value in profile.start.values if value is not None]
-        inputs = _inputs(profile, system, proof.machine.inputs)
         try:
-            results = proof.machine.replay(inputs)
+            results = _run(proof.function, profile, system)
         except (ArithmeticError, ValueError):
             return Certificate(Proof.VERIFIED, bound, "interval arithmetic cannot decide a step")
         if any(ball.sign(results[index]) not in signs for index, signs in proof.signs):
@@ -58,49 +51,21 @@ DECISION = 256
 def decide_meeting(profile: Profile, system: System, number: int) -> tuple[int, float]:
     """Whether the elements of a step of the construction miss each other (-1), touch (0) or meet twice (1), on the
     exact words; and the discriminant, mm**2."""
-    machine = compile_decision(system, number)
+    decision = compile_decision(system, number)
     with ball.precision(DECISION):
-        inputs = _inputs(profile, system, machine.inputs)
         try:
-            (found,) = machine.replay(inputs)
+            (found,) = _run(decision, profile, system)
         except (ArithmeticError, ValueError):
             return 0, 0.0
         return ball.sign(found) or 0, ball.middle(found)
 
 
-class _Proof(Struct, frozen=True, eq=False):
-    """The outputs of a machine, by index."""
-
-    machine: ProofMachine
-    signs: tuple[tuple[int, tuple[int, ...]], ...]
-    """Steps, and the signs that leave one solution."""
-    residuals: tuple[int, ...]
-    radii: tuple[tuple[int, str], ...]
-    coordinates: tuple[tuple[int, str, int], ...]
-    """With their axis: they are counted from the start point."""
-
-
-@lru_cache(maxsize=4096)
-def _proof_of(system: System) -> _Proof:
-    machine = compile_proof(system)
-    kinds = [name.partition(":")[0] for name in machine.outputs]
-    names = list(enumerate(machine.outputs))
-    axes = [name.rpartition(".")[2] for name in machine.outputs]
-    return _Proof(
-        machine,
-        signs=tuple((index, _SIGNS[kind]) for index, kind in enumerate(kinds) if kind in _SIGNS),
-        residuals=tuple(index for index, kind in enumerate(kinds) if kind == "residual"),
-        radii=tuple((index, name) for index, name in names if name in system.figure.radii),
-        coordinates=tuple((index, name, int(axes[index])) for index, name in names if axes[index].isdigit()),
-    )
-
-
-def _inputs(profile: Profile, system: System, names: Sequence[str]) -> list[Number]:
-    """The inputs of these names, as in `solve`."""
+def _run(function: ExactFunction, profile: Profile, system: System) -> list[Number]:
+    """The outputs at the exact words, with the inputs as in `solve`."""
     inputs = inputs_as(_exact, ball.direction, profile, system)
-    if any(name.startswith(INCREMENT_OF) for name in names):
+    if any(name.startswith(INCREMENT_OF) for name in function.inputs):
         inputs |= {name: ball.exact(value) for name, value in profile.increments.items()}
-    return [inputs[name] for name in names]
+    return function.replay([inputs[name] for name in function.inputs])
 
 
 def _exact(value: Decimal | float, less: Decimal) -> Number:

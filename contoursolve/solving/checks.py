@@ -1,6 +1,6 @@
 """What must hold of a contour, as one table of margins; and which of many values of some words pass it."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from functools import lru_cache, reduce
 from typing import Any
@@ -53,6 +53,7 @@ from contoursolve.solving.events import RefusalKind
 from contoursolve.solving.inputs import EXPRESSIONS, input_values
 from contoursolve.solving.numbers import axes_of, inputs_of
 from contoursolve.solving.path_outputs import PathOutputs
+from contoursolve.solving.step_outputs import StepOutputs
 from contoursolve.tolerance import LARGEST, LENGTH, REGULAR, RESIDUAL, TOUCHING
 
 
@@ -130,13 +131,11 @@ NO_PATH = PathOutputs({}, {}, {}, {})
 
 class Source(Struct, frozen=True, eq=False):
     """What margins are made of, expressions or numbers: the coordinates, radii and angles of a figure, the measures of
-    its path, the outputs of the construction by name, and the least increment of a coordinate by its axis, or of a
-    value by its name, mm or degrees."""
+    its path, and the least increment of a coordinate by its axis, or of a value by its name, mm or degrees."""
 
     figure: Figure
     at: Values
     path: PathOutputs
-    out: Callable[[str], Any]
     increment: Increments
 
     def point(self, name: str) -> Pair:
@@ -157,21 +156,29 @@ class Source(Struct, frozen=True, eq=False):
 def source_of(system: System, tape: Tape, known: Mapping[str, Any], path: PathOutputs = NO_PATH) -> Source:
     """The expressions of a tape, whose outputs measure a path; scalars that are not `known` are inputs."""
     at = input_values(system, tape, known)
-    return Source(
-        system.figure, at, path.read(tape.expression), tape.expression, lambda name: tape.input(INCREMENT_OF + name)
-    )
+    return Source(system.figure, at, path.read(tape.expression), lambda name: tape.input(INCREMENT_OF + name))
+
+
+class CheckOutputs(Struct, frozen=True, eq=False):
+    """The checks of a contour, in the order in which they count, and the names of the outputs that tell what came of
+    them."""
+
+    checks: tuple[Check, ...]
+    path: PathOutputs
+    passed: str
+    """How many are passed in their order until one is not."""
+    margins: Mapping[int, str]
+    """The margins of those of facts, by their numbers."""
 
 
 class Checked(Struct, frozen=True, eq=False):
-    """The checks of a system, in the order in which they count, their margins, and a tape of what came of them."""
+    """The checks of a system, their margins, and a tape with the outputs of the system and of its checks."""
 
-    checks: tuple[Check, ...]
+    outputs: CheckOutputs
     margins: tuple[Any, ...]
-    path: PathOutputs
-    """The names of the outputs that measure the path."""
     tape: Tape
-    """The outputs of the system, of its checks (see `add_checks`), and `worst`: the largest residual of the equations
-    that were solved (mm; NaN if any is)."""
+    worst: str
+    """The name of the largest residual of the equations that were solved, mm; NaN if any is."""
     is_clear: Any
     """1 where every check is passed, else 0."""
 
@@ -181,20 +188,20 @@ def compile_checks(system: System) -> Checked:
     """The checks of a determined system in closed form."""
     machine = compile_system(system)
     tape, source = _source_of(system, machine)
-    basis = largest(tape.expression(name) for name in machine.residuals)
+    basis = largest(map(tape.expression, machine.residuals))
     corners = largest(source.path.residuals)
     pairs = [
-        *(pair for pair in check_steps(source, machine.steps) if not _is_half_circle(pair[0])),
+        *(pair for pair in _check_steps(source, machine, tape) if not _is_half_circle(pair[0])),
         check_range(source),
         check_residuals(basis),
-        *check_facts(source, machine.checks, len(machine.basis)),
+        *check_facts(source, machine.checks, map(tape.expression, machine.compared)),
         *check_path(source),
         check_residuals(corners),
     ]
-    is_clear = add_checks(tape, pairs)
-    tape.output("worst", largest([basis, corners]))
-    checks, margins = zip(*pairs, strict=True)
-    return Checked(checks, margins, machine.path, tape, is_clear)
+    outputs, is_clear = add_checks(tape, pairs, machine.path)
+    worst = "worst"
+    tape.output(worst, largest([basis, corners]))
+    return Checked(outputs, tuple(margin for _, margin in pairs), tape, worst, is_clear)
 
 
 def _is_half_circle(check: Check) -> bool:
@@ -214,21 +221,24 @@ def plain_checks(system: System) -> tuple[Tape, Source, list[tuple[Check, Any]]]
     """The checks of a determined system that a control has to make by itself, and where their margins come from."""
     machine = compile_plainly(system)
     tape, source = _source_of(system, machine)
-    steps = (pair for pair in check_steps(source, machine.steps) if pair[0].stage is not Stage.TOUCHING)
-    return tape, source, [*steps, *check_facts(source, machine.checks, len(machine.basis)), *check_path(source)]
+    steps = (pair for pair in _check_steps(source, machine, tape) if pair[0].stage is not Stage.TOUCHING)
+    facts = check_facts(source, machine.checks, map(tape.expression, machine.compared))
+    return tape, source, [*steps, *facts, *check_path(source)]
 
 
-def add_checks(tape: Tape, pairs: Iterable[tuple[Check, Any]], first: int = 0) -> Any:
-    """Declare what comes of checks, which are numbered from `first`: as `passed`, how many are passed in their order
-    until one is not, and as `margin:0` and so on the margins of facts. Whether all are passed, as 1 or 0."""
+def add_checks(tape: Tape, pairs: Sequence[tuple[Check, Any]], path: PathOutputs) -> tuple[CheckOutputs, Any]:
+    """The outputs of checks beside those of a path, which are declared, and whether all are passed, as 1 or 0."""
     is_clear, passed = true(), 0 * true()
-    for number, (check, margin) in enumerate(pairs, first):
+    margins = dict[int, str]()
+    for number, (check, margin) in enumerate(pairs):
         is_clear *= is_passed(check, margin, EXPRESSIONS)
         passed += is_clear
         if check.stage is Stage.FACTS:
-            tape.output(f"margin:{number}", margin)
-    tape.output("passed", passed)
-    return is_clear
+            margins[number] = f"margin:{number}"
+            tape.output(margins[number], margin)
+    outputs = CheckOutputs(tuple(check for check, _ in pairs), path, "passed", margins)
+    tape.output(outputs.passed, passed)
+    return outputs, is_clear
 
 
 def at_origin(figure: Figure) -> dict[str, float]:
@@ -254,36 +264,34 @@ def is_failing(check: Check, margin: float) -> bool:
     return not margin > check.limit and not is_passed(check, margin, FLOATS)
 
 
-def check_steps(source: Source, steps: Sequence[ConstructionStep]) -> Checks:
-    """Whether each step of a construction has a solution."""
-    for number, step in enumerate(steps):
-        yield from check_step(source, number, step)
+def _check_steps(source: Source, machine: Construction, tape: Tape) -> Checks:
+    for step, measures in zip(machine.steps, machine.measures, strict=True):
+        yield from check_step(source, step, measures.read(tape.expression))
 
 
-def check_step(source: Source, number: int, step: ConstructionStep) -> Checks:
-    """Whether a step of a construction has a solution."""
-    out = source.out
+def check_step(source: Source, step: ConstructionStep, measures: StepOutputs) -> Checks:
+    """Whether a step of a construction with these measures has a solution."""
     for tail, through in step.lines_through():
         yield Check(RefusalKind.POINT_IS_START, through, "", Test.ABOVE, LENGTH), source.distance(tail, through)
     if step.kind is StepKind.AFFINE:
         givens = tuple(fact.given for fact in step.facts if fact.given)
         kind, subject = RefusalKind.LINES_PARALLEL, ",".join(step.unknowns)
-        yield Check(kind, subject, "", Test.APART, REGULAR, givens, is_doubtful=True), out(f"determinant:{number}")
+        yield Check(kind, subject, "", Test.APART, REGULAR, givens, is_doubtful=True), measures.determinant
         return
     if step.kind is StepKind.RADIUS:
         # What is compared with a circle of no radius at all, a single solve tells.
         kind, (circle,) = RefusalKind.CIRCLE_UNDEFINED, step.circles
-        yield Check(kind, circle.center, "", Test.ABOVE, LENGTH, is_doubtful=True), out(circle.radius)
+        yield Check(kind, circle.center, "", Test.ABOVE, LENGTH, is_doubtful=True), source.at.radius(circle.radius)
         return
     kind, subject, is_half = RefusalKind.CIRCLE_MISSED, step.point, step.is_equal
     if step.kind is StepKind.TWO_CIRCLES:
         kind = RefusalKind.RADIUS_TOO_SMALL if is_half else RefusalKind.CIRCLES_APART
         undefined = RefusalKind.CIRCLE_UNDEFINED if is_half else kind
-        yield Check(undefined, subject, "", Test.ABOVE, LENGTH), out(f"distance:{number}")
-    offset, radius, magnitude = out(f"offset:{number}"), out(f"radius:{number}"), source.at.functions.magnitude
-    give = out(f"scale:{number}") * TOUCHING
+        yield Check(undefined, subject, "", Test.ABOVE, LENGTH), measures.distance
+    offset, radius, magnitude = measures.offset, measures.radius, source.at.functions.magnitude
+    give = measures.scale * TOUCHING
     meets = Check(kind, subject, "", Test.AT_LEAST, 0.0)
-    yield meets, out(f"gap:{number}") + give
+    yield meets, measures.gap + give
     yield meets, radius + offset + give
     apart = magnitude(radius - magnitude(offset)) - give
     yield Check(kind, subject, "", Test.ABOVE, 0.0, stage=Stage.TOUCHING, is_doubtful=True), apart
@@ -302,10 +310,9 @@ def check_range(source: Source) -> tuple[Check, Any]:
     return Check(RefusalKind.OUT_OF_RANGE, "", "", Test.NOT_BELOW, 0.0, stage=Stage.RANGE), LARGEST - farthest
 
 
-def check_facts(source: Source, facts: Sequence[Fact], first: int) -> Checks:
-    """Whether facts that were not needed agree, whose residuals are numbered from `first`, at the points that the
-    others give."""
-    for number, fact in enumerate(facts, first):
+def check_facts(source: Source, facts: Iterable[Fact], residuals: Iterable[Any]) -> Checks:
+    """Whether facts that were not needed, with these residuals (mm), agree at the points that the others give."""
+    for fact, residual in zip(facts, residuals, strict=True):
         is_doubtful = bool(fact.given) and not isinstance(fact, Coordinate | Offset | Radius | Heading)
         kind, subject = RefusalKind.WORDS_DISAGREE, fact.given
         if not fact.given:
@@ -313,7 +320,7 @@ def check_facts(source: Source, facts: Sequence[Fact], first: int) -> Checks:
             if isinstance(fact, OnCircle):
                 kind, subject = RefusalKind.RADIUS_DIFFERENCE, fact.point
         check = Check(kind, subject, "", Test.NOT_BELOW, 0.0, (), Stage.FACTS, is_doubtful, fact.given)
-        for margin in agreement(fact, source.out(f"residual:{number}"), source.at, source.increment, source.figure):
+        for margin in agreement(fact, residual, source.at, source.increment, source.figure):
             yield check, margin
 
 
@@ -416,14 +423,14 @@ def passed_rows(profile: Profile, values: Mapping[str, Array]) -> numpy.ndarray 
     floats can tell. None where no one function answers all rows: there is no closed form, or a point may lie in two
     places between which nothing chooses. Raises ValueError without a start."""
     found = _replay(profile, values)
-    return None if found is None else numpy.equal(found[0], 1)
+    return None if found is None else numpy.equal(found[-1], 1)
 
 
 def agreement_rows(profile: Profile, values: Mapping[str, Array]) -> numpy.ndarray | None:
     """For each row, by how much the facts that were not needed agree more closely than they must (mm; below 0 if one of
     them does not agree, and NaN where that is not known). None as above, and where every fact is needed."""
     found = _replay(profile, values)
-    return None if found is None or len(found) == 1 else numpy.min(found[1:], axis=0)
+    return None if found is None or len(found) == 1 else numpy.min(found[:-1], axis=0)
 
 
 def _replay(profile: Profile, values: Mapping[str, Array]) -> list[numpy.ndarray] | None:
@@ -449,12 +456,9 @@ def _replay(profile: Profile, values: Mapping[str, Array]) -> list[numpy.ndarray
 
 @lru_cache(maxsize=256)
 def _compile(system: System) -> tuple[tuple[str, ...], Replay]:
-    """The inputs of the checks of a system, and as a function of these whether all of them are passed, and the margins
-    of the facts that were not needed."""
+    """The inputs of the checks of a system, and as a function of these the margins of the facts that were not needed,
+    and whether all checks are passed."""
     checked = compile_checks(system)
-    tape = checked.tape.keep((), ())
+    tape = checked.tape.keep(checked.outputs.margins.values())
     tape.output("clear", checked.is_clear)
-    for number, (check, margin) in enumerate(zip(checked.checks, checked.margins, strict=True)):
-        if check.stage is Stage.FACTS:
-            tape.output(f"margin:{number}", margin)
     return tape.inputs, replay_rows(tape)

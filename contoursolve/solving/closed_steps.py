@@ -8,7 +8,7 @@ from msgspec import Struct
 
 from contoursolve.geometry import System, Values
 from contoursolve.numeric import Number, Replay, ball, sqrt
-from contoursolve.solving.construction import Builder, ConstructionStep, Need, NoClosedFormError, StepKind
+from contoursolve.solving.construction import Builder, ConstructionStep, NoClosedFormError, StepKind
 from contoursolve.solving.elimination import Root, has_closed_form
 from contoursolve.solving.inputs import input_values
 from contoursolve.solving.partition import Group
@@ -73,15 +73,15 @@ def close_step(system: System, group: Group) -> ClosedStep | None:
     """The closed form of a group; None if it has none."""
     builder = _StepBuilder(system, touching=0.0)
     try:
-        builder.run(ConstructionStep(StepKind.GENERAL, group.facts, group.unknowns), 0)
+        builder.run(ConstructionStep(StepKind.GENERAL, group.facts, group.unknowns))
     except NoClosedFormError:
         return None
-    outputs = {need: [each.output for each in builder.conditions if each.need is need] for need in Need}
     root = tuple(each.sign for each in builder.conditions if each.sign)
     for name in group.unknowns:
         builder.tape.output(name, builder.scalars[name])
     parameters = tuple(name for name in builder.tape.inputs if name not in root)
-    conditions = [*outputs[Need.REGULAR], *(["leading:0", *outputs[Need.REAL]] if root else [])]
+    (measures,) = builder.measures
+    conditions = (each for each in (measures.determinant, measures.leading, measures.discriminant) if each is not None)
     tape = builder.tape.of((*parameters, *root), (*group.unknowns, *conditions))
     return ClosedStep(parameters, len(group.unknowns), bool(root), Replay(tape.function(), _Open, ball.exact))
 

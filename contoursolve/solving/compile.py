@@ -26,6 +26,7 @@ from contoursolve.geometry import (
 from contoursolve.numeric import (
     SIDE,
     Replay,
+    Tape,
     angle,
     ball,
     is_zero,
@@ -41,8 +42,6 @@ from contoursolve.solving.construction import (
     MOST_SIGNS,
     Builder,
     Construction,
-    ConstructionStep,
-    Need,
     NoClosedFormError,
     named_steps,
     steps_of,
@@ -51,6 +50,7 @@ from contoursolve.solving.corners import CornerPath, Edge, Pair, build_corner, d
 from contoursolve.solving.determinacy import basis_of, spare_of
 from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.solving.sides import side_values
+from contoursolve.solving.step_outputs import Need
 from contoursolve.tolerance import LENGTH, REGULAR, TOUCHING
 
 
@@ -65,15 +65,20 @@ class _PathBuilder(Builder):
         self.rooms: dict[str, Any] = {}
         """The rest that corners leave of each element."""
 
-    def outputs(self) -> None:
-        """The unknowns, and the residuals of all facts."""
+    def outputs(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """The names of the residuals of the basis and of the facts that are not needed; the unknowns are outputs, too."""
         for name in self.system.unknowns:
             self.tape.output(name, self.scalars[name])
-        at = self.at()
-        for number, fact in enumerate((*basis_of(self.system), *spare_of(self.system))):
-            self.tape.output(f"residual:{number}", fact.residual(at))
+        at, names = self.at(), list[str]()
+        basis, spare = basis_of(self.system), spare_of(self.system)
+        for fact in (*basis, *spare):
+            names.append(f"residual:{len(names)}")
+            self.tape.output(names[-1], fact.residual(at))
+        for number, fact in enumerate(basis):
             if isinstance(fact, Radius) and fact.radius in self.short:
-                self.tape.output(f"excess:{number}", fact.residual(at) - self.short[fact.radius])
+                names[number] = f"excess:{number}"
+                self.tape.output(names[number], fact.residual(at) - self.short[fact.radius])
+        return tuple(names[: len(basis)]), tuple(names[len(basis) :])
 
     def slopes(self) -> tuple[tuple[int, int, str], ...]:
         """The Jacobian of the basis."""
@@ -216,10 +221,8 @@ def compile_plainly(system: System) -> Construction:
 
 
 class _PlainBuilder(_PathBuilder):
-    def _root(
-        self, discriminant: Any, offset: Any, radius: Any, scale: Any, step: ConstructionStep, number: int
-    ) -> Any:
-        return super()._root(discriminant, offset, radius, 0 * scale, step, number)
+    def _band(self, scale: Any) -> Any:
+        return 0 * scale
 
     def _spread(self, discriminant: Any, _is_touching: Any) -> Any:
         return sqrt(discriminant)
@@ -227,16 +230,23 @@ class _PlainBuilder(_PathBuilder):
 
 def _compile(builder: _PathBuilder) -> Construction:
     system, steps = builder.system, named_steps(builder.system)
-    for number, step in enumerate(steps):
-        builder.run(step, number)
-    builder.outputs()
-    slopes, basis = builder.slopes(), basis_of(system)
-    outputs = builder.tape.outputs
-    excesses = [f"excess:{number}" for number in range(len(basis))]
-    residuals = tuple(f"residual:{n}" if name not in outputs else name for n, name in enumerate(excesses))
-    path, signs = builder.path(), tuple(builder.signs)
-    function = builder.tape.finish()
-    return Construction(steps, basis, spare_of(system), function, residuals, slopes, path, builder.tape, signs)
+    for step in steps:
+        builder.run(step)
+    residuals, compared = builder.outputs()
+    slopes, path = builder.slopes(), builder.path()
+    return Construction(
+        steps=steps,
+        basis=basis_of(system),
+        checks=spare_of(system),
+        function=builder.tape.finish(),
+        measures=tuple(builder.measures),
+        residuals=residuals,
+        compared=compared,
+        slopes=slopes,
+        path=path,
+        tape=builder.tape,
+        signs=tuple(builder.signs),
+    )
 
 
 @lru_cache(maxsize=256)
@@ -249,21 +259,32 @@ def compile_branches(system: System) -> Construction:
 class _BranchBuilder(_PathBuilder):
     def construct(self) -> Construction:
         system, steps = self.system, tuple(steps_of(self.system))
-        for number, step in enumerate(steps):
-            self.run(step, number)
+        for step in steps:
+            self.run(step)
         self._check_senses()
         basis, spare = basis_of(system), spare_of(system)
         for fact in spare:
             if any(SIDE + side not in self.signs for side in fact.sides()):
                 raise NoClosedFormError("on which side it touches follows from nothing else", (fact,), ())
-        self.outputs()
-        sides = dict(self._sides())
-        residuals = tuple(f"residual:{number}" for number in range(len(basis)))
-        path = self.path()
+        residuals, compared = self.outputs()
+        sides, path = dict(self._sides()), self.path()
         if len(self.signs) > MOST_SIGNS:
             raise NoClosedFormError(f"it has {2 ** len(self.signs):,} solutions to look at", basis, ())
-        signs, conditions, function = tuple(self.signs), tuple(self.conditions), self.tape.finish()
-        return Construction(steps, basis, spare, function, residuals, (), path, self.tape, signs, conditions, sides)
+        return Construction(
+            steps=steps,
+            basis=basis,
+            checks=spare,
+            function=self.tape.finish(),
+            measures=tuple(self.measures),
+            residuals=residuals,
+            compared=compared,
+            slopes=(),
+            path=path,
+            tape=self.tape,
+            signs=tuple(self.signs),
+            conditions=tuple(self.conditions),
+            sides=sides,
+        )
 
     def size_of(self, corner: Corner) -> Any:
         name = f"{corner.name}.radius"
@@ -313,34 +334,59 @@ class _BranchBuilder(_PathBuilder):
                 yield point, (f"beside:{point}", positive)
 
 
-class ProofMachine(Struct, frozen=True):
-    """The closed form of a system in exact numbers and balls, with the names of inputs and outputs.
-
-    Outputs that begin with `determinant:` must not be zero, those that begin with `discriminant:` or `radius:`
-    must be positive, and those that begin with `residual:` must hold zero.
-    """
+class ExactFunction(Struct, frozen=True, eq=False):
+    """A function of the inputs of a system in exact numbers and balls, with the names of its inputs."""
 
     replay: Replay
     inputs: tuple[str, ...]
-    outputs: tuple[str, ...]
+
+
+class ExactOutputs(Struct, frozen=True, eq=False):
+    """The closed form of a system in exact numbers and balls, with the places of its outputs."""
+
+    function: ExactFunction
+    signs: tuple[tuple[int, tuple[int, ...]], ...]
+    """Of what a step divides by and takes roots of, with the signs that leave one solution."""
+    residuals: tuple[int, ...]
+    radii: tuple[tuple[int, str], ...]
+    """With their names among the outputs in floats."""
+    coordinates: tuple[tuple[int, str, int], ...]
+    """The same of points and corners, with their axis: they are counted from the start point."""
 
 
 @lru_cache(maxsize=4096)
-def compile_proof(system: System) -> ProofMachine:
+def compile_proof(system: System) -> ExactOutputs:
     """The closed form of a determined system for exact numbers and balls."""
-    tape = compile_system(system).tape.keep(_PROOF_OUTPUTS, system.unknowns)
-    return ProofMachine(Replay(tape.function(), Exactly, ball.exact), tape.inputs, tuple(tape.outputs))
+    machine, figure = compile_system(system), system.figure
+    signs = dict(pair for measures in machine.measures for pair in measures.signs())
+    pairs = [(scalar(point, FIRST), scalar(point, SECOND)) for point in figure.points]
+    for corner in machine.path.corners.values():
+        pairs += [place for place in (corner.begin, corner.end, corner.center) if place is not None]
+    axes = {name: axis for pair in pairs for axis, name in enumerate(pair)}
+    residuals = (*machine.residuals, *machine.compared)
+    names = tuple(dict.fromkeys((*signs, *residuals, *figure.radii, *axes)))
+    places = {name: place for place, name in enumerate(names)}
+    return ExactOutputs(
+        _exactly(machine.tape, names, Exactly),
+        tuple((places[name], each) for name, each in signs.items()),
+        tuple(places[name] for name in residuals),
+        tuple((places[name], name) for name in figure.radii),
+        tuple((places[name], name, axis) for name, axis in axes.items()),
+    )
+
+
+def _exactly(tape: Tape, outputs: Sequence[str], functions: Any) -> ExactFunction:
+    return ExactFunction(Replay(tape.of(tape.inputs, outputs).function(), functions, ball.exact), tape.inputs)
 
 
 @lru_cache(maxsize=256)
-def compile_decision(system: System, number: int) -> ProofMachine:
+def compile_decision(system: System, number: int) -> ExactFunction:
     """The discriminant of one step of a determined system for exact numbers and balls: whether a line or a circle that
     floats cannot tell from a touching one meets the circle."""
     builder = Builder(system, touching=0.0)
-    for each, step in enumerate(compile_system(system).steps[: number + 1]):
-        builder.run(step, each)
-    tape = builder.tape.keep((), (f"discriminant:{number}",))
-    return ProofMachine(Replay(tape.function(), _Deciding, ball.exact), tape.inputs, tuple(tape.outputs))
+    for step in compile_system(system).steps[: number + 1]:
+        builder.run(step)
+    return _exactly(builder.tape, [builder.measures[number].discriminant], _Deciding)
 
 
 class _Deciding:
@@ -384,9 +430,6 @@ class Exactly:
         raise ArithmeticError("two solutions are too close for floats")
 
 
-_PROOF_OUTPUTS = ("determinant:", "discriminant:", "radius:", "residual:", "begin:", "end:", "center:")
-
-
 @lru_cache(maxsize=1024)
 def compile_path(system: System) -> Construction:
     """The lines and corners of a path at given points; the same outputs as of `compile_system`."""
@@ -396,4 +439,4 @@ def compile_path(system: System) -> Construction:
     path = builder.path()
     # A path of arcs alone has no outputs of its own.
     builder.tape.output("start", builder.scalars[scalar(system.figure.start, FIRST)])
-    return Construction((), (), (), builder.tape.finish(), (), (), path, builder.tape)
+    return Construction((), (), (), builder.tape.finish(), (), (), (), (), path, builder.tape)

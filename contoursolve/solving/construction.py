@@ -35,7 +35,6 @@ from contoursolve.geometry import (
 from contoursolve.numeric import (
     SIDE,
     Compiled,
-    Expression,
     Tape,
     affine_parts,
     at_most,
@@ -66,6 +65,7 @@ from contoursolve.solving.determinacy import analyse, groups_of
 from contoursolve.solving.inputs import EXPRESSIONS, given_directions, input_values, named_inputs
 from contoursolve.solving.partition import Group
 from contoursolve.solving.path_outputs import PathOutputs
+from contoursolve.solving.step_outputs import Need, StepOutputs
 from contoursolve.tolerance import TOUCHING
 
 MOST_SIGNS = 6
@@ -139,14 +139,6 @@ class ConstructionStep(Struct, frozen=True):
                 yield fact.tail, fact.point if is_found else fact.through
 
 
-class Need(Enum):
-    """The conditions on a step besides its equations."""
-
-    REGULAR = "its determinant is not zero"
-    REAL = "its discriminant is not negative"
-    POSITIVE = "a radius, or what tells a sense, is positive"
-
-
 class SideCondition(Struct, frozen=True):
     """A condition on a solution besides the equations: the output that is compared with zero, the facts that it is
     about, the unknowns that they give, and the sign of a root."""
@@ -166,8 +158,12 @@ class Construction(Struct, frozen=True, eq=False):
     checks: tuple[Fact, ...]
     """The facts that are not needed."""
     function: Compiled
+    measures: tuple[StepOutputs, ...]
+    """The names of the outputs of each step."""
     residuals: tuple[str, ...]
-    """Of the basis, but for what the words of a half circle are exact to."""
+    """The names of the residuals of the basis, but for what the words of a half circle are exact to."""
+    compared: tuple[str, ...]
+    """The names of the residuals of the facts that are not needed."""
     slopes: tuple[tuple[int, int, str], ...]
     """(row, column, output) of the Jacobian of the basis by the unknowns."""
     path: PathOutputs
@@ -279,6 +275,10 @@ def _is_affine(fact: Fact, unknowns: set[str], system: System) -> bool:
     return is_affine([fact.residual(input_values(system, tape, {}))], [tape.input(name) for name in sorted(unknowns)])
 
 
+Measured = tuple[Sequence[Any], StepOutputs]
+"""The unknowns of a step, and what is measured of it."""
+
+
 class Builder:
     """The expressions of a system under construction: `run` takes a step, from the values of those before."""
 
@@ -293,6 +293,8 @@ class Builder:
         self.directions = given_directions(self.tape)
         self.short: dict[str, Any] = {}
         """By how much stated radii of half circles are less than their points say."""
+        self.measures: list[StepOutputs] = []
+        """The names of the outputs of each step so far."""
         self.signs: list[str] = []
         self.conditions: list[SideCondition] = []
 
@@ -310,24 +312,28 @@ class Builder:
         """A radius, mm."""
         return self.at().radius(name)
 
-    def run(self, step: ConstructionStep, number: int) -> None:
-        """Declare the unknowns of a step, and what must hold of it."""
+    def run(self, step: ConstructionStep) -> None:
+        """Declare the unknowns of the next step, and what must hold of it."""
         for side in dict.fromkeys(SIDE + side for fact in step.facts for side in fact.sides()):
             if side not in self.signs:
                 self.signs.append(side)
         match step.kind:
             case StepKind.AFFINE:
-                values = self._linear(step, number)
+                values, measures = self._linear(step)
             case StepKind.RADIUS:
                 (circle,) = step.circles
                 (x, y), (cx, cy) = self.point(circle.point), self.point(circle.center)
-                values = [sqrt((x - cx) ** 2 + (y - cy) ** 2)]
+                values, measures = [sqrt((x - cx) ** 2 + (y - cy) ** 2)], StepOutputs()
             case StepKind.LINE_CIRCLE:
-                values = self._line_circle(step, number)
+                values, measures = self._line_circle(step)
             case StepKind.TWO_CIRCLES:
-                values = self._two_circles(step, number)
+                values, measures = self._two_circles(step)
             case StepKind.GENERAL:
-                values = self._general(step, number)
+                values, measures = self._general(step)
+        named = measures.named(len(self.measures), self.tape.output)
+        self.measures.append(named)
+        for need, output in named.conditions():
+            self._need(need, output, step.facts, step.unknowns, self.signs[-1] if need is Need.REAL else "")
         self.scalars.update(zip(step.unknowns, values, strict=True))
         for name in step.unknowns:
             if name in self.system.figure.radii:
@@ -337,44 +343,34 @@ class Builder:
     def _need(self, need: Need, output: str, facts: Sequence[Fact], unknowns: Sequence[str], sign: str = "") -> None:
         self.conditions.append(SideCondition(need, output, tuple(facts), tuple(unknowns), sign))
 
-    def _linear(self, step: ConstructionStep, number: int) -> Sequence[Any]:
+    def _linear(self, step: ConstructionStep) -> Measured:
         """Facts that are affine as they are, so that their determinant is that of directions."""
         symbols = {name: symbol(name) for name in step.unknowns}
         at = self.at(symbols)
         entries, constants = affine_parts(
             [_as_affine(fact, step).residual(at) for fact in step.facts], list(symbols.values())
         )
-        for row, constant in enumerate(constants):
-            self.tape.output(f"constant:{number}:{row}", constant)
-            for column, entry in enumerate(entries[row]):
-                self.tape.output(f"entry:{number}:{row}:{column}", entry)
-        return self._affine([list(map(or_none, row)) for row in entries], list(map(or_none, constants)), step, number)
+        matrix = [list(map(or_none, row)) for row in entries]
+        measures = StepOutputs(tuple(map(tuple, entries)), tuple(constants), or_zero(determinant(matrix)))
+        return _by_determinants(matrix, list(map(or_none, constants)), measures.determinant), measures
 
-    def _affine(self, matrix: Matrix, constants: Column, step: ConstructionStep, number: int) -> list[Any]:
-        """The unknowns of affine equations, by determinants."""
-        found = determinant(matrix)
-        if found is None:
-            if step.kind is StepKind.GENERAL:
-                raise NoClosedFormError("they do not fix what they speak about", step.facts, step.unknowns)
-            found = Expression(0.0)
-        self.tape.output(f"determinant:{number}", found)
-        self._need(Need.REGULAR, f"determinant:{number}", step.facts, step.unknowns)
-        return [or_zero(replaced(matrix, constants, column)) / found for column in range(len(matrix))]
-
-    def _line_circle(self, step: ConstructionStep, number: int) -> Sequence[Any]:
+    def _line_circle(self, step: ConstructionStep) -> Measured:
         """Foot of the perpendicular from the centre, then half the chord forward or back."""
         through, (first, second) = self._line_of(step)
         (circle,), center = step.circles, self.point(step.centers[0])
         radius = self.radius(circle.radius)
         offset = (through[0] - center[0]) * -second + (through[1] - center[1]) * first
-        scale = radius + sum(magnitude(value) for value in (*center, *through))
-        half = self._root((radius - offset) * (radius + offset), offset, radius, scale, step, number)
+        gap, discriminant = radius - offset, (radius - offset) * (radius + offset)
+        scale = self._band(radius + sum(magnitude(value) for value in (*center, *through)))
+        measures = StepOutputs(discriminant=discriminant, offset=offset, radius=radius, gap=gap, scale=scale)
+        half = self._root(step, measures, magnitude(offset) - radius)
         lines = (each for each in self.system.figure.path if isinstance(each, Line) and each.counts_length)
         if any(step.point in (line.tail, line.head) for line in lines):
             # The longer line leads to the point beyond the foot of the perpendicular.
             ahead = (center[0] - through[0]) * first + (center[1] - through[1]) * second
             half = half * (2 * at_most(0, ahead) - 1)
-        return center[0] - second * offset + first * half, center[1] + first * offset + second * half
+        values = center[0] - second * offset + first * half, center[1] + first * offset + second * half
+        return values, measures
 
     def _line_of(self, step: ConstructionStep) -> tuple[Pair, Pair]:
         """A known point of a step's line, and the line's direction."""
@@ -384,7 +380,7 @@ class Builder:
         tail, through = self.point(line.tail), self.point(line.through)
         return tail, unit((through[0] - tail[0], through[1] - tail[1]))
 
-    def _two_circles(self, step: ConstructionStep, number: int) -> Sequence[Any]:
+    def _two_circles(self, step: ConstructionStep) -> Measured:
         """Along the line of centres to the common chord, then along it to the left or to the right."""
         first, second = map(self.point, step.centers)
         one, other = (self.radius(circle.radius) for circle in step.circles)
@@ -393,14 +389,24 @@ class Builder:
         # With one radius, exactly the middle.
         offset = length / 2 if step.is_equal else (length + (one - other) * (one + other) / length) / 2
         scale = one + other + sum(magnitude(value) for value in (*first, *second))
-        if step.is_equal:
-            one = other = self._half_circle(step.circles[0].radius, offset, chord, scale, number)
-        gap = self.tape.expression(f"gap:{number}") if f"gap:{number}" in self.tape.outputs else one - offset
-        self.tape.output(f"distance:{number}", length)
-        self._need(Need.REGULAR, f"distance:{number}", step.facts, step.unknowns)
-        root = self._root(gap * (one + offset), offset, one, scale, step, number)
+        half = self._half_circle(step.circles[0].radius, offset, chord, scale) if step.is_equal else None
+        if half is None:
+            short, gap, apart = None, one - offset, magnitude(offset) - one
+        else:
+            one, short, gap = half
+            apart = gap
+        measures = StepOutputs(
+            short=short,
+            distance=length,
+            discriminant=gap * (one + offset),
+            offset=offset,
+            radius=one,
+            gap=gap,
+            scale=self._band(scale),
+        )
+        root = self._root(step, measures, apart)
         along, rise = offset / length, root * self._sense(step) / length
-        return first[0] + along * chord[0] - rise * chord[1], first[1] + along * chord[1] + rise * chord[0]
+        return (first[0] + along * chord[0] - rise * chord[1], first[1] + along * chord[1] + rise * chord[0]), measures
 
     def _sense(self, step: ConstructionStep) -> Any:
         """+1 where the positive side of an intersection is the left one, -1 where it is the right one."""
@@ -410,51 +416,42 @@ class Builder:
                 return 2 * at_most(self.radius(after.radius) ** 2, (c - a) ** 2 + (d - b) ** 2) - 1
         return 1
 
-    def _half_circle(self, name: str, half: Any, chord: Pair, scale: Any, number: int) -> Any:
+    def _half_circle(self, name: str, half: Any, chord: Pair, scale: Any) -> tuple[Any, Any, Any] | None:
         """The radius of a circle through two points, half of whose distance may be more than the radius by as little as
-        the words are exact to: then it is a half circle, and as large as the points say. By how much is `short`."""
+        the words are exact to: then it is a half circle, and as large as the points say. By how much it is less, and
+        what is left of it beyond the half. None where no word states the radius."""
         radius = self.radius(name)
         given = next((fact.given for fact in self.system.facts if isinstance(fact, Radius) and fact.radius == name), "")
         if not given:
-            return radius
+            return None
         give = half_circle_allowance(chord, 2 * half, given, lambda key: self.tape.input(INCREMENT_OF + key), magnitude)
         # From where it is a touching one for floats as well, so that no value lies between.
         rounding = self.touching * scale / 2
         short = half - radius
         is_short = magnitude(short - (give + rounding) / 2) <= (give - rounding) / 2
         self.short[name] = where(is_short, short, 0)
-        self.tape.output(f"short:{number}", self.short[name])
-        self.tape.output(f"gap:{number}", where(is_short, 0, radius - half))
         self.scalars[name] = where(is_short, half, radius)
-        return self.scalars[name]
+        return self.scalars[name], self.short[name], where(is_short, 0, radius - half)
 
-    def _root(
-        self, discriminant: Any, offset: Any, radius: Any, scale: Any, step: ConstructionStep, number: int
-    ) -> Any:
+    def _band(self, scale: Any) -> Any:
+        """The size of which a share may be rounding."""
+        return scale
+
+    def _root(self, step: ConstructionStep, measures: StepOutputs, apart: Any) -> Any:
         """The root of a discriminant with its sign; 0 where floats cannot tell that a circle is more than touched."""
-        self.tape.output(f"discriminant:{number}", discriminant)
-        self.tape.output(f"offset:{number}", offset)
-        self.tape.output(f"scale:{number}", scale)
-        self.tape.output(f"radius:{number}", radius)
-        gap = f"gap:{number}"
-        apart = self.tape.expression(gap) if gap in self.tape.outputs else magnitude(offset) - radius
-        if gap not in self.tape.outputs:
-            self.tape.output(gap, radius - offset)
-        is_touching = magnitude(apart) <= self.touching * scale
-        sign = self._sign(SIDE + step.point, step, number)
-        return sign * self._spread(discriminant, is_touching)
+        is_touching = magnitude(apart) <= self.touching * measures.scale
+        return self._sign(SIDE + step.point) * self._spread(measures.discriminant, is_touching)
 
     def _spread(self, discriminant: Any, is_touching: Any) -> Any:
         """The root of a discriminant, without its sign."""
         return where(is_touching, 0, sqrt(discriminant))
 
-    def _sign(self, name: str, step: ConstructionStep, number: int) -> Any:
+    def _sign(self, name: str) -> Any:
         """The input that chooses between the two places of a step."""
         self.signs.append(name)
-        self._need(Need.REAL, f"discriminant:{number}", step.facts, step.unknowns, name)
         return self.tape.input(name)
 
-    def _general(self, step: ConstructionStep, number: int) -> Sequence[Any]:
+    def _general(self, step: ConstructionStep) -> Measured:
         """The unknowns of affine equations, and of at most one conic on the line that these leave."""
         symbols = {name: symbol(name) for name in step.unknowns}
         at, size = self.at(symbols), len(step.unknowns)
@@ -470,31 +467,35 @@ class Builder:
             raise NoClosedFormError("they have no closed form together", step.facts, step.unknowns)
         matrix = [[row.get((column,)) for column in range(size)] for row in affine]
         constants = [row.get(()) for row in affine]
-        if not curved:
-            return self._affine(matrix, constants, step, number)
-        return self._on_line(matrix, constants, curved[0], step, number)
+        if curved:
+            return self._on_line(matrix, constants, curved[0], step)
+        found = determinant(matrix)
+        if found is None:
+            raise NoClosedFormError("they do not fix what they speak about", step.facts, step.unknowns)
+        return _by_determinants(matrix, constants, found), StepOutputs(determinant=found)
 
-    def _on_line(self, matrix: Matrix, constants: Column, curve: Row, step: ConstructionStep, number: int) -> list[Any]:
+    def _on_line(self, matrix: Matrix, constants: Column, curve: Row, step: ConstructionStep) -> Measured:
         """The two places of a conic on the line on which affine equations hold."""
         size = len(step.unknowns)
         way = [cofactor(matrix, column) for column in range(size)]
         if all(each is None for each in way):
             raise NoClosedFormError("they do not fix what they speak about", step.facts, step.unknowns)
         square = total(each * each for each in way if each is not None)
-        if size > 1:
-            self.tape.output(f"determinant:{number}", sqrt(square))
-            self._need(Need.REGULAR, f"determinant:{number}", step.facts, step.unknowns)
         whole: Matrix = [*matrix, way]
         through = [or_zero(replaced(whole, [*constants, None], column)) / square for column in range(size)]
         along = list(map(or_zero, way))
         leading, middle, last = restrict(curve, along, through)
-        self.tape.output(f"leading:{number}", leading)
         half, rest = middle / (2 * leading), last / leading
         discriminant = half * half - rest
-        self.tape.output(f"discriminant:{number}", discriminant)
-        sign = self._sign(f"root:{','.join(step.unknowns)}", step, number)
-        far = sign * self._spread(discriminant, discriminant <= 0) - half
-        return [one + far * each for one, each in zip(through, along, strict=True)]
+        far = self._sign(f"root:{','.join(step.unknowns)}") * self._spread(discriminant, discriminant <= 0) - half
+        values = [one + far * each for one, each in zip(through, along, strict=True)]
+        regular = sqrt(square) if size > 1 else None
+        return values, StepOutputs(determinant=regular, leading=leading, discriminant=discriminant)
+
+
+def _by_determinants(matrix: Matrix, constants: Column, found: Any) -> list[Any]:
+    """The unknowns of affine equations with this determinant."""
+    return [or_zero(replaced(matrix, constants, column)) / found for column in range(len(matrix))]
 
 
 def _as_affine(fact: Fact, step: ConstructionStep) -> Fact:

@@ -16,7 +16,7 @@ from contoursolve.geometry import (
     headed_lines,
     scalar,
 )
-from contoursolve.numeric import COSINE, SINE, direction
+from contoursolve.numeric import COSINE, SIDE, SINE, direction
 from contoursolve.solving.corners import CornerPath
 from contoursolve.solving.events import Status
 from contoursolve.solving.solution import CornerSolution, Point, Solution
@@ -52,7 +52,7 @@ def inputs_as(
         else:
             inputs[name] = number(given.value, _ZERO)
     for choice in profile.choices:
-        inputs[f"side:{choice.point}"] = number(choice.side.sign, _ZERO)
+        inputs[SIDE + choice.point] = number(choice.side.sign, _ZERO)
     return inputs
 
 

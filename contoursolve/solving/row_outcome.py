@@ -7,7 +7,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contoursolve.numeric import Array
-from contoursolve.solving.checks import Check, Stage
+from contoursolve.solving.checks import Check, CheckOutputs, Stage
 from contoursolve.solving.events import RefusalKind, Status
 from contoursolve.solving.path_outputs import PathOutputs
 
@@ -55,11 +55,11 @@ class RowOutcome:
     """What the checks found, row by row: `status` and `reason` as numbers; and the rows `again` that need the exact
     arithmetic of a single solve: a step that is singular, a line that touches its circle.
 
-    `out` has the outputs of `checks.add_checks`, and the cosines at the corners by their names in `path`.
+    `out` has the outputs of the checks, and the cosines at the corners.
     """
 
-    def __init__(self, checks: Sequence[Check], out: Out, rows: int, path: PathOutputs) -> None:
-        passed = numpy.broadcast_to(out["passed"], rows)
+    def __init__(self, outputs: CheckOutputs, out: Out, rows: int) -> None:
+        checks, passed = outputs.checks, numpy.broadcast_to(out[outputs.passed], rows)
         self.is_clear: Mask = passed == len(checks)
         """Where every check is passed."""
         self.reason: Codes = numpy.zeros(rows, numpy.uint8)
@@ -70,14 +70,13 @@ class RowOutcome:
         self._conflicts: Mask = numpy.zeros(rows, bool)
         rest = numpy.flatnonzero(~self.is_clear)
         if rest.size:
-            self._note_first(checks, rest, passed[rest].astype(numpy.intp), path.read(out.get))
-        facts = {number: check for number, check in enumerate(checks) if check.stage is Stage.FACTS}
-        if facts:
+            self._note_first(checks, rest, passed[rest].astype(numpy.intp), outputs.path.read(out.get))
+        if outputs.margins:
             # The first such check is about the points; that of the corners comes last.
             points = next(number for number, check in enumerate(checks) if check.stage is Stage.EQUATIONS)
             is_solved = passed != points
-            for number, check in facts.items():
-                self._compare(check, out[f"margin:{number}"], is_solved)
+            for number, margin in outputs.margins.items():
+                self._compare(checks[number], out[margin], is_solved)
 
     @property
     def status(self) -> Codes:

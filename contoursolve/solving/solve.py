@@ -1,6 +1,6 @@
 """Solves a determined profile and believes nothing: every answer is held against the original equations."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from itertools import combinations
 from math import asin, atan2, degrees, hypot, inf, isfinite
@@ -36,6 +36,7 @@ from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range
 from contoursolve.solving.numbers import inputs_of, lookup, scalars_of, sizes_of, solution_at
 from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.solving.solution import Certificate, Note, Point, Refusal, Solution, up_to_one_digit
+from contoursolve.solving.step_outputs import StepOutputs
 from contoursolve.tolerance import ERROR_BOUND_WARNING, RESIDUAL, TOUCHING
 
 ROUNDING = 2.0**-50
@@ -108,7 +109,7 @@ class _Attempt:
         self.out = self.machine.function(self.inputs)
         at = Values({**self.out, **at_origin(system.figure)}, {}, {})
         measures = self.machine.path.read(self.out.__getitem__)
-        self.source = Source(system.figure, at, measures, self.out.__getitem__, self._increment)
+        self.source = Source(system.figure, at, measures, self._increment)
         self.refusals: list[Refusal] = []
         self.remarks: list[Note] = []
         self.doubles: dict[int, dict[str, float]] = {}
@@ -124,8 +125,8 @@ class _Attempt:
         return self.machine.path.read(self.machine.function({**self.inputs, **sizes}).__getitem__)
 
     def answer(self, *, is_proven: bool) -> Solution:
-        for number, step in enumerate(self.machine.steps):
-            refusal = self._examine_step(number, step)
+        for number, (step, names) in enumerate(zip(self.machine.steps, self.machine.measures, strict=True)):
+            refusal = self._examine_step(number, step, names.read(self.out.__getitem__))
             if refusal:
                 self.refusals.append(refusal)
                 self._compare_all()
@@ -173,41 +174,39 @@ class _Attempt:
     def _absolute(self, point: Point) -> Point:
         return self.origin[FIRST] + point[FIRST], self.origin[SECOND] + point[SECOND]
 
-    def _examine_step(self, number: int, step: ConstructionStep) -> Refusal | None:
+    def _examine_step(self, number: int, step: ConstructionStep, measures: StepOutputs) -> Refusal | None:
         """The refusal by the first check of a step that fails; whether elements meet that floats cannot tell from
         touching ones is decided on the exact words."""
-        for check, margin in check_step(self.source, number, step):
+        for check, margin in check_step(self.source, step, measures):
             if is_failing(check, margin):
-                refusal = self._refusal(check, number, step)
+                refusal = self._refusal(check, number, step, measures)
                 if check.stage is not Stage.TOUCHING:
                     return refusal
-                short = self.out.get(f"short:{number}", 0.0)
-                sign, discriminant = decide_meeting(self.profile, self.system, number) if not short else (0, 0.0)
+                decides = not measures.short
+                sign, discriminant = decide_meeting(self.profile, self.system, number) if decides else (0, 0.0)
                 if sign < 0:
-                    off = -discriminant / (2 * self.out[f"radius:{number}"])
-                    return replace(refusal, values={"off_by_mm": off, **self._meeting(number, step)[1]})
-                self._note_double(number, step, refusal, short)
+                    off = -discriminant / (2 * measures.radius)
+                    return replace(refusal, values={"off_by_mm": off, **self._meeting(step, measures)[1]})
+                self._note_double(step, measures, refusal)
         return None
 
-    def _refusal(self, check: Check, number: int, step: ConstructionStep) -> Refusal:
+    def _refusal(self, check: Check, number: int, step: ConstructionStep, measures: StepOutputs) -> Refusal:
         """What the words say of a step of which a check fails."""
         if check.kind is RefusalKind.POINT_IS_START:
             at = {scalar(check.subject, axis) for axis in (FIRST, SECOND)}
             facts = (fact for fact in self.system.facts if at & {*self.system.unknowns_of(fact)})
             return Refusal(check.kind, check.subject, tuple(fact.given for fact in facts if fact.given))
         if step.kind is StepKind.AFFINE:
-            return self._singular(check, number, step)
-        givens, values = self._meeting(number, step)
+            return self._singular(check, number, step, measures)
+        givens, values = self._meeting(step, measures)
         if check.test is Test.ABOVE:
             return Refusal(check.kind, check.subject, givens, {} if step.is_equal else values)
-        off = abs(abs(self.out[f"offset:{number}"]) - self.out[f"radius:{number}"])
+        off = abs(abs(measures.offset) - measures.radius)
         return Refusal(check.kind, check.subject, givens, {"off_by_mm": off, **values})
 
-    def _singular(self, check: Check, number: int, step: ConstructionStep) -> Refusal:
+    def _singular(self, check: Check, number: int, step: ConstructionStep, measures: StepOutputs) -> Refusal:
         self.stuck = frozenset(step.facts)
-        size = range(len(step.unknowns))
-        rows = [[self.out[f"entry:{number}:{row}:{column}"] for column in size] for row in size]
-        off = _contradiction(rows, [self.out[f"constant:{number}:{row}"] for row in size])
+        off = _contradiction(measures.entries, measures.constants)
         # The words that fixed what this step builds on belong to the reason, too.
         used = {name for fact in step.facts for name in self.system.unknowns_of(fact)} - set(step.unknowns)
         earlier = [
@@ -220,11 +219,11 @@ class _Attempt:
             return Refusal(RefusalKind.NOT_FIXED, check.subject, givens)
         return _refuse(check.kind, check.subject, givens, off_by_mm=abs(off))
 
-    def _meeting(self, number: int, step: ConstructionStep) -> tuple[tuple[str, ...], dict[str, float]]:
+    def _meeting(self, step: ConstructionStep, measures: StepOutputs) -> tuple[tuple[str, ...], dict[str, float]]:
         """The words by which a point lies on a line or a circle and on another circle, and what is compared, mm."""
         if step.kind is StepKind.RADIUS:
             return self._givens_of(step.circles[0]), {}
-        offset, radius = abs(self.out[f"offset:{number}"]), self.out[f"radius:{number}"]
+        offset, radius = abs(measures.offset), measures.radius
         if step.kind is StepKind.LINE_CIRCLE:
             is_stated = bool(self.profile.words_of([step.line])) or isinstance(step.line, Collinear)
             angles = self._meeting_angles(step, radius) if is_stated else {}
@@ -233,7 +232,7 @@ class _Attempt:
         if step.is_equal:
             return self._givens_of(step.circles[0]), {"limit": offset, "actual": radius}
         givens = tuple(given for circle in step.circles for given in self._givens_of(circle))
-        return givens, self._reach(step, self.out[f"distance:{number}"])
+        return givens, self._reach(step, measures.distance)
 
     def _reach(self, step: ConstructionStep, distance: float) -> dict[str, float]:
         """How far apart the centres of two circles are, and the nearest distance at which they would meet, mm."""
@@ -241,17 +240,17 @@ class _Attempt:
         limit = one + other if distance >= max(one, other) else abs(one - other)
         return {"limit": limit, "actual": distance, "off_by_mm": abs(distance - limit)}
 
-    def _note_double(self, number: int, step: ConstructionStep, refusal: Refusal, short: float) -> None:
+    def _note_double(self, step: ConstructionStep, measures: StepOutputs, refusal: Refusal) -> None:
         """A double solution, as far as floats can tell: in the error bound, a row that holds the point where it
         is along the direction in which the two solutions part takes the place of its circle's, and how far
         apart they could be is added. `refusal` is what it would be if they did not meet."""
         if not step.is_equal:
-            values = self._meeting(number, step)[1]
+            values = self._meeting(step, measures)[1]
             self.remarks.append(Note(NoteKind.TOUCHES, refusal.subject, refusal.givens, values))
-        elif short:
+        elif measures.short:
             # A circle about the middle of two points is an ordinary half circle; a stated radius may be less than half
             # of its chord within what the words are exact to.
-            half = abs(self.out[f"offset:{number}"])
+            half, short = abs(measures.offset), measures.short
             values = {"limit": half, "actual": half - short, "off_by_mm": short}
             self.remarks.append(Note(NoteKind.HALF_CIRCLE, refusal.subject, refusal.givens, values))
         circle, point = step.circles[-1], step.point
@@ -263,9 +262,8 @@ class _Attempt:
             first, second = (begin[1] - end[1]) / length, (end[0] - begin[0]) / length
         row = self.machine.basis.index(circle)
         self.doubles[row] = {scalar(point, FIRST): first, scalar(point, SECOND): second}
-        if not self._is_half_circle(step, number):
-            radius, scale = self.out[f"radius:{number}"], self.out[f"scale:{number}"]
-            self.split = max(self.split, (2 * radius * TOUCHING * scale) ** 0.5)
+        if not self._is_half_circle(step, measures):
+            self.split = max(self.split, (2 * measures.radius * TOUCHING * measures.scale) ** 0.5)
 
     def _line_direction(self, step: ConstructionStep) -> Point:
         if isinstance(step.line, Heading):
@@ -274,11 +272,11 @@ class _Attempt:
         length = hypot(through[0] - tail[0], through[1] - tail[1])
         return (through[0] - tail[0]) / length, (through[1] - tail[1]) / length
 
-    def _is_half_circle(self, step: ConstructionStep, number: int) -> bool:
+    def _is_half_circle(self, step: ConstructionStep, measures: StepOutputs) -> bool:
         """Whether the radius is exactly half the chord from the start point, in decimals, or is taken to be."""
         if not step.is_equal:
             return False
-        if self.out.get(f"short:{number}", 0.0):
+        if measures.short:
             return True
         values: dict[tuple[str, int], Decimal] = {}
         radius = Decimal(0)
@@ -323,8 +321,8 @@ class _Attempt:
 
     def _compare_all(self) -> None:
         """The facts that were not needed, as far as what they speak about has a value."""
-        for number, fact in enumerate(self.machine.checks, len(self.machine.basis)):
-            off = abs(self.out[f"residual:{number}"])
+        for fact, name in zip(self.machine.checks, self.machine.compared, strict=True):
+            off = abs(self.out[name])
             if isfinite(off):
                 self._compare(fact, off)
 
@@ -362,7 +360,7 @@ def _refuse(kind: RefusalKind, subject: str, givens: tuple[str, ...], **values: 
     return Refusal(kind, subject, givens, values)
 
 
-def _contradiction(rows: list[list[float]], constants: list[float]) -> float:
+def _contradiction(rows: Sequence[Sequence[float]], constants: Sequence[float]) -> float:
     """By how much a singular affine step of one or two rows contradicts itself, mm.
 
     The row with the largest entry is solved for, and the other one's residual remains.

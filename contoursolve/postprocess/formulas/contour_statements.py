@@ -14,6 +14,7 @@ from contoursolve.numeric import (
     AT_MOST,
     COMMON,
     LESS,
+    SIDE,
     SIGN,
     TURNED,
     ZERO,
@@ -163,10 +164,10 @@ def _inputs(
         own, side = stated.get(choice.given, nothing), Decimal(choice.side.sign)
         if own.factors and reader.is_turned(choice, own):
             factor = side if profile.givens[choice.given].value > 0 else -side
-            signs[f"side:{choice.point}"] = Affine(
+            signs[SIDE + choice.point] = Affine(
                 {name: each * factor for name, each in own.factors.items()}, own.constant * factor
             )
-        found[f"side:{choice.point}"] = Affine({}, side)
+        found[SIDE + choice.point] = Affine({}, side)
     return found, signs
 
 
