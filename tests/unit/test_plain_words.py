@@ -25,6 +25,7 @@ SOLVER = (
     "diagnosis/legality_table.py",
     "solving/construction.py",
     "solving/solve.py",
+    "solving/step_outputs.py",
 )
 """The layers of `--explain`, the table of all sets of words, errors of programmers: these have the solver's words."""
 
