@@ -508,7 +508,7 @@ def fill_row(case: CaseClass, values: Mapping[str, float], row: int, table: Resu
 
 
 def half_circles(case: CaseClass, out: Mapping[str, Any]) -> Iterator[tuple[StepOutputs, Any]]:
-    """The measures of the steps whose two centres of a half circle may be one, and where they are; `out` are outputs."""
+    """The measures of steps whose two centres of a half circle may be one, and where they are; `out` are outputs."""
     for measures in half_circle_steps(case.machine):
         yield measures, measures.is_touching(out)
 

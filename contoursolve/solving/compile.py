@@ -66,7 +66,7 @@ class _PathBuilder(Builder):
         """The rest that corners leave of each element."""
 
     def outputs(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """The names of the residuals of the basis and of the facts that are not needed; the unknowns are outputs, too."""
+        """The names of the residuals of the basis, and of the facts that are not needed; unknowns are outputs."""
         for name in self.system.unknowns:
             self.tape.output(name, self.scalars[name])
         at, names = self.at(), list[str]()
