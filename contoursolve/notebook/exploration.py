@@ -23,7 +23,7 @@ from contoursolve.diagnosis import (
 )
 from contoursolve.gcode import FACT, Program, Word, number_of, parse, spell
 from contoursolve.geometry import Pick, Unit
-from contoursolve.program import Result, UnknownControlError
+from contoursolve.program import Result, UnknownControlError, changed, changes_of
 from contoursolve.solving import Status
 
 SAME = 1e-3
@@ -174,8 +174,8 @@ def apply_fix(exploration: Exploration, finding: int, number: int, *, is_example
     if is_example:
         fix = replace(fix, replacement=fix.example or fix.replacement)
     old = {block.line: block.text for block in result.program.blocks}
-    new = old | fix.by_line(result.lines_of(findings[finding]))
-    return write(exploration, "\n".join(text for line, text in new.items() if text or not old[line]))
+    changes = changes_of(fix, result.lines_of(findings[finding]), old)
+    return write(exploration, changed("\n".join(old.values()), changes))
 
 
 def select(exploration: Exploration, number: int) -> Exploration:

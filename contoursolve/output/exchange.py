@@ -8,7 +8,7 @@ from urllib.parse import quote
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics import Applicability, Diagnostic, Fix, Severity, json_text
-from contoursolve.program import Result
+from contoursolve.program import Result, changes_of
 from contoursolve.reading import Dialect, Rule
 
 _LEVEL = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
@@ -88,10 +88,11 @@ def _location(result: Result, finding: Diagnostic) -> dict[str, Any]:
 def _fix(result: Result, finding: Diagnostic, fix: Fix) -> dict[str, Any]:
     texts = {block.line: block.text for block in result.program.blocks}
     changes = []
-    for line, text in fix.by_line(result.lines_of(finding)).items():
-        if text != texts[line]:
-            region = {"startLine": line, "startColumn": 1, "endColumn": len(texts[line]) + 1}
-            changes.append({"deletedRegion": region, "insertedContent": {"text": text}})
+    for line, text in changes_of(fix, result.lines_of(finding), texts).items():
+        region = {"startLine": line, "startColumn": 1, "endColumn": len(texts[line]) + 1}
+        if text is None:
+            region = {"startLine": line, "startColumn": 1, "endLine": line + 1, "endColumn": 1}
+        changes.append({"deletedRegion": region, "insertedContent": {"text": text or ""}})
     return {
         "description": {"text": fix.description},
         "artifactChanges": [{"artifactLocation": _uri(result), "replacements": changes}],

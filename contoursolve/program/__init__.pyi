@@ -21,6 +21,19 @@ from .lookahead import (
     Line as Line,
     each_block as each_block,
 )
+from .mending import (
+    Changes as Changes,
+    Examined as Examined,
+    Mend as Mend,
+    Mended as Mended,
+    changed as changed,
+    changes_of as changes_of,
+    examined_open as examined_open,
+    examined_result as examined_result,
+    likely_fixes as likely_fixes,
+    mend as mend,
+    safe_fixes as safe_fixes,
+)
 from .open_program import (
     OpenContour as OpenContour,
     OpenProgram as OpenProgram,
