@@ -1,6 +1,7 @@
 from . import families as families, pictures as pictures
 from .api import (
     UnreadableProgramError as UnreadableProgramError,
+    apply_fixes as apply_fixes,
     check as check,
     check_file as check_file,
     convert as convert,
@@ -77,12 +78,17 @@ from .postprocess import (
     rename_block as rename_block,
 )
 from .program import (
+    Mended as Mended,
     OpenContour as OpenContour,
     OpenProgram as OpenProgram,
     Result as Result,
     SettingError as SettingError,
     UnknownControlError as UnknownControlError,
+    changes_of as changes_of,
     find_settings as find_settings,
+    likely_fixes as likely_fixes,
+    mend_open as mend_open,
+    safe_fixes as safe_fixes,
 )
 from .reading import (
     Dialect as Dialect,

@@ -16,6 +16,7 @@ from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, UnreadableProg
 from contoursolve.program import (
     CheckKeywords,
     FollowKeywords,
+    Mended,
     ProgramKeywords,
     ReadingKeywords,
     Result,
@@ -24,11 +25,15 @@ from contoursolve.program import (
     SolveOptions,
     choose_alike,
     configure,
+    examined_result,
     find_dialect,
     find_settings,
     for_kind,
+    likely_fixes,
+    mend,
     restate_control,
     run,
+    safe_fixes,
     stated_settings,
     takes,
 )
@@ -39,6 +44,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "UnreadableProgramError",
+    "apply_fixes",
     "check",
     "check_file",
     "convert",
@@ -140,6 +146,32 @@ def check(
     ['g111-line-1', 'words-missing']
     """
     return _follow(_read(text, name), SolveOptions(**options)).collect().diagnostics
+
+
+@takes(CheckKeywords)
+def apply_fixes(
+    text: str,
+    *,
+    unsafe: bool = False,
+    name: str = "<program>",
+    **options: Unpack[CheckKeywords],
+) -> Mended:
+    """The program with all fixes that keep the contour applied, one after the other, until none is left.
+
+    With `unsafe`, the first fix of each finding is applied, too, where it changes the contour. The program is examined
+    after each fix. A fix that leaves its error, or brings another one, is not applied; `left` says why. Line ends and
+    all other characters stay as they are. Other arguments and errors as for `solve`.
+
+    >>> apply_fixes("G00 X40. Z0.\\r\\nG111 A135. I10. K-12. B180. Z-40.\\r\\n").text
+    'G00 X40. Z0.\\r\\nG111 I10. K-12. B180. Z-40.\\r\\n'
+    """
+    asked = SolveOptions(**options)
+    _read(text, name)
+    return mend(
+        text,
+        lambda now: examined_result(now, _follow(gcode.parse(now, name), asked).collect()),
+        likely_fixes if unsafe else safe_fixes,
+    )
 
 
 @takes(SolveKeywords)

@@ -3,7 +3,7 @@
 import click
 
 from contoursolve import api
-from contoursolve.cli.expand import print_bytes, report_left, report_misread, report_told, target_of
+from contoursolve.cli.expand import report_left, report_misread, report_told, target_of
 from contoursolve.cli.options import (
     FOUND_ERRORS,
     control_option,
@@ -13,7 +13,7 @@ from contoursolve.cli.options import (
     settings_option,
     units_option,
 )
-from contoursolve.cli.printing import say, style_of_output
+from contoursolve.cli.printing import print_bytes, say, style_of_output
 from contoursolve.controls import DIALECTS, ChainFinder
 from contoursolve.diagnosis import count, join
 from contoursolve.gcode import open_program_file, write_whole

@@ -1,7 +1,7 @@
 """The commands that write programs: expand, and the filter of LinuxCNC."""
 
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack, contextmanager
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -23,7 +23,7 @@ from contoursolve.cli.options import (
     together,
     units_option,
 )
-from contoursolve.cli.printing import say, style_of_output
+from contoursolve.cli.printing import print_bytes, say, style_of_output
 from contoursolve.diagnosis import Policy, count
 from contoursolve.gcode import (
     OpenFile,
@@ -322,14 +322,6 @@ def _progress_bar() -> Iterator[Callable[[float], None]]:
         yield show
         for bar in bars:
             bar.update(100 - bar.pos)
-
-
-def print_bytes(pieces: Iterable[bytes]) -> None:
-    """A program on standard output, byte for byte."""
-    stream = sys.stdout.buffer
-    for piece in pieces:
-        stream.write(piece)
-    stream.flush()
 
 
 def report_left(summary: Summary, name: str, style: Style) -> None:

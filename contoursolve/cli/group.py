@@ -10,7 +10,7 @@ from contoursolve import __version__
 from contoursolve.diagnostics import UserError
 
 COMMANDS = {
-    "check": "solve:check",
+    "check": "check:check",
     "solve": "solve:solve",
     "expand": "expand:expand",
     "filter": "expand:filter_",

@@ -24,7 +24,7 @@ from contoursolve.diagnosis import Policy
 from contoursolve.diagnostics import ProgramError, UserError
 from contoursolve.gcode import STANDARD_INPUT, OpenFile, Program
 from contoursolve.geometry import Length
-from contoursolve.output import EXPLAINING, harmless, lines_of_findings, short_findings
+from contoursolve.output import EXPLAINING, Totals, harmless, lines_of_findings, short_findings
 from contoursolve.program import Result, Run, UnknownControlError, find_settings, read_setting, stated_settings
 from contoursolve.reading import Dialect
 
@@ -93,6 +93,11 @@ def _where(module: str, error: Exception) -> str:
 
 
 FOUND_ERRORS, COULD_NOT_RUN = 1, 2
+
+
+def status_of(tally: Totals, found: int) -> int:
+    """The exit status where so many findings count."""
+    return COULD_NOT_RUN if tally.unexamined else FOUND_ERRORS if found else 0
 
 
 class CouldNotRunError(click.ClickException):

@@ -2,6 +2,7 @@
 
 import gc
 import os
+import sys
 from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import Any
@@ -38,13 +39,21 @@ def print_lines(lines: Iterable[str], *, err: bool = False) -> None:
         say("\n".join(batch), err=err)
 
 
-def print_pieces(pieces: Iterable[str]) -> None:
+def print_pieces(pieces: Iterable[str], *, err: bool = False) -> None:
     """Print the pieces of a document, in batches."""
     for batch in _batched(pieces, 1_000):
-        click.echo("".join(batch), nl=False)
+        click.echo("".join(batch), nl=False, err=err)
         # The encoder of the standard library leaves cycles behind for each text, and a command collects none by itself.
         gc.collect(0)
-    click.echo()
+    click.echo(err=err)
+
+
+def print_bytes(pieces: Iterable[bytes]) -> None:
+    """A program on standard output, byte for byte."""
+    stream = sys.stdout.buffer
+    for piece in pieces:
+        stream.write(piece)
+    stream.flush()
 
 
 def _batched(lines: Iterable[str], size: int) -> Iterator[list[str]]:

@@ -1,3 +1,7 @@
+from .baseline import (
+    Baseline as Baseline,
+    read_baseline as read_baseline,
+)
 from .catalogue import (
     catalogue_lines as catalogue_lines,
     rule_lines as rule_lines,
@@ -73,6 +77,7 @@ from .html import (
 )
 from .listing import (
     MOST_ALIKE as MOST_ALIKE,
+    Collected as Collected,
     Totals as Totals,
     closing_lines as closing_lines,
     lines_of_findings as lines_of_findings,

@@ -6,7 +6,7 @@ from typing import Any
 
 from contoursolve.diagnosis import DECIMALS, Answer, AskedValue, decimals_of, list_solutions, printed_certificate, rank
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Span, json_text, members, plain
-from contoursolve.output.listing import Totals, findings_of
+from contoursolve.output.listing import Collected, Totals, findings_of
 from contoursolve.output.premises import resting_data
 from contoursolve.program import Result, Run
 from contoursolve.solving import ArcSegment, Certificate, Contour, Point, Proof, Segment
@@ -46,7 +46,9 @@ def _in_list(answer: Answer) -> str:
     return _indented(_contour(answer), 2)
 
 
-def _shelving(run: Run, tally: Totals, shelf: "Shelf", number: int, about: Mapping[str, Any]) -> Iterator[Answer]:
+def _shelving(
+    run: Run | Collected, tally: Totals, shelf: "Shelf", number: int, about: Mapping[str, Any]
+) -> Iterator[Answer]:
     """The contours of a run, whose findings go to a shelf."""
     for item in run:
         tally.count(item)
@@ -92,7 +94,7 @@ class Findings:
         self.shelf = shelf
         self._programs: list[dict[str, Any]] = []
 
-    def add(self, run: Run, tally: Totals) -> None:
+    def add(self, run: Run | Collected, tally: Totals) -> None:
         """The findings of one more program, as `check` reports them."""
         frame, about = run.frame, {"program": run.frame.program.name}
         number, contours = len(self._programs), 0
@@ -104,7 +106,8 @@ class Findings:
                 self.shelf.put((number, place), _indented({**about, **finding_data(finding, result)}, 2))
         else:
             contours = sum(1 for _ in _shelving(run, tally, self.shelf, number, about))
-        self._programs.append({**about, "control": frame.control, "contours": contours})
+        hidden = {"hidden": run.hidden} if isinstance(run, Collected) and run.hidden is not None else {}
+        self._programs.append({**about, "control": frame.control, "contours": contours, **hidden})
 
     def pieces(self) -> Iterator[str]:
         """The document."""

@@ -8,6 +8,7 @@ from urllib.parse import quote
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics import Applicability, Diagnostic, Fix, Severity, json_text
+from contoursolve.output.baseline import subjects_of
 from contoursolve.program import Result, changes_of
 from contoursolve.reading import Dialect, Rule
 
@@ -46,12 +47,8 @@ def _rule(rule: Rule) -> dict[str, Any]:
 
 
 def _results(result: Result, index: dict[str, int]) -> Iterable[dict[str, Any]]:
-    seen: dict[str, int] = {}
-    lines = {block.line: block.text for block in result.program.blocks}
-    for finding in result.diagnostics:
-        subject = f"{finding.code}\n{lines.get(result.place(finding.span).line, '').strip()}"
-        seen[subject] = seen.get(subject, 0) + 1
-        fingerprint = hashlib.sha256(f"{subject}\n{seen[subject]}".encode(errors="backslashreplace")).hexdigest()
+    for finding, (code, block, place) in subjects_of(result):
+        fingerprint = hashlib.sha256(f"{code}\n{block}\n{place}".encode(errors="backslashreplace")).hexdigest()
         data: dict[str, Any] = {
             "ruleId": finding.code,
             "ruleIndex": index[finding.code],
@@ -90,7 +87,7 @@ def _fix(result: Result, finding: Diagnostic, fix: Fix) -> dict[str, Any]:
     changes = []
     for line, text in changes_of(fix, result.lines_of(finding), texts).items():
         region = {"startLine": line, "startColumn": 1, "endColumn": len(texts[line]) + 1}
-        if text is None:
+        if text is None and line + 1 in texts:
             region = {"startLine": line, "startColumn": 1, "endLine": line + 1, "endColumn": 1}
         changes.append({"deletedRegion": region, "insertedContent": {"text": text or ""}})
     return {

@@ -30,6 +30,22 @@ def listed(result: Result) -> list[Diagnostic | Answer]:
     return sorted(items, key=lambda each: each.lines[0] if isinstance(each, Answer) else each.span.line)
 
 
+class Collected(Struct, frozen=True):
+    """A result that is told as if it came as a stream."""
+
+    frame: Result
+    is_strict: bool
+    hidden: int | None = None
+    """Number of its findings that a baseline hides; None without a baseline."""
+
+    def __iter__(self) -> Iterator[Answer | Diagnostic]:
+        return iter(listed(self.frame))
+
+    def collect(self) -> Result:
+        """All of it."""
+        return self.frame
+
+
 def listing_lines(result: Result, style: Style, *, is_explained: bool = False) -> Iterator[str]:
     """Everything about a result."""
     return _listing_lines(listed(result), result, style, is_explained=is_explained)
@@ -48,7 +64,7 @@ def stream_listing(run: Run, tally: "Totals", style: Style, *, is_explained: boo
 
 
 def stream_findings(
-    run: Run,
+    run: Run | Collected,
     tally: "Totals",
     style: Style,
     *,
@@ -214,7 +230,7 @@ def summary_line(result: Result, *, is_explained: bool = False) -> str:
     return _tally(result, is_explained=is_explained).line(1)
 
 
-_UNEXAMINED = (ReadIssue.NO_CONTOUR, ReadIssue.CONTROL_UNKNOWN)
+UNEXAMINED = (ReadIssue.NO_CONTOUR, ReadIssue.CONTROL_UNKNOWN)
 
 
 class Totals(Struct, frozen=True):
@@ -226,6 +242,9 @@ class Totals(Struct, frozen=True):
     """Programs that look as if they had contours, but for no control that was tried."""
     waiting: Counter[Status] = field(default_factory=Counter)
     """Contours that are not checked, because nobody knows where they begin."""
+
+    hidden: Counter[str] = field(default_factory=Counter)
+    """Findings that a baseline hides, by the programs."""
 
     elsewhere: Counter[str] = field(default_factory=Counter)
     """Findings about contours of other files, which programs call."""
@@ -242,7 +261,7 @@ class Totals(Struct, frozen=True):
             if each.about is not ReadIssue.CONTOUR_WAITS:
                 self.severities[each.severity] += 1
             self.elsewhere[each.code] += each.about in ELSEWHERE
-            if each.about in _UNEXAMINED and each.is_error:
+            if each.about in UNEXAMINED and each.is_error:
                 self.unexamined[each.code] += 1
 
     def add(self, other: "Totals") -> None:
@@ -252,11 +271,12 @@ class Totals(Struct, frozen=True):
         self.unexamined.update(other.unexamined)
         self.waiting.update(other.waiting)
         self.elsewhere.update(other.elsewhere)
+        self.hidden.update(other.hidden)
 
     @property
     def has_something(self) -> bool:
         """Whether there is a contour or a finding."""
-        return bool(self.statuses or self.severities) and not (self.unexamined and not self.statuses)
+        return bool(self.statuses or self.severities or self.hidden) and not (self.unexamined and not self.statuses)
 
     def line(self, programs: int) -> str:
         """The counts as one line, for a number of programs."""
@@ -265,7 +285,8 @@ class Totals(Struct, frozen=True):
         number = self.waiting.total()
         waiting = f"; {count(number, 'contour waits', 'contours wait')} for an end point" if number else ""
         several = f"{count(programs, 'program')}, " if programs > 1 else ""
-        told = f"{found or 'no problems'}{waiting}"
+        hidden = f"; {self.hidden.total():,} hidden by the baseline" if self.hidden.total() else ""
+        told = f"{found or ('no other problems' if hidden else 'no problems')}{waiting}{hidden}"
         if not total:
             own = " of its own" if self.elsewhere.total() else ""
             return f"{several}no contour{own} examined; {told}"

@@ -22,16 +22,17 @@ from .lookahead import (
     each_block as each_block,
 )
 from .mending import (
+    DECLINED as DECLINED,
     Changes as Changes,
     Examined as Examined,
     Mend as Mend,
     Mended as Mended,
     changed as changed,
     changes_of as changes_of,
-    examined_open as examined_open,
     examined_result as examined_result,
     likely_fixes as likely_fixes,
     mend as mend,
+    mend_open as mend_open,
     safe_fixes as safe_fixes,
 )
 from .open_program import (
@@ -53,6 +54,7 @@ from .project_file import (
     SettingError as SettingError,
     check_settings as check_settings,
     configure as configure,
+    find_baseline as find_baseline,
     find_settings as find_settings,
     read_setting as read_setting,
     restate_control as restate_control,

@@ -88,8 +88,12 @@ class Examined(Struct, frozen=True):
         for finding, places in self.found:
             fixes = wanted(finding) if min(places) > 0 and max(places) <= len(lines) else ()
             old = {line: lines[line - 1].rstrip("\r\n") for line in places}
-            mends = (Mend(finding, fix, old, changes_of(fix, places, old)) for fix in fixes)
-            yield [each for each in mends if each.changes]
+            there = "\n".join(old.values())
+            yield [
+                each
+                for each in (Mend(finding, fix, old, changes_of(fix, places, old)) for fix in fixes)
+                if each.changes and each.fix.replaced == there
+            ]
 
 
 def examined_result(text: str, result: Result) -> Examined:
@@ -98,7 +102,7 @@ def examined_result(text: str, result: Result) -> Examined:
     return Examined(text, found, {each.lines[0]: each.contour for each in result.answers})
 
 
-def examined_open(program: OpenProgram) -> Examined:
+def _examined_open(program: OpenProgram) -> Examined:
     """The same of an open program, when all of it is examined."""
     contours = {each.first: each.answer.contour for each in program.contours}
     found = sorted(program.found(), key=lambda each: each[0].span)
@@ -172,6 +176,18 @@ _AT_ONCE = 64
 """Fixes that are applied before the program is examined again."""
 
 
+def mend_open(program: OpenProgram, wanted: Wanted = safe_fixes) -> Mended:
+    """The same of a program that is open in an editor, which stays as it is."""
+    copy = program.copy()
+
+    def examine(text: str) -> Examined:
+        copy.replace(text)
+        copy.check()
+        return _examined_open(copy)
+
+    return mend(program.text, examine, wanted)
+
+
 def _next(now: Examined, wanted: Wanted, left: Iterable[tuple[int, str, str]], most: int) -> list[Mend]:
     """The next fixes to apply: so many that keep the contour and touch different lines, or one that changes it."""
     first = [next((each for each in mends if each.key not in left), None) for mends in now.mends(wanted)]
@@ -206,14 +222,16 @@ def _counts(examined: Examined) -> Counter[tuple[Severity, str]]:
 
 
 def _moves_contours(before: Examined, after: Examined, batch: Sequence[Mend], changes: Changes) -> str:
-    """That fixes which keep the contours move one of them; empty if they do not. A contour of which blocks are parted
-    from its beginning is found among them."""
+    """That fixes which keep the contours move one of them; empty if they do not. A contour in whose lines something is
+    written may begin in a line of its own, or be a plain move."""
     if not all(each.is_safe for each in batch):
         return ""
+    touched = {line for each in batch for line in each.old}
     for line, contour in before.contours.items():
         first = _moved(line, changes)
         lines = range(first, first + 1 + max(_growth(changes.get(line, "")), 0))
         there = next(filter(None, (after.contours.get(at) for at in lines)), None)
-        if contour is not None and (there is None or contour.deviation(there) > AGREEMENT):
+        is_plain = there is None and line in touched
+        if contour is not None and not is_plain and (there is None or contour.deviation(there) > AGREEMENT):
             return f"it moves the contour in program line {line}"
     return ""

@@ -189,6 +189,13 @@ class OpenProgram:
         self._choose()
         self._begin()
 
+    def copy(self) -> "OpenProgram":
+        """The same text with the same options, examined by itself."""
+        units, rules, settings = self._asked.unit.value, self._asked.policy.value, self._settings
+        return OpenProgram(
+            self.text, control=self._control, units=units, rules=rules, settings=settings, name=self.name
+        )
+
     @property
     def syntax(self) -> Syntax:
         """Syntax of its blocks: that of its control, or ISO 6983 if the control is not known."""

@@ -1,9 +1,10 @@
 """The project file: settings of the controls for all programs of a folder and the folders in it.
 
-`contoursolve.toml`, or the table `tool.contoursolve` of `pyproject.toml`: the control, if programs do not show it, and
-one table a control:
+`contoursolve.toml`, or the table `tool.contoursolve` of `pyproject.toml`: the control, if programs do not show it, the
+baseline of `check`, and one table a control:
 
     control = "fanuc-mill"
+    baseline = "baseline.json"
 
     [nct-99m]
     circle-circle-q = "right-is-negative"
@@ -30,6 +31,10 @@ CONTROL = "control"
 """The name of what is no setting of a control, but names the control for which programs are."""
 
 
+BASELINE = "baseline"
+"""The name of what is no setting either, but names the file of findings that `check` hides."""
+
+
 class SettingError(UserError, ValueError):
     """A setting that there is not, or a project file that cannot be read; the message says what there is."""
 
@@ -39,17 +44,30 @@ def find_settings(folder: Path) -> dict[str, str]:
 
     Raises SettingError, naming the file.
     """
+    found = _find(folder)
+    return _settings(*found) if found is not None else {}
+
+
+def find_baseline(folder: Path) -> Path | None:
+    """The baseline that this file names, beside which it lies; None if it names none. Raises SettingError."""
+    found = _find(folder)
+    named = found[0].get(BASELINE) if found is not None else None
+    return found[1].parent / named if found is not None and isinstance(named, str) else None
+
+
+def _find(folder: Path) -> tuple[dict[str, Any], Path] | None:
+    """The table about contoursolve that holds for a folder, and its file."""
     try:
         above = folder.resolve().parents
     except OSError:  # the folder is gone
-        return {}
+        return None
     for place in (folder, *above):
         for name in (OWN, SHARED):
             file = place / name
             table = _table(file) if file.exists() else None
             if table is not None:
-                return _settings(table, file)
-    return {}
+                return table, file
+    return None
 
 
 _STATED = re.compile(r"[(;]\s*+contoursolve\s++control\s*+:(?P<stated>[^()\r\n]*+)", re.IGNORECASE)
@@ -204,6 +222,10 @@ def _settings(table: Mapping[str, Any], file: Path) -> dict[str, str]:
             continue
         if control == CONTROL:
             raise SettingError(f"{file}: there is no control {own!r}; choose from {', '.join(DIALECTS)}")
+        if control == BASELINE and isinstance(own, str) and own.strip():
+            continue
+        if control == BASELINE:
+            raise SettingError(f'{file}: {own!r} is no file of a baseline; write baseline = "FILE.json"')
         if not isinstance(own, dict):
             raise SettingError(f"{file}: {control!r} stands in no table; write [CONTROL] above it, such as [nct-99m]")
         for name, value in own.items():
