@@ -160,7 +160,7 @@ class _Hiding:
             check_target(self._new.file, None, is_forced=True)
 
     def hide(self, run: Run | Collected) -> Run | Collected:
-        """What is to be told of a program."""
+        """The part of a program's findings that is to be told."""
         name = run.frame.program.name
         known = self._new or self._given or self._named_by(Path() if name.startswith("<") else Path(name).parent)
         if known is None:
@@ -195,7 +195,7 @@ class _Hiding:
 
 
 class _Telling:
-    """What is told of the programs of one command, in one format."""
+    """The report about the programs of one command, in one format."""
 
     most: int | None = None
     is_explained = False

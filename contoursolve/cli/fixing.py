@@ -31,7 +31,7 @@ MACHINE_READ = ("json", "sarif", "github")
 
 
 class Fixing:
-    """What becomes of the fixes of all programs of one command."""
+    """The fixes of all programs of one command, applied as its options say."""
 
     def __init__(self, *, is_unsafe: bool, is_agreed: bool, is_diff: bool) -> None:
         self.is_unsafe, self.is_diff = is_unsafe, is_diff

@@ -50,7 +50,7 @@ class Baseline:
         known.update(subject[:2] for finding, subject in subjects_of(result) if _may_be_hidden(finding))
 
     def hide(self, run: Collected) -> Collected:
-        """What is told of a program without the findings that are known."""
+        """The findings of a program without those that are known."""
         result = run.frame
         known = self.known.get(self._path(result), Counter[tuple[str, str]]())
         found = [(finding, subject) for finding, subject in subjects_of(result) if _may_be_hidden(finding)]

@@ -47,7 +47,7 @@ class Mend(Struct, frozen=True):
     old: Mapping[int, str]
     changes: Changes
     trouble: str = ""
-    """Why it was not applied, if it was tried."""
+    """The reason why it was not applied, if it was tried."""
 
     @property
     def line(self) -> int:
@@ -61,7 +61,7 @@ class Mend(Struct, frozen=True):
 
     @property
     def key(self) -> tuple[int, str, str]:
-        """What tells it from others, as long as no lines move."""
+        """The mark that tells it from others, as long as no lines move."""
         return min(self.old), self.finding.code, self.fix.replacement
 
 
@@ -75,8 +75,8 @@ def _growth(new: str | None) -> int:
 
 
 class Examined(Struct, frozen=True):
-    """What is found in a program's text: the findings, and the contours by their first lines, None for one that is not
-    solved."""
+    """A program's text and its examination: the findings, and the contours by their first lines, None for one that is
+    not solved."""
 
     text: str
     found: tuple[Found, ...]
@@ -203,7 +203,7 @@ _FINDINGS = {Severity.ERROR: "error", Severity.WARNING: "warning"}
 
 
 def _trouble(before: Examined, after: Examined, batch: Sequence[Mend]) -> str:
-    """Why fixes make a program worse; empty if they do not. Behind a fix of an error there may be a warning."""
+    """The reason why fixes make a program worse; empty if they do not. Behind an error there may be a warning."""
     allowed, now = _counts(before), _counts(after)
     worst = Severity.ERROR
     for each in batch:

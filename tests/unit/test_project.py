@@ -12,7 +12,7 @@ from click import Context
 from click.testing import CliRunner
 
 import contoursolve
-from contoursolve.cli import main
+from contoursolve.__main__ import commands
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -61,7 +61,7 @@ def test_the_hook_runs_a_command_that_exists() -> None:
     program, command = hook["entry"].split()
     assert program in entry_points(group="console_scripts").names
     assert program in PROJECT["scripts"]
-    assert command in main.list_commands(Context(main))
+    assert command in commands().list_commands(Context(commands()))
     assert hook["language"] == "python"
 
 
@@ -70,7 +70,7 @@ def test_the_hook_takes_programs_and_fails_on_a_faulty_one(name, status) -> None
     (hook,) = read_yaml(".pre-commit-hooks.yaml")
     program = ROOT / "notebooks" / "programs" / f"{name}.nc"
     assert re.search(hook["files"], program.name)
-    assert CliRunner().invoke(main, [hook["entry"].split()[1], str(program)]).exit_code == status
+    assert CliRunner().invoke(commands(), [hook["entry"].split()[1], str(program)]).exit_code == status
 
 
 @pytest.mark.parametrize("ending", ["nc", "NC", "cnc", "ngc", "tap", "mpf", "MPF", "spf", "min", "eia", "gcode"])
@@ -92,7 +92,7 @@ def test_the_page_of_editors_starts_a_command_that_exists_for_the_files_of_the_h
     server = helix["language-server"]["contoursolve"]
     assert [server["command"], *server["args"]] == kate["command"] == ["contoursolve", "lsp"]
     assert server["config"] == kate["settings"] == {"contoursolve": {"format": {"blockNumbers": 0}}}
-    assert "lsp" in main.list_commands(Context(main))
+    assert "lsp" in commands().list_commands(Context(commands()))
 
     (hook,) = read_yaml(".pre-commit-hooks.yaml")
     (endings,) = re.findall(r"\(([\w|]+)\)\$", hook["files"])
