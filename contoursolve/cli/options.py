@@ -25,7 +25,15 @@ from contoursolve.diagnostics import ProgramError, UserError
 from contoursolve.gcode import STANDARD_INPUT, OpenFile, Program
 from contoursolve.geometry import Length
 from contoursolve.output import EXPLAINING, Totals, harmless, lines_of_findings, short_findings
-from contoursolve.program import Result, Run, UnknownControlError, find_settings, read_setting, stated_settings
+from contoursolve.program import (
+    Result,
+    Run,
+    UnknownControlError,
+    check_start,
+    find_settings,
+    read_setting,
+    stated_settings,
+)
 from contoursolve.reading import Dialect
 
 _OWN = "MODULE:NAME"
@@ -313,7 +321,7 @@ def follow(program: Program, start: str | None, assignments: Sequence[str], opti
     """The same as a stream."""
     with naming(program.name):
         run = follow_program(program, start=start, settings=settings_of(program, assignments), **options)
-    run.check_start()
+    check_start(run.asked)
     return run
 
 

@@ -14,7 +14,7 @@ from contoursolve.controls import CENTERS, Centers
 from contoursolve.diagnosis import Answer, Depth
 from contoursolve.gcode import Block, Macro, Program, Word
 from contoursolve.geometry import Length, Plane, Turn
-from contoursolve.program import Examiner, Request, Result, Step as Passed, machine_for
+from contoursolve.program import Request, Result, Step as Passed, machine_for, walk
 from contoursolve.reading import (
     MOTIONS,
     Around,
@@ -67,8 +67,8 @@ def follow(result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...]
     if machine is None:
         steps = follower.walk(result.program, result.answers)
     else:
-        examiner = Examiner(Request(dialect, unit, result.policy, Depth.VERDICT, result.start))
-        steps = follower.run(examiner.steps(machine.run_all_alone()))
+        asked = Request(dialect, unit, result.policy, Depth.VERDICT, result.start)
+        steps = follower.run(walk(machine.run_all_alone(), asked))
     return ToolPath(result.program.name, dialect.name, axes, tuple(steps))
 
 

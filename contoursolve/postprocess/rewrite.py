@@ -16,7 +16,6 @@ from contoursolve.postprocess.expansion_report import ExpansionOptions, Left, Su
 from contoursolve.postprocess.numbering import numbers_of
 from contoursolve.postprocess.post_processors import Numbering
 from contoursolve.program import (
-    Examiner,
     Lines,
     Recogniser,
     Request,
@@ -25,6 +24,7 @@ from contoursolve.program import (
     check_settings,
     check_start,
     choose_alike,
+    conclusions,
     configure,
     for_machine,
     named_control,
@@ -104,7 +104,7 @@ def rewrite(
             dialect = for_machine(dialect, settings or {}, source.lines())
         asked = asked.of(dialect, source.lines)
         check_start(asked)
-        summary.concluded += Examiner(asked).conclusions(())
+        summary.concluded += conclusions(asked, ())
         places = lines_of_facts(parse(source.read(), source.name), asked) if asked.facts else {}
         is_certain = bool(named or recogniser.begun) or not recogniser.is_sure
         lines = expand_lines(

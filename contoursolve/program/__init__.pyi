@@ -35,17 +35,18 @@ from .mending import (
     mend_open as mend_open,
     safe_fixes as safe_fixes,
 )
+from .no_contour import (
+    conclusions as conclusions,
+)
 from .open_program import (
     OpenContour as OpenContour,
     OpenProgram as OpenProgram,
 )
 from .pipeline import (
     ELSEWHERE as ELSEWHERE,
-    Examiner as Examiner,
     Result as Result,
     Run as Run,
     attach as attach,
-    check_start as check_start,
     run as run,
     walk as walk,
 )
@@ -83,4 +84,7 @@ from .request import (
 )
 from .solve_queue import (
     Step as Step,
+)
+from .start_point import (
+    check_start as check_start,
 )

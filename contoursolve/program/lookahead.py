@@ -1,6 +1,6 @@
 """The lines of a program that are read ahead: blocks, and what nobody needs to read into words yet."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 from typing import overload
 
@@ -10,6 +10,48 @@ from contoursolve.reading import words_of
 
 Line = Block | Passage | ProgramEvent
 """A line of a program, or several, read as far as it was needed; or what happens between two lines."""
+
+
+_FIRST, _BATCH = 16, 1_000
+"""Lines that are read at once: in the beginning, when nothing is known, and later."""
+
+
+class Lookahead:
+    """The lines of a program that are read and not passed yet; lines that are not a sequence are read as they are
+    needed."""
+
+    def __init__(self, lines: Iterable[Line]) -> None:
+        self.is_whole = isinstance(lines, Sequence)
+        """Whether all lines are read."""
+        self._held: list[Line] = list(lines) if self.is_whole else []
+        self._rest = iter(() if self.is_whole else lines)
+        self._index, self._size = 0, _FIRST
+
+    @property
+    def line(self) -> Line | None:
+        """The next line; None at the end."""
+        while self._index >= len(self._held) - 1 and not self.is_whole:
+            self.read_on()
+        return self._held[self._index] if self._index < len(self._held) else None
+
+    def view(self) -> "View":
+        """The blocks from the next line on."""
+        return View(self._held, self._index)
+
+    def plain(self, *, moves: bool, joins: bool) -> Passage | None:
+        """The plain lines from the next one on that need not be read into words; see `_pass_plainly`."""
+        return _pass_plainly(self._held, self._index, moves=moves, joins=joins)
+
+    def read_on(self) -> None:
+        """Read further lines: at least as many as are held, so that long contours are not looked at again and again."""
+        left = len(self._held) - self._index
+        more = list(islice(self._rest, max(self._size, left)))
+        self._held, self._index = [*self._held[self._index :], *more], 0
+        self._size, self.is_whole = min(2 * self._size, _BATCH), not more
+
+    def go_on(self, count: int) -> None:
+        """Pass so many lines."""
+        self._held, self._index = _behind(self._held, self._index, count)
 
 
 class View(Sequence[Block]):
@@ -93,7 +135,7 @@ def _up_to_event(held: Sequence[Line], index: int) -> Iterator[Block | Passage]:
         yield each
 
 
-def pass_plainly(held: Sequence[Line], index: int, *, moves: bool, joins: bool) -> Passage | None:
+def _pass_plainly(held: Sequence[Line], index: int, *, moves: bool, joins: bool) -> Passage | None:
     """The plain lines in a row from an index on that need not be read into words: up to the last one that moves if
     the next contour may begin with it (`joins`); if lines that move need be (not `moves`), up to the first one."""
     lines: list[str] = []
@@ -110,14 +152,14 @@ def pass_plainly(held: Sequence[Line], index: int, *, moves: bool, joins: bool) 
     return Passage(first.line, tuple(lines), first.syntax) if lines and not isinstance(first, ProgramEvent) else None
 
 
-def go_on(held: list[Line], index: int, rest: int) -> tuple[list[Line], int]:
+def _behind(held: list[Line], index: int, count: int) -> tuple[list[Line], int]:
     """The lines that are held, and the index behind so many of them; a passage that goes on there is cut."""
-    while rest:
+    while count:
         each = held[index]
-        if isinstance(each, Passage) and len(each.lines) > rest:
+        if isinstance(each, Passage) and len(each.lines) > count:
             # Whoever looks at the old list later finds it as it was.
-            return [Passage(each.line + rest, each.lines[rest:], each.syntax), *held[index + 1 :]], 0
-        rest -= len(each.lines) if isinstance(each, Passage) else 1
+            return [Passage(each.line + count, each.lines[count:], each.syntax), *held[index + 1 :]], 0
+        count -= len(each.lines) if isinstance(each, Passage) else 1
         index += 1
     return held, index
 

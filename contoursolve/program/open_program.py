@@ -9,7 +9,6 @@ import re
 from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from copy import copy
 from dataclasses import dataclass, fields, is_dataclass, replace as with_fields
 from enum import Enum
 from functools import partial
@@ -20,14 +19,15 @@ from typing import Any, overload
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, Policy, rank
+from contoursolve.diagnosis import Answer, Context, Policy, rank
 from contoursolve.diagnostics import Diagnostic, Fix, Span, choice_of
 from contoursolve.execution import needs_running, surroundings_of
 from contoursolve.gcode import ISO, Block, Blocks, Program, Syntax, parse, parse_block, split_lines
 from contoursolve.geometry import Length, Plane
 from contoursolve.program.agreeing_controls import choose_alike
-from contoursolve.program.outside_contours import Outside
-from contoursolve.program.pipeline import Checkpoint, Examiner, Result, run
+from contoursolve.program.examination import Cursor, Examination
+from contoursolve.program.no_contour import conclusions, nothing_to_solve
+from contoursolve.program.pipeline import Result, run
 from contoursolve.program.project_file import CONTROL, FIRST_LINES, SettingError, stated_settings
 from contoursolve.program.recognise import (
     PLANE,
@@ -40,7 +40,7 @@ from contoursolve.program.recognise import (
 )
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Step
-from contoursolve.program.tape_markers import Marks
+from contoursolve.program.told_outside import Outside
 from contoursolve.reading import Dialect, ReadIssue
 
 Place = tuple[int, int]
@@ -69,7 +69,7 @@ class OpenContour(Struct, frozen=True):
 class _Part:
     """Some lines in a row: one contour, or blocks that are none. The last part has no lines."""
 
-    known: Checkpoint
+    known: Cursor
     """State and findings before the part."""
     count: int
     reach: int = 1
@@ -183,7 +183,7 @@ class OpenProgram:
         self._moves: list[_Move] = []
         self._walk: Iterator[None] | None = None
         self._diagnostics: tuple[Diagnostic, ...] | None = None
-        self._examiner: Examiner | None = None
+        self._examination: Examination | None = None
         self._unread: Result | None = None
         """What is found where no control is known."""
         self._choose()
@@ -274,7 +274,7 @@ class OpenProgram:
         if first < FIRST_LINES or self.trouble or is_shown or self._concludes_otherwise([*gone, *new]):
             self._choose()
         is_run = self.dialect is not None and (
-            self._examiner is None or needs_running(new, self.dialect.modes.language)
+            self._examination is None or needs_running(new, self.dialect.modes.language)
         )
         if old is None or self.dialect is None or is_run or not _alike(old, self.dialect):
             self._begin()
@@ -330,13 +330,14 @@ class OpenProgram:
 
     def _begin(self) -> None:
         """Make everything stale."""
-        self._diagnostics, self._walk, self._parts, self._moves, self._examiner = None, None, [], [], None
+        self._diagnostics, self._walk, self._parts, self._moves, self._examination = None, None, [], [], None
         if self.dialect is not None:
             self._lines.spell(self.dialect.modes.syntax)
         # A program that calls or computes is examined as a whole.
         if self.dialect is not None and not needs_running(self._lines.texts, self.dialect.modes.language):
-            self._examiner = Examiner(replace(self._asked, dialect=self.dialect), goes_on=True)
-            known = self._examiner.begin()
+            asked = replace(self._asked, dialect=self.dialect)
+            self._examination = Examination(asked, self.dialect, goes_on=True)
+            known = self._examination.begin
             self._parts = [_Part(known, len(self._lines), is_stale=True), _Part(known, 0)]
 
     def _make_stale(self, first: int, last: int, more: int) -> None:
@@ -368,15 +369,15 @@ class OpenProgram:
     def _examine(self) -> Iterator[None]:
         """Examine each stale part and what follows from it, step by step. Wherever this stops, the parts together are
         the whole program."""
-        examiner, parts = self._examiner, self._parts
-        if examiner is None:
+        examination, parts = self._examination, self._parts
+        if examination is None:
             return
         self._diagnostics = None
         while (index := next((at for at, part in enumerate(parts) if part.is_stale), -1)) >= 0:
             line = sum(part.count for part in parts[:index])
             self._bring_up(parts[index])
             known, begin = parts[index].known, index
-            walk = examiner.resume(self._lines, line, known)
+            walk = examination.resume(self._lines, line, known)
             while parts[index].count or parts[index].is_stale:
                 here = parts[index]
                 if not here.count:
@@ -399,7 +400,7 @@ class OpenProgram:
                 part.age, part.answer_age = 0, part.answer_age - len(self._moves)
             self._moves = []
 
-    def _take(self, index: int, begin: int, step: Step, reach: int, known: Checkpoint) -> int:
+    def _take(self, index: int, begin: int, step: Step, reach: int, known: Cursor) -> int:
         """Put a step in the place of the parts at an index; how many parts more there are before what is behind it."""
         parts, left, now = self._parts, len(step.blocks), len(self._moves)
         while left:
@@ -435,12 +436,12 @@ class OpenProgram:
 
     def found(self) -> Iterator[tuple[Diagnostic, tuple[int, ...]]]:
         """Each finding, with the lines that its fixes replace."""
-        if self._examiner is not None:
-            yield from ((each, (each.span.line,)) for each in self._examiner.conclusions(self._lines))
-        if self._examiner is None:
+        if self._examination is None:
             whole = self._whole()
             yield from ((finding, whole.lines_of(finding)) for finding in whole.diagnostics)
             return
+        asked = self._examination.asked
+        yield from ((each, (each.span.line,)) for each in conclusions(asked, self._lines))
         is_told, start, outside = any(part.answer is not None for part in self._parts), 0, Outside(self.dialect)
         for part in self._parts:
             if part.beside or part.findings or part.answer is not None:
@@ -458,10 +459,12 @@ class OpenProgram:
             start += part.count
         last = self._parts[-1]
         self._bring_up(last)
-        beside = outside.take([*copy(last.known.marks).finish()], start, tuple, None, last.known.state)
+        beside = outside.take(
+            last.known.marks.finish(Context(asked.rules, asked.unit)), start, tuple, None, last.known.state
+        )
         yield from ((finding, (finding.span.line,)) for finding in beside)
         if not is_told:
-            finding = self._examiner.nothing_to_solve(self._lines)
+            finding = nothing_to_solve(asked, self._lines)
             yield finding, (finding.span.line,)
 
     def _whole(self) -> Result:
@@ -474,7 +477,7 @@ class OpenProgram:
     @property
     def contours(self) -> Iterator[OpenContour]:
         """The contours, in the order of the program."""
-        if self._examiner is None and self.dialect is not None:
+        if self._examination is None and self.dialect is not None:
             yield from (OpenContour(each.lines[0], each.lines[-1], each) for each in self._whole().answers)
             return
         start = 0
@@ -485,7 +488,7 @@ class OpenProgram:
 
     def contour_at(self, line: int) -> Answer | None:
         """The contour on a line, with its words where they are now; None where there is none."""
-        if self._examiner is None:
+        if self._examination is None:
             return next((each.answer for each in self.contours if each.first <= line <= each.last), None)
         start = 0
         for part in self._parts:
@@ -494,7 +497,7 @@ class OpenProgram:
                     return None
                 if part.answer_age != len(self._moves):
                     self._bring_up(part)
-                    step, _, _ = next(self._examiner.resume(self._lines, start, part.known))
+                    step, _, _ = next(self._examination.resume(self._lines, start, part.known))
                     part.answer, part.answer_age = step.answer, len(self._moves)
                 return part.answer
             start += part.count
@@ -542,10 +545,6 @@ def _moved(record: Any, move: _Move) -> Any:
     if isinstance(record, Mapping):
         values = {name: _moved(each, move) for name, each in record.items()}
         return record if all(values[name] is each for name, each in record.items()) else values
-    if isinstance(record, Marks):
-        marks = copy(record)
-        vars(marks).update({name: _moved(each, move) for name, each in vars(record).items() if name != "context"})
-        return marks
     if isinstance(record, Struct):
         names = [name for name in record.__struct_fields__ if not (isinstance(record, Fix) and name == "replacement")]
         changes = _changes(record, names, move)

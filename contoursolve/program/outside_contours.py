@@ -1,144 +1,259 @@
-"""Choice of findings about blocks outside contours: those on which a contour depends are told.
+"""Findings about blocks outside contours: their characters, their words, the slips that keep them from being contours,
+and arcs that are read as contours are. `told_outside` chooses those that are told."""
 
-Programs of other people hold much that no table knows and no contour minds. So a finding about a block outside contours
-waits. It is told
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
 
-* at once, if it is about a contour by itself: a slip whose fix makes a block one, a block or a fault with a word by
-  which contours are known, a word of a corner or an angle that the control has not, a block too long to be read, a
-  fact, an arc that leads to a contour, a start point apart;
-* where the program has a contour, before or behind: words that may be meant for one, and questions; what cannot be read
-  in a block that moves an axis of the plane; and what contoursolve does not know or does not follow;
-* at the next contour behind it: a G word that cannot be read, a comment that is not closed, text outside the %. Nobody
-  knows then which plane, units and mode are in force;
-* at a contour whose start rests on its line: the last one that set an axis of the plane, or a word that stays in force,
-  or made it unknown. A start that is counted in increments rests on all lines before;
-* in the block right behind a contour, at which the contour may end.
+from msgspec.structs import replace
 
-What waits in vain is passed over; `check --strict` tells all.
-"""
-
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from enum import Enum
-
-from contoursolve.diagnosis import Answer, corner_words, moves
-from contoursolve.diagnostics import Diagnostic, Span
-from contoursolve.gcode import Block, FaultKind, Word, spell
-from contoursolve.reading import Dialect, ReadIssue, State, apply_modes, words_of
-
-_BESIDE_CONTOURS: frozenset[Enum | None] = frozenset(
-    {ReadIssue.COMMA_MISSING, ReadIssue.COMMA_WORD_UNKNOWN, ReadIssue.ASKED_NOTHING, ReadIssue.FACT_UNMARKED}
-    | {ReadIssue.WORD_UNKNOWN, ReadIssue.WORD_IDLE, ReadIssue.CODE_UNKNOWN, ReadIssue.NOT_READ}
+from contoursolve.controls import DIALECTS
+from contoursolve.diagnosis import (
+    Answer,
+    Context,
+    Depth,
+    corner_words,
+    explain_asked_outside,
+    explain_codes_by_name,
+    explain_corners,
+    explain_faults,
+    explain_unmarked,
+    explain_vocabulary,
+    explain_words,
+    has_corners,
+    is_known,
+    like_corners,
+    moves,
+    name_of,
+    not_read_yet,
+    report,
 )
-_BEFORE_CONTOURS: frozenset[Enum | None] = frozenset({ReadIssue.TEXT_OUTSIDE, FaultKind.COMMENT_NOT_CLOSED})
-_WAITING = frozenset(
-    {*FaultKind, ReadIssue.REPEATED_ADDRESS, ReadIssue.VALUE_TOO_LARGE, *_BESIDE_CONTOURS, *_BEFORE_CONTOURS}
-) - {FaultKind.BLOCK_TOO_LONG}
+from contoursolve.diagnostics import Basis, Diagnostic, Severity
+from contoursolve.gcode import Block, FaultKind, Word, has_lookalike_code
+from contoursolve.program.lookahead import View
+from contoursolve.program.request import Request
+from contoursolve.program.solve_queue import Pending, Previous, Step
+from contoursolve.reading import (
+    COMMENTED,
+    Dialect,
+    Effect,
+    Modes,
+    ParsedContour,
+    ReadIssue,
+    State,
+    apply_modes,
+    codes_of,
+)
+
+NEAR = 8
+"""Blocks at a place that are looked at together for what may have been meant there."""
+
+_FAULTS_OF_NO_CONSEQUENCE = (FaultKind.STRAY_CHARACTER,)
+"""Faults that are only worth a warning in a block that is not a contour."""
+
+_ARCS = (2, 3)
+"""Motions of arcs. Those with an end or a centre end where their words say, whatever else is wrong with them."""
+
+_OF_ARCS = "IJK"
+"""Words that most arcs have."""
+
+_ABOUT_VALUES = (ReadIssue.VARIABLE, ReadIssue.POSITION_UNKNOWN)
+"""Findings that matter to calculated values alone."""
+
+_USUAL = 10_000
+"""A number that is no value too large, in inches neither."""
+
+Examine = Callable[[ParsedContour, Pending], Answer]
+"""A function that gives the answer to a contour."""
 
 
-class Outside:
-    """One pass over the findings outside the contours of one program, which tells some of them."""
-
-    def __init__(self, dialect: Dialect | None, *, is_strict: bool = False) -> None:
-        self.is_strict = is_strict
-        self._signs = dialect.signs if dialect else _no_signs
-        self._modes = dialect.modes if dialect else None
-        own = [each for each in dialect.modes.lexicon.addresses if len(each) > 1] if dialect else []
-        self._long = {*own, *(spell(each, "").split(" ")[0] for each in own)}
-        """Addresses with a comma or several letters: those of contours."""
-        self._corners = {*corner_words(dialect.modes.lexicon)} if dialect else set[str]()
-        self._held: list[Diagnostic] = []
-        self._contour = 0
-        """The first line of the last contour; 0 if there is none yet."""
-        self._is_behind = False
-        self._torn: set[Span] = set()
-        """Where something cannot be read in a block that moves an axis of the plane."""
-
-    def take(
-        self,
-        findings: Sequence[Diagnostic],
-        line: int,
-        blocks: Callable[[], Iterable[Block]],
-        answer: Answer | None,
-        before: State,
-    ) -> Iterator[Diagnostic]:
-        """The findings to be told once the next lines are known, from line `line` on. They are blocks outside contours,
-        or a contour with its answer; `before` is the state before them."""
-        if self.is_strict:
-            yield from findings
-            return
-        shown = {block.line - line for block in blocks() if self._shows(block)} if findings else set[int]()
-        is_torn = any(isinstance(each.about, FaultKind) for each in findings)
-        moved = {block.line for block in blocks() if self._moves(block, before)} if is_torn else set[int]()
-        for each in findings:
-            is_moved = isinstance(each.about, FaultKind) and each.span.line in moved
-            self._torn |= {each.span} if is_moved else set()
-            if self._is_behind or each.span.line - line in shown or self._is_told(each):
-                yield each
-            else:
-                self._held.append(each)
-        if answer is not None:
-            self._contour = line
-            if self._held:
-                yield from self._settle(answer, before)
-        self._is_behind = answer is not None or (
-            self._is_behind and not any(words_of(block.text) for block in blocks())
-        )
-
-    def _shows(self, block: Block) -> bool:
-        """Whether a block has a word by which contours are known, or one of a corner or an angle."""
-        words = (word for word in block.words if self._modes is not None and len(word.address) > 1)
-        return bool(self._signs(block)) or any(word.address in self._corners for word in words)
-
-    def _moves(self, block: Block, before: State) -> bool:
-        """Whether a block moves an axis of the plane."""
-        modes = self._modes
-        return modes is not None and moves(block, apply_modes(before, block, modes), modes, ())
-
-    def _settle(self, answer: Answer, before: State) -> Iterator[Diagnostic]:
-        """Of what waits, that on which a contour rests; what no other one can rest on is told no more."""
-        lines, is_counted = _rests_on(answer, before)
-        held, self._held = self._held, []
-        # What no axis has from a line now, it never will.
-        later = {place.span.line for place in before.axes.values() if place.span is not None}
-        for each in held:
-            if is_counted or each.span.line in lines or _waits_for_any(each) or each.span in self._torn:
-                yield each
-            elif each.span.line in later:
-                self._held.append(each)
-
-    def _is_corner(self, finding: Diagnostic) -> bool:
-        """Whether it is about a word of a corner that the control has not, and says which one is meant; or which no
-        control has, so that nothing else tells of it."""
-        if finding.about is not ReadIssue.COMMA_WORD_UNKNOWN or not finding.is_error:
-            return False
-        return "if that is meant" in finding.help or all(len(each) > 2 and each[0] == "," for each in finding.addresses)  # noqa: PLR2004 - a comma and a letter
-
-    def _is_told(self, finding: Diagnostic) -> bool:
-        """Whether a finding waits for nothing."""
-        if finding.fixes or finding.about not in _WAITING or finding.span.line <= 0:
-            return True
-        if isinstance(finding.about, FaultKind) and not self._long.isdisjoint(finding.addresses):
-            return True
-        if finding.about in _BESIDE_CONTOURS or finding.span in self._torn:
-            is_unread = finding.about is ReadIssue.NOT_READ and finding.is_error
-            return self._contour > 0 or is_unread or self._is_corner(finding)
-        return finding.span.line <= self._contour and _waits_for_any(finding)
+# Characters and words --------------------------------------------------------------------------------------------
 
 
-def _no_signs(_: Block) -> tuple[Word, ...]:
-    return ()
+def findings_of_block(
+    asked: Request, block: Block, here: State | None = None, previous: Previous | None = None
+) -> Sequence[Diagnostic]:
+    """Findings about a block that is no contour; `here` is the state with its codes in force, `previous` the last block
+    that says something."""
+    dialect = asked.dialect
+    if dialect and _is_clean(block, dialect, here):
+        return ()
+    context = Context(asked.rules, asked.unit, place=block.span)
+    found = [*_of_characters(context, block), *_of_facts(asked, block)]
+    if dialect is None:
+        return found
+    lexicon = dialect.modes.lexicon
+    axis_words = [each for each in block.words if (own := lexicon.addresses.get(each.address)) and own.axis]
+    found += explain_asked_outside(context, block)
+    found += explain_words(context, lexicon, _repeated(axis_words), axis_words)
+    if here is None:
+        return found
+    if COMMENTED not in here.memory:
+        found += _of_vocabulary(context, block, here, dialect, previous)
+        found += _of_unread(context, block, here, dialect, previous)
+    if found and has_corners(block, here, dialect.modes):
+        return [*explain_corners(context, block.text, found, lexicon, _corner_words())]
+    return found
 
 
-def _waits_for_any(finding: Diagnostic) -> bool:
-    """Whether a finding is told at any contour behind it."""
-    return "G" in finding.addresses or finding.about in _BESIDE_CONTOURS | _BEFORE_CONTOURS
+def _is_clean(block: Block, dialect: Dialect, here: State | None) -> bool:
+    """Whether a block has words alone, each once, all as usual and all read: there is nothing to say then."""
+    if block.faults or block.directives or block.unmarked:
+        return False
+    addresses, modes = [word.address for word in block.words], dialect.modes
+    own = {*_OF_ARCS, modes.radius} if here is not None and here.motion in _ARCS else set[str]()
+    is_read = all(each in own or is_known(each, modes.lexicon) for each in addresses)
+    codes = codes_of(block, modes) if "G" in addresses else ()
+    is_read = is_read and all(not isinstance(code, Word) and code.is_read for code in codes)
+    is_usual = all(word.number is not None and abs(word.number) <= _USUAL for word in block.words)
+    is_clean = is_read and is_usual and len({*addresses}) == len(addresses)
+    return is_clean and not (here is not None and modes.unread(block, here))
 
 
-def _rests_on(answer: Answer, before: State) -> tuple[set[int], bool]:
-    """The lines on which the start of a contour rests, and whether it is counted in increments."""
-    places = [before.axes[axis] for axis in answer.claim.before.plane.axes]
-    lines = {place.span.line for place in places if place.span is not None}
-    lines |= {word.span.line for word in before.memory.values()}
-    addresses = answer.claim.lexicon.addresses
-    words = [place.word for place in places if place.word is not None and place.word.address in addresses]
-    return lines, any(addresses[word.address].is_step(is_incremental=before.is_incremental) for word in words)
+def _repeated(words: Sequence[Word]) -> list[Word]:
+    seen: set[str] = set()
+    return [word for word in words if word.address in seen or seen.add(word.address)]  # type: ignore[func-returns-value]
+
+
+def _of_characters(context: Context, block: Block) -> Iterator[Diagnostic]:
+    """Characters that cannot be read, and what looks like a fact."""
+    for finding in explain_faults(context, block):
+        is_slight = finding.about in _FAULTS_OF_NO_CONSEQUENCE
+        yield replace(finding, severity=Severity.WARNING) if is_slight else finding
+    yield from explain_unmarked(context, block)
+
+
+def _of_facts(asked: Request, block: Block) -> Iterator[Diagnostic]:
+    """Facts that are about no contour."""
+    for directive in block.directives:
+        place = Context(asked.rules, asked.unit, place=directive.span)
+        yield report(place, place.row(ReadIssue.FACT_NOWHERE), Basis.RULE, [])
+
+
+def _of_vocabulary(
+    context: Context, block: Block, here: State, dialect: Dialect, previous: Previous | None
+) -> Iterator[Diagnostic]:
+    """Words and codes that the control has not."""
+    modes, signs = dialect.modes, dialect.signs(block)
+    for each in explain_codes_by_name(context, block, modes):
+        # The contour of this block is lost with it.
+        yield replace(each, severity=Severity.ERROR) if signs else each
+    if not (
+        moves(block, here, modes, signs)
+        or has_corners(block, here, modes)
+        or like_corners(block, modes, _corner_words())
+    ):
+        return
+    # Of the block behind a contour, some controls tell by themselves what its words would have meant there.
+    is_said = dialect.follow is not None and _is_of_contour(previous, modes)
+    for each in explain_vocabulary(context, block, here, modes, _comma_words()):
+        if not is_said or each.about is not ReadIssue.WORD_IDLE:
+            yield each
+
+
+def _is_of_contour(previous: Previous | None, modes: Modes) -> bool:
+    """Whether the last block that said something has the code of a contour."""
+    codes = codes_of(previous[0][-1], modes) if previous else ()
+    return any(not isinstance(code, Word) and code.effect is Effect.CONTOUR for code in codes)
+
+
+def _of_unread(
+    context: Context, block: Block, here: State, dialect: Dialect, previous: Previous | None
+) -> Iterator[Diagnostic]:
+    """That a block is not read, which is told once of several in a row."""
+    unread = dialect.modes.unread(block, here)
+    if unread is None:
+        return
+    last, is_needed = previous[0][-1].words if previous else (), bool(dialect.signs(block))
+    is_first = unread in block.words and all(name_of(each) != name_of(unread) for each in last)
+    if is_needed or is_first:
+        yield not_read_yet(context, unread, is_needed=is_needed)
+
+
+@cache
+def _comma_words() -> frozenset[str]:
+    """The words with a comma that any control has."""
+    words = (each for dialect in DIALECTS.values() for each in dialect.modes.lexicon.addresses)
+    return frozenset(each for each in words if each.startswith(","))
+
+
+@cache
+def _corner_words() -> frozenset[str]:
+    """The words that make corners and angles on any control."""
+    return frozenset(each for dialect in DIALECTS.values() for each in corner_words(dialect.modes.lexicon))
+
+
+# Slips -----------------------------------------------------------------------------------------------------------
+
+
+def with_slips(
+    asked: Request,
+    blocks: Sequence[Block],
+    states: tuple[State, State],
+    previous: Previous | None,
+    found: Sequence[Diagnostic],
+) -> Sequence[Diagnostic]:
+    """The findings about the first of some blocks, with those about slips without which it would be a contour. `states`
+    are those before and behind it."""
+    block, dialect = blocks[0], asked.dialect
+    if dialect is None or asked.depth is Depth.VERDICT:
+        return found
+    modes, context = dialect.modes, Context(asked.rules, asked.unit, place=block.span)
+    if any(f",{word.address}" in modes.lexicon.addresses for word in block.words):
+        from contoursolve.diagnosis import explain_commas  # noqa: PLC0415 - few programs need it
+
+        found = [*found, *explain_commas(context, dialect, blocks[:NEAR], states, previous)]
+    if any(word.address == "G" and word.number is not None and word.number not in modes.codes for word in block.words):
+        from contoursolve.diagnosis import explain_codes  # noqa: PLC0415 - few programs need it
+
+        found = [*explain_codes(context, dialect, blocks[:NEAR], states[0], found)]
+    return with_letters(asked, dialect, blocks[:NEAR], states[0], found) if has_lookalike_code(block) else found
+
+
+def with_letters(
+    asked: Request, dialect: Dialect, blocks: Sequence[Block], before: State, found: Sequence[Diagnostic]
+) -> Sequence[Diagnostic]:
+    """The findings about the first of some blocks, with those about letters with digits in whose place it would be a
+    contour."""
+    from contoursolve.diagnosis import explain_letters  # noqa: PLC0415 - few programs need it
+
+    block = blocks[0]
+    own = [each for each in found if each.span.line == block.line]
+    others = [each for each in found if each.span.line != block.line]
+    context = Context(asked.rules, asked.unit, place=block.span)
+    return [*others, *explain_letters(context, dialect, blocks, before, own)]
+
+
+# Arcs ------------------------------------------------------------------------------------------------------------
+
+
+def findings_of_arc(
+    asked: Request, dialect: Dialect, pending: Pending, behind: State, examine: Examine
+) -> Sequence[Diagnostic]:
+    """Findings about an arc that is read as a contour is, but is none; `behind` is the state behind it."""
+    block = pending.view[0]
+    ends = behind.motion in _ARCS and any(map(block.find, (*behind.plane.axes, *behind.plane.centers)))
+    return _of_values(pending, examine) if asked.is_strict or not ends or dialect.signs(block) else ()
+
+
+def findings_of_arc_before(
+    asked: Request, dialect: Dialect, view: View, previous: Previous | None, examine: Examine
+) -> Sequence[Diagnostic]:
+    """Findings about the arc that leads to a contour; others are looked at only where every line is."""
+    if previous is None or asked.is_strict:
+        return ()
+    (block, *others), state = previous
+    if others or apply_modes(state, block, dialect.modes).motion not in _ARCS:
+        return ()
+    both = [block, *view[:NEAR]]
+    found = dialect.find(both, 0, state, dialect.modes)
+    if not isinstance(found, ParsedContour) or found.form.is_contour:
+        return ()
+    return _of_values(Pending(found, Step((), state), View(both, 0), 1), examine)
+
+
+def _of_values(pending: Pending, examine: Examine) -> Sequence[Diagnostic]:
+    """Findings about the values of an arc."""
+    answer = examine(pending.contour, pending)
+    if not pending.contour.form.needs_values:
+        return [each for each in answer.diagnostics if each.about not in _ABOUT_VALUES]
+    return answer.diagnostics if answer.start.is_known else ()

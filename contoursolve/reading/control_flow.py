@@ -33,9 +33,9 @@ class ControlFlowPath(Struct, frozen=True):
     lines: Lines = {}
 
 
-Read = Callable[[Sequence[Block], int, State, bool], tuple[int, Callable[[], State]] | None]
+Read = Callable[[Sequence[Block], int, State, bool], tuple[int, State] | None]
 """(blocks, the index of one of them, the state before it, whether a contour may go on behind the last one) to how many
-blocks belong to what begins there, and what gives the state behind it; None where that depends on what comes behind the
+blocks belong to what begins there, and the state behind it; None where that depends on what comes behind the
 last one."""
 
 
@@ -98,7 +98,7 @@ class Ways:
                 stopped.append(replace(one.way, unread=tuple(one.blocks[one.index :])))
                 continue
             one.index += found[0]
-            one.way = _behind(one.way, found[1](), one.blocks[one.index - 1].line)
+            one.way = _behind(one.way, found[1], one.blocks[one.index - 1].line)
         self.now = [] if self._is_beyond else _meet_all(stopped, self._reason, self.modes)
 
     def follow(
@@ -159,6 +159,12 @@ class Ways:
             case _:
                 pass
         return False
+
+    def state_behind(self, event: ProgramEvent, state: State) -> State:
+        """The state behind an event of a program that is followed on one way, in a state before it."""
+        self.now = [replace(each, state=state) for each in self.now]
+        self.happen(event)
+        return self.now[0].state if self.now else state
 
     def _run_again(self, event: ProgramEvent) -> bool:
         """Go back to where something begins that runs again, with what is known there in all of its passes."""

@@ -61,7 +61,7 @@ def contours_as_run(
     blocks."""
     ways, met, reached = Ways(lambda: first, modes), list[Any](), set[int]()
 
-    def read(held: Sequence[Block], index: int, state: State, is_open: bool) -> tuple[int, Callable[[], State]] | None:
+    def read(held: Sequence[Block], index: int, state: State, is_open: bool) -> tuple[int, State] | None:
         ahead, block = Ahead(held), held[index]
         is_reached = all(each.is_reached for each in block.callers)
         if is_reached and not block.file:
@@ -72,11 +72,11 @@ def contours_as_run(
         if is_open and ahead.is_passed:
             return None
         if found is None or not found.form.is_contour:
-            return 1, lambda: advance(state, block, modes)
+            return 1, advance(state, block, modes)
         reach = reach_of(found, held, index)
         if not block.file and (is_reached or block.line not in reached):
             met.append((found, next_place(held[index + reach :], found, modes)))
-        return reach, lambda: leave(found, end_of(found), modes, "the contour before has no path")
+        return reach, leave(found, end_of(found), modes, "the contour before has no path")
 
     def happen(event: ProgramEvent) -> bool:
         is_anew = ways.happen(event)

@@ -689,7 +689,7 @@ def test_a_program_that_is_read_as_a_stream_has_the_same_contours(program, batch
     assume(not needs_running(lines, dialect.modes.language))
     text = "\n".join(lines)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("contoursolve.program.pipeline._BATCH", batch)
+        patch.setattr("contoursolve.program.lookahead._BATCH", batch)
         blocks = Lines([line + "\n" for line in lines], dialect, {}, is_certain=True).blocks()
         steps = list(walk(blocks, Request(dialect, depth=Depth.VERDICT)))
     answers = [step.answer for step in steps if step.answer]

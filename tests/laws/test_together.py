@@ -8,7 +8,7 @@ from generate_nct import FORMS, random_chain, random_cornered, random_pair
 
 import contoursolve
 from contoursolve.output.document import to_json
-from contoursolve.program import pipeline
+from contoursolve.program import examination, pipeline
 
 TAPERS = (
     "G111 X{x} A180. K-30. B120. P{s} Q{s}",
@@ -127,8 +127,8 @@ def test_contours_solved_together_are_those_solved_one_by_one(seed, alone, monke
         "units": rng.choice(("mm", "inch")),
         "start": rng.choice((None, "X40. Z0." if control == "yasnac-lx3" else "X0 Y0")),
     }
-    monkeypatch.setattr(pipeline, "_FIRST", rng.choice((1, 4, 16)))
-    monkeypatch.setattr(pipeline, "_WINDOW", rng.choice((8, 64, 4096)))
+    monkeypatch.setattr(examination, "_FIRST", rng.choice((1, 4, 16)))
+    monkeypatch.setattr(examination, "_WINDOW", rng.choice((8, 64, 4096)))
     monkeypatch.setattr("contoursolve.program.batch.FEWEST", rng.choice((1, 2, 8)))
     found = []
     for is_alone in (False, True):

@@ -1,0 +1,116 @@
+"""The answer to one contour of a program: solved, with its findings explained as deeply as is asked."""
+
+from collections import Counter
+from itertools import islice
+
+from msgspec.structs import replace
+
+from contoursolve.diagnosis import Answer, Depth, examine
+from contoursolve.diagnostics import Severity
+from contoursolve.gcode import Block
+from contoursolve.program.outside_contours import NEAR
+from contoursolve.program.request import Request
+from contoursolve.program.solve_queue import Pending
+from contoursolve.reading import Dialect, ParsedContour, ReadIssue, next_place
+
+BEHIND = 32
+"""Blocks after a contour of which a repair may make a part of it: the rest of a chain that a comma joins."""
+
+MOST_EXPLAINED = 100
+"""Wrong results of one contour that are explained and mended, where it runs again and again."""
+
+
+def answer_to(asked: Request, dialect: Dialect, found: ParsedContour, pending: Pending) -> Answer:
+    """The answer to a contour, with the values that it asks for filled in; its findings are not explained yet."""
+    behind = islice(pending.view, pending.after, None)
+    answer = examine(found, asked.rules, asked.policy, lambda: next_place(behind, found, dialect.modes), asked.depth)
+    if answer.contour is not None and any(value.value is not None for value in answer.answers):
+        from contoursolve.diagnosis import fill_in  # noqa: PLC0415 - few blocks ask for a value
+
+        return replace(answer, filled=fill_in(answer, pending.step.before, dialect))
+    return answer
+
+
+def explained(asked: Request, dialect: Dialect, answer: Answer, pending: Pending) -> Answer:
+    """An answer with what is wrong explained, and how it is mended."""
+    if asked.depth is Depth.VERDICT:
+        return answer
+    if _is_wrong(answer):
+        # Most programs need no diagnosis, and none should wait for its import.
+        from contoursolve.diagnosis import diagnose  # noqa: PLC0415
+
+        following = pending.view[pending.after : pending.after + BEHIND]
+        answer = diagnose(answer, dialect, asked.policy, following, pending.previous)
+        if asked.depth is Depth.FULL and _has(answer, ReadIssue.VARIABLE):
+            from contoursolve.program.open_values import tell_values  # noqa: PLC0415 - few contours need it
+
+            return tell_values(answer, dialect, asked.policy)
+    elif _has(answer, ReadIssue.POINT_MISSING):
+        from contoursolve.diagnosis import mend_points  # noqa: PLC0415
+
+        return mend_points(answer, dialect)
+    return answer
+
+
+def _is_wrong(answer: Answer) -> bool:
+    """Whether anything is wrong with a contour. A path across the spindle axis is as the words say it."""
+    return any(
+        each.severity is not Severity.INFO and each.about is not ReadIssue.AXIS_CROSSED for each in answer.diagnostics
+    )
+
+
+def _has(answer: Answer, issue: ReadIssue) -> bool:
+    return any(each.about is issue for each in answer.diagnostics)
+
+
+class Answers:
+    """The answers to the contours of one program, each examined where it is found."""
+
+    def __init__(self, asked: Request, dialect: Dialect) -> None:
+        self.asked, self.dialect = asked, dialect
+
+    def find(self, found: ParsedContour, pending: Pending) -> Answer:
+        """The answer to a contour."""
+        return self.examine(found, pending)
+
+    def examine(self, found: ParsedContour, pending: Pending) -> Answer:
+        """The answer to what is read as a contour is."""
+        return explained(self.asked, self.dialect, answer_to(self.asked, self.dialect, found, pending), pending)
+
+
+class AnswersInPasses(Answers):
+    """The same of a program that runs: where a contour comes to the same again, its answer is that of before; and in a
+    loop, each pass may be wrong, of which the first ones are explained."""
+
+    def __init__(self, asked: Request, dialect: Dialect) -> None:
+        super().__init__(asked, dialect)
+        self._known: dict[object, Answer] = {}
+        """By what is known before a contour, its blocks and those behind it."""
+        self._wrong = Counter[tuple[str, int]]()
+        """How often the contour at a line of a file was wrong."""
+
+    def find(self, found: ParsedContour, pending: Pending) -> Answer:
+        if found.directives:
+            return self.examine(found, pending)
+        behind = pending.view[pending.after : pending.after + NEAR]
+        key = (found.before.known(), tuple(map(_key_of, (*found.blocks, *behind))), len(found.blocks))
+        if key not in self._known:
+            self._known[key] = self.examine(found, pending)
+        return self._known[key]
+
+    def examine(self, found: ParsedContour, pending: Pending) -> Answer:
+        answer = answer_to(self.asked, self.dialect, found, pending)
+        if _is_wrong(answer) and self._is_late(found.blocks[0]):
+            note = f"only the first {MOST_EXPLAINED} wrong results of a contour are explained; this is a later one"
+            noted = (replace(each, notes=(*each.notes, note)) for each in answer.diagnostics)
+            return replace(answer, diagnostics=tuple(noted))
+        return explained(self.asked, self.dialect, answer, pending)
+
+    def _is_late(self, first: Block) -> bool:
+        """Whether enough results of a contour, of which this is the first block, are explained; it is wrong again."""
+        self._wrong[first.file, first.line] += 1
+        return self._wrong[first.file, first.line] > MOST_EXPLAINED
+
+
+def _key_of(block: Block) -> object:
+    return block.line, block.text, block.file, block.callers, block.substituted

@@ -1,0 +1,256 @@
+"""The walk over a program: a fold over a frozen record of where it stands. Each step takes a contour, a block or plain
+lines, and gives what is found there and where the walk stands behind it."""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
+from itertools import islice
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from contoursolve.diagnosis import Context, explain_call, report
+from contoursolve.diagnostics import Basis, Diagnostic, Span
+from contoursolve.execution import EventKind, ProgramEvent
+from contoursolve.gcode import Block, Passage
+from contoursolve.program.contour_answers import BEHIND, Answers, AnswersInPasses
+from contoursolve.program.lookahead import Line, Lookahead, View, each_block, says_something
+from contoursolve.program.outside_contours import (
+    NEAR,
+    findings_of_arc,
+    findings_of_arc_before,
+    findings_of_block,
+    with_slips,
+)
+from contoursolve.program.request import Request
+from contoursolve.program.solve_queue import Pending, Previous, Queue, Step, Together
+from contoursolve.program.start_point import StartCount, compare_count, start_count, state_before
+from contoursolve.program.tape_markers import Marks
+from contoursolve.program.told_outside import Outside
+from contoursolve.reading import (
+    Dialect,
+    Modes,
+    ParsedContour,
+    ReadIssue,
+    State,
+    Ways,
+    advance,
+    advance_plainly,
+    apply_modes,
+    is_plain,
+    reach_of,
+)
+
+_FIRST, _WINDOW = 16, 4_096
+"""Steps of a program of which the contours are solved together while it is read: in the beginning, when nothing is
+known, and later."""
+
+_WHOLE = 32_768
+"""The same for a program that has been read: the more there are of a kind, the less each of them takes."""
+
+
+class Cursor(Struct, frozen=True):
+    """Place of the walk over a program: the knowledge before one of its blocks."""
+
+    state: State
+    marks: Marks
+    count: StartCount | None
+    """Units in which a start point that is stated apart counts."""
+    previous: Previous | None = None
+    """The last contour or block that says something, and the state before it: with a comma in the next block, it may be
+    part of the contour there."""
+    findings: tuple[Diagnostic, ...] = ()
+    """Findings since the last step, told with the next one."""
+
+
+class Beginning(Struct, frozen=True):
+    """Contour that begins at a block, or what is read as one is, if there is either; and the number of its lines."""
+
+    contour: ParsedContour | None
+    lines: int
+
+
+class WalkStep(Struct, frozen=True):
+    """One step of the walk: what is found, of how many lines, and what gives the cursor behind it."""
+
+    step: Step | Pending
+    lines: int
+    behind: Callable[[], Cursor]
+
+
+class Examination:
+    """The walk over one program of a control. Its contours are solved one by one, or `together`; if it `goes_on`, those
+    behind one that is refused are checked from where its best fix ends. A program that `is_run` may come to a line
+    again and again."""
+
+    def __init__(
+        self,
+        asked: Request,
+        dialect: Dialect,
+        together: Together | None = None,
+        *,
+        goes_on: bool = False,
+        is_run: bool = False,
+    ) -> None:
+        self.asked, self.dialect = asked, dialect
+        self.answers = (AnswersInPasses if is_run else Answers)(asked, dialect)
+        self.queue = Queue(dialect, together, self.answers.find, goes_on=goes_on)
+        self._context = Context(asked.rules, asked.unit)
+        state, found = state_before(asked, dialect)
+        # A program that runs is not read in its order, in which a % stands.
+        self.begin = Cursor(state, Marks(is_done=is_run), start_count(asked, state), findings=found)
+        """The cursor before the program, behind the block that states its start point apart."""
+
+    # One step ----------------------------------------------------------------------------------------------------
+
+    def find(self, view: View, state: State) -> Beginning:
+        """The contour, or the block alone, that begins with the first of some blocks."""
+        contour = self.dialect.find(view, 0, state, self.dialect.modes)
+        return Beginning(contour, reach_of(contour, view)) if contour is not None else Beginning(None, 1)
+
+    def take(self, view: View, found: Beginning, cursor: Cursor) -> WalkStep:
+        """The step that takes what was found at the first of some blocks."""
+        blocks = (view[0],) if found.lines == 1 else tuple(view[: found.lines])
+        marks, outside = cursor.marks.look(blocks, self._context)
+        count, differences = compare_count(cursor.count, found.contour, self.asked)
+        here = Cursor(cursor.state, marks, count, cursor.previous, (*cursor.findings, *outside, *differences))
+        if found.contour is not None and found.contour.form.is_contour:
+            return self._take_contour(view, blocks, found.contour, here)
+        return self._take_block(view, blocks, found.contour, here)
+
+    def _take_contour(self, view: View, blocks: tuple[Block, ...], contour: ParsedContour, here: Cursor) -> WalkStep:
+        """The step that takes a contour, which is solved now or later."""
+        arc = findings_of_arc_before(self.asked, self.dialect, view, here.previous, self.answers.examine)
+        step = Step(blocks, here.state, findings=(*here.findings, *arc))
+        pending = self.queue.add(contour, step, view, len(blocks), here.previous)
+
+        def behind() -> Cursor:
+            return Cursor(self.queue.leave(pending), here.marks, here.count, (contour.blocks, here.state))
+
+        return WalkStep(pending, len(blocks), behind)
+
+    def _take_block(self, view: View, blocks: tuple[Block, ...], arc: ParsedContour | None, here: Cursor) -> WalkStep:
+        """The step that takes a block that is no contour, or an arc that is read as a contour is."""
+        block, asked, modes = blocks[0], self.asked, self.dialect.modes
+        states = here.state, advance(here.state, block, modes)
+        if arc is not None:
+            pending = Pending(arc, Step((), here.state), view, len(blocks))
+            found = findings_of_arc(asked, self.dialect, pending, states[1], self.answers.examine)
+            findings = (*here.findings, *found)
+        else:
+            found = findings_of_block(asked, block, apply_modes(here.state, block, modes), here.previous)
+            findings = tuple(with_slips(asked, view, states, here.previous, [*here.findings, *found]))
+        previous = ((block,), here.state) if block.words else here.previous
+        behind = Cursor(states[1], here.marks, here.count, previous)
+        return WalkStep(Step(blocks, here.state, findings=findings), len(blocks), lambda: behind)
+
+    def pass_by(self, passage: Passage, cursor: Cursor) -> WalkStep:
+        """The step that takes plain lines that nobody needs to read into words."""
+        marks, outside = cursor.marks.look((passage,), self._context)
+        step = Step((), cursor.state, findings=cursor.findings + outside, passage=passage)
+
+        def behind() -> Cursor:
+            state = advance_plainly(cursor.state, passage, self.dialect.modes)
+            return Cursor(state, marks, cursor.count, cursor.previous)
+
+        return WalkStep(step, len(passage.lines), behind)
+
+    def happen(self, event: ProgramEvent, cursor: Cursor) -> Cursor:
+        """The cursor behind an event of the program, with what is found there; its state is that before the event."""
+        context = Context(self.asked.rules, self.asked.unit, place=Span(event.line, 1, 2))
+        found = (*cursor.findings, *_findings_of_event(event, context, self.dialect.modes))
+        count = self.begin.count if event.kind is EventKind.FRESH else cursor.count
+        return Cursor(cursor.state, cursor.marks, count, findings=found)
+
+    def end(self, cursor: Cursor) -> Iterator[Step]:
+        """The last step of a program, with the findings at its end, if there are any."""
+        found = cursor.findings + cursor.marks.finish(self._context)
+        if found:
+            yield Step((), cursor.state, findings=found)
+
+    # All of them -------------------------------------------------------------------------------------------------
+
+    def walk(self, lines: Iterable[Line]) -> Iterator[Step | Pending]:
+        """Every block and every contour, in order, contours as they are found."""
+        cursor, ahead = self.begin, Lookahead(lines)
+        ways = Ways(lambda: self.begin.state, self.dialect.modes)
+        while (line := ahead.line) is not None:
+            if isinstance(line, ProgramEvent):
+                if line.kind is EventKind.LEAVE:
+                    # Where the profile of a cycle ended.
+                    yield Step((), cursor.state, findings=cursor.findings)
+                    cursor = replace(cursor, findings=())
+                cursor = replace(self.happen(line, cursor), state=ways.state_behind(line, cursor.state))
+                ahead.go_on(1)
+                continue
+            if isinstance(line, Block) and line.mark:
+                ways.marked[line.mark] = cursor.state
+            taken = self._next(ahead, cursor)
+            if taken is None:
+                ahead.read_on()
+                continue
+            yield taken.step
+            cursor = taken.behind()
+            ahead.go_on(taken.lines)
+        yield from self.end(cursor)
+
+    def _next(self, ahead: Lookahead, cursor: Cursor) -> WalkStep | None:
+        """The step at the next line; None where it depends on lines that are not read yet."""
+        if isinstance(ahead.line, Passage):
+            passage = ahead.plain(moves=is_plain(cursor.state), joins=self.dialect.has_runs)
+            if passage is not None:
+                return self.pass_by(passage, cursor)
+        view = ahead.view()
+        if not ahead.is_whole and not view.holds(1 + NEAR):
+            return None
+        found = self.find(view, cursor.state)
+        # Nothing goes on at a block that says nothing; else that is known at the next block that says something.
+        ends = found.contour is None and not says_something(view[0])
+        is_known = ahead.is_whole or ends or (view.says_something(found.lines) and view.holds(found.lines + BEHIND))
+        return self.take(view, found, cursor) if is_known else None
+
+    def steps(self, lines: Iterable[Line]) -> Iterator[Step]:
+        """The same with all contours solved, and with those findings outside contours that are told."""
+        outside = Outside(self.dialect, is_strict=self.asked.is_strict)
+        size, most = (_WHOLE, _WHOLE) if isinstance(lines, Sequence) else (_FIRST, _WINDOW)
+        if self.queue.together is None:
+            size, most = 1, 1
+        found = self.walk(lines)
+        while window := [*islice(found, size)]:
+            self.queue.settle()
+            yield from tell(window, outside)
+            size = min(2 * size, most)
+
+    def resume(self, blocks: Sequence[Block], index: int, cursor: Cursor) -> Iterator[tuple[Step, int, Cursor]]:
+        """The steps of a program that is at hand from a block on, one by one, each with the number of lines from its
+        first one on that it rests on, one more than there are where it rests on the end; and the cursor behind it.
+        Contours are not solved together."""
+        while index < len(blocks):
+            view = View(blocks, index)
+            taken = self.take(view, self.find(view, cursor.state), cursor)
+            cursor, index = taken.behind(), index + taken.lines
+            yield taken.step.step if isinstance(taken.step, Pending) else taken.step, view.reach, cursor
+
+
+def _findings_of_event(event: ProgramEvent, context: Context, modes: Modes) -> Iterator[Diagnostic]:
+    """Findings about what happens between two blocks."""
+    if event.kind in (EventKind.STOPPED, EventKind.MAY_STOP):
+        stopped = report(context, context.row(ReadIssue.NOT_FOLLOWED), Basis.RULE, [], reason=event.reason)
+        help_ = "write the block or the label; where it jumps, the control stops"
+        yield replace(stopped, help=help_) if event.kind is EventKind.MAY_STOP else stopped
+    if event.unread:
+        yield report(context, context.row(ReadIssue.NOT_READ), Basis.RULE, [], name=event.unread)
+    if event.called:
+        yield from explain_call(context, event.called, modes)
+
+
+# What is told ----------------------------------------------------------------------------------------------------
+
+
+def tell(steps: Iterable[Step | Pending], outside: Outside) -> Iterator[Step]:
+    """Some steps in a row, solved, with those findings outside contours that are told."""
+    for each in steps:
+        step = each.step if isinstance(each, Pending) else each
+        held: Sequence[Line] = [step.passage] if step.passage else step.blocks
+        line, blocks = held[0].line if held else 0, partial(each_block, held, 0)
+        told = tuple(outside.take(step.findings, line, blocks, step.answer, step.before))
+        yield step if told == step.findings else replace(step, findings=told)

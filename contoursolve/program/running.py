@@ -1,0 +1,107 @@
+"""The walk over a program that calls or computes: as it runs, on each of its ways."""
+
+from collections.abc import Callable, Iterator, Sequence
+
+from msgspec.structs import replace
+
+from contoursolve.diagnosis import Answer, Context
+from contoursolve.diagnostics import Diagnostic
+from contoursolve.execution import EventKind, Machine, ProgramEvent
+from contoursolve.gcode import Block
+from contoursolve.program.calls import in_text_order
+from contoursolve.program.cycle_profiles import CycleProfile
+from contoursolve.program.examination import Examination, tell
+from contoursolve.program.lookahead import Line, View
+from contoursolve.program.solve_queue import Pending, Step
+from contoursolve.program.tape_markers import Marks
+from contoursolve.program.told_outside import Outside
+from contoursolve.reading import State, Ways
+
+_OPENING = (EventKind.LOST, EventKind.STOPPED, EventKind.PART)
+"""Events behind which it is not known what runs, or where the tool is."""
+
+
+def steps_as_run(
+    examination: Examination,
+    machine: Machine,
+    profiles: list[CycleProfile] | None = None,
+    called: list[Answer] | None = None,
+) -> Iterator[Step]:
+    """Every block and every contour of a program as it runs, on each of its ways, told in the order in which it is
+    written. At the end, the profiles of cycles are added to `profiles`, contours of other files to `called`."""
+    asked, blocks = examination.asked, machine.main.blocks
+    outside = Outside(examination.dialect, is_strict=asked.is_strict)
+    told = list[Diagnostic]()
+    if asked.is_strict:
+        context = Context(asked.rules, asked.unit)
+        marks, found = Marks().look(blocks, context)
+        told = [*found, *marks.finish(context)]
+    steps = _Running(examination, machine).steps()
+    examination.queue.settle()
+    yield from in_text_order(
+        blocks,
+        tell(steps, outside),
+        machine.passed_over,
+        asked.rules,
+        told,
+        profiles if profiles is not None else [],
+        examination.dialect.initial_state(asked.unit),
+        called if called is not None else [],
+    )
+
+
+class _Running:
+    """One run of a program. Ways are followed in turn: the cursor goes from one to the other."""
+
+    def __init__(self, examination: Examination, machine: Machine) -> None:
+        self.examination, self.machine, self.cursor = examination, machine, examination.begin
+        self.ways = Ways(lambda: examination.begin.state, examination.dialect.modes)
+        self.found: list[Step | Pending] = []
+        self._last: tuple[Sequence[Block], int] | None = None
+        """The blocks that were read last, and the index behind what was taken of them."""
+
+    def steps(self) -> list[Step | Pending]:
+        self.ways.follow(self.machine.run(), self._read, self.found, self._happen)
+        first = self.examination.dialect.initial_state(self.examination.asked.unit)
+        self.found += self.examination.end(replace(self.cursor, state=first))
+        return self.found
+
+    def _read(self, held: Sequence[Block], index: int, state: State, is_open: bool) -> tuple[int, State] | None:
+        """Take what begins at a block, on the way that has come to it; see `Ways.follow`."""
+        view, examination = View(held, index), self.examination
+        if view[0].mark:
+            self.ways.marked[view[0].mark] = state
+        found = examination.find(view, state)
+        if is_open and view.reach > len(held) - index:
+            return None
+        goes_on = self._last is not None and self._last[0] is held and self._last[1] == index
+        here = replace(self.cursor, state=state, previous=self.cursor.previous if goes_on else None)
+        taken = examination.take(view, found, here)
+        self._last, self.cursor = (held, index + taken.lines), taken.behind()
+        self.found.append(taken.step)
+        return taken.lines, self.cursor.state
+
+    def _happen(self, event: ProgramEvent) -> bool:
+        """Take in an event of the program; whether all that was found since a head is found anew."""
+        if event.kind is EventKind.LEAVE:
+            # Where the profile of a cycle ended.
+            for way in self.ways.now:
+                self.found.append(Step((), way.state, findings=self.cursor.findings))
+                self.cursor = replace(self.cursor, findings=())
+        self.cursor = self.examination.happen(event, self.cursor)
+        is_anew = self.ways.happen(event)
+        self.machine.settled = self.ways.settled
+        return is_anew
+
+
+def lines_alone(machine: Machine, told: Callable[[ProgramEvent], None]) -> Iterator[Line]:
+    """The lines of a program as one without calls; `told` is called where it is not known what runs."""
+    for each in machine.run_alone():
+        if isinstance(each, ProgramEvent):
+            is_unknown = each.kind in _OPENING and not each.is_told
+            if is_unknown or (each.kind is EventKind.BARRIER and each.reason):
+                told(each)
+            if each.kind is EventKind.HEAD:
+                # What is written out runs once.
+                continue
+        yield each
