@@ -59,6 +59,6 @@ def solve(
         print_pieces(stream_json(run, tally))
     else:
         print_lines(stream_listing(run, tally, style_of_output(), is_explained=is_explained))
-        if run.asked.is_strict or is_explained or tally.has_something:
+        if run.is_strict or is_explained or tally.has_something:
             print_lines(closing_lines(run.frame, tally))
     context.exit(status_of(tally, tally.severities[Severity.ERROR]))

@@ -59,7 +59,7 @@ def stream_listing(run: Run, tally: "Totals", style: Style, *, is_explained: boo
         return (item.lines[0], True) if isinstance(item, Answer) else (item.span.line, False, rank(item))
 
     items = _in_order((key(item), item) for item in run)
-    is_short = not (run.asked.is_strict or is_explained)
+    is_short = not (run.is_strict or is_explained)
     return _listing_lines(items, run.frame, style, is_explained=is_explained, is_short=is_short)
 
 
@@ -74,7 +74,7 @@ def stream_findings(
 ) -> Iterator[str]:
     """The findings of a stream, as `check` reports them: of those of one code so many, and then how many more. Only
     where it `is_alone` that there is nothing to solve is told."""
-    is_short = not (run.asked.is_strict or is_explained)
+    is_short = not (run.is_strict or is_explained)
     alike = Counter[tuple[Severity, str]]()
 
     def items() -> Iterator[tuple[Any, Diagnostic]]:

@@ -178,6 +178,11 @@ class Run:
         # Blocks that are not kept are read as they are needed.
         return examination.steps(blocks if isinstance(blocks, tuple) else iter(blocks))
 
+    @property
+    def is_strict(self) -> bool:
+        """Whether it tells of every line."""
+        return self.asked.is_strict
+
     def collect(self) -> Result:
         """All of it."""
         items = list(self)
