@@ -31,6 +31,7 @@ from .diagnostics import (
     Basis as Basis,
     Diagnosis as Diagnosis,
     Diagnostic as Diagnostic,
+    Fix as Fix,
     MissingExtraError as MissingExtraError,
     Severity as Severity,
 )

@@ -1,12 +1,12 @@
 """Findings as a client shows them, and their fixes as edits."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
 from lsprotocol import types
 
-from contoursolve import Diagnostic, Severity
+from contoursolve import Diagnostic, Fix, Severity, changes_of, likely_fixes, mend_open, safe_fixes
 from contoursolve.lsp.opened import Opened
-from contoursolve.lsp.positions import edits
+from contoursolve.lsp.positions import edits, edits_to
 
 _SEVERITY = {
     Severity.ERROR: types.DiagnosticSeverity.Error,
@@ -79,9 +79,18 @@ def _range(opened: Opened, span: tuple[int, int, int]) -> types.Range:
     return opened.places.range(line, column, max(end_column, column + 1))
 
 
+FIX_ALL = f"{types.CodeActionKind.SourceFixAll.value}.contoursolve"
+"""The kind of the action that applies all fixes that keep the contour; an editor may ask for it when it saves."""
+
+_CODE, _WAY, _URI = "code", "way", "uri"
+_WAYS = {SAFE: safe_fixes, "likely": likely_fixes}
+"""The fixes of one kind of finding that an action applies."""
+
+
 def actions_of(opened: Opened, wanted: types.Range) -> Iterator[types.CodeAction]:
-    """The fixes of all findings in a range, those first that keep the contour; and the explanation of each."""
-    explanations = {}
+    """The fixes of all findings in a range, those first that keep the contour; then fixes for all findings of their
+    kinds, and the explanation of each."""
+    explanations, codes = {}, dict[str, types.Diagnostic]()
     for finding, lines in opened.program.found():
         place = _range(opened, finding.span)
         if place.start.line > wanted.end.line or place.end.line < wanted.start.line:
@@ -89,8 +98,10 @@ def actions_of(opened: Opened, wanted: types.Range) -> Iterator[types.CodeAction
         if not _meets(place, wanted):
             continue
         shown = _diagnostic(opened, finding)
+        codes.setdefault(finding.code, shown)
+        old = {line: opened.places.text(line) for line in lines}
         for fix in finding.fixes:
-            changes = edits(opened.places, [*fix.by_line(lines).items()], opened.line_end)
+            changes = edits(opened.places, changes_of(fix, lines, old).items(), opened.line_end)
             title = fix.description
             yield types.CodeAction(
                 title=title if len(title) <= LONGEST_TITLE else f"{title[: LONGEST_TITLE - 3]}...",
@@ -105,7 +116,47 @@ def actions_of(opened: Opened, wanted: types.Range) -> Iterator[types.CodeAction
             explanations[finding.code] = types.CodeAction(
                 command.title, kind=types.CodeActionKind.QuickFix, diagnostics=[shown], command=command
             )
+    for code, shown in codes.items():
+        yield from _fixes_of_kind(opened, code, shown)
     yield from explanations.values()
+
+
+def _fixes_of_kind(opened: Opened, code: str, shown: types.Diagnostic) -> Iterator[types.CodeAction]:
+    """The actions that fix all findings of a code, if there are several; their edits are made when one is chosen."""
+    alike = [finding for finding, _ in opened.program.found() if finding.code == code]
+    safe, likely = (sum(bool(way(each)) for each in alike) for way in _WAYS.values())
+    is_other = any([*likely_fixes(each)[:1]] != [*safe_fixes(each)[:1]] for each in alike)
+    for way, count, effect in ((SAFE, safe, "same contour"), ("likely", likely, "by the first fix of each")):
+        if count > 1 and (way == SAFE or is_other):
+            title, data = f"Fix all {count} {code} ({effect})", {_URI: opened.uri, _CODE: code, _WAY: way}
+            yield types.CodeAction(title, types.CodeActionKind.QuickFix, diagnostics=[shown], data=data)
+
+
+def fix_all(opened: Opened) -> Iterator[types.CodeAction]:
+    """The action that applies all fixes that keep the contour, if there is one; its edit is made when it is chosen."""
+    if any(safe_fixes(finding) for finding, _ in opened.program.found()):
+        yield types.CodeAction("Fix all that keep the contour", FIX_ALL, data={_URI: opened.uri, _WAY: SAFE})
+
+
+def uri_of(action: types.CodeAction) -> str:
+    """The program that an action is about; empty if it does not tell."""
+    data = action.data if isinstance(action.data, Mapping) else {}
+    return str(data.get(_URI, ""))
+
+
+def with_edit(opened: Opened, action: types.CodeAction) -> types.CodeAction:
+    """An action that fixes several findings with its edit: each fix is checked in the whole program."""
+    data = action.data if isinstance(action.data, Mapping) else {}
+    way, code = _WAYS.get(data.get(_WAY, "")), data.get(_CODE)
+    if way is None:
+        return action
+
+    def wanted(finding: Diagnostic) -> Sequence[Fix]:
+        return way(finding) if code in (None, finding.code) else ()
+
+    mended = mend_open(opened.program, wanted)
+    edit = opened.workspace_edit(edits_to(opened.places, mended.text))
+    return types.CodeAction(action.title, action.kind, action.diagnostics, edit=edit, data=action.data)
 
 
 def _meets(one: types.Range, other: types.Range) -> bool:

@@ -1,6 +1,6 @@
 """Places in a text: a client counts lines from 0 and UTF-16 units, contoursolve lines and characters from 1."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 
 from lsprotocol import types
 
@@ -43,11 +43,14 @@ class ClientPositions:
         return line, len(self.text(line)) + 1
 
 
-def edits(places: ClientPositions, changes: Sequence[tuple[int, str]], end: str) -> list[types.TextEdit]:
-    """The edits that write other texts for lines, each from its first character that differs to its last one; `end` is
-    how the program's lines end."""
+def edits(places: ClientPositions, changes: Iterable[tuple[int, str | None]], end: str) -> list[types.TextEdit]:
+    """The edits that write other texts for lines, each from its first character that differs to its last one, or take
+    out a line where there is none; `end` is how the program's lines end."""
     found = []
     for line, text in changes:
+        if text is None:
+            found.append(types.TextEdit(types.Range(types.Position(line - 1, 0), types.Position(line, 0)), ""))
+            continue
         old, new = places.text(line), text.replace("\n", end)
         most = min(len(old), len(new))
         same = next((at for at in range(most) if old[at] != new[at]), most)
@@ -57,6 +60,14 @@ def edits(places: ClientPositions, changes: Sequence[tuple[int, str]], end: str)
             stretch = places.range(line, same + 1, len(old) - behind + 1)
             found.append(types.TextEdit(stretch, new[same : len(new) - behind]))
     return found
+
+
+def edits_to(places: ClientPositions, text: str) -> list[types.TextEdit]:
+    """The edits that make another text of a program."""
+    return [
+        types.TextEdit(types.Range(places.position(*begin), places.position(*end)), new)
+        for begin, end, new in places.program.changes_to(text)
+    ]
 
 
 def _units_of_utf16(character: str) -> int:

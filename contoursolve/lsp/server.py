@@ -16,7 +16,7 @@ from pygls.uris import to_fs_path
 from contoursolve import DIALECTS, Severity, Status, __version__
 from contoursolve.lsp import commands
 from contoursolve.lsp.editing import block_number_under, formatted, renamed, target_of
-from contoursolve.lsp.findings import actions_of, diagnostics_of
+from contoursolve.lsp.findings import FIX_ALL, actions_of, diagnostics_of, fix_all, uri_of, with_edit
 from contoursolve.lsp.language_features import Completer, folds_of, hints_of, hover_of, signatures_of, symbols_of
 from contoursolve.lsp.opened import ClientSettings, Opened, read_client_settings
 from contoursolve.lsp.rule_pages import Pages
@@ -264,9 +264,16 @@ def shutdown(_: Any = None) -> None:
 
 def _actions(opened: Opened, params: types.CodeActionParams) -> list[types.CodeAction]:
     only = params.context.only
-    if only is not None and not any(types.CodeActionKind.QuickFix.value.startswith(kind) for kind in only):
-        return []
-    return [*actions_of(opened, params.range)]
+
+    def is_wanted(kind: str) -> bool:
+        return only is None or any(kind == each or kind.startswith(f"{each}.") for each in only)
+
+    found = [*actions_of(opened, params.range)] if is_wanted(types.CodeActionKind.QuickFix.value) else []
+    found += fix_all(opened) if is_wanted(FIX_ALL) else []
+    text = server.client_capabilities.text_document
+    resolving = text.code_action.resolve_support if text and text.code_action else None
+    is_later = resolving is not None and "edit" in resolving.properties
+    return found if is_later else [with_edit(opened, each) for each in found]
 
 
 def _completions(opened: Opened, params: types.CompletionParams) -> types.CompletionList:
@@ -281,7 +288,11 @@ def _lenses(opened: Opened, _: types.CodeLensParams) -> list[types.CodeLens]:
 
 
 _REQUESTS: tuple[tuple[str, Any, Callable[[Opened, Any], Any]], ...] = (
-    (types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions([types.CodeActionKind.QuickFix]), _actions),
+    (
+        types.TEXT_DOCUMENT_CODE_ACTION,
+        types.CodeActionOptions([types.CodeActionKind.QuickFix, FIX_ALL], resolve_provider=True),
+        _actions,
+    ),
     (types.TEXT_DOCUMENT_HOVER, None, lambda opened, params: hover_of(opened, params.position)),
     (
         types.TEXT_DOCUMENT_INLAY_HINT,
@@ -314,6 +325,13 @@ _REQUESTS: tuple[tuple[str, Any, Callable[[Opened, Any], Any]], ...] = (
 
 for _name, _options, _read in _REQUESTS:
     server.feature(_name, _options)(_of_program(_read))
+
+
+@server.feature(types.CODE_ACTION_RESOLVE)
+async def resolve_action(action: types.CodeAction) -> types.CodeAction:
+    """An action that was chosen, with its edit."""
+    opened = await server.checked(uri_of(action))
+    return action if opened is None else with_edit(opened, action)
 
 
 @server.feature(PICTURE)

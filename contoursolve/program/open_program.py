@@ -10,6 +10,7 @@ from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace as with_fields
+from difflib import SequenceMatcher
 from enum import Enum
 from functools import partial
 from itertools import accumulate, islice
@@ -215,6 +216,18 @@ class OpenProgram:
         """The text of a line, without its end; empty where there is none."""
         texts = self._lines.texts
         return texts[number - 1].rstrip("\r\n") if 0 < number <= len(texts) else ""
+
+    def changes_to(self, text: str) -> Iterator[tuple[Place, Place, str]]:
+        """The edits by whole lines, each as `edit` takes it, that make another text of the program; places are those
+        before any of them."""
+        old, new = self._lines.texts, _split(text)
+        for tag, first, last, begin, end in SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
+            if tag != "equal":
+                yield self._begin_of(first), self._begin_of(last), "".join(new[begin:end])
+
+    def _begin_of(self, index: int) -> Place:
+        """The place where a line begins; behind the last one, where that ends."""
+        return (index + 1, 1) if index < len(self._lines) else (index, len(self._lines.texts[-1]) + 1)
 
     @property
     def line_end(self) -> str:

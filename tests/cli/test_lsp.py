@@ -208,6 +208,56 @@ def test_the_broken_shaft_is_mended_fix_by_fix(served):
     served(use)
 
 
+IGNORED, COOLANT, TOO_LARGE = (
+    "G00 X40. Z0.\r\nG111 A135. I10. K-12. B180. Z-40.\r\n",
+    "G00 X40. Z0.\nG111 X100. A180. K-30. B120. M08\n",
+    "G00 X40. Z0.\rG111 A180. K-30. P90. B120. X100.\n",
+)
+
+
+@pytest.mark.parametrize("later", [False, True])
+def test_fix_all_keeps_contours_and_line_ends(later):
+    """Of all findings, or of all of one kind; the edit comes when the action is chosen, if the client can wait."""
+    text = IGNORED + TOO_LARGE + COOLANT + IGNORED + TOO_LARGE + COOLANT.strip()
+    everything = types.Range(types.Position(0, 0), types.Position(10**6, 0))
+
+    async def use(editor: Editor) -> None:
+        async def chosen(editor: Editor, only: str | None, title: str) -> types.CodeAction:
+            context = types.CodeActionContext([], only=[only] if only else None)
+            asked = types.CodeActionParams(types.TextDocumentIdentifier(SHAFT), everything, context)
+            found = await editor.ask(editor.client.text_document_code_action_async(asked))
+            (action,) = [each for each in found if each.title == title]
+            assert (action.edit is None) is later
+            return await editor.ask(editor.client.code_action_resolve_async(action)) if later else action
+
+        editor.open(SHAFT, text)
+        kinds = [
+            ("Fix all 2 g111-a-ignored (same contour)", IGNORED, IGNORED.replace("A135. ", "")),
+            ("Fix all 2 g111-corner-too-large (by the first fix of each)", "P90.", "P51.961"),
+        ]
+        for title, old, new in kinds:
+            action = await chosen(editor, "quickfix", title)
+            before = editor.texts[SHAFT]
+            editor.edit(SHAFT, *edits_of(action))
+            assert editor.texts[SHAFT] == before.replace(old, new)
+        editor.edit(SHAFT, types.TextEdit(everything, text))
+        for only in ("source.fixAll.contoursolve", "source.fixAll", "source", None):
+            action = await chosen(editor, only, "Fix all that keep the contour")
+            assert action.kind == "source.fixAll.contoursolve"
+        editor.edit(SHAFT, *edits_of(action))
+        assert editor.texts[SHAFT] == contoursolve.apply_fixes(text).text
+        assert {each.code for each in await editor.findings(SHAFT)} == {"g111-corner-too-large"}
+
+    waits = types.ClientCodeActionResolveOptions(["edit"]) if later else None
+    client = types.CodeActionClientCapabilities(resolve_support=waits)
+    shown = types.WorkspaceEditClientCapabilities(document_changes=True)
+    workspace, document = (
+        types.WorkspaceClientCapabilities(workspace_edit=shown),
+        types.TextDocumentClientCapabilities(code_action=client),
+    )
+    in_editor(use, capabilities=types.ClientCapabilities(workspace=workspace, text_document=document))
+
+
 def test_what_is_closed_has_no_findings(served):
     async def use(editor: Editor) -> None:
         editor.open(SHAFT, BROKEN)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from contoursolve import Severity, check_file, format_program
+from contoursolve import Severity, apply_fixes, check_file, format_program
 
 pytestmark = [pytest.mark.editor, pytest.mark.needs("pygls", "lsprotocol")]
 
@@ -48,6 +48,11 @@ local function drive()
   vim.lsp.util.apply_workspace_edit(action.edit, "utf-16")
   vim.wait(longest, function() return #vim.diagnostic.get(0, errors) < #seen.before end)
   look("after")
+  params.context = { diagnostics = {}, only = { "source.fixAll.contoursolve" } }
+  local all = ask("textDocument/codeAction", params)[1]
+  all = all.edit and all or ask("codeAction/resolve", all)
+  vim.lsp.util.apply_workspace_edit(all.edit, "utf-16")
+  seen.fixed = vim.api.nvim_buf_get_lines(0, 0, -1, false)
   vim.api.nvim_buf_set_lines(0, -1, -1, false, { "G00X300.Z200." })
   vim.lsp.util.apply_text_edits(ask("textDocument/formatting", {
     textDocument = vim.lsp.util.make_text_document_params(),
@@ -109,6 +114,10 @@ def test_neovim_shows_findings_and_applies_a_fix(tmp_path, request) -> None:
     mended = expected[1]
     assert mended.fixes[0].description.split(" ->")[0] in seen["actions"][0]
     assert [each["line"] for each in seen["after"]] == [each.span.line for each in expected if each is not mended]
-    assert mended.fixes[0].replacement in seen["text"]
+    first = mended.fixes[0]
+    wanted = apply_fixes(program.read_text(encoding="utf-8").replace(first.replaced, first.replacement, 1))
+    assert len(wanted.applied) > 1
+    assert seen["fixed"] == wanted.text.splitlines()
+    assert first.replacement in seen["text"]
     assert seen["text"][-1] == format_program("G00X300.Z200.")
     assert seen["filetype"] == "gcode"

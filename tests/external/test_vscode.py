@@ -17,6 +17,7 @@ from browsing import CHROMIUM, launched
 from serving import SECONDS, wait_for
 
 import contoursolve
+from contoursolve import apply_fixes
 
 pytestmark = [pytest.mark.editor, pytest.mark.needs("playwright", "pygls", "lsprotocol", "htpy")]
 
@@ -288,6 +289,22 @@ def test_findings_fixes_and_pictures_stand_beside_the_program(window, address, p
     page.screenshot(path=artefacts / "vscode-fixed.png")
 
     assert program.read_bytes() == before
+
+
+def test_fix_all_applies_every_fix_that_keeps_the_contour(window, address, program):
+    editor = window(address, program)
+    editor.status.filter(has_text="yasnac-lx3: 1 of 6 solved").wait_for()
+    editor.page.locator(".squiggly-error").first.wait_for()
+    wanted = apply_fixes(program.read_text(encoding="utf-8"))
+    assert len(wanted.applied) > 1
+    editor.go_to(1)
+    editor.press("F1")
+    editor.page.locator(".quick-input-widget input.input").fill(">Fix All")
+    editor.page.locator(".quick-input-list .monaco-list-row", has_text=re.compile("^Fix All")).first.click()
+    for each in wanted.applied:
+        for new in filter(None, each.changes.values()):
+            editor.line(blanks(new)).wait_for()
+    assert editor.copy_all().replace("\r\n", "\n") == wanted.text
 
 
 def test_the_picture_follows_the_cursor_and_both_show_a_word(window, address, program, artefacts):
