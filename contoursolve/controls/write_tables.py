@@ -67,7 +67,7 @@ def _identities(form: ContourForm) -> Iterator[tuple[tuple[Fact, ...], str]]:
         return
     for stated in stated_sets(form):
         layout = lay_out(form, stated, frozenset())
-        if any(fact.is_contact for fact in layout.facts):
+        if any(fact.foot or fact.centers for fact in layout.facts):
             continue  # that a contact lies on both elements says nothing about words
         system = build_system(layout.figure, layout.facts)
         verdict = _verdict(system)

@@ -1,6 +1,6 @@
 """A drawing without its values: points, lines, arcs and corners, what a fact about it is, the roles of blocks."""
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Set
 from enum import Enum
 from math import sqrt
 from typing import Any, NamedTuple, Protocol
@@ -60,12 +60,44 @@ class Placed(NamedTuple):
 
 class Clearance(NamedTuple):
     """A place about which a circle touches something else, and the radius of that, its distance: a line by its name, or
-    a circle by centre and radius."""
+    a circle by centre and radius; and on which side."""
 
     center: str
     radius: str
     line: str
     circle: tuple[str, str]
+    side: str | int
+
+
+class Radial(NamedTuple):
+    """A point of a circle that lies in a direction from its centre which a fact tells."""
+
+    center: str
+    radius: str
+    point: str
+    direction: Callable[["Lookup"], tuple[Any, Any]]
+
+
+class Incidence(Protocol):
+    """Points on lines and circles, as all facts of a system tell them."""
+
+    read: Set[str]
+    """The names of the scalars that the facts in question read."""
+
+    def is_on(self, center: str, radius: str, *points: str) -> bool:
+        """Whether facts put points on the circle about a centre, with that radius."""
+
+    def radius_of(self, center: str, point: str) -> str:
+        """The radius of the circle about a centre on which facts put a point; empty if none does."""
+
+    def on_line(self, line: str) -> Set[str]:
+        """All points on a line."""
+
+    def points(self, line: str) -> list[str]:
+        """Those of which both coordinates are among the scalars."""
+
+    def touched(self, line: str, center: str) -> list[str]:
+        """The points in which a line touches the circle about a centre."""
 
 
 class OfCircle(NamedTuple):
@@ -112,6 +144,10 @@ class Fact(Protocol):
     def reach(self, at: Lookup, increment: Increments) -> Any:
         """The distance by which it moves with the last digit of each coordinate and word in it, mm; None where no word
         alone states it."""
+
+    def follows(self, known: Incidence, at: Lookup) -> Iterator[Any]:
+        """Expressions that are zero wherever it holds in its senses, together with the points on its lines and circles,
+        and that read no more than it does."""
 
     def excess(self, at: Lookup) -> Any:
         """By how much a distance is more than it is to be, mm; None if the fact is about something else."""
@@ -172,8 +208,16 @@ class Fact(Protocol):
         """Whether its residual is affine in the coordinates of points, whatever the values are."""
 
     @property
-    def is_contact(self) -> bool:
-        """Whether it says where two elements touch, which both pass anyway."""
+    def foot(self) -> tuple[str, str, str] | None:
+        """The line, the centre and the point in which that line touches the circle about it, if it is about that."""
+
+    @property
+    def centers(self) -> tuple[str, str] | None:
+        """The centres of two circles that touch at a point, if it is about that point."""
+
+    @property
+    def radial(self) -> Radial | None:
+        """The point of a circle whose direction from the centre it gives; of two facts about it, the first tells."""
 
     @property
     def directed(self) -> str:
@@ -194,6 +238,10 @@ class Fact(Protocol):
     @property
     def parallel(self) -> tuple[str, str] | None:
         """The two lines that it makes parallel: its residual is the sine of the angle between them."""
+
+    @property
+    def is_ray(self) -> bool:
+        """Whether it gives the direction of one line, and not the opposite one as well."""
 
     @property
     def is_half(self) -> bool:

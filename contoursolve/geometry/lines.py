@@ -6,7 +6,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import FIRST, SECOND, Clearance, Lookup, Turn, line_scalars, scalar
+from contoursolve.geometry.figure import FIRST, SECOND, Clearance, Incidence, Lookup, Turn, line_scalars, scalar
 from contoursolve.geometry.system import Equation, apart, cross, dot, place, rotate, step
 from contoursolve.geometry.touching import side_of
 
@@ -44,6 +44,10 @@ class Directed(Equation, Struct, frozen=True):
     @property
     def directed(self) -> str:
         return self.line
+
+    @property
+    def is_ray(self) -> bool:
+        return True
 
 
 class Through(Equation, Struct, frozen=True):
@@ -93,8 +97,8 @@ class Foot(Equation, Struct, frozen=True):
         return (self.way * dot(at.bearing(self.line), step(at, self.point, self.corner)),)
 
     @property
-    def is_contact(self) -> bool:
-        return True
+    def foot(self) -> tuple[str, str, str]:
+        return self.line, self.center, self.point
 
     def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
         return f"{self.point} where the circle touches {self.line}"
@@ -181,7 +185,19 @@ class TangentLine(Equation, Struct, frozen=True):
 
     @property
     def beside(self) -> Clearance:
-        return Clearance(self.center, self.radius, self.line, ("", ""))
+        return Clearance(self.center, self.radius, self.line, ("", ""), self.side)
+
+    def follows(self, known: Incidence, at: Lookup) -> Iterator[Any]:
+        touched, bearing = known.touched(self.line, self.center), at.bearing(self.line)
+        radius = side_of(self.side, at) * at.radius(self.radius)
+        for point in known.points(self.line):
+            spoke = step(at, point, self.center)
+            if point in touched:
+                # From where the line touches the circle to its centre is the radius, square to the line.
+                yield spoke[FIRST] + radius * bearing[SECOND]
+                yield spoke[SECOND] - radius * bearing[FIRST]
+            else:
+                yield cross(bearing, spoke) - radius
 
     def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
         return f"{self.line} touches the circle about {self.center}"
@@ -203,6 +219,12 @@ class Extent(Equation, Struct, frozen=True):
 
     def implied(self, at: Lookup) -> float | None:
         return float(self._extent(at))
+
+    def follows(self, known: Incidence, at: Lookup) -> Iterator[Any]:
+        if {self.tail, self.head} <= known.on_line(self.line):
+            # From end to end is the length along the direction.
+            along, bearing = step(at, self.tail, self.head), at.bearing(self.line)
+            yield from (along[axis] - at.amount(self.given) * bearing[axis] for axis in (FIRST, SECOND))
 
     @property
     def span(self) -> tuple[str, str]:
@@ -241,6 +263,10 @@ class Along(Struct, frozen=True):
 
     line: str
 
+    def is_unit(self, _known: Incidence) -> bool:
+        """Whether the vector is as long as its length says, as facts tell."""
+        return True
+
     def vector(self, at: Lookup) -> tuple[Any, Any]:
         """A vector in the direction, 1 mm long."""
         return at.bearing(self.line)
@@ -258,6 +284,10 @@ class Tangent(Struct, frozen=True):
     radius: str
     turn: Turn
 
+    def is_unit(self, known: Incidence) -> bool:
+        """Whether the vector is as long as its length says, as facts tell."""
+        return known.is_on(self.center, self.radius, self.point)
+
     def vector(self, at: Lookup) -> tuple[Any, Any]:
         """A vector in the direction, as long as the radius."""
         first, second = step(at, self.center, self.point)
@@ -273,6 +303,10 @@ class Chord(Struct, frozen=True):
 
     tail: str
     head: str
+
+    def is_unit(self, _known: Incidence) -> bool:
+        """Whether the vector is as long as its length says, as facts tell."""
+        return False  # its length is a root of the vector itself
 
     def vector(self, at: Lookup) -> tuple[Any, Any]:
         """A vector in the direction, as long as the distance."""
@@ -306,6 +340,13 @@ class TurnBetween(Equation, Struct, frozen=True):
     def implied(self, at: Lookup) -> float | None:
         first, second = self.first.vector(at), self.second.vector(at)
         return degrees(atan2(float(cross(first, second)), float(dot(first, second))))
+
+    def follows(self, known: Incidence, at: Lookup) -> Iterator[Any]:
+        if self.first.is_unit(known) and self.second.is_unit(known):
+            # The second direction is the first one turned, both of the length 1.
+            first, second = self._vectors(at)
+            for axis in (FIRST, SECOND):
+                yield first[axis] * self.second.length(at) - second[axis] * self.first.length(at)
 
     @property
     def turn_between(self) -> tuple[Along | Tangent | Chord, Along | Tangent | Chord]:

@@ -135,6 +135,10 @@ class Ray(Heading, frozen=True):
     def senses(self, at: Lookup) -> tuple[Any, ...]:
         return (dot(step(at, self.tail, self.head), at.direction(self.given)),)
 
+    @property
+    def is_ray(self) -> bool:
+        return True
+
 
 class OnCircle(Equation, Struct, frozen=True):
     """`point` lies on the circle about `center`; to first order the residual is the distance from it.

@@ -12,11 +12,13 @@ from contoursolve.geometry.figure import (
     Clearance,
     Fact,
     Figure,
+    Incidence,
     Increments,
     Line,
     Lookup,
     OfCircle,
     Placed,
+    Radial,
     line_scalars,
     scalar,
 )
@@ -56,6 +58,9 @@ class Equation:
 
     def excess(self, _at: Lookup) -> Any:
         return None
+
+    def follows(self, _known: Incidence, _at: Lookup) -> Iterator[Any]:
+        return iter(())
 
     def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
         return ""
@@ -112,8 +117,16 @@ class Equation:
         return False
 
     @property
-    def is_contact(self) -> bool:
-        return False
+    def foot(self) -> tuple[str, str, str] | None:
+        return None
+
+    @property
+    def centers(self) -> tuple[str, str] | None:
+        return None
+
+    @property
+    def radial(self) -> Radial | None:
+        return None
 
     @property
     def directed(self) -> str:
@@ -134,6 +147,10 @@ class Equation:
     @property
     def parallel(self) -> tuple[str, str] | None:
         return None
+
+    @property
+    def is_ray(self) -> bool:
+        return False
 
     @property
     def is_half(self) -> bool:

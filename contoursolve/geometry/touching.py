@@ -6,7 +6,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import FIRST, Clearance, Lookup, Turn
+from contoursolve.geometry.figure import FIRST, SECOND, Clearance, Incidence, Lookup, Radial, Turn
 from contoursolve.geometry.system import Equation, cross, dot, place, rotate, step
 
 
@@ -70,6 +70,10 @@ class Spoke(Equation, Struct, frozen=True):
         return True
 
     @property
+    def radial(self) -> Radial | None:
+        return Radial(self.center, self.radius, self.point, self.direction) if self.axis == FIRST else None
+
+    @property
     def spoke(self) -> tuple[str, str] | None:
         return (self.center, self.point) if not self.quarters and self.axis == FIRST else None
 
@@ -100,6 +104,11 @@ class TangentCircles(Equation, Struct, frozen=True):
     def residual(self, at: Lookup) -> Any:
         return self.equation(at) / (2 * (at.radius(self.first[1]) + at.radius(self.second[1])))
 
+    def follows(self, _known: Incidence, at: Lookup) -> Iterator[Any]:
+        between = step(at, self.first[0], self.second[0])
+        reach = at.radius(self.first[1]) + side_of(self.side, at) * at.radius(self.second[1])
+        yield dot(between, between) - reach * reach
+
     def places(self, at: Lookup) -> Iterator[tuple[str, tuple[float, float]]]:
         (center, radius), (other, other_radius) = self.first, self.second
         here, there = place(at, center), place(at, other)
@@ -125,7 +134,7 @@ class PointBeside(TangentCircles, frozen=True):
 
     @property
     def beside(self) -> Clearance:
-        return Clearance(*self.first, "", self.second)
+        return Clearance(*self.first, "", self.second, self.side)
 
 
 class Contact(Equation, Struct, frozen=True):
@@ -154,9 +163,17 @@ class Contact(Equation, Struct, frozen=True):
     def senses(self, at: Lookup) -> tuple[Any, ...]:
         return (self.side * dot(step(at, self.first, self.point), step(at, self.point, self.second)),)
 
+    def follows(self, known: Incidence, at: Lookup) -> Iterator[Any]:
+        radii = [known.radius_of(center, self.point) for center in (self.first, self.second)]
+        if known.read >= {*radii}:
+            # From one centre to the point is r1, from there to the other in the same direction r2, or back.
+            first, second = map(at.radius, radii)
+            part, rest = step(at, self.first, self.point), step(at, self.point, self.second)
+            yield from (self.side * second * part[axis] - rest[axis] * first for axis in (FIRST, SECOND))
+
     @property
-    def is_contact(self) -> bool:
-        return True
+    def centers(self) -> tuple[str, str]:
+        return self.first, self.second
 
 
 class ArcLength(Equation, Struct, frozen=True):
@@ -192,6 +209,15 @@ class ArcLength(Equation, Struct, frozen=True):
         begin, end = step(at, self.center, self.tail), step(at, self.center, self.head)
         sweep = atan2(float(cross(begin, end)) * self.turn.sign, float(dot(begin, end))) % tau
         return float(at.radius(self.radius)) * sweep
+
+    def follows(self, known: Incidence, at: Lookup) -> Iterator[Any]:
+        if known.is_on(self.center, self.radius, self.tail, self.head):
+            # Its end is its begin turned about the centre; its chord twice the radius times the sine of half the sweep.
+            begin, end = self._spokes(at)
+            yield from (begin[axis] - end[axis] for axis in (FIRST, SECOND))
+            chord, radius = step(at, self.tail, self.head), at.radius(self.radius)
+            half = 2 * radius * at.rotation(at.amount(self.given) / (2 * radius))[1]
+            yield dot(chord, chord) - half * half
 
 
 def side_of(side: str | int, at: Lookup) -> Any:

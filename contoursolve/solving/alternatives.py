@@ -11,10 +11,7 @@ from contoursolve.geometry import (
     SECOND,
     Arc,
     Choice,
-    Directed,
-    OnCircle,
     Profile,
-    Ray,
     System,
     Unit,
     Values,
@@ -70,7 +67,7 @@ def _find(question: _Question) -> Alternatives:
     system = assemble(profile)
     enumeration = enumerate_solutions(profile, system)
     # Where a direction that was not needed leaves nothing, it is what disagrees.
-    stated = frozenset(fact for fact in spare_of(system) if isinstance(fact, Directed | Ray))
+    stated = frozenset(fact for fact in spare_of(system) if fact.is_ray)
     if stated and not enumeration.found:
         enumeration = enumerate_solutions(profile, system, stated)
     with ball.precision(ball.WORKING):
@@ -237,7 +234,7 @@ def _compare(
 def _touching(system: System, found: Found) -> str:
     """The point at which two solutions have become one; a centre only if there is no other."""
     points = {name.rpartition(".")[0] for name in found.doubles}
-    centers = {fact.center for fact in system.facts if isinstance(fact, OnCircle)}
+    centers = {fact.circle.center for fact in system.facts if fact.circle}
     touching = [point for point in system.figure.points if point in points]
     return next(iter(sorted(touching, key=centers.__contains__)), "the contour")
 

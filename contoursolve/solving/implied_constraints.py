@@ -1,35 +1,23 @@
 """Equations that follow from facts taken together: nothing new, but it excludes boxes that no fact excludes alone."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from functools import partial
 from itertools import combinations
 from typing import Any
 
 from contoursolve.geometry import (
     FIRST,
     SECOND,
-    ArcLength,
-    Chord,
-    Contact,
-    Distance,
-    Extent,
+    Clearance,
     Fact,
     Figure,
-    Foot,
-    Heading,
     Line,
     Lookup,
-    OnCircle,
-    Spoke,
-    Tangent,
-    TangentCircles,
-    TangentLine,
-    Through,
-    TurnBetween,
+    Radial,
     both,
     cross,
     dot,
     line_scalars,
-    rotate,
     side_of,
     step,
 )
@@ -38,46 +26,80 @@ from contoursolve.solving.exact_inputs import SMALLEST
 
 class _Known:
     """The knowledge that all facts give of points on lines and circles, as far as the unknowns of some facts tell where
-    these are."""
+    these are. An `Incidence`."""
 
     def __init__(self, facts: Sequence[Fact], true: Sequence[Fact], headed: Mapping[str, tuple[str, str]]) -> None:
-        self.read = {name for fact in facts for name in fact.reads()}
-        self.read.update(*(both(tail) for line, (_, tail) in headed.items() if line_scalars(line)[2] in self.read))
-        self.feet: dict[tuple[str, str], dict[str, None]] = {}
-        """Where a line touches the circle about a centre."""
-        self.on_line: dict[str, dict[str, None]] = {}
+        self.read: Set[str] = {name for fact in facts for name in fact.reads()}
+        tails = (both(tail) for line, (_, tail) in headed.items() if line_scalars(line)[2] in self.read)
+        self.read = self.read.union(*tails)
+        self._feet: dict[tuple[str, str], dict[str, None]] = {}
+        self._on_line: dict[str, dict[str, None]] = {}
+        self._radius_of: dict[tuple[str, str], str] = {}
         self.on_circle: dict[str, dict[str, None]] = {}
-        self.radius_of: dict[tuple[str, str], str] = {}
+        self.ways = {fact.span for fact in true if fact.span}
         for line, (given, tail) in headed.items():
-            rays = (fact for fact in true if isinstance(fact, Heading) and (fact.given, fact.tail) == (given, tail))
-            self.on_line[line] = dict.fromkeys((tail, *(fact.head for fact in rays)))
+            rays = (fact.heading for fact in true if fact.heading and fact.given == given)
+            self._on_line[line] = dict.fromkeys((tail, *(head for begin, head in rays if begin == tail)))
         for fact in true:
-            if isinstance(fact, Through):
-                self.on_line.setdefault(fact.line, {})[fact.point] = None
-            elif isinstance(fact, Foot):
-                self.feet.setdefault((fact.line, fact.center), {})[fact.point] = None
-            elif isinstance(fact, OnCircle):
-                self.radius_of[fact.point, fact.center] = fact.radius
-            if isinstance(fact, OnCircle | Spoke):
-                self.on_circle.setdefault(fact.center, {})[fact.point] = None
-        self.ways = {(fact.tail, fact.head) for fact in true if isinstance(fact, Distance)}
+            if fact.passes is not None:
+                line, point = fact.passes
+                self._on_line.setdefault(line, {})[point] = None
+            elif fact.foot is not None:
+                line, center, point = fact.foot
+                self._feet.setdefault((line, center), {})[point] = None
+            elif fact.circle is not None:
+                self._radius_of[fact.circle.center, fact.circle.point] = fact.circle.radius
+            spoke = fact.circle or fact.radial
+            if spoke is not None:
+                self.on_circle.setdefault(spoke.center, {})[spoke.point] = None
+        for each in (fact.beside for fact in true if fact.beside):
+            for point in self.touched(each.line, each.center):
+                self.on_circle.setdefault(each.center, {})[point] = None
+
+    @property
+    def lines(self) -> Iterable[str]:
+        """The lines of which points are known."""
+        return self._on_line
+
+    def tangents(self, true: Sequence[Fact]) -> Iterator[Clearance]:
+        """The lines that touch circles, as far as all of it is among the scalars."""
         for fact in true:
-            if isinstance(fact, TangentLine):
-                for point in self.touched(fact):
-                    self.on_circle.setdefault(fact.center, {})[point] = None
+            if fact.beside is not None and fact.beside.line and self.read >= {*fact.reads()}:
+                yield fact.beside
+
+    def radials(self, true: Sequence[Fact]) -> Iterator[Radial]:
+        """The points of circles that lie in a direction from the centre which a fact tells."""
+        for fact in true:
+            if fact.radial is not None:
+                yield fact.radial
+            for each in self.tangents([fact]):
+                for point in self.touched(each.line, each.center):
+                    yield Radial(each.center, each.radius, point, partial(_toward, each))
+
+    def is_on(self, center: str, radius: str, *points: str) -> bool:
+        """Whether facts put points on the circle about a centre, with that radius."""
+        return all(self._radius_of.get((center, point)) == radius for point in points)
+
+    def radius_of(self, center: str, point: str) -> str:
+        """The radius of the circle about a centre on which facts put a point; empty if none does."""
+        return self._radius_of.get((center, point), "")
+
+    def on_line(self, line: str) -> Set[str]:
+        """All points on a line."""
+        return self._on_line.get(line, {}).keys()
 
     def points(self, line: str) -> list[str]:
-        """The points on a line."""
-        return [point for point in self.on_line.get(line, ()) if self.has(point)]
+        """The points on a line whose coordinates are among the unknowns."""
+        return [point for point in self._on_line.get(line, ()) if self.has(point)]
 
-    def touched(self, fact: TangentLine) -> list[str]:
-        """The points in which a line touches a circle."""
-        feet = self.feet.get((fact.line, fact.center), ())
-        return [point for point in feet if point in self.on_line.get(fact.line, ())]
+    def touched(self, line: str, center: str) -> list[str]:
+        """The points in which a line touches the circle about a centre."""
+        feet = self._feet.get((line, center), ())
+        return [point for point in feet if point in self._on_line.get(line, ())]
 
     def has(self, *points: str) -> bool:
         """Whether both coordinates of each point are among the unknowns."""
-        return all(self.read.issuperset(both(point)) for point in points)
+        return all(self.read >= {*both(point)} for point in points)
 
 
 def consequences(
@@ -90,14 +112,13 @@ def consequences(
     """
     known = _Known(facts, true, headed)
     for fact in facts:
-        yield from _of(fact, known, at)
+        yield from fact.follows(known, at)
     yield from _on_circles(true, known, at)
-    for line in known.on_line:
+    for line in known.lines:
         for one, other in combinations(known.points(line), 2):
-            if line not in headed and known.read.issuperset(line_scalars(line)[:2]):
+            if line not in headed and known.read >= {*line_scalars(line)[:2]}:
                 yield cross(at.bearing(line), step(at, one, other))
-    tangents = [fact for fact in true if isinstance(fact, TangentLine) and known.read.issuperset(fact.reads())]
-    for first, second in combinations(tangents, 2):
+    for first, second in combinations(known.tangents(true), 2):
         if (first.center, first.radius) == (second.center, second.radius):
             yield from _two_tangents(first, second, known, at)
 
@@ -111,52 +132,25 @@ def _on_circles(true: Sequence[Fact], known: _Known, at: Lookup) -> Iterator[Any
                 # The centre lies on the perpendicular bisector.
                 first, second = step(at, center, one), step(at, center, other)
                 yield dot(step(at, one, other), (first[0] + second[0], first[1] + second[1]))
-    for (first_fact, one), (second_fact, other) in combinations(_directions(true, known), 2):
-        is_chord = first_fact.center == second_fact.center and one != other and known.has(one, other)
-        if is_chord and first_fact.radius == second_fact.radius in known.read:
+    for this, that in combinations(known.radials(true), 2):
+        is_chord = this.center == that.center and this.point != that.point and known.has(this.point, that.point)
+        if is_chord and this.radius == that.radius in known.read:
             # A chord is the difference of two radii, and square to the sum of their directions. It is read the way
             # round in which its length is stated, so that both narrow the same difference.
-            ways = {one: _direction(first_fact, at), other: _direction(second_fact, at)}
-            tail, head = (other, one) if (other, one) in known.ways else (one, other)
-            chord, radius = step(at, tail, head), at.radius(first_fact.radius)
-            yield dot(chord, (ways[one][0] + ways[other][0], ways[one][1] + ways[other][1]))
-            for axis in (FIRST, SECOND):
-                yield chord[axis] - radius * (ways[head][axis] - ways[tail][axis])
+            tail, head = (that, this) if (that.point, this.point) in known.ways else (this, that)
+            chord, radius = step(at, tail.point, head.point), at.radius(this.radius)
+            start, end = tail.direction(at), head.direction(at)
+            yield dot(chord, (start[FIRST] + end[FIRST], start[SECOND] + end[SECOND]))
+            yield from (chord[axis] - radius * (end[axis] - start[axis]) for axis in (FIRST, SECOND))
 
 
-def _of(fact: Fact, known: _Known, at: Lookup) -> Iterator[Any]:
-    """The equations that follow from one fact, together with the points on its lines and circles."""
-    radius_of = known.radius_of
-    match fact:
-        case ArcLength(tail=tail, head=head, center=center, radius=radius) if (
-            radius == radius_of.get((tail, center)) == radius_of.get((head, center))
-        ):
-            yield from _arc(fact, at)
-        case TurnBetween(first=first, second=second) if not isinstance(first, Chord):
-            ends = [each for each in (first, second) if isinstance(each, Tangent)]
-            if all(radius_of.get((each.point, each.center)) == each.radius for each in ends):
-                yield from _turn(fact, at)
-        case Extent(line=line, tail=tail, head=head) if {tail, head} <= known.on_line.get(line, {}).keys():
-            yield from _span(fact, at)
-        case TangentLine(line=line, center=center):
-            touched = known.touched(fact)
-            for point in known.points(line):
-                if point in touched:
-                    yield from _spoke(fact, point, at)
-                else:
-                    aside = cross(at.bearing(line), step(at, point, center))
-                    yield aside - side_of(fact.side, at) * at.radius(fact.radius)
-        case TangentCircles(first=(one, size), second=(other, other_size)):
-            between = step(at, one, other)
-            reach = at.radius(size) + side_of(fact.side, at) * at.radius(other_size)
-            yield dot(between, between) - reach * reach
-        case Contact(point=point, first=one, second=other):
-            radii = [radius_of.get((point, center), "") for center in (one, other)]
-            if all(radius in known.read for radius in radii):
-                yield from _contact(fact, radii, at)
+def _toward(tangent: Clearance, at: Lookup) -> tuple[Any, Any]:
+    """The direction from the centre of a circle to where a line touches it."""
+    (cosine, sine), side = at.bearing(tangent.line), side_of(tangent.side, at)
+    return side * sine, -side * cosine
 
 
-def _two_tangents(first: TangentLine, second: TangentLine, known: _Known, at: Lookup) -> Iterator[Any]:
+def _two_tangents(first: Clearance, second: Clearance, known: _Known, at: Lookup) -> Iterator[Any]:
     """The centre of a circle that touches two lines lies on the bisector where these meet."""
     one, other = at.bearing(first.line), at.bearing(second.line)
     sides = side_of(first.side, at) * side_of(second.side, at)
@@ -164,67 +158,6 @@ def _two_tangents(first: TangentLine, second: TangentLine, known: _Known, at: Lo
     for point in known.points(first.line):
         if point in known.points(second.line):
             yield dot(step(at, point, first.center), along)
-
-
-def _directions(true: Sequence[Fact], known: _Known) -> Iterator[tuple[TangentLine | Spoke, str]]:
-    """The points on circles that lie in a direction from the centre which a fact tells, each with that fact."""
-    for fact in true:
-        if isinstance(fact, Spoke) and fact.axis == FIRST:
-            yield fact, fact.point
-        elif isinstance(fact, TangentLine) and known.read.issuperset(fact.reads()):
-            yield from ((fact, point) for point in known.touched(fact))
-
-
-def _direction(fact: TangentLine | Spoke, at: Lookup) -> tuple[Any, Any]:
-    """The direction from the centre of a circle to a point on it."""
-    if isinstance(fact, Spoke):
-        return fact.direction(at)
-    cosine, sine = at.bearing(fact.line)
-    side = side_of(fact.side, at)
-    return side * sine, -side * cosine
-
-
-def _contact(fact: Contact, radii: Sequence[str], at: Lookup) -> Iterator[Any]:
-    """From one centre to the point is r1, from there to the other in the same direction r2, or back."""
-    first, second = map(at.radius, radii)
-    part, rest = step(at, fact.first, fact.point), step(at, fact.point, fact.second)
-    for axis in (FIRST, SECOND):
-        yield fact.side * second * part[axis] - rest[axis] * first
-
-
-def _arc(fact: ArcLength, at: Lookup) -> Iterator[Any]:
-    """Its end is its begin turned about the centre; its chord is twice the radius times the sine of half the sweep."""
-    radius = at.radius(fact.radius)
-    cosine, sine = at.rotation(at.amount(fact.given) / radius)
-    begin, end = step(at, fact.center, fact.tail), step(at, fact.center, fact.head)
-    turned = rotate(begin, (cosine, fact.turn.sign * sine))
-    yield turned[0] - end[0]
-    yield turned[1] - end[1]
-    chord = step(at, fact.tail, fact.head)
-    half = 2 * radius * at.rotation(at.amount(fact.given) / (2 * radius))[1]
-    yield dot(chord, chord) - half * half
-
-
-def _span(fact: Extent, at: Lookup) -> Iterator[Any]:
-    """From end to end of a line is its length along its direction."""
-    way, bearing = step(at, fact.tail, fact.head), at.bearing(fact.line)
-    for axis in (FIRST, SECOND):
-        yield way[axis] - at.amount(fact.given) * bearing[axis]
-
-
-def _spoke(fact: TangentLine, point: str, at: Lookup) -> Iterator[Any]:
-    """From where a line touches a circle to its centre is the radius, square to the line."""
-    cosine, sine = at.bearing(fact.line)
-    spoke, radius = step(at, point, fact.center), side_of(fact.side, at) * at.radius(fact.radius)
-    yield spoke[FIRST] + radius * sine
-    yield spoke[SECOND] - radius * cosine
-
-
-def _turn(fact: TurnBetween, at: Lookup) -> Iterator[Any]:
-    """The second direction is the first one turned, both of the length 1."""
-    first, second = rotate(fact.first.vector(at), at.direction(fact.given)), fact.second.vector(at)
-    for axis in (FIRST, SECOND):
-        yield first[axis] * fact.second.length(at) - second[axis] * fact.first.length(at)
 
 
 def necessities(figure: Figure, facts: Sequence[Fact], at: Lookup) -> Iterator[Any]:
@@ -242,6 +175,6 @@ def necessities(figure: Figure, facts: Sequence[Fact], at: Lookup) -> Iterator[A
         elif {*line_scalars(line.name)[:2], *both(line.tail, line.head)} - {*both(figure.start)} <= read:
             yield dot(step(at, line.tail, line.head), at.bearing(line.name)) - SMALLEST
     for fact in facts:
-        if isinstance(fact, Contact):
-            between = step(at, fact.first, fact.second)
+        if fact.centers is not None:
+            between = step(at, *fact.centers)
             yield dot(between, between) - SMALLEST * SMALLEST

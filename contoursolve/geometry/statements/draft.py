@@ -176,11 +176,8 @@ class Draft:
     def leave(self, point: str, arc: Arc) -> None:
         """Drop that a point lies on an arc's circle: something else says so, in a way that keeps a tangent point
         apart from a double intersection."""
-        self.facts = [
-            fact
-            for fact in self.facts
-            if not (isinstance(fact, OnCircle) and (fact.point, fact.center) == (point, arc.center))
-        ]
+        circles = ((fact, fact.circle) for fact in self.facts)
+        self.facts = [fact for fact, on in circles if on is None or (on.point, on.center) != (point, arc.center)]
 
     def corner(self, name: str, *, is_solved: bool = True) -> None:
         """Make a corner's own points and its size unknowns, tied to its lines. Raises StatementError for a chamfer by
@@ -225,7 +222,7 @@ class Draft:
     def _pass_through(self, element: Line | Arc | Corner | Circle, point: str) -> None:
         """A point of an element of the path."""
         if isinstance(element, Arc):
-            slack = min([fact.slack for fact in self.facts if isinstance(fact, OnCircle)], default=RADIUS_DIFFERENCE)
+            slack = min([fact.circle.slack for fact in self.facts if fact.circle], default=RADIUS_DIFFERENCE)
             self.add(OnCircle(point, element.center, element.radius, slack=slack))
         else:
             self.line(element.name)
