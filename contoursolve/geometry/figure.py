@@ -361,6 +361,16 @@ class Circle(Struct, frozen=True):
     radius: str
 
 
+class Round(Protocol):
+    """A circle, or something that is part of one."""
+
+    @property
+    def center(self) -> str: ...
+
+    @property
+    def radius(self) -> str: ...
+
+
 class Figure(Struct, frozen=True):
     """A drawing without its values: unknown points and radii, the path from `start`, its corners.
 

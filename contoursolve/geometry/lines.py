@@ -6,9 +6,22 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import FIRST, SECOND, Clearance, Incidence, Lookup, Turn, line_scalars, scalar
+from contoursolve.geometry.figure import (
+    FIRST,
+    SECOND,
+    Arc,
+    Fact,
+    Incidence,
+    Line,
+    Lookup,
+    Round,
+    Turn,
+    line_scalars,
+    scalar,
+)
+from contoursolve.geometry.points import OnCircle
 from contoursolve.geometry.system import Equation, apart, cross, dot, place, rotate, step
-from contoursolve.geometry.touching import side_of
+from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 
 class UnitDirection(Equation, Struct, frozen=True):
@@ -75,51 +88,6 @@ class Through(Equation, Struct, frozen=True):
         return f"{self.line} passes through {self.point}"
 
 
-class Foot(Equation, Struct, frozen=True):
-    """`point` is the foot of the perpendicular from `center` onto the line.
-
-    With a `corner`, the point must lie before it on the line (`way` +1) or beyond it (-1).
-    """
-
-    line: str
-    point: str
-    center: str
-    given: str = ""
-    corner: str = ""
-    way: int = 1
-
-    def residual(self, at: Lookup) -> Any:
-        return dot(at.bearing(self.line), step(at, self.center, self.point))
-
-    def senses(self, at: Lookup) -> tuple[Any, ...]:
-        if not self.corner:
-            return ()
-        return (self.way * dot(at.bearing(self.line), step(at, self.point, self.corner)),)
-
-    @property
-    def foot(self) -> tuple[str, str, str]:
-        return self.line, self.center, self.point
-
-    def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
-        return f"{self.point} where the circle touches {self.line}"
-
-
-class Leaving(Equation, Struct, frozen=True):
-    """The line begins at `point`, which lies on a circle, in the direction in which the circle is travelled there."""
-
-    line: str
-    point: str
-    center: str
-    turn: Turn
-    given: str = ""
-
-    def residual(self, at: Lookup) -> Any:
-        return dot(at.bearing(self.line), step(at, self.center, self.point))
-
-    def senses(self, at: Lookup) -> tuple[Any, ...]:
-        return (self.turn.sign * cross(step(at, self.center, self.point), at.bearing(self.line)),)
-
-
 class Parallel(Equation, Struct, frozen=True):
     """The line is parallel to `axis` and runs the way that a path advances along it: the first in `advance` that moves
     along the axis tells, each of these a line whose direction is stated, or a pair of points."""
@@ -158,49 +126,6 @@ class ParallelLines(Equation, Struct, frozen=True):
     @property
     def parallel(self) -> tuple[str, str]:
         return self.first, self.second
-
-
-class TangentLine(Equation, Struct, frozen=True):
-    """The line touches the circle about `center`, which lies to its left (`side` +1) or right (-1)."""
-
-    line: str
-    center: str
-    radius: str
-    side: str | int
-    given: str = ""
-
-    def residual(self, at: Lookup) -> Any:
-        return left_of(at, self.line, self.center) - side_of(self.side, at) * at.radius(self.radius)
-
-    def places(self, at: Lookup) -> Iterator[tuple[str, tuple[float, float]]]:
-        (first, second), (cosine, sine, offset) = place(at, self.center), at.line(self.line)
-        left = cosine * second - sine * first - offset
-        foot = first + left * sine, second - left * cosine
-        yield self.line, foot
-        yield self.center, foot
-
-    @property
-    def from_line(self) -> str:
-        return self.center
-
-    @property
-    def beside(self) -> Clearance:
-        return Clearance(self.center, self.radius, self.line, ("", ""), self.side)
-
-    def follows(self, known: Incidence, at: Lookup) -> Iterator[Any]:
-        touched, bearing = known.touched(self.line, self.center), at.bearing(self.line)
-        radius = side_of(self.side, at) * at.radius(self.radius)
-        for point in known.points(self.line):
-            spoke = step(at, point, self.center)
-            if point in touched:
-                # From where the line touches the circle to its centre is the radius, square to the line.
-                yield spoke[FIRST] + radius * bearing[SECOND]
-                yield spoke[SECOND] - radius * bearing[FIRST]
-            else:
-                yield cross(bearing, spoke) - radius
-
-    def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
-        return f"{self.line} touches the circle about {self.center}"
 
 
 class Extent(Equation, Struct, frozen=True):
@@ -417,3 +342,22 @@ class EqualDistances(Equation, Struct, frozen=True):
     def residual(self, at: Lookup) -> Any:
         first, second = step(at, *self.first), step(at, *self.second)
         return at.root(dot(first, first)) - at.root(dot(second, second))
+
+
+def direction_at(element: Line | Arc, point: str) -> Along | Tangent:
+    """The direction in which an element of a path is travelled at one of its ends."""
+    if isinstance(element, Arc):
+        return Tangent(point, element.center, element.radius, element.turn)
+    return Along(element.name)
+
+
+def put_on(element: Line | Round, point: str, given: str = "", slack: float = RADIUS_DIFFERENCE) -> Fact:
+    """The fact that an element, or the line or circle that it is part of, passes through a point."""
+    if isinstance(element, Line):
+        return Through(element.name, point, given)
+    return OnCircle(point, element.center, element.radius, given, slack)
+
+
+def carry(line: Line) -> tuple[Fact, ...]:
+    """The facts of a line whose direction and place are unknowns of their own."""
+    return UnitDirection(line.name), *(Through(line.name, end) for end in (line.tail, line.head) if end)

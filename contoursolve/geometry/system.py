@@ -194,6 +194,11 @@ def cross(a: tuple[Any, Any], b: tuple[Any, Any]) -> Any:
     return a[0] * b[1] - a[1] * b[0]
 
 
+def side_of(side: str | int, at: Lookup) -> Any:
+    """The value of a side, whether stated or open."""
+    return at.side(side) if isinstance(side, str) else side
+
+
 def rotate(vector: tuple[Any, Any], by: tuple[Any, Any]) -> tuple[Any, Any]:
     """A vector turned by the angle of this cosine and sine."""
     return vector[0] * by[0] - vector[1] * by[1], vector[1] * by[0] + vector[0] * by[1]

@@ -6,8 +6,22 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import FIRST, SECOND, Clearance, Incidence, Lookup, Radial, Turn
-from contoursolve.geometry.system import Equation, cross, dot, place, rotate, step
+from contoursolve.geometry.figure import (
+    FIRST,
+    SECOND,
+    Arc,
+    Clearance,
+    Corner,
+    Fact,
+    Incidence,
+    Line,
+    Lookup,
+    Radial,
+    Round,
+    Turn,
+)
+from contoursolve.geometry.lines import Along, TurnBetween, left_of
+from contoursolve.geometry.system import Equation, cross, dot, place, rotate, side_of, step
 
 
 class EqualRadii(Equation, Struct, frozen=True):
@@ -81,6 +95,94 @@ class Spoke(Equation, Struct, frozen=True):
     def vertex(self) -> str:
         # The direction of a radius is that of the arc a quarter of a turn from it, where it begins.
         return self.point if self.quarters else self.center
+
+
+class TangentLine(Equation, Struct, frozen=True):
+    """The line touches the circle about `center`, which lies to its left (`side` +1) or right (-1)."""
+
+    line: str
+    center: str
+    radius: str
+    side: str | int
+    given: str = ""
+
+    def residual(self, at: Lookup) -> Any:
+        return left_of(at, self.line, self.center) - side_of(self.side, at) * at.radius(self.radius)
+
+    def places(self, at: Lookup) -> Iterator[tuple[str, tuple[float, float]]]:
+        (first, second), (cosine, sine, offset) = place(at, self.center), at.line(self.line)
+        left = cosine * second - sine * first - offset
+        foot = first + left * sine, second - left * cosine
+        yield self.line, foot
+        yield self.center, foot
+
+    @property
+    def from_line(self) -> str:
+        return self.center
+
+    @property
+    def beside(self) -> Clearance:
+        return Clearance(self.center, self.radius, self.line, ("", ""), self.side)
+
+    def follows(self, known: Incidence, at: Lookup) -> Iterator[Any]:
+        touched, bearing = known.touched(self.line, self.center), at.bearing(self.line)
+        radius = side_of(self.side, at) * at.radius(self.radius)
+        for point in known.points(self.line):
+            spoke = step(at, point, self.center)
+            if point in touched:
+                # From where the line touches the circle to its centre is the radius, square to the line.
+                yield spoke[FIRST] + radius * bearing[SECOND]
+                yield spoke[SECOND] - radius * bearing[FIRST]
+            else:
+                yield cross(bearing, spoke) - radius
+
+    def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
+        return f"{self.line} touches the circle about {self.center}"
+
+
+class Foot(Equation, Struct, frozen=True):
+    """`point` is the foot of the perpendicular from `center` onto the line.
+
+    With a `corner`, the point must lie before it on the line (`way` +1) or beyond it (-1).
+    """
+
+    line: str
+    point: str
+    center: str
+    given: str = ""
+    corner: str = ""
+    way: int = 1
+
+    def residual(self, at: Lookup) -> Any:
+        return dot(at.bearing(self.line), step(at, self.center, self.point))
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        if not self.corner:
+            return ()
+        return (self.way * dot(at.bearing(self.line), step(at, self.point, self.corner)),)
+
+    @property
+    def foot(self) -> tuple[str, str, str]:
+        return self.line, self.center, self.point
+
+    def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
+        return f"{self.point} where the circle touches {self.line}"
+
+
+class Leaving(Equation, Struct, frozen=True):
+    """The line begins at `point`, which lies on a circle, in the direction in which the circle is travelled there."""
+
+    line: str
+    point: str
+    center: str
+    turn: Turn
+    given: str = ""
+
+    def residual(self, at: Lookup) -> Any:
+        return dot(at.bearing(self.line), step(at, self.center, self.point))
+
+    def senses(self, at: Lookup) -> tuple[Any, ...]:
+        return (self.turn.sign * cross(step(at, self.center, self.point), at.bearing(self.line)),)
 
 
 class TangentCircles(Equation, Struct, frozen=True):
@@ -220,11 +322,6 @@ class ArcLength(Equation, Struct, frozen=True):
             yield dot(chord, chord) - half * half
 
 
-def side_of(side: str | int, at: Lookup) -> Any:
-    """The value of a side, whether stated or open."""
-    return at.side(side) if isinstance(side, str) else side
-
-
 class TangentArc(Equation, Struct, frozen=True):
     """The circle about `center` touches the circle of an arc, and lies to the left of its travel (`side` +1) or to
     the right (-1). To first order the residual is the gap."""
@@ -315,3 +412,48 @@ class ChordSetback(Equation, Struct, frozen=True):
         return (
             self.way * self.turn.sign * cross(step(at, self.center, self.point), step(at, self.center, self.corner)),
         )
+
+
+def put_beside(element: Line | Round, point: str, distance: str, side: str, given: str = "") -> Fact:
+    """The fact that an element, or the line or circle that it is part of, passes a point at a distance, which is the
+    name of a radius, on an open side."""
+    if isinstance(element, Line):
+        return TangentLine(element.name, point, distance, side, given)
+    return PointBeside((point, distance), (element.center, element.radius), side, given)
+
+
+def make_tangent(element: Line | Round, circle: Round, side: str | int, given: str = "") -> Fact:
+    """The fact that an element, or the line or circle that it is part of, touches a circle."""
+    if isinstance(element, Line):
+        return TangentLine(element.name, circle.center, circle.radius, side, given)
+    return TangentCircles((element.center, element.radius), (circle.center, circle.radius), side, given)
+
+
+def make_smooth(before: Line | Arc, after: Line | Arc, at: str, given: str = "") -> tuple[Fact, ...]:
+    """The facts that a path goes on in its direction at a point: the first says so, and another where they touch."""
+    if isinstance(before, Arc) and isinstance(after, Arc):
+        return (Contact(at, before.center, after.center, -1 if before.turn is after.turn else 1, given),)
+    if isinstance(before, Arc):
+        before, after = after, before
+    if isinstance(before, Arc) or isinstance(after, Line):
+        return (TurnBetween(given, Along(before.name), Along(after.name)),)
+    return make_tangent(before, after, after.turn.sign, given), Foot(before.name, at, after.center)
+
+
+def round_off(corner: Corner, element: Line | Arc, point: str, way: int) -> tuple[Fact, ...]:
+    """The facts that a rounding touches an element in a point before its corner (`way` +1) or after it (-1)."""
+    center, size, side = (f"{corner.name}.{part}" for part in ("center", "radius", "side"))
+    if isinstance(element, Line):
+        foot = Foot(element.name, point, center, corner=corner.at, way=way)
+        return TangentLine(element.name, center, size, side), foot
+    arc, turn = (element.center, element.radius), element.turn
+    contact = ArcContact(point, arc, turn, center, size, side, corner.at, way)
+    return TangentArc(arc, turn, center, size, side), contact
+
+
+def set_back(corner: Corner, element: Line | Arc, point: str, way: int) -> Fact:
+    """The fact that a chamfer ends on an element, its size before its corner (`way` +1) or after it (-1)."""
+    size = f"{corner.name}.radius"
+    if isinstance(element, Line):
+        return Setback(element.name, point, corner.at, size, way)
+    return ChordSetback(element.center, element.turn, point, corner.at, size, way)

@@ -21,8 +21,7 @@ from contoursolve.geometry import (
     Figure,
     Layout,
     Line,
-    Through,
-    UnitDirection,
+    carry,
     names_of_roles,
 )
 from contoursolve.reading.rules import Condition, Stated
@@ -319,11 +318,7 @@ def lay_out(
 def _with_carriers(figure: Figure, facts: tuple[Fact, ...], mentioned: set[str]) -> tuple[Figure, tuple[Fact, ...]]:
     """The figure and its facts, with those that lines have whose direction facts speak about and no word states."""
     lines = [each for each in figure.path if isinstance(each, Line) and each.heading is None and each.name in mentioned]
-    more = [
-        fact
-        for line in lines
-        for fact in (UnitDirection(line.name), Through(line.name, line.tail), Through(line.name, line.head))
-    ]
+    more = [fact for line in lines for fact in carry(line)]
     return replace(figure, carriers=tuple(line.name for line in lines)), (*more, *facts)
 
 

@@ -16,7 +16,6 @@ from contoursolve.geometry import (
     GrammarError,
     Length,
     Line,
-    OnCircle,
     Plane,
     PointIs,
     Profile,
@@ -29,6 +28,7 @@ from contoursolve.geometry import (
     Unit,
     Vocabulary,
     assemble,
+    put_on,
     rank,
     read_statement,
 )
@@ -151,7 +151,7 @@ class Sketch(Shown):
         self._path: list[Line | Arc] = []
         self._points: list[str] = []
         self._radii: list[str] = []
-        self._facts: list[OnCircle] = []
+        self._facts: list[Fact] = []
         self._beside: list[tuple[str, Place | None, Decimal | None]] = []
         self._free_lines: list[Line] = []
         self._statements: list[str | Statement] = []
@@ -174,10 +174,11 @@ class Sketch(Shown):
             raise ValueError(f"{call}: turn is {' or '.join(senses)}, not {turn!r}")
         tail, head = self._here, self._end(call, to)
         center, radius = f"{name}.center", f"{name}.radius"
-        self._path.append(Arc(name, tail, head, center, radius, Turn(turn)))
+        arc = Arc(name, tail, head, center, radius, Turn(turn))
+        self._path.append(arc)
         self._points.append(center)
         self._radii.append(radius)
-        self._facts += [OnCircle(end, center, radius) for end in (tail, head)]
+        self._facts += [put_on(arc, end) for end in (tail, head)]
 
     def circle(self, name: str, center: tuple[Number, Number] | None = None, radius: Number | None = None) -> None:
         """Add a circle beside the path: given, if both its centre and its radius are, else unknown."""

@@ -26,20 +26,17 @@ from contoursolve.geometry import (
     BlockRole,
     Chord,
     Collinear,
-    Contact,
     Coordinate,
     CornerShape,
-    Foot,
     Heading,
     Line,
     Offset,
-    OnCircle,
     Radius,
-    Tangent,
-    TangentCircles,
-    TangentLine,
-    Turn,
     TurnBetween,
+    direction_at,
+    make_smooth,
+    make_tangent,
+    put_on,
 )
 from contoursolve.reading import ContourForm, CornerRow, FactRow, Modes, Outline, WordTable
 
@@ -102,6 +99,13 @@ def compose(language: Language, elements: tuple[Element, ...], modes: Modes) -> 
         contact=language.meeting.contact(modes),
     )
     return _compose(language, elements, options)
+
+
+def _shape(element: Element, names: Names) -> Line | Arc:
+    """The line or circle that an element is part of."""
+    if element.turn is None:
+        return Line(names.element, names.tail, names.head)
+    return Arc(names.element, names.tail, names.head, names.center, names.radius, element.turn)
 
 
 class _Options(Struct, frozen=True):
@@ -225,23 +229,22 @@ def _stated(
     for element, each in zip(elements, names, strict=True):
         yield from _own_facts(language, element, each, previous[1].tail if previous else START)
         if element.is_smooth and previous and element.turn is not None:
-            yield _smooth(*previous, each, element.turn)
+            yield _smooth(*previous, element, each)
         previous = element, each
     for element, each, is_directed in zip(elements, names, _directed(elements), strict=True):
         if element.turn is not None:
             # That it passes a point where it touches another element follows from the contact.
             points = (each.tail, each.head)[is_directed and element.touches : 1 + element.is_followed - is_directed]
             for point in points:
-                yield FactRow(OnCircle(point, each.center, each.radius, slack=options.slack), ())
+                yield FactRow(put_on(_shape(element, each), point, slack=options.slack), ())
 
 
-def _smooth(before: Element, first: Names, second: Names, turn: Turn) -> FactRow:
+def _smooth(before: Element, first: Names, element: Element, second: Names) -> FactRow:
     """That an arc begins in the direction in which the element before it ends."""
-    direction: Chord | Tangent = Chord(first.tail, first.head)
-    if before.turn is not None:
-        direction = Tangent(second.tail, first.center, first.radius, before.turn)
+    ways = [direction_at(_shape(*each), second.tail) for each in ((before, first), (element, second))]
+    begin = Chord(first.tail, first.head) if before.turn is None else ways[0]
     name = second.prefix + TURN
-    return FactRow(TurnBetween(name, direction, Tangent(second.tail, second.center, second.radius, turn)), (name,))
+    return FactRow(TurnBetween(name, begin, ways[1]), (name,))
 
 
 def _touching(language: Language, elements: Sequence[Element], names: Sequence[Names]) -> Iterator[FactRow]:
@@ -249,27 +252,25 @@ def _touching(language: Language, elements: Sequence[Element], names: Sequence[N
     for (before, after), (first, second) in zip(pairwise(elements), pairwise(names), strict=True):
         if not after.touches:
             continue
-        if before.turn is not None and after.turn is not None:
-            side = -1 if before.turn is after.turn else 1
-            circles = (first.center, first.radius), (second.center, second.radius)
-            for each in (first, second):
-                yield FactRow(TangentCircles(*circles, side), (f"{each.prefix}R",))
-            yield FactRow(Contact(second.tail, first.center, second.center, side), ())
-            yield FactRow(OnCircle(second.tail, first.center, first.radius), ())
-            continue
-        line, (arc, turn) = (first, (second, after.turn)) if before.turn is None else (second, (first, before.turn))
-        side, needs = turn.sign if turn is not None else 0, (line.prefix + language.angle.address,)
-        yield FactRow(TangentLine(line.element, arc.center, arc.radius, side), needs)
-        yield FactRow(Foot(line.element, second.tail, arc.center), needs)
+        one, other = _shape(before, first), _shape(after, second)
+        joint, needs = make_smooth(one, other, second.tail), tuple[str, ...]()
+        if isinstance(one, Arc) and isinstance(other, Arc):
+            tangent = make_tangent(one, other, -1 if one.turn is other.turn else 1)
+            yield from (FactRow(tangent, (f"{each.prefix}R",)) for each in (first, second))
+            joint = *joint, put_on(one, second.tail)
+        else:
+            line = first if before.turn is None else second
+            needs = (line.prefix + language.angle.address,)
+        yield from (FactRow(fact, needs) for fact in joint)
 
 
 def _met(elements: Sequence[Element], names: Sequence[Names], options: _Options) -> Iterator[FactRow]:
     """That a contact lies on a circle: it follows, but where both circles are known without it."""
     for (before, after), (first, second) in zip(pairwise(elements), pairwise(names), strict=True):
         if after.touches:
-            arc = first if after.turn is None else second
+            arc = _shape(before, first) if after.turn is None else _shape(after, second)
             slack = options.contact if before.turn is not None and after.turn is not None else options.slack
-            yield FactRow(OnCircle(second.tail, arc.center, arc.radius, slack=slack), ())
+            yield FactRow(put_on(arc, second.tail, slack=slack), ())
 
 
 def _checked(elements: Sequence[Element], names: Sequence[Names], slack: float) -> Iterator[FactRow]:
@@ -277,7 +278,7 @@ def _checked(elements: Sequence[Element], names: Sequence[Names], slack: float) 
     for element, each in zip(elements, names, strict=True):
         if element.turn is not None:
             needs = (each.prefix + POINT,) if element.is_followed and not element.is_over else ()
-            yield FactRow(OnCircle(each.own, each.center, each.radius, slack=slack), needs)
+            yield FactRow(put_on(_shape(element, each), each.own, slack=slack), needs)
 
 
 def _own_facts(language: Language, element: Element, names: Names, start: str) -> Iterator[FactRow]:

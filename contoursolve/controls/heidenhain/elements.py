@@ -6,6 +6,7 @@ from itertools import pairwise
 from operator import attrgetter
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.controls.chain.language import TITLES
 from contoursolve.controls.heidenhain.lexicon import (
@@ -22,33 +23,30 @@ from contoursolve.controls.heidenhain.lexicon import (
 from contoursolve.geometry import (
     FIRST,
     SECOND,
-    Along,
     Arc,
     BlockRole,
     Chord,
-    Contact,
+    Circle,
     Coordinate,
     CornerShape,
     Distance,
     Extent,
     Fact,
-    Foot,
     Leaving,
     Level,
     Line,
     Offset,
-    OnCircle,
     ParallelLines,
-    PointBeside,
     Radius,
     RadiusStep,
     Ray,
     Spoke,
-    Tangent,
-    TangentLine,
-    Through,
     Turn,
     TurnBetween,
+    direction_at,
+    make_smooth,
+    put_beside,
+    put_on,
 )
 from contoursolve.reading import Assumption, ContourForm, CornerRow, FactRow, FreeFactWords, Outline, WordTable, some
 
@@ -135,9 +133,13 @@ class PlacedElement(Struct, frozen=True):
     def turn(self) -> Turn:
         return self.element.turn or Turn.CCW
 
-    def travel(self, point: str) -> Along | Tangent:
-        """The direction in which it is travelled at one of its ends."""
-        return Along(self.name) if self.element.is_line else Tangent(point, self.center, self.radius, self.turn)
+    @property
+    def shape(self) -> Line | Arc:
+        """The line or arc of the path."""
+        if self.element.is_line:
+            return Line(self.name, self.tail, self.head)
+        is_whole = self.element.function in ABOUT_CENTER
+        return Arc(self.name, self.tail, self.head, self.center, self.radius, self.turn, may_be_full=is_whole)
 
 
 class Chain(Struct, frozen=True):
@@ -171,8 +173,8 @@ def _placing(of: str, mark: str) -> Iterator[tuple[str, Facts]]:
 
     def farther(chain: Chain, place: PlacedElement, given: str) -> Iterator[Fact]:
         pole, radii = place.element.pole, [f"{given} {each}" for each in ("from", "to")]
-        yield OnCircle(chain.counted_from(place, f"I{mark}PR"), pole, radii[0])
-        yield OnCircle(point(place), pole, radii[1])
+        for end, radius in zip((chain.counted_from(place, f"I{mark}PR"), point(place)), radii, strict=True):
+            yield put_on(Circle("", pole, radius), end)
         yield RadiusStep(given, radii[1], radii[0])
 
     def turned(chain: Chain, place: PlacedElement, given: str) -> Iterator[Fact]:
@@ -200,7 +202,7 @@ def _angle_to(chain: Chain, place: PlacedElement, given: str) -> Iterator[Fact]:
     number = dict(place.element.counted).get("IAN", place.number - 1)
     if number:
         other = chain.places[number - 1]
-        yield TurnBetween(given, other.travel(other.head), place.travel(place.tail))
+        yield TurnBetween(given, direction_at(other.shape, other.head), direction_at(place.shape, place.tail))
 
 
 def _length(_: Chain, place: PlacedElement, given: str) -> Iterator[Fact]:
@@ -237,16 +239,7 @@ def _touches_before(chain: Chain, place: PlacedElement, given: str) -> Iterator[
     if place.element.is_line and before.element.is_placed and not before.element.is_line:
         yield Leaving(place.name, place.tail, before.center, before.turn, given)
         return
-    arcs = [each for each in (before, place) if not each.element.is_line]
-    if len(arcs) == 1:
-        line = place if place.element.is_line else before
-        yield TangentLine(line.name, arcs[0].center, arcs[0].radius, arcs[0].turn.sign, given)
-        yield Foot(line.name, place.tail, arcs[0].center)
-    elif arcs:
-        side = 1 if before.turn is not place.turn else -1
-        yield Contact(place.tail, before.center, place.center, side, given)
-    else:
-        yield TurnBetween(given, Along(before.name), Along(place.name))
+    yield from make_smooth(before.shape, place.shape, place.tail, given)
 
 
 def _is_aimed(chain: Chain, place: PlacedElement) -> bool:
@@ -299,19 +292,17 @@ BESIDE = "PD"
 
 def _point_rows(place: PlacedElement) -> Iterator[FactRow]:
     """Points on the element, each by two words, and one beside it, by three."""
-    q, line = place.prefix, place.element.is_line
-    for point in (POINTS[:2] if line else POINTS) + (BESIDE,):
+    q = place.prefix
+    for point in (POINTS[:2] if place.element.is_line else POINTS) + (BESIDE,):
         name, words = f"{q}{point}", [f"{q}{point}{axis}" for axis in "XY"]
         distance = f"{q}D"
         needs = (*words, *([distance] if point == BESIDE else []))
         radius, side = f"{name} distance", f"{name}.side"
         # What words state comes last: of what does not agree, it is named.
         if point != BESIDE or "D" in place.element.touching:
-            yield FactRow(Through(place.name, name) if line else OnCircle(name, place.center, place.radius), needs)
-        elif line:
-            yield FactRow(TangentLine(place.name, name, radius, side), needs)
+            yield FactRow(put_on(place.shape, name), needs)
         else:
-            yield FactRow(PointBeside((name, radius), (place.center, place.radius), side), needs)
+            yield FactRow(put_beside(place.shape, name, radius, side), needs)
         yield from (FactRow(Coordinate(word, name, axis), needs) for axis, word in enumerate(words))
         if point == BESIDE and "D" not in place.element.touching:
             yield FactRow(Radius(distance, radius), needs)
@@ -325,10 +316,10 @@ def _parallel_rows(chain: Chain, place: PlacedElement) -> Iterator[FactRow]:
     other, word, distance = chain.places[number - 1], f"{place.prefix}PAR", f"{place.prefix}DP"
     yield FactRow(ParallelLines(other.name, place.name, word), (word,))
     if "DP" in place.element.touching:
-        yield FactRow(Through(place.name, other.tail, distance), (word, distance))
+        yield FactRow(put_on(place.shape, other.tail, distance), (word, distance))
         return
     radius, side = f"{place.prefix}DP distance", f"{place.prefix}DP.side"
-    yield FactRow(TangentLine(place.name, other.tail, radius, side), (word, distance))
+    yield FactRow(put_beside(place.shape, other.tail, radius, side), (word, distance))
     yield FactRow(Radius(distance, radius), (word, distance))
 
 
@@ -362,7 +353,7 @@ def _rows(chain: Chain) -> Iterator[FactRow]:
         after = places[place.number] if place.number < len(places) else None
         for point, is_met in ((place.tail, _is_met(chain, place, place)), (place.head, _is_met(chain, place, after))):
             if not is_met:
-                yield FactRow(OnCircle(point, place.center, place.radius), ())
+                yield FactRow(put_on(place.shape, point), ())
 
 
 def _is_met(chain: Chain, arc: PlacedElement, second: PlacedElement | None) -> bool:
@@ -439,20 +430,9 @@ def compose(elements: tuple[FkElement, ...], labels: tuple[str, ...]) -> Contour
     chain = Chain(tuple(PlacedElement(n, *each) for n, each in enumerate(named, 1)))
     places = chain.places
     rows = tuple(_rows(chain))
-    path = tuple(
-        Line(each.name, each.tail, each.head, _heading(chain, each))
-        if each.element.is_line
-        else Arc(
-            each.name,
-            each.tail,
-            each.head,
-            each.center,
-            each.radius,
-            each.turn,
-            may_be_full=each.element.function in ABOUT_CENTER,
-        )
-        for each in places
-    )
+    headings = {each.name: _heading(chain, each) for each in places}
+    shapes = [each.shape for each in places]
+    path = tuple(replace(each, heading=headings[each.name]) if isinstance(each, Line) else each for each in shapes)
     poles = tuple(dict.fromkeys(each.element.pole for each in places if each.element.pole))
     beside = tuple(f"{each.prefix}{point}" for each in places for point in (*POINTS, BESIDE))
     arcs = [each for each in places if not each.element.is_line]

@@ -13,16 +13,15 @@ from contoursolve.geometry.lines import (
     ChamferLeg,
     Distance,
     EqualDistances,
-    Foot,
     Parallel,
     Tangent,
-    TangentLine,
-    Through,
-    UnitDirection,
+    carry,
+    direction_at,
+    put_on,
 )
-from contoursolve.geometry.points import OnCircle, Radius
+from contoursolve.geometry.points import Radius
 from contoursolve.geometry.profile import Given, Layout, Unit
-from contoursolve.geometry.touching import ArcContact, ChordSetback, Setback, TangentArc
+from contoursolve.geometry.touching import Foot, round_off, set_back
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 
@@ -30,7 +29,7 @@ class StatementError(ValueError):
     """A statement that makes no sense for this drawing; the message says why."""
 
 
-class Round(Struct, frozen=True):
+class DraftCircle(Struct, frozen=True):
     """A circle, an arc or a rounding: its centre, its radius, and where it begins and ends, if it does."""
 
     center: str
@@ -80,38 +79,43 @@ class Draft:
             raise StatementError(f"{name} is not a line")
         if line.heading is None and name not in self.figure.carriers:
             self.figure = replace(self.figure, carriers=(*self.figure.carriers, name))
-            self.add(UnitDirection(name))
-            self.add(*(Through(name, end) for end in (line.tail, line.head) if end))
+            self.add(*carry(line))
         return line
+
+    def part(self, name: str) -> Line | Arc:
+        """An arc of the path, or a line whose direction can be spoken about."""
+        element = self.element(name)
+        return element if isinstance(element, Arc) else self.line(name)
 
     def point_on(self, line: str) -> str:
         """A point of a line: where it begins, a place that it passes through, or else the point nearest to the start,
         which is added."""
-        tail = self.line(line).tail
-        own = next((fact.point for fact in self.facts if isinstance(fact, Through) and fact.line == line), "")
-        if tail or own:
-            return tail or own
+        own = self.line(line)
+        passed = (fact.passes for fact in self.facts if fact.passes)
+        found = own.tail or next((point for name, point in passed if name == line), "")
+        if found:
+            return found
         foot = f"{line}.foot"
         self.figure = replace(self.figure, points=(*self.figure.points, foot))
-        self.add(Through(line, foot), Foot(line, foot, self.figure.start))
+        self.add(put_on(own, foot), Foot(line, foot, self.figure.start))
         return foot
 
-    def around(self, name: str, center: str, distance: Decimal) -> Round:
+    def around(self, name: str, center: str, distance: Decimal) -> DraftCircle:
         """The places at a given distance from a point: a circle that is not drawn."""
         radius = self.give(f"{name}.radius", distance, Unit.MM)
         self.figure = replace(self.figure, known_radii=(*self.figure.known_radii, radius))
-        return Round(center, radius)
+        return DraftCircle(center, radius)
 
-    def round(self, name: str) -> Round:
+    def round(self, name: str) -> DraftCircle:
         """An arc, a circle, or a rounding. Raises StatementError for anything else."""
         match self.element(name):
             case Arc() as arc:
-                return Round(arc.center, arc.radius, arc.tail, arc.head)
+                return DraftCircle(arc.center, arc.radius, arc.tail, arc.head)
             case Circle() as circle:
-                return Round(circle.center, circle.radius)
+                return DraftCircle(circle.center, circle.radius)
             case Corner() as corner if corner.shape is CornerShape.FILLET:
                 self.corner(name)
-                return Round(f"{name}.center", f"{name}.radius", f"{name}.begin", f"{name}.end")
+                return DraftCircle(f"{name}.center", f"{name}.radius", f"{name}.begin", f"{name}.end")
             case _:
                 raise StatementError(f"{name} is not round")
 
@@ -137,7 +141,7 @@ class Draft:
         self.figure = replace(self.figure, places=(*self.figure.places, name))
         return name
 
-    def circle(self, name: str, center: tuple[Decimal, Decimal], radius: Decimal) -> Round:
+    def circle(self, name: str, center: tuple[Decimal, Decimal], radius: Decimal) -> DraftCircle:
         """A given circle."""
         if radius <= 0:
             raise StatementError("a circle has a radius larger than 0; a line through a point `passes through` it")
@@ -148,7 +152,7 @@ class Draft:
             known_radii=(*self.figure.known_radii, known),
             circles=(*self.figure.circles, Circle(name, place, known)),
         )
-        return Round(place, known)
+        return DraftCircle(place, known)
 
     def given_line(self, name: str, place: tuple[Decimal, Decimal], degrees: Decimal) -> str:
         """A given line through a place in a direction."""
@@ -167,11 +171,7 @@ class Draft:
 
     def travel(self, name: str, at: str) -> Along | Tangent:
         """The direction in which an element of the path is travelled at one of its ends."""
-        element = self.element(name)
-        if isinstance(element, Arc):
-            return Tangent(at, element.center, element.radius, element.turn)
-        self.line(name)
-        return Along(name)
+        return direction_at(self.part(name), at)
 
     def leave(self, point: str, arc: Arc) -> None:
         """Drop that a point lies on an arc's circle: something else says so, in a way that keeps a tangent point
@@ -190,15 +190,17 @@ class Draft:
             (self.element(corner.before), begin, 1),
             (self.element(corner.after or self._landing(corner)), end, -1),
         ]
+        slack = min([fact.circle.slack for fact in self.facts if fact.circle], default=RADIUS_DIFFERENCE)
         if corner.size in self.givens:
             self.add(Radius(corner.size, size))
         points = (begin, end) if corner.shape is not CornerShape.FILLET else (f"{name}.center", begin, end)
-        for element, point, way in meeting:
-            self._pass_through(element, point)
+        for met, point, way in meeting:
+            element = self.part(met.name)
+            self.add(put_on(element, point, slack=slack))
             if corner.shape is CornerShape.FILLET:
-                self._touch(element, corner, point, way)
+                self.add(*round_off(corner, element, point, way))
             elif corner.shape is CornerShape.CHAMFER_SETBACK:
-                self._set_back(element, corner, point, way)
+                self.add(set_back(corner, element, point, way))
         if corner.shape is CornerShape.CHAMFER_FACE:
             if is_solved:
                 raise StatementError(f"{name} is a chamfer by the length of its face: its size must be a number")
@@ -218,38 +220,6 @@ class Draft:
                 )
             )
         self.figure = replace(self.figure, points=(*self.figure.points, *points), radii=(*self.figure.radii, size))
-
-    def _pass_through(self, element: Line | Arc | Corner | Circle, point: str) -> None:
-        """A point of an element of the path."""
-        if isinstance(element, Arc):
-            slack = min([fact.circle.slack for fact in self.facts if fact.circle], default=RADIUS_DIFFERENCE)
-            self.add(OnCircle(point, element.center, element.radius, slack=slack))
-        else:
-            self.line(element.name)
-            self.add(Through(element.name, point))
-
-    def _touch(self, element: Line | Arc | Corner | Circle, corner: Corner, point: str, way: int) -> None:
-        """A rounding touches an element in a point before its corner (`way` +1) or after it (-1)."""
-        center, size, side = f"{corner.name}.center", f"{corner.name}.radius", f"{corner.name}.side"
-        if isinstance(element, Arc):
-            circle = (element.center, element.radius)
-            self.add(
-                TangentArc(circle, element.turn, center, size, side),
-                ArcContact(point, circle, element.turn, center, size, side, corner.at, way),
-            )
-        else:
-            self.add(
-                TangentLine(element.name, center, size, side),
-                Foot(element.name, point, center, corner=corner.at, way=way),
-            )
-
-    def _set_back(self, element: Line | Arc | Corner | Circle, corner: Corner, point: str, way: int) -> None:
-        """A chamfer ends on an element, its size before its corner (`way` +1) or after it (-1)."""
-        size = f"{corner.name}.radius"
-        if isinstance(element, Arc):
-            self.add(ChordSetback(element.center, element.turn, point, corner.at, size, way))
-        else:
-            self.add(Setback(element.name, point, corner.at, size, way))
 
     def _advance(self, corner: Corner) -> tuple[tuple[str, ...], ...]:
         """The lines, or pairs of points, whose way along an axis is that of a 45 degree chamfer; the first that moves

@@ -11,21 +11,18 @@ from msgspec.structs import replace
 
 from contoursolve.geometry.figure import Arc, Corner, CornerShape, Fact, Line
 from contoursolve.geometry.lines import (
-    Along,
     Directed,
     Distance,
     EqualDistances,
     Extent,
-    Foot,
     ParallelLines,
-    TangentLine,
-    Through,
     TurnBetween,
+    put_on,
 )
-from contoursolve.geometry.points import Coordinate, OnCircle, Radius, Ray
+from contoursolve.geometry.points import Coordinate, Radius, Ray
 from contoursolve.geometry.profile import Unit
-from contoursolve.geometry.statements.draft import Draft, Round, StatementError
-from contoursolve.geometry.touching import ArcLength, Contact, EqualRadii, PointBeside, TangentCircles
+from contoursolve.geometry.statements.draft import Draft, DraftCircle, StatementError
+from contoursolve.geometry.touching import ArcLength, EqualRadii, make_smooth, make_tangent, put_beside
 
 Place = tuple[Decimal, Decimal]
 
@@ -157,11 +154,7 @@ class PassesThrough(Statement, frozen=True):
 
     def state(self, draft: Draft, name: str) -> Fact:
         place = draft.place(f"{name}.place", self.place)
-        if isinstance(draft.element(self.element), Line):
-            draft.line(self.element)
-            return _named(draft, Through(self.element, place, name))
-        form = draft.round(self.element)
-        return _named(draft, OnCircle(place, form.center, form.radius, name))
+        return _named(draft, put_on(_whole(draft, self.element), place, name))
 
 
 class PassesBeside(Statement, frozen=True):
@@ -178,15 +171,9 @@ class PassesBeside(Statement, frozen=True):
         _check_distance(self.distance)
         if not self.distance:
             return PassesThrough(self.element, self.place).state(draft, name)
-        element = draft.element(self.element)
-        form = None if isinstance(element, Line) else draft.round(self.element)
+        element = _whole(draft, self.element)
         around = draft.around(name, draft.place(f"{name}.place", self.place), self.distance)
-        side = f"{name}.side"
-        if form is None:
-            draft.line(self.element)
-            return _named(draft, TangentLine(self.element, around.center, around.radius, side, name))
-        circles = (around.center, around.radius), (form.center, form.radius)
-        return _named(draft, PointBeside(*circles, side, name))
+        return _named(draft, put_beside(element, around.center, around.radius, f"{name}.side", name))
 
 
 class ParallelTo(Statement, frozen=True):
@@ -215,9 +202,9 @@ class ParallelTo(Statement, frozen=True):
         draft.add(ParallelLines(self.line, self.other, part_of=parallel))
         point = draft.point_on(self.line)
         if not self.distance:
-            return _named(draft, Through(self.other, point, name))
+            return _named(draft, put_on(other, point, name))
         around = draft.around(name, point, self.distance)
-        return _named(draft, TangentLine(self.other, around.center, around.radius, f"{name}.side", name))
+        return _named(draft, put_beside(other, around.center, around.radius, f"{name}.side", name))
 
 
 class ChordIs(Statement, frozen=True):
@@ -280,41 +267,26 @@ class Touches(Statement, frozen=True):
 
     def _join(self, draft: Draft, name: str, at: str) -> Fact:
         """Neighbours: the sense of both says on which side they touch."""
-        first, second = draft.element(self.first), draft.element(str(self.second))
-        if isinstance(first, Arc) and isinstance(second, Arc):
-            side = 1 if first.turn is not second.turn else -1
-            return _named(draft, Contact(at, first.center, second.center, side, name))
-        if isinstance(first, Line) and isinstance(second, Line):
-            straight = draft.give(name, Decimal(0), Unit.DEGREE)
-            draft.line(self.first)
-            draft.line(second.name)
-            fact = TurnBetween(straight, Along(self.first), Along(second.name))
-            draft.add(fact)
-            return fact
-        arc, line = (first, second) if isinstance(first, Arc) else (second, first)
-        if not isinstance(arc, Arc) or not isinstance(line, Line):
-            raise StatementError(f"{self.first} and {self.second} cannot be tangent")
-        draft.line(line.name)
-        draft.leave(at, arc)
-        draft.add(Foot(line.name, at, arc.center))
-        return _named(draft, TangentLine(line.name, arc.center, arc.radius, arc.turn.sign, name))
+        first, second = draft.part(self.first), draft.part(str(self.second))
+        arcs = [each for each in (first, second) if isinstance(each, Arc)]
+        if len(arcs) == 1:
+            draft.leave(at, arcs[0])
+        fact, *more = make_smooth(first, second, at, name)
+        draft.add(*more)
+        draft.give(name, Decimal(0), Unit.SIGN if arcs else Unit.DEGREE)
+        draft.add(fact)
+        return fact
 
-    def _touch(self, draft: Draft, name: str, other: str | Round) -> Fact:
+    def _touch(self, draft: Draft, name: str, other: str | DraftCircle) -> Fact:
         """Elements that are not neighbours: the side is open."""
         first = draft.element(self.first)
         is_line = isinstance(other, str) and isinstance(draft.element(other), Line)
         if isinstance(first, Line) and is_line:
             raise StatementError("two lines cannot be tangent unless they are neighbours")
         side = f"{name}.side"
-        if isinstance(first, Line) or is_line:
-            line, circle = (self.first, other) if isinstance(first, Line) else (str(other), self.first)
-            form = draft.round(circle) if isinstance(circle, str) else circle
-            draft.line(line)
-            return _named(draft, TangentLine(line, form.center, form.radius, side, name))
-        one = draft.round(self.first)
-        second = draft.round(other) if isinstance(other, str) else other
-        circles = (one.center, one.radius), (second.center, second.radius)
-        return _named(draft, TangentCircles(*circles, side, name))
+        line, circle = (str(other), self.first) if is_line else (self.first, other)
+        form = draft.round(circle) if isinstance(circle, str) else circle
+        return _named(draft, make_tangent(_whole(draft, line), form, side, name))
 
 
 class EqualLengths(Statement, frozen=True):
@@ -393,15 +365,19 @@ class MeetsLine(Statement, frozen=True):
             for each in draft.figure.corners
         )
         draft.figure = replace(draft.figure, lines=(*draft.figure.lines, added), corners=corners)
-        draft.line(line)
-        return Through(line, corner.at, name)
+        return put_on(draft.line(line), corner.at, name)
 
 
 ANGLES = (DirectionIs, PolarAngleIs, TurnIs)
 """Statements whose value is an angle."""
 
 
-def _arc(draft: Draft, name: str) -> Round:
+def _whole(draft: Draft, name: str) -> Line | DraftCircle:
+    """An element as the line or circle that it is part of, of which facts can speak."""
+    return draft.line(name) if isinstance(draft.element(name), Line) else draft.round(name)
+
+
+def _arc(draft: Draft, name: str) -> DraftCircle:
     form = draft.round(name)
     if not form.begin:
         raise StatementError(f"{name} is a whole circle and has no ends")
