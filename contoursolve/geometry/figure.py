@@ -1,251 +1,14 @@
-"""A drawing without its values: points, lines, arcs and corners, what a fact about it is, the roles of blocks."""
+"""A drawing without its values: points, lines, arcs and corners, the roles of blocks."""
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Set
+from collections.abc import Iterable, Iterator
 from enum import Enum
 from math import sqrt
-from typing import Any, NamedTuple, Protocol
+from typing import Protocol
 
 from msgspec import Struct
 
-
-class Lookup(Protocol):
-    """Gives the values of points, radii and givens; a value is anything with `+ - * / **`."""
-
-    def scalar(self, name: str) -> Any:
-        """A coordinate, a radius, or a part of a line, by its name."""
-
-    def coordinate(self, point: str, axis: int) -> Any:
-        """One coordinate of a point, mm."""
-
-    def radius(self, name: str) -> Any:
-        """A radius, mm."""
-
-    def amount(self, given: str) -> Any:
-        """A given length or coordinate, mm."""
-
-    def direction(self, given: str) -> tuple[Any, Any]:
-        """Cosine and sine of a given angle."""
-
-    def bearing(self, name: str) -> tuple[Any, Any]:
-        """Cosine and sine of a line's direction."""
-
-    def line(self, name: str) -> tuple[Any, Any, Any]:
-        """Cosine and sine of a line's direction, and how far to the right of it the origin lies, mm.
-
-        A point (x, y) lies `cosine * y - sine * x - offset` to the left of the line, mm.
-        """
-
-    def side(self, name: str) -> Any:
-        """+1 or -1: on which side two elements touch."""
-
-    def rotation(self, angle: Any) -> tuple[Any, Any]:
-        """Cosine and sine of a computed angle, radians."""
-
-    def root(self, value: Any) -> Any:
-        """Square root."""
-
-    def vanishes(self, value: Any) -> bool:
-        """Whether a value is zero."""
-
-
-class Placed(NamedTuple):
-    """A point that a fact puts somewhere along an axis, counted from `origin`, or from zero where that is empty; as far
-    as a given says, or at the same place where it is not `is_stepped`."""
-
-    point: str
-    axis: int
-    origin: str
-    is_stepped: bool = True
-
-
-class Clearance(NamedTuple):
-    """A place about which a circle touches something else, and the radius of that, its distance: a line by its name, or
-    a circle by centre and radius; and on which side."""
-
-    center: str
-    radius: str
-    line: str
-    circle: tuple[str, str]
-    side: str | int
-
-
-class Radial(NamedTuple):
-    """A point of a circle that lies in a direction from its centre which a fact tells."""
-
-    center: str
-    radius: str
-    point: str
-    direction: Callable[["Lookup"], tuple[Any, Any]]
-
-
-class Incidence(Protocol):
-    """Points on lines and circles, as all facts of a system tell them."""
-
-    read: Set[str]
-    """The names of the scalars that the facts in question read."""
-
-    def is_on(self, center: str, radius: str, *points: str) -> bool:
-        """Whether facts put points on the circle about a centre, with that radius."""
-
-    def radius_of(self, center: str, point: str) -> str:
-        """The radius of the circle about a centre on which facts put a point; empty if none does."""
-
-    def on_line(self, line: str) -> Set[str]:
-        """All points on a line."""
-
-    def points(self, line: str) -> list[str]:
-        """Those of which both coordinates are among the scalars."""
-
-    def touched(self, line: str, center: str) -> list[str]:
-        """The points in which a line touches the circle about a centre."""
-
-
-class OfCircle(NamedTuple):
-    """A point that lies on a circle, and by how much it may be off it, mm."""
-
-    point: str
-    center: str
-    radius: str
-    slack: float
-
-
-Increments = Callable[[str], Any]
-"""The least increment of a coordinate by its axis, or of a value by its name."""
-
-
-class Fact(Protocol):
-    """One equation. Its residual is in mm; `equation` is the same without what makes it no polynomial."""
-
-    @property
-    def given(self) -> str:
-        """Name of the given that states this fact; empty for what the form itself states."""
-
-    def reads(self) -> tuple[str, ...]:
-        """Names of the scalars that the residual depends on besides the given."""
-
-    def sides(self) -> tuple[str, ...]:
-        """Names of the sides on which it is not stated where two elements touch."""
-
-    def residual(self, at: Lookup) -> Any:
-        """Signed distance from being true, mm."""
-
-    def equation(self, at: Lookup) -> Any:
-        """Zero where the residual is, and polynomial in coordinates, radii and directions where it can be."""
-
-    def senses(self, at: Lookup) -> tuple[Any, ...]:
-        """Values that must be positive besides, because the equation alone allows the opposite."""
-
-    def sense_reads(self) -> tuple[str, ...]:
-        """Names of the scalars that the residual and the senses depend on."""
-
-    def implied(self, at: Lookup) -> float | None:
-        """The value of the given (mm or degrees) that makes the residual zero; None where any does."""
-
-    def reach(self, at: Lookup, increment: Increments) -> Any:
-        """The distance by which it moves with the last digit of each coordinate and word in it, mm; None where no word
-        alone states it."""
-
-    def follows(self, known: Incidence, at: Lookup) -> Iterator[Any]:
-        """Expressions that are zero wherever it holds in its senses, together with the points on its lines and circles,
-        and that read no more than it does."""
-
-    def excess(self, at: Lookup) -> Any:
-        """By how much a distance is more than it is to be, mm; None if the fact is about something else."""
-
-    def phrase(self, axes: tuple[str, str], sought: Collection[str]) -> str:
-        """The words for it without its value, where `sought` are the unknowns to be found; empty if that says all, or
-        if it goes without saying."""
-
-    def places(self, at: Lookup) -> Iterator[tuple[str, tuple[float, float]]]:
-        """The lines (by name) and the circles (by centre) that it is about, each with where it holds."""
-
-    @property
-    def statement(self) -> str:
-        """The given of what states it, or of what it is a part of; empty for what the form itself states."""
-
-    @property
-    def placed(self) -> Placed | None:
-        """The point that it puts somewhere along an axis, if it is about that alone."""
-
-    @property
-    def heading(self) -> tuple[str, str] | None:
-        """The two points from the first of which to the second it runs at the given angle, if it is about that."""
-
-    @property
-    def circle(self) -> OfCircle | None:
-        """The circle on which it puts a point, if it is about that."""
-
-    @property
-    def beside(self) -> Clearance | None:
-        """The place about which it lets a circle touch a line, or a circle that passes another one at a distance."""
-
-    @property
-    def span(self) -> tuple[str, str] | None:
-        """The two points whose distance it gives, if it is about that."""
-
-    @property
-    def passes(self) -> tuple[str, str] | None:
-        """The line and the point of it through which it lets that pass, if it is about that."""
-
-    @property
-    def spoke(self) -> tuple[str, str] | None:
-        """The centre and the point of a radius whose own direction is given; of two facts about it, the first tells."""
-
-    @property
-    def collinear(self) -> tuple[str, str, str] | None:
-        """Two points and a third one on the line through them, if it is about that."""
-
-    @property
-    def sizes(self) -> str:
-        """The name of the radius to which it gives a value, if it is about that alone."""
-
-    @property
-    def from_line(self) -> str:
-        """The point that it puts on a line, or at a distance from one; empty if it is about something else."""
-
-    @property
-    def is_affine(self) -> bool:
-        """Whether its residual is affine in the coordinates of points, whatever the values are."""
-
-    @property
-    def foot(self) -> tuple[str, str, str] | None:
-        """The line, the centre and the point in which that line touches the circle about it, if it is about that."""
-
-    @property
-    def centers(self) -> tuple[str, str] | None:
-        """The centres of two circles that touch at a point, if it is about that point."""
-
-    @property
-    def radial(self) -> Radial | None:
-        """The point of a circle whose direction from the centre it gives; of two facts about it, the first tells."""
-
-    @property
-    def directed(self) -> str:
-        """The line whose own direction is given; empty if it is about something else."""
-
-    @property
-    def vertex(self) -> str:
-        """The point at which the direction of a radius, which it gives in parts, is an angle; empty otherwise."""
-
-    @property
-    def turn_between(self) -> tuple[Any, Any] | None:
-        """The two elements between whose directions it gives the angle, if it is about that."""
-
-    @property
-    def radius_step(self) -> tuple[str, str] | None:
-        """The radius that is larger than another one as far as a given says, and that, if it is about that."""
-
-    @property
-    def parallel(self) -> tuple[str, str] | None:
-        """The two lines that it makes parallel: its residual is the sine of the angle between them."""
-
-    @property
-    def is_ray(self) -> bool:
-        """Whether it gives the direction of one line, and not the opposite one as well."""
-
-    @property
-    def is_half(self) -> bool:
-        """Whether it is one part of a direction: its equation is true of the opposite one, too."""
+FIRST, SECOND = 0, 1
+"""Indices of a plane's first and second axis."""
 
 
 def scalar(point: str, axis: int) -> str:
@@ -253,13 +16,14 @@ def scalar(point: str, axis: int) -> str:
     return f"{point}.{axis}"
 
 
+def both(*points: str) -> tuple[str, ...]:
+    """The names of both coordinates of points."""
+    return tuple(scalar(point, axis) for point in points for axis in (FIRST, SECOND))
+
+
 def line_scalars(line: str) -> tuple[str, str, str]:
     """The names of a line's direction and place."""
     return f"{line}.cos", f"{line}.sin", f"{line}.off"
-
-
-FIRST, SECOND = 0, 1
-"""Indices of a plane's first and second axis."""
 
 
 class Turn(Enum):

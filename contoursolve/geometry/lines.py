@@ -6,25 +6,13 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import (
-    FIRST,
-    SECOND,
-    Arc,
-    Fact,
-    Incidence,
-    Line,
-    Lookup,
-    Round,
-    Turn,
-    line_scalars,
-    scalar,
-)
+from contoursolve.geometry.fact import Fact, Incidence, Lookup, apart, cross, dot, place, rotate, step
+from contoursolve.geometry.figure import FIRST, SECOND, Arc, Line, Round, Turn, line_scalars, scalar
 from contoursolve.geometry.points import OnCircle
-from contoursolve.geometry.system import Equation, apart, cross, dot, place, rotate, step
 from contoursolve.tolerance import RADIUS_DIFFERENCE
 
 
-class UnitDirection(Equation, Struct, frozen=True):
+class UnitDirection(Fact, Struct, frozen=True):
     """The direction of a line has the length 1."""
 
     line: str
@@ -38,7 +26,7 @@ class UnitDirection(Equation, Struct, frozen=True):
         return self.equation(at) / 2
 
 
-class Directed(Equation, Struct, frozen=True):
+class Directed(Fact, Struct, frozen=True):
     """The line runs at the given angle."""
 
     given: str
@@ -63,7 +51,7 @@ class Directed(Equation, Struct, frozen=True):
         return True
 
 
-class Through(Equation, Struct, frozen=True):
+class Through(Fact, Struct, frozen=True):
     """The line passes through `point`; the residual is how far to the left of it the point lies."""
 
     line: str
@@ -88,7 +76,7 @@ class Through(Equation, Struct, frozen=True):
         return f"{self.line} passes through {self.point}"
 
 
-class Parallel(Equation, Struct, frozen=True):
+class Parallel(Fact, Struct, frozen=True):
     """The line is parallel to `axis` and runs the way that a path advances along it: the first in `advance` that moves
     along the axis tells, each of these a line whose direction is stated, or a pair of points."""
 
@@ -107,7 +95,7 @@ class Parallel(Equation, Struct, frozen=True):
         return f"{self.line} parallel to {axes[self.axis]}"
 
 
-class ParallelLines(Equation, Struct, frozen=True):
+class ParallelLines(Fact, Struct, frozen=True):
     """Two lines are parallel, in the same direction or against each other."""
 
     first: str
@@ -128,7 +116,7 @@ class ParallelLines(Equation, Struct, frozen=True):
         return self.first, self.second
 
 
-class Extent(Equation, Struct, frozen=True):
+class Extent(Fact, Struct, frozen=True):
     """From `tail` to `head`, both on the line, it goes the given length along the line."""
 
     given: str
@@ -156,7 +144,7 @@ class Extent(Equation, Struct, frozen=True):
         return self.tail, self.head
 
 
-class ChamferLeg(Equation, Struct, frozen=True):
+class ChamferLeg(Fact, Struct, frozen=True):
     """A 45 degree chamfer from `begin` to `end` extends as far as a share of its size along `axis`, to one side.
 
     The side is the way in which a path advances, see `Parallel`; or the way between the directions of the two lines
@@ -243,7 +231,7 @@ class Chord(Struct, frozen=True):
         return at.root(dot(vector, vector))
 
 
-class TurnBetween(Equation, Struct, frozen=True):
+class TurnBetween(Fact, Struct, frozen=True):
     """The direction of travel turns by the given angle from the first element to the second."""
 
     given: str
@@ -303,7 +291,7 @@ def left_of(at: Lookup, line: str, point: str) -> Any:
     return cosine * at.coordinate(point, SECOND) - sine * at.coordinate(point, FIRST) - offset
 
 
-class Distance(Equation, Struct, frozen=True):
+class Distance(Fact, Struct, frozen=True):
     """`tail` and `head` lie the given distance apart; to first order the residual is the excess."""
 
     given: str
@@ -328,7 +316,7 @@ class Distance(Equation, Struct, frozen=True):
         return apart(at, self.tail, self.head) - at.amount(self.given)
 
 
-class EqualDistances(Equation, Struct, frozen=True):
+class EqualDistances(Fact, Struct, frozen=True):
     """Two pairs of points lie equally far apart."""
 
     given: str

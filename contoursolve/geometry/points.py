@@ -6,12 +6,12 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import FIRST, SECOND, Increments, Lookup, OfCircle, Placed
-from contoursolve.geometry.system import Equation, apart, cross, dot, place, size, step
+from contoursolve.geometry.fact import Fact, Increments, Lookup, OfCircle, Placed, apart, cross, dot, place, size, step
+from contoursolve.geometry.figure import FIRST, SECOND
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 
 
-class Coordinate(Equation, Struct, frozen=True):
+class Coordinate(Fact, Struct, frozen=True):
     """`point` has the given coordinate on `axis`."""
 
     given: str
@@ -36,7 +36,7 @@ class Coordinate(Equation, Struct, frozen=True):
         return True
 
 
-class Offset(Equation, Struct, frozen=True):
+class Offset(Fact, Struct, frozen=True):
     """`point` lies the given distance from `origin`, counted along `axis`."""
 
     given: str
@@ -62,7 +62,7 @@ class Offset(Equation, Struct, frozen=True):
         return True
 
 
-class Level(Equation, Struct, frozen=True):
+class Level(Fact, Struct, frozen=True):
     """`point` has the same coordinate on `axis` as `origin`."""
 
     point: str
@@ -78,7 +78,7 @@ class Level(Equation, Struct, frozen=True):
         return Placed(self.point, self.axis, self.origin, is_stepped=False)
 
 
-class Collinear(Equation, Struct, frozen=True):
+class Collinear(Fact, Struct, frozen=True):
     """`point` lies on the line from `tail` through `through`."""
 
     tail: str
@@ -98,7 +98,7 @@ class Collinear(Equation, Struct, frozen=True):
         return self.tail, self.through, self.point
 
 
-class Heading(Equation, Struct, frozen=True):
+class Heading(Fact, Struct, frozen=True):
     """The line from `tail` to `head` runs at the given angle."""
 
     given: str
@@ -140,7 +140,7 @@ class Ray(Heading, frozen=True):
         return True
 
 
-class OnCircle(Equation, Struct, frozen=True):
+class OnCircle(Fact, Struct, frozen=True):
     """`point` lies on the circle about `center`; to first order the residual is the distance from it.
 
     By up to `slack` (mm) it may be off where the circle is known without it.
@@ -181,7 +181,7 @@ class OnCircle(Equation, Struct, frozen=True):
         return apart(at, self.center, self.point) - at.radius(self.radius)
 
 
-class Radius(Equation, Struct, frozen=True):
+class Radius(Fact, Struct, frozen=True):
     """The radius has the given value."""
 
     given: str

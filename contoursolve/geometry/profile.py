@@ -7,7 +7,8 @@ from enum import Enum
 from msgspec import Struct
 
 from contoursolve.gcode import Block, Word
-from contoursolve.geometry.figure import Fact, Figure
+from contoursolve.geometry.fact import Fact
+from contoursolve.geometry.figure import Figure
 from contoursolve.tolerance import INCREMENT, INCREMENT_ANGLE, INCREMENT_INCH, TRAVEL
 
 INCREMENT_OF = "increment:"

@@ -6,25 +6,24 @@ from typing import Any
 
 from msgspec import Struct
 
-from contoursolve.geometry.figure import (
-    FIRST,
-    SECOND,
-    Arc,
+from contoursolve.geometry.fact import (
     Clearance,
-    Corner,
     Fact,
     Incidence,
-    Line,
     Lookup,
     Radial,
-    Round,
-    Turn,
+    cross,
+    dot,
+    place,
+    rotate,
+    side_of,
+    step,
 )
+from contoursolve.geometry.figure import FIRST, SECOND, Arc, Corner, Line, Round, Turn
 from contoursolve.geometry.lines import Along, TurnBetween, left_of
-from contoursolve.geometry.system import Equation, cross, dot, place, rotate, side_of, step
 
 
-class EqualRadii(Equation, Struct, frozen=True):
+class EqualRadii(Fact, Struct, frozen=True):
     """Two circles have the same radius."""
 
     given: str
@@ -35,7 +34,7 @@ class EqualRadii(Equation, Struct, frozen=True):
         return at.radius(self.first) - at.radius(self.second)
 
 
-class RadiusStep(Equation, Struct, frozen=True):
+class RadiusStep(Fact, Struct, frozen=True):
     """A radius is larger than another one by the given length."""
 
     given: str
@@ -53,7 +52,7 @@ class RadiusStep(Equation, Struct, frozen=True):
         return self.radius, self.origin
 
 
-class Spoke(Equation, Struct, frozen=True):
+class Spoke(Fact, Struct, frozen=True):
     """A radius leads from the centre to `point` in the given direction turned by quarters; its part along `axis`."""
 
     given: str
@@ -97,7 +96,7 @@ class Spoke(Equation, Struct, frozen=True):
         return self.point if self.quarters else self.center
 
 
-class TangentLine(Equation, Struct, frozen=True):
+class TangentLine(Fact, Struct, frozen=True):
     """The line touches the circle about `center`, which lies to its left (`side` +1) or right (-1)."""
 
     line: str
@@ -140,7 +139,7 @@ class TangentLine(Equation, Struct, frozen=True):
         return f"{self.line} touches the circle about {self.center}"
 
 
-class Foot(Equation, Struct, frozen=True):
+class Foot(Fact, Struct, frozen=True):
     """`point` is the foot of the perpendicular from `center` onto the line.
 
     With a `corner`, the point must lie before it on the line (`way` +1) or beyond it (-1).
@@ -169,7 +168,7 @@ class Foot(Equation, Struct, frozen=True):
         return f"{self.point} where the circle touches {self.line}"
 
 
-class Leaving(Equation, Struct, frozen=True):
+class Leaving(Fact, Struct, frozen=True):
     """The line begins at `point`, which lies on a circle, in the direction in which the circle is travelled there."""
 
     line: str
@@ -185,7 +184,7 @@ class Leaving(Equation, Struct, frozen=True):
         return (self.turn.sign * cross(step(at, self.center, self.point), at.bearing(self.line)),)
 
 
-class TangentCircles(Equation, Struct, frozen=True):
+class TangentCircles(Fact, Struct, frozen=True):
     """Two circles touch: from outside (`side` +1) or one inside the other (-1).
 
     `side` is the name of an open side, or the side itself. To first order the residual is the gap.
@@ -239,7 +238,7 @@ class PointBeside(TangentCircles, frozen=True):
         return Clearance(*self.first, "", self.second, self.side)
 
 
-class Contact(Equation, Struct, frozen=True):
+class Contact(Fact, Struct, frozen=True):
     """`point`, which lies on two circles, is where they touch: in line with their centres.
 
     It lies between the centres for a contact from outside (`side` +1), beyond them for one from inside (-1).
@@ -278,7 +277,7 @@ class Contact(Equation, Struct, frozen=True):
         return self.first, self.second
 
 
-class ArcLength(Equation, Struct, frozen=True):
+class ArcLength(Fact, Struct, frozen=True):
     """The arc from `tail` to `head` about `center` has the given length.
 
     The residual is how far `head` lies off the ray at which the arc must end.
@@ -322,7 +321,7 @@ class ArcLength(Equation, Struct, frozen=True):
             yield dot(chord, chord) - half * half
 
 
-class TangentArc(Equation, Struct, frozen=True):
+class TangentArc(Fact, Struct, frozen=True):
     """The circle about `center` touches the circle of an arc, and lies to the left of its travel (`side` +1) or to
     the right (-1). To first order the residual is the gap."""
 
@@ -344,7 +343,7 @@ class TangentArc(Equation, Struct, frozen=True):
         return self.equation(at) / (2 * (at.radius(self.arc[1]) + at.radius(self.radius)))
 
 
-class ArcContact(Equation, Struct, frozen=True):
+class ArcContact(Fact, Struct, frozen=True):
     """`point`, which lies on the circle of an arc, is where a circle about `center` touches it: in line with both
     centres. It comes before the `corner` on the arc (`way` +1) or after it (-1), by less than half a turn."""
 
@@ -374,7 +373,7 @@ class ArcContact(Equation, Struct, frozen=True):
         return reach * dot(spoke, between), self.way * self.turn.sign * ahead
 
 
-class Setback(Equation, Struct, frozen=True):
+class Setback(Fact, Struct, frozen=True):
     """`point`, which lies on the line, is `size` before the `corner` (`way` +1) or after it (-1)."""
 
     line: str
@@ -389,7 +388,7 @@ class Setback(Equation, Struct, frozen=True):
         return self.way * ahead - at.radius(self.size)
 
 
-class ChordSetback(Equation, Struct, frozen=True):
+class ChordSetback(Fact, Struct, frozen=True):
     """`point`, which lies on the circle of an arc, is `size` away from the `corner`, along the chord: before it on
     the arc (`way` +1) or after it (-1)."""
 

@@ -7,7 +7,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.gcode import Word
-from contoursolve.geometry.figure import FIRST, SECOND, Arc, Circle, Corner, CornerShape, Fact, Figure, Line, scalar
+from contoursolve.geometry.fact import Fact
+from contoursolve.geometry.figure import FIRST, SECOND, Arc, Circle, Corner, CornerShape, Figure, Line, scalar
 from contoursolve.geometry.lines import (
     Along,
     ChamferLeg,

@@ -9,7 +9,8 @@ from decimal import Decimal
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.geometry.figure import Arc, Corner, CornerShape, Fact, Line
+from contoursolve.geometry.fact import Fact
+from contoursolve.geometry.figure import Arc, Corner, CornerShape, Line
 from contoursolve.geometry.lines import (
     Directed,
     Distance,
