@@ -8,6 +8,8 @@ from contoursolve.diagnosis.attempt import Repairs
 from contoursolve.diagnosis.edits import EditKind
 from contoursolve.diagnosis.examine import Answer, Policy, problems
 from contoursolve.diagnosis.explain import (
+    AGAINST,
+    LEAVING_FREE,
     SAID_AGAIN,
     SINGULAR,
     absent_advice,
@@ -29,13 +31,16 @@ from contoursolve.solving import (
     NoteKind,
     RefusalKind,
     Ties,
+    Topic,
     affine_facts,
     analyse,
     compare_affine,
     decompose,
+    events_about,
     find_ties,
     lookup,
     opposes,
+    refusals_about,
     runs_against,
     scalars_of,
     spare_of,
@@ -56,7 +61,7 @@ def diagnose(
     affine = affine_facts(profile, (*profile.facts, *profile.ignored))
     found = None
     if answer.start.is_known and (is_readable or affine is None):
-        is_told = any(each.about in (*SAID_AGAIN, *_ABOUT_RADII) for each in answer.diagnostics)
+        is_told = any(each.about in SAID_AGAIN | _ABOUT_RADII for each in answer.diagnostics)
         found = find_ties(profile, is_told=is_told)
     freedoms = affine.freedoms() if affine and is_readable else ()
     # What a contour needs and nobody reads here is no slip.
@@ -118,17 +123,11 @@ def _both(findings: list[Diagnostic]) -> list[int]:
     repair mends either."""
     errors = {number: each for number, each in enumerate(findings) if each.is_error}
     missing = [number for number, each in errors.items() if each.about in _MISSING]
-    against = [number for number, each in errors.items() if each.about in _AGAINST]
+    against = [number for number, each in errors.items() if each.about in AGAINST]
     return [*missing, *against] if missing and against else []
 
 
-_MISSING = (ReadIssue.UNDERDETERMINED, ReadIssue.CORNER_NOWHERE, RefusalKind.NOT_FIXED)
-_AGAINST = (
-    RefusalKind.WORDS_DISAGREE,
-    RefusalKind.FACT_DISAGREES,
-    RefusalKind.RADIUS_DIFFERENCE,
-    RefusalKind.LINES_PARALLEL,
-)
+_MISSING = {ReadIssue.UNDERDETERMINED, ReadIssue.CORNER_NOWHERE, *LEAVING_FREE}
 
 
 def mend_points(answer: Answer, dialect: Dialect) -> Answer:
@@ -166,7 +165,7 @@ _NOT_MENDED = (
 """Matters that no repair of the contour is about: its start point, a path that may be meant, and what is right but not
 known: without a corner, it would be another contour that is as little known."""
 
-_FROM_START = (ReadIssue.WORD_IGNORED, RefusalKind.WORDS_DISAGREE, RefusalKind.LINE_REVERSED)
+_FROM_START = {ReadIssue.WORD_IGNORED, *refusals_about(Topic.WORD, Topic.DIRECTION)}
 
 
 def _start_labels(answer: Answer) -> tuple[Label, ...]:
@@ -203,7 +202,7 @@ def _is_turned(answer: Answer, ties: Ties, circuit: Circuit) -> bool:
     return runs_against(circuit.facts, profile, lookup(profile, known))
 
 
-_ABOUT_RADII = (RefusalKind.RADIUS_DIFFERENCE, NoteKind.RADIUS_DIFFERS)
+_ABOUT_RADII = events_about(Topic.RADII)
 
 
 def _reasons(
@@ -235,12 +234,12 @@ def _reasons(
 
 def _points_lost(profile: Profile, affine: AffineFacts) -> set[str]:
     """The points for which lines that are parallel leave no place: nothing of them can move."""
-    parallel = (each for each in compare_affine(profile, affine) if each.kind is RefusalKind.LINES_PARALLEL)
+    parallel = (each for each in compare_affine(profile, affine) if each.kind in SINGULAR - LEAVING_FREE)
     return {name.rpartition(".")[0] for each in parallel for name in each.subject.split(",")}
 
 
-_ABOUT_TIES = (ReadIssue.WORD_IGNORED, RefusalKind.WORDS_DISAGREE, NoteKind.WORDS_AGREE, *SINGULAR)
-_ABOUT_FREEDOM = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
+_ABOUT_TIES = {ReadIssue.WORD_IGNORED, *events_about(Topic.WORD, Topic.SINGULAR)}
+_ABOUT_FREEDOM = {ReadIssue.UNDERDETERMINED, *LEAVING_FREE}
 
 
 def list_layers(answer: Answer, policy: Policy) -> tuple[Layer, ...]:
@@ -320,7 +319,7 @@ _ABOUT_VALUES = (
     *SINGULAR,
     *SAID_AGAIN,
     RefusalKind.POINT_IS_START,
-    RefusalKind.RADIUS_DIFFERENCE,
+    *refusals_about(Topic.RADII),
     ReadIssue.FACTS_SINGULAR,
     NoteKind.SENSITIVE,
 )

@@ -18,14 +18,23 @@ from contoursolve.diagnosis.drafts import (
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, EditKind, Why, add, change, drop, rounded, write_word
 from contoursolve.diagnosis.examine import Answer, AskedValue, problems
 from contoursolve.diagnosis.examples import sampled
-from contoursolve.diagnosis.explain import SAID_AGAIN, SINGULAR, facts_at, spans_of
+from contoursolve.diagnosis.explain import SAID_AGAIN, facts_at, spans_of
 from contoursolve.diagnosis.sample_drawing import sample_drawing
 from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, Word, number_of, spell
 from contoursolve.geometry import FIRST, SECOND, Fact, Profile, Unit, assemble, scalar, word_of
 from contoursolve.reading import ReadIssue, check, read
-from contoursolve.solving import RefusalKind, Status, analyse, choose, numbers_of, pick, tied_with
+from contoursolve.solving import (
+    Status,
+    Topic,
+    analyse,
+    choose,
+    numbers_of,
+    pick,
+    refusals_about,
+    tied_with,
+)
 
 MOST_ADDED = 2
 """Words that a repair adds to such a block."""
@@ -33,9 +42,9 @@ MOST_ADDED = 2
 MOST_HELPING, MOST_SHOWN = 20, 12
 """Of a chain in which any word may stand: the words that are combined, and the sets of them that are tried."""
 
-_NO_CORNERS = (RefusalKind.CORNER_REVERSES, RefusalKind.CORNER_STRAIGHT, ReadIssue.CORNER_TWICE)
-_TWICE = (*SAID_AGAIN, RefusalKind.RADIUS_DIFFERENCE)
-_NOT_TOGETHER = (*SINGULAR, ReadIssue.FACTS_SINGULAR, RefusalKind.NO_POINT, RefusalKind.SEARCH_UNFINISHED)
+_NO_CORNERS = {*refusals_about(Topic.NO_CORNER), ReadIssue.CORNER_TWICE}
+_TWICE = SAID_AGAIN | refusals_about(Topic.RADII)
+_NOT_TOGETHER = {ReadIssue.FACTS_SINGULAR, *refusals_about(Topic.SINGULAR, Topic.SEARCH)}
 _USELESS = (ReadIssue.FACT_UNREADABLE, ReadIssue.FACT_IMPOSSIBLE)
 _DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)")
 _VALUE = re.compile(r"=\s*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))\s*+$")

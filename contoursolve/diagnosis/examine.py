@@ -14,7 +14,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.explain import (
+    AGAINST,
+    LEAVING_FREE,
+    OF_A_WORD,
     SAID_AGAIN,
+    SINGULAR,
     Context,
     context_of,
     explain_ignored,
@@ -56,13 +60,14 @@ from contoursolve.solving import (
     Note,
     NoteKind,
     Refusal,
-    RefusalKind,
     Solution,
     Status,
+    Topic,
     analyse,
     is_closed,
     lookup,
     points_with_two_solutions,
+    refusals_about,
     scalars_of,
     solve,
     trace,
@@ -404,7 +409,7 @@ def _examine_geometry(
     profile, solution, alternatives = _solve(profile, context, claim, notebook, depth)
     for event in _each_word_once([*solution.refusals, *solution.remarks]):
         # A rule about the angles of the block has said that it has no vertex.
-        is_said = event.kind is RefusalKind.LINES_PARALLEL and Status.NO_SOLUTION in notebook.statuses
+        is_said = event.kind in SINGULAR and Status.NO_SOLUTION in notebook.statuses
         if not is_refused or (event.kind in _ABOUT_WORDS and not is_said):
             notebook.add(explain_result(context, event, profile, alternatives))
             notebook.statuses.add(solution.status)
@@ -414,7 +419,7 @@ def _examine_geometry(
 def _each_word_once(events: Sequence[Refusal | Note]) -> list[Refusal | Note]:
     """The events about each word: where a word states several facts, such as both parts of a direction, what is most
     wrong of them."""
-    said = [each for each in events if each.kind in _OF_A_WORD and each.subject]
+    said = [each for each in events if each.kind in OF_A_WORD and each.subject]
     worst: dict[str, Refusal | Note] = {}
     for each in said:
         known = worst.setdefault(each.subject, each)
@@ -424,9 +429,6 @@ def _each_word_once(events: Sequence[Refusal | Note]) -> list[Refusal | Note]:
         ):
             worst[each.subject] = each
     return [each for each in events if each not in said or each is worst[each.subject]]
-
-
-_OF_A_WORD = (RefusalKind.WORDS_DISAGREE, NoteKind.WORDS_AGREE)
 
 
 def _behind(finding: Diagnostic, against: Sequence[Diagnostic], claim: ParsedContour) -> Diagnostic:
@@ -484,7 +486,7 @@ def _solve(
     return profile, settlement.solution, settlement.alternatives
 
 
-_LEAVING_OPEN = (RefusalKind.NOT_FIXED, RefusalKind.SEARCH_UNFINISHED)
+_LEAVING_OPEN = LEAVING_FREE | refusals_about(Topic.SEARCH)
 """Refusals that tell of unknowns that words leave open at their values."""
 
 
@@ -494,7 +496,7 @@ def _has_choice(profile: Profile) -> bool:
     return not is_closed(system) or any(point not in chosen for point in points_with_two_solutions(system))
 
 
-_ABOUT_WORDS = (*SAID_AGAIN, RefusalKind.RADIUS_DIFFERENCE, RefusalKind.LINES_PARALLEL)
+_ABOUT_WORDS = SAID_AGAIN | AGAINST
 
 
 def _examine_system(

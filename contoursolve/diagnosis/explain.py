@@ -42,13 +42,17 @@ from contoursolve.solving import (
     Refusal,
     RefusalKind,
     Solution,
+    Status,
+    Topic,
     against_angles,
     allowance,
     compare,
     dropped_corners,
+    events_about,
     increments_of,
     lookup,
     opposes,
+    refusals_about,
     scalars_of,
 )
 from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING
@@ -369,13 +373,14 @@ def _adding(names: Sequence[str], claim: ParsedContour, profile: Profile, unable
     yield lack_text(lack, text) + where
 
 
-_IN_DEGREES = {RefusalKind.LINE_REVERSED}
-_OF_PICKS = {RefusalKind.PICK_NONE, NoteKind.PICK_OPEN, NoteKind.PICK_FIRST}
-_OF_A_WORD = {RefusalKind.WORDS_DISAGREE, NoteKind.WORDS_AGREE}
-SAID_AGAIN = (*_OF_A_WORD, RefusalKind.FACT_DISAGREES)
+OF_A_WORD = events_about(Topic.WORD)
+SAID_AGAIN = events_about(Topic.WORD, Topic.FACT)
 """Events about a word or a fact that follows from others."""
-SINGULAR = (RefusalKind.LINES_PARALLEL, RefusalKind.NOT_FIXED)
+SINGULAR = events_about(Topic.SINGULAR)
 """Events about facts that leave something free at their values only; they name all words that they are about."""
+LEAVING_FREE = frozenset(kind for kind in RefusalKind if kind.status is Status.UNDERDETERMINED)
+AGAINST = refusals_about(Topic.WORD, Topic.FACT, Topic.RADII, Topic.SINGULAR) - LEAVING_FREE
+"""Refusals of words and facts that contradict one another."""
 
 
 def explain_result(
@@ -397,11 +402,11 @@ def explain_result(
         "things": join(things) if len(things) <= MOST_THINGS else "contour",
         "together": " together" if len(words) > 1 else "",
     }
-    is_word = event.kind in _OF_A_WORD
+    is_word = event.kind in OF_A_WORD
     compared = [name for name in ("limit", "expected", "actual") if name in values]
     if is_word and givens[0].is_diameter:
         values |= {name: 2 * values[name] for name in compared}
-    in_degrees = event.kind in _IN_DEGREES or (is_word and givens[0].unit is Unit.DEGREE)
+    in_degrees = event.kind.event.in_degrees or (is_word and givens[0].unit is Unit.DEGREE)
     write = angle_text if in_degrees else lambda value, more: length_text(value, context.unit, more)
     fields |= zip(compared, tell_apart([values[name] for name in compared], write), strict=True)
     fields |= {name: length_text(values[name], context.unit) for name in ("radius", "distance") if name in values}
@@ -417,7 +422,7 @@ def explain_result(
     notes: tuple[str, ...] = ()
     if event.kind in SAID_AGAIN:
         fields |= _others(event, profile)
-    if event.kind in (RefusalKind.SEARCH_UNFINISHED, RefusalKind.COUNT_OPEN) and alternatives is not None:
+    if event.kind.event.status is Status.UNDECIDED and alternatives is not None:
         fields["advice"] = _ADVICE[alternatives.doubts[0].obstacle.name]
         notes = tuple(_search_notes(profile, alternatives))
         # Whether everything nearby is decided, and only what lies farther away is not.
@@ -467,7 +472,7 @@ def _counted(event: Refusal | Note) -> dict[str, str]:
     """The number of contours, or of solutions at an element."""
     if event.kind is NoteKind.SEVERAL:
         return {"count": f"{event.values['actual']:.0f}"}
-    if event.kind in _OF_PICKS:
+    if event.kind.event.topic is Topic.PICK:
         count = int(event.values["limit"])
         numbers = "1" if count == 1 else f"a number from 1 to {count}"
         return {"limit_count": f"{count} solution{'s' * (count != 1)}", "numbers": numbers}

@@ -23,11 +23,12 @@ from contoursolve.geometry import FIRST, SECOND, Arc, Fact, Line, Profile, assem
 from contoursolve.solving import (
     AffineFacts,
     Circuit,
-    RefusalKind,
+    Topic,
     analyse,
     groups_of,
     is_conflict,
     lookup,
+    refusals_about,
     runs_against,
 )
 from contoursolve.tolerance import REGULAR
@@ -134,7 +135,7 @@ def path_reasons(profile: Profile, affine: AffineFacts | None, finding: Diagnost
             f"a line through the same {known} point meets the circle with {finding.addresses[0]} between "
             f"{limit_text(values['angle_from'], 'deg', -1)} and {limit_text(values['angle_to'], 'deg', 1)}"
         )
-    if affine is not None and finding.about is RefusalKind.LINE_REVERSED:
+    if affine is not None and finding.about in refusals_about(Topic.DIRECTION):
         fixed = affine.fixed_by(affine.facts)
         for line in (element for element in profile.figure.path if isinstance(element, Line)):
             word = profile.givens[line.heading].word if line.heading else None
@@ -158,7 +159,7 @@ def _ends_on_arc(profile: Profile, finding: Diagnostic) -> bool:
 
 def _placed_before(profile: Profile, finding: Diagnostic) -> Iterator[str]:
     """Sentences on the words of earlier blocks that put the beginning of an element of a later one where it is."""
-    if finding.about is not RefusalKind.RADIUS_DIFFERENCE or len(profile.blocks) != len(profile.figure.path):
+    if finding.about not in refusals_about(Topic.RADII) or len(profile.blocks) != len(profile.figure.path):
         return
     for element, block in zip(profile.figure.path, profile.blocks, strict=True):
         if block.line == finding.span.line and element.tail != profile.figure.start:

@@ -51,7 +51,17 @@ from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import Block, FaultKind, Word, number_of
 from contoursolve.geometry import Given, Profile, Unit
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, check, read
-from contoursolve.solving import AffineFacts, Circuit, RefusalKind, Status, affine_facts, is_conflict, lookup
+from contoursolve.solving import (
+    AffineFacts,
+    Circuit,
+    RefusalKind,
+    Status,
+    Topic,
+    affine_facts,
+    is_conflict,
+    lookup,
+    refusals_about,
+)
 
 MOST_BLOCKS = 6
 """Of a contour in which wrong digits are looked for."""
@@ -349,11 +359,14 @@ def _values(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
         yield (*forced, *asked_together)
 
 
+_OF_RADII = refusals_about(Topic.RADII)
+
+
 def _of_circles(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """Words that place a circle twice, each with the value that agrees with the others, or with what a slip makes of
     about this value."""
     claim, unit, lexicon = answer.claim, answer.claim.after.unit, answer.claim.lexicon
-    finding = next((each for each in answer.diagnostics if each.about is RefusalKind.RADIUS_DIFFERENCE), None)
+    finding = next((each for each in answer.diagnostics if each.about in _OF_RADII), None)
     if finding is None or has_faults(claim):
         return
     spans = spans_of([finding])
@@ -382,7 +395,7 @@ def _gap(answer: Answer | None) -> float | None:
     if answer is not None and answer.contour is not None:
         return 0.0
     for finding in answer.diagnostics if answer else ():
-        if finding.about is RefusalKind.RADIUS_DIFFERENCE and "distance" in finding.values:
+        if finding.about in _OF_RADII and "distance" in finding.values:
             return finding.values["distance"] ** 2 - finding.values["radius"] ** 2
     return None
 

@@ -25,9 +25,10 @@ from contoursolve.numeric import (
     largest,
 )
 from contoursolve.solving import (
+    NO_POINT,
+    UNVERIFIED,
     Check,
     Kernel,
-    RefusalKind,
     RowOutcome,
     StatusCode,
     add_checks,
@@ -153,7 +154,7 @@ class BranchRows:
                 continue
             if cell.is_lost:
                 settled.status[cell.rows] = StatusCode.NO_SOLUTION
-                settled.reason[cell.rows] = reason_of(RefusalKind.NO_POINT)
+                settled.reason[cell.rows] = NO_POINT
                 continue
             if not any(place.is_chosen for place in cell.solutions):
                 # Why there is none is the same for all of them.
@@ -189,7 +190,7 @@ class BranchRows:
         size = pairs.rows.size
         verdict = RowOutcome(self.outputs, _run(self.function, {**known, **scalars}, size), size)
         status, reason = verdict.status, verdict.reason
-        settled.again |= count(is_bad | verdict.again | (reason == reason_of(RefusalKind.NOT_VERIFIED))) > 0
+        settled.again |= count(is_bad | verdict.again | (reason == UNVERIFIED)) > 0
         status[(status == StatusCode.OVERDETERMINED) & (reason != 0)] = StatusCode.NO_SOLUTION
         is_path = (reason == 0) & (status <= StatusCode.OVERDETERMINED) & pairs.is_chosen
         # A word that tells a solution from another one is needed after all.

@@ -41,7 +41,7 @@ from contoursolve.numeric import ROWS, SIDE, Array, ColumnFunction, Columns, com
 from contoursolve.reading import Premises
 from contoursolve.solving import (
     NO_PLACE,
-    RefusalKind,
+    NO_POINT,
     RowOutcome,
     StatusCode,
     code_of,
@@ -229,7 +229,7 @@ class _ClassRows:
         names, rows = names_of(self.case), target.size
         function = self._function(ranges, places, rows)
         count, again = numpy.zeros(rows, numpy.int64), numpy.zeros(rows, bool)
-        reason = numpy.full(rows, reason_of(RefusalKind.NO_POINT), numpy.uint8)
+        reason = numpy.full(rows, NO_POINT, numpy.uint8)
         sides = [function.compiled.fixed.index(SIDE + point) for point in self.case.open_points]
         for signs in product((1.0, -1.0), repeat=len(sides)):
             function.fix(sides, signs)
@@ -239,7 +239,7 @@ class _ClassRows:
             again |= verdict.again
             for _, is_one in half_circles(self.case, out):
                 again |= is_one
-            is_first = (reason == reason_of(RefusalKind.NO_POINT)) & ~numpy.isin(verdict.reason, _NOWHERE)
+            is_first = (reason == NO_POINT) & ~numpy.isin(verdict.reason, _NOWHERE)
             reason = numpy.where(is_first, verdict.reason, reason)
             shown = numpy.flatnonzero(is_path & (count == 0))
             count += is_path

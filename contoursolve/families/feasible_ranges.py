@@ -17,7 +17,7 @@ from contoursolve.families.spec import BlockOptions, called, errors_of, first_er
 from contoursolve.geometry import Line
 from contoursolve.numeric import Created
 from contoursolve.reading import Premises
-from contoursolve.solving import Check, NoteKind, RefusalKind
+from contoursolve.solving import Check, NoteKind, RefusalKind, Topic, refusals_about
 
 ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
 """Share of an end (at least of 1). How far beside it single solves are tried, until they tell its two sides apart."""
@@ -42,7 +42,7 @@ def failure_of(answer: Answer) -> tuple[Reason, Enum | None]:
     """The first error that a single solve finds, in its own words, and the event that it is about."""
     error = next(iter(errors_of(answer)), None)
     # Close to a singular case rounding alone keeps the equations from holding.
-    if error is None or error.about is RefusalKind.NOT_VERIFIED:
+    if error is None or error.about in refusals_about(Topic.ARITHMETIC):
         return NO_FAILURE
     return Reason(error.message, error.code, error.message), error.about
 
@@ -228,7 +228,7 @@ def _reason(
     if check is None:
         return unnamed, onset is None
     text = phrase(check, kind or check.kind, read_as)
-    is_singular = onset is not None and onset.check.kind is RefusalKind.LINES_PARALLEL
+    is_singular = onset is not None and onset.check.kind.event.topic is Topic.SINGULAR
     if onset is not None and is_singular and not same(onset.check.kind, check.kind):
         text, limit = f"{phrase(onset.check, onset.check.kind, read_as)}: {limit}", f"beyond it {text}"
         return replace(failure, text=f"{text}; {limit}"), False
@@ -306,7 +306,4 @@ def same(one: RefusalKind, other: RefusalKind) -> bool:
     return one is other or any({one, other} <= kinds for kinds in _TOGETHER)
 
 
-_TOGETHER = (
-    {RefusalKind.CORNER_STRAIGHT, RefusalKind.CORNER_REVERSES},
-    {RefusalKind.LINES_PARALLEL, RefusalKind.NOT_FIXED},
-)
+_TOGETHER = (refusals_about(Topic.NO_CORNER), refusals_about(Topic.SINGULAR))

@@ -56,6 +56,7 @@ from contoursolve.solving import (
     RefusalKind,
     Segment,
     Status,
+    Topic,
     analyse,
     compile_system,
     corner_of,
@@ -298,7 +299,7 @@ def find_known(answer: Answer) -> Known:
 def _completed(profile: Profile) -> Known:
     """A contour of which words leave something free, without those of them that contradict the others."""
     refusals = tuple(each for each in said_twice(profile) if isinstance(each, Refusal))
-    against = {each.subject for each in refusals if each.kind is RefusalKind.WORDS_DISAGREE}
+    against = {each.subject for each in refusals if each.kind.event.topic is Topic.WORD}
     part = with_facts(profile, (fact for fact in profile.facts if fact.given not in against)) if against else profile
     return replace(complete(part), refusals=refusals)
 
@@ -332,7 +333,7 @@ def _worked_out(profile: Profile) -> Known:
                 corners[corner.name] = built
     is_solvable = count_choices(profile) <= MOST_CHOICES and is_chosen(profile)
     refusals = solve(profile, is_proven=False).refusals if is_solvable else ()
-    singular = next((refusal.subject for refusal in refusals if refusal.kind is RefusalKind.NOT_FIXED), "")
+    singular = next((refusal.subject for refusal in refusals if refusal.kind.status is Status.UNDERDETERMINED), "")
     if singular:
         found = complete(profile, singular.split(","))
         if found.placed:

@@ -106,7 +106,10 @@ from .events import (
     PointsAt as PointsAt,
     RefusalKind as RefusalKind,
     Status as Status,
+    Topic as Topic,
     event_of as event_of,
+    events_about as events_about,
+    refusals_about as refusals_about,
 )
 from .exact_inputs import (
     BALLS as BALLS,
@@ -146,7 +149,9 @@ from .picks import (
     resolved_later as resolved_later,
 )
 from .row_outcome import (
+    NO_POINT as NO_POINT,
     REASONS as REASONS,
+    UNVERIFIED as UNVERIFIED,
     RowOutcome as RowOutcome,
     StatusCode as StatusCode,
     code_of as code_of,

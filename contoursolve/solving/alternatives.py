@@ -25,7 +25,7 @@ from contoursolve.solving.compile import compile_path
 from contoursolve.solving.determinacy import analyse, groups_of, spare_of
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import Doubt, Found, enumerate_solutions
-from contoursolve.solving.events import NoteKind, RefusalKind, Status
+from contoursolve.solving.events import NoteKind, RefusalKind, Status, Topic, refusals_about
 from contoursolve.solving.exact_inputs import ground_of
 from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range
 from contoursolve.solving.krawczyk import Prover, radius_of
@@ -33,7 +33,7 @@ from contoursolve.solving.numbers import corner_of, scalars_of, sizes_of
 from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.solving.picks import Alternative, Alternatives, pick
 from contoursolve.solving.sides import BOTH, sides_of
-from contoursolve.solving.solution import Certificate, CornerSolution, Note, Point, Proof, Refusal, Solution
+from contoursolve.solving.solution import Certificate, CornerSolution, Note, Point, Proof, Refusal, Solution, unverified
 from contoursolve.tolerance import LENGTH, RESIDUAL
 
 
@@ -74,7 +74,7 @@ def _find(question: _Question) -> Alternatives:
         prover = Prover(system, groups_of(system), ground_of(profile))
         items = [_alternative(profile, system, prover, found) for found in enumeration.found]
     doubts = enumeration.doubts
-    if any(refusal.kind is RefusalKind.NOT_VERIFIED for item in items for refusal in item.solution.refusals):
+    if any(refusal.kind.event.topic is Topic.ARITHMETIC for item in items for refusal in item.solution.refusals):
         doubts = (*doubts, Doubt((), Obstacle.UNDECIDED))
     # What the form chooses by itself is no alternative for a user.
     items = [item for item in items if _agrees(item, [choice for choice in profile.choices if not choice.given])]
@@ -221,7 +221,7 @@ def _compare(
         off = ball.distance(fact.residual(at), 0.0)
         if index in basis:
             if not off <= RESIDUAL:  # true for NaN
-                refusals.append(Refusal(RefusalKind.NOT_VERIFIED, "", (), {"limit": RESIDUAL, "actual": off}))
+                refusals.append(unverified(off))
             continue
         event = compare_fact(fact, off, profile, system, floats)
         if isinstance(event, Refusal):
@@ -318,13 +318,16 @@ def decide(alternatives: Alternatives, profile: Profile) -> Solution:
     return _refused(eligible, alternatives)
 
 
+_AGAINST_OTHERS = refusals_about(Topic.WORD, Topic.FACT)
+
+
 def _without_selecting(solution: Solution, alternatives: Alternatives) -> Solution:
     """A solution without the remark that a word was not needed, where the word tells it from another solution."""
     selecting = {
         refusal.subject
         for item in alternatives.items
         for refusal in item.solution.refusals
-        if refusal.kind in (RefusalKind.WORDS_DISAGREE, RefusalKind.FACT_DISAGREES)
+        if refusal.kind in _AGAINST_OTHERS
     }
     remarks = tuple(
         remark

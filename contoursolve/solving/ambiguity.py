@@ -32,7 +32,7 @@ from contoursolve.solving.construction import is_closed
 from contoursolve.solving.determinacy import analyse, groups_of
 from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import enumerate_solutions
-from contoursolve.solving.events import NoteKind, RefusalKind, Status
+from contoursolve.solving.events import Status, Topic, events_about, refusals_about
 from contoursolve.solving.identities import is_affine
 from contoursolve.solving.partition import Group
 from contoursolve.solving.picks import Alternative, Alternatives
@@ -109,12 +109,11 @@ def settle(profile: Profile, *, is_blaming: bool = True) -> Settlement:
         alternatives = next((found for found in tried if not _unsettled(found)), alternatives)
     nearest = tuple(sorted(alternatives.items, key=_disagreement))
     solution = decide(replace(alternatives, items=nearest), profile)
-    kinds = {refusal.kind for refusal in solution.refusals}
-    if not is_blaming or not kinds & {RefusalKind.NO_POINT, RefusalKind.SEARCH_UNFINISHED}:
+    if not is_blaming or all(refusal.kind not in _SEARCHED for refusal in solution.refusals):
         return Settlement(solution, alternatives)
     system = assemble(profile)
     groups = groups_of(system)
-    if RefusalKind.NO_POINT in kinds:
+    if alternatives.is_complete:
         dead = _dead(profile, groups)
         return Settlement(_affine(profile, groups, dead) or _blame(solution, dead, groups, system), alternatives)
     unknowns = {name for doubt in alternatives.doubts for name in doubt.unknowns}
@@ -238,12 +237,8 @@ def _affine(profile: Profile, groups: tuple[Group, ...], doubtful: list[Group]) 
     return Solution(refusals[0].kind.status, refusals=tuple(refusals)) if refusals else None
 
 
-_COMPARED = (
-    RefusalKind.WORDS_DISAGREE,
-    RefusalKind.FACT_DISAGREES,
-    RefusalKind.RADIUS_DIFFERENCE,
-    NoteKind.WORDS_AGREE,
-)
+_COMPARED = events_about(Topic.WORD) | refusals_about(Topic.FACT, Topic.RADII)
+_SEARCHED = refusals_about(Topic.SEARCH)
 
 
 def said_twice(profile: Profile) -> tuple[Refusal | Note, ...]:

@@ -49,7 +49,7 @@ from contoursolve.solving.compile import compile_plainly, compile_system
 from contoursolve.solving.construction import Construction, ConstructionStep, StepKind, is_closed
 from contoursolve.solving.corners import Pair
 from contoursolve.solving.determinacy import analyse
-from contoursolve.solving.events import RefusalKind
+from contoursolve.solving.events import RefusalKind, Topic, refusals_about
 from contoursolve.solving.inputs import EXPRESSIONS, input_values
 from contoursolve.solving.numbers import axes_of, inputs_of
 from contoursolve.solving.path_outputs import PathOutputs
@@ -112,14 +112,7 @@ class Check(Struct, frozen=True):
     """What is refused instead where both directions at the corner are opposite."""
 
 
-NO_PLACE = (
-    RefusalKind.POINT_IS_START,
-    RefusalKind.CIRCLE_MISSED,
-    RefusalKind.RADIUS_TOO_SMALL,
-    RefusalKind.CIRCLES_APART,
-    RefusalKind.CIRCLE_UNDEFINED,
-    RefusalKind.NOT_VERIFIED,
-)
+NO_PLACE = refusals_about(Topic.PLACE, Topic.ARITHMETIC)
 """What is refused where a step of the construction has no solution."""
 
 Checks = Iterator[tuple[Check, Any]]

@@ -43,12 +43,29 @@ class PointsAt(Enum):
     BLOCK = "block"
 
 
+class Topic(Enum):
+    """Matter of a geometric event."""
+
+    WORD = "a word that follows from others"
+    FACT = "a fact without a value of its own that follows from others"
+    RADII = "the distances of a circle's points from its centre"
+    SINGULAR = "facts that leave something free at their values only"
+    PLACE = "a step of the construction without a place"
+    SEARCH = "a search that found nothing"
+    ARITHMETIC = "a result that does not satisfy its equations"
+    DIRECTION = "the direction in which a line is stated to run"
+    NO_CORNER = "two elements that make no corner"
+    PICK = "a word that chooses among solutions"
+    OTHER = "something else"
+
+
 class GeometricEvent(Struct, frozen=True):
     """What is said of one geometric event, for all controls that say nothing else.
 
     `message` and `help` have fields in braces. `phrase` says what fails beyond the end of a range, without values, and
     `stop` what a machine shows where a program with variables fails: controls show 26 characters. `limits` are the
-    values that say how large a corner may be; a smaller one mends it. `is_local` tells that it rests on the form of the
+    values that say how large a corner may be; a smaller one mends it. Other values are lengths, or degrees where they
+    are `in_degrees`. `is_local` tells that it rests on the form of the
     elements around its block alone, wherever they lie. `codes` are other ends of the codes of rules about it.
     """
 
@@ -57,8 +74,10 @@ class GeometricEvent(Struct, frozen=True):
     help: str = ""
     severity: Severity = Severity.ERROR
     status: Status = Status.NO_SOLUTION
+    topic: Topic = Topic.OTHER
     points_at: PointsAt = PointsAt.BLOCK
     limits: tuple[str, ...] = ()
+    in_degrees: bool = False
     is_local: bool = False
     phrase: str = ""
     stop: str = ""
@@ -90,6 +109,7 @@ class RefusalKind(GeometricEventKind):
         "lines-parallel",
         "no {things} fits {words}: the lines are parallel and {off} apart",
         "change an angle or a point",
+        topic=Topic.SINGULAR,
         points_at=PointsAt.POINT,
         phrase="{parallel}",
         stop="LINES ARE PARALLEL",
@@ -101,6 +121,7 @@ class RefusalKind(GeometricEventKind):
         "{words} {do} not fix {free}: at these values they state the same line",
         "replace one of them by a word that says where on the line the point is",
         status=Status.UNDERDETERMINED,
+        topic=Topic.SINGULAR,
         points_at=PointsAt.POINT,
         phrase="{parallel}",
     )
@@ -109,6 +130,7 @@ class RefusalKind(GeometricEventKind):
         "point-is-start",
         "{words}: this point of the line is the one where the line begins, so it gives no direction",
         "give another point of the line, or its angle",
+        topic=Topic.PLACE,
         points_at=PointsAt.POINT,
         phrase="the point of the line is its start point",
         stop="TWO POINTS ARE ONE",
@@ -119,6 +141,7 @@ class RefusalKind(GeometricEventKind):
         "circle-missed",
         "the line misses the circle: it passes the centre at {actual}, the radius is {limit}, {off} too far",
         "change the line, or make the circle larger",
+        topic=Topic.PLACE,
         points_at=PointsAt.POINT,
         phrase="the line misses the circle",
         stop="LINE MISSES THE CIRCLE",
@@ -129,6 +152,7 @@ class RefusalKind(GeometricEventKind):
         "radius-too-small",
         "{words}: the radius of {actual} is less than half the distance between two points of the arc, {limit}",
         "write at least {limit}, or correct a point",
+        topic=Topic.PLACE,
         points_at=PointsAt.POINT,
         phrase="the radius is less than half the distance between its two points",
         stop="RADIUS IS TOO SMALL",
@@ -138,6 +162,7 @@ class RefusalKind(GeometricEventKind):
         "circles-apart",
         "the two circles do not meet: their centres are {actual} apart, and they meet at {limit}",
         "change a centre or a radius by {off}",
+        topic=Topic.PLACE,
         points_at=PointsAt.POINT,
         phrase="the circles do not meet",
         stop="CIRCLES DO NOT MEET",
@@ -147,6 +172,7 @@ class RefusalKind(GeometricEventKind):
         "circle-undefined",
         "{words} {define} no circle: the radius is 0, or two of its points are one",
         "give a centre or a point away from where the arc begins",
+        topic=Topic.PLACE,
         points_at=PointsAt.POINT,
         phrase="the radius of the circle is 0",
         stop="CIRCLE HAS NO RADIUS",
@@ -158,6 +184,7 @@ class RefusalKind(GeometricEventKind):
         "{words} disagrees with {others} by {off}: it states {actual}, {they} {give} {expected}",
         "delete it, or write {meant}",
         status=Status.CONFLICTING,
+        topic=Topic.WORD,
         points_at=PointsAt.WORDS,
         phrase="{disagreeing} disagrees with the other words",
         stop="{} DISAGREES",
@@ -169,6 +196,7 @@ class RefusalKind(GeometricEventKind):
         "{words} is not true of what {others} {give}: it is off by {off}",
         "delete it, or change what it is about",
         status=Status.CONFLICTING,
+        topic=Topic.FACT,
         points_at=PointsAt.WORDS,
         phrase="the words disagree about {subject}",
         stop="WORDS DISAGREE",
@@ -181,6 +209,7 @@ class RefusalKind(GeometricEventKind):
         "{words}: two points of the arc differ in their distance from its centre by {off}, allowed {limit}",
         "correct the point, the centre or the radius",
         status=Status.CONFLICTING,
+        topic=Topic.RADII,
         points_at=PointsAt.WORDS,
         phrase="two points of the circle differ in their distance from its centre",
         stop="RADII DIFFER",
@@ -190,7 +219,9 @@ class RefusalKind(GeometricEventKind):
         "line-reversed",
         "{words} points away from the end of {subject}, which lies {off} behind its start",
         "check the signs: as its ends lie, it would run at {expected}",
+        topic=Topic.DIRECTION,
         points_at=PointsAt.ELEMENT,
+        in_degrees=True,
         is_local=True,
         phrase="{reversed}",
         stop="LINE RUNS BACKWARDS",
@@ -233,6 +264,7 @@ class RefusalKind(GeometricEventKind):
         "corner-straight",
         "{words}: {subject} joins two elements of the same direction, so it is no corner",
         "delete {words}",
+        topic=Topic.NO_CORNER,
         points_at=PointsAt.CORNER,
         is_local=True,
         phrase="{subject} joins two lines of one direction",
@@ -244,6 +276,7 @@ class RefusalKind(GeometricEventKind):
         "corner-reverses",
         "{words}: {subject} turns back by 180 deg, where no corner can be made",
         "change the direction of one element",
+        topic=Topic.NO_CORNER,
         points_at=PointsAt.CORNER,
         is_local=True,
         phrase="{subject} turns back by 180 deg",
@@ -292,6 +325,7 @@ class RefusalKind(GeometricEventKind):
         "no-point",
         "no {things} fits {words}{together}",
         "change one of the values; every combination of sides has been tried, so this is proven",
+        topic=Topic.SEARCH,
         points_at=PointsAt.POINT,
         phrase="{apart}",
     )
@@ -301,6 +335,7 @@ class RefusalKind(GeometricEventKind):
         "undecided: the search found no {things} for {words}{together}, and did not prove that there is none",
         "{advice}",
         status=Status.UNDECIDED,
+        topic=Topic.SEARCH,
     )
 
     COUNT_OPEN = GeometricEvent(
@@ -315,6 +350,7 @@ class RefusalKind(GeometricEventKind):
         "not-verified",
         "the result does not satisfy the equations of the block: off by {actual}, allowed {limit}",
         "please report this block: it is an error of contoursolve",
+        topic=Topic.ARITHMETIC,
     )
 
     OUT_OF_RANGE = GeometricEvent(
@@ -338,6 +374,7 @@ class RefusalKind(GeometricEventKind):
 
     PICK_NONE = GeometricEvent(
         "pick-none",
+        topic=Topic.PICK,
     )
     """A word chooses a solution that is not there."""
 
@@ -413,11 +450,13 @@ class NoteKind(GeometricEventKind):
 
     PICK_OPEN = GeometricEvent(
         "pick-open",
+        topic=Topic.PICK,
     )
     """A word chooses among solutions, and the other words leave one alone."""
 
     PICK_FIRST = GeometricEvent(
         "pick-first",
+        topic=Topic.PICK,
     )
     """Nothing chooses, and a setting takes the first of several contours."""
 
@@ -426,6 +465,7 @@ class NoteKind(GeometricEventKind):
         "{words} repeats {others}",
         "delete it",
         severity=Severity.WARNING,
+        topic=Topic.WORD,
         points_at=PointsAt.WORDS,
         codes=("words-redundant",),
     )
@@ -436,9 +476,20 @@ class NoteKind(GeometricEventKind):
         "{words}: two points of the arc differ in their distance from the centre by {off}, within the allowed {limit}",
         "correct the point, the centre or the radius",
         severity=Severity.INFO,
+        topic=Topic.RADII,
         points_at=PointsAt.WORDS,
     )
     """Two points of a circle differ in radius, by less than the control allows."""
+
+
+def events_about(*topics: Topic) -> frozenset[RefusalKind | NoteKind]:
+    """The kinds of events about some topics."""
+    return frozenset(kind for kind in (*RefusalKind, *NoteKind) if kind.event.topic in topics)
+
+
+def refusals_about(*topics: Topic) -> frozenset[RefusalKind]:
+    """The same of those that leave no contour."""
+    return frozenset(kind for kind in RefusalKind if kind.event.topic in topics)
 
 
 _BY_CODE: dict[str, RefusalKind | NoteKind] = {

@@ -23,8 +23,8 @@ from contoursolve.solving.checks import (
 from contoursolve.solving.events import BESIDE, NoteKind, RefusalKind
 from contoursolve.solving.fitting import LEAST, NEAR, largest_fitting
 from contoursolve.solving.path_outputs import PathOutputs
-from contoursolve.solving.solution import Note, Refusal
-from contoursolve.tolerance import LARGEST, LENGTH, RESIDUAL
+from contoursolve.solving.solution import Note, Refusal, unverified
+from contoursolve.tolerance import LARGEST, LENGTH
 
 Failing = list[tuple[Check, float]]
 """Checks with their margins."""
@@ -94,7 +94,7 @@ class _Told:
                 away, name = max((abs(at), name) for name in self.figure.points for at in way(start, name))
                 return Refusal(kind, name, (), {"limit": LARGEST, "actual": away})
             case RefusalKind.NOT_VERIFIED:
-                return Refusal(kind, "", (), {"limit": RESIDUAL, "actual": -margin})
+                return unverified(-margin)
             case RefusalKind.ARC_EMPTY:
                 return Refusal(kind, subject)
             case RefusalKind.LINE_BACKWARDS | RefusalKind.LINE_REVERSED | RefusalKind.CORNER_SIGN:

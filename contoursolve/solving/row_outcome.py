@@ -51,6 +51,10 @@ def reason_of(kind: RefusalKind | None) -> int:
     return _REASON[kind]
 
 
+NO_POINT, UNVERIFIED = reason_of(RefusalKind.NO_POINT), reason_of(RefusalKind.NOT_VERIFIED)
+"""The numbers of two reasons: that there is no such point, and that rounding keeps equations from holding."""
+
+
 class RowOutcome:
     """What the checks found, row by row: `status` and `reason` as numbers; and the rows `again` that need the exact
     arithmetic of a single solve: a step that is singular, a line that touches its circle.

@@ -35,7 +35,7 @@ from contoursolve.solving.events import NoteKind, RefusalKind, Status
 from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range
 from contoursolve.solving.numbers import inputs_of, lookup, scalars_of, sizes_of, solution_at
 from contoursolve.solving.path_outputs import PathOutputs
-from contoursolve.solving.solution import Certificate, Note, Point, Refusal, Solution, up_to_one_digit
+from contoursolve.solving.solution import Certificate, Note, Point, Refusal, Solution, unverified, up_to_one_digit
 from contoursolve.solving.step_outputs import StepOutputs
 from contoursolve.tolerance import ERROR_BOUND_WARNING, RESIDUAL, TOUCHING
 
@@ -315,7 +315,7 @@ class _Attempt:
         residuals = [self.out[name] for name in self.machine.residuals]
         if not all(abs(residual) <= RESIDUAL for residual in residuals):  # true for NaN
             worst = max(residuals, key=lambda residual: abs(residual) if isfinite(residual) else float("inf"))
-            self.refusals.append(_refuse(RefusalKind.NOT_VERIFIED, "", (), limit=RESIDUAL, actual=abs(worst)))
+            self.refusals.append(unverified(abs(worst)))
             return
         self._compare_all()
 

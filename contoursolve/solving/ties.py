@@ -22,7 +22,7 @@ from contoursolve.solving.ambiguity import headings_of, nearest_of_determined, r
 from contoursolve.solving.compare import compare_fact, is_conflict
 from contoursolve.solving.construction import is_closed
 from contoursolve.solving.determinacy import analyse, circuits_of
-from contoursolve.solving.events import NoteKind, RefusalKind
+from contoursolve.solving.events import Topic
 from contoursolve.solving.inputs import input_values
 from contoursolve.solving.solution import Note, Refusal
 from contoursolve.tolerance import REGULAR, RESIDUAL
@@ -52,7 +52,7 @@ class Ties(Struct, frozen=True):
             return max(circuit.off)
         event, off = self._compare(circuit, self.at), circuit.off[-1]
         told = event.values["off_by_mm"] if event is not None else 0.0
-        is_radius = event is not None and event.kind in (RefusalKind.RADIUS_DIFFERENCE, NoteKind.RADIUS_DIFFERS)
+        is_radius = event is not None and event.kind.event.topic is Topic.RADII
         # A difference of radii is so to first order; another one has been rounded where it is a sum of several.
         return told if is_radius or abs(told - off) <= RESIDUAL else off
 

@@ -355,19 +355,12 @@ def test_no_two_places_share_more_than_twelve_equal_lines():
     assert {run[0]: found for run, found in places.items() if len(found) > 1} == {}
 
 
-NAMED_MORE = {
-    *("LINES_PARALLEL", "NOT_FIXED", "WORDS_DISAGREE", "FACT_DISAGREES", "RADIUS_DIFFERENCE"),
-    *("NO_POINT", "SEARCH_UNFINISHED", "NOT_VERIFIED", "LINE_REVERSED"),
-}
-"""Events of words that say the same, of searches, and of angles: diagnosis asks for these themselves."""
-
-
 def test_a_geometric_event_is_one_row_and_few_files_name_it():
     named: dict[str, set[str]] = {}
     for module in MODULES:
         for name in re.findall(r"RefusalKind\.([A-Z_]+)", module.read_text(encoding="utf-8")):
             named.setdefault(name, set()).add(str(module.relative_to(HOUSE)))
-    told = {kind.name for kind in RefusalKind if kind.event.message} - NAMED_MORE
+    told = {kind.name for kind in RefusalKind if kind.event.message}
     many = {name: files for name in told if len(files := named.get(name, set())) > 3}
     assert not many
 
