@@ -19,7 +19,7 @@ from contoursolve.geometry import (
     scalar,
 )
 from contoursolve.numeric import COSINE, SINE, Number, ball, direction
-from contoursolve.solving.checks import Source
+from contoursolve.solving.checks import Source, unverified
 from contoursolve.solving.compare import compare_fact, increments_of
 from contoursolve.solving.compile import compile_path
 from contoursolve.solving.determinacy import analyse, groups_of, spare_of
@@ -33,7 +33,7 @@ from contoursolve.solving.numbers import corner_of, scalars_of, sizes_of
 from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.solving.picks import Alternative, Alternatives, pick
 from contoursolve.solving.sides import BOTH, sides_of
-from contoursolve.solving.solution import Certificate, CornerSolution, Note, Point, Proof, Refusal, Solution, unverified
+from contoursolve.solving.solution import Certificate, CornerSolution, Note, Point, Proof, Refusal, Solution
 from contoursolve.tolerance import LENGTH, RESIDUAL
 
 

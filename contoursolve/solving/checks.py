@@ -53,6 +53,7 @@ from contoursolve.solving.events import RefusalKind, Topic, refusals_about
 from contoursolve.solving.inputs import EXPRESSIONS, input_values
 from contoursolve.solving.numbers import axes_of, inputs_of
 from contoursolve.solving.path_outputs import PathOutputs
+from contoursolve.solving.solution import Refusal
 from contoursolve.solving.step_outputs import StepOutputs
 from contoursolve.tolerance import LARGEST, LENGTH, REGULAR, RESIDUAL, TOUCHING
 
@@ -293,6 +294,11 @@ def check_step(source: Source, step: ConstructionStep, measures: StepOutputs) ->
 def check_residuals(worst: Any) -> tuple[Check, Any]:
     """Whether equations that were solved are satisfied, by their largest residual (mm)."""
     return Check(RefusalKind.NOT_VERIFIED, "", "", Test.AT_LEAST, -RESIDUAL, stage=Stage.EQUATIONS), -worst
+
+
+def unverified(off: float) -> Refusal:
+    """The refusal of a result whose equations are off by so much, mm."""
+    return Refusal(RefusalKind.NOT_VERIFIED, "", (), {"limit": RESIDUAL, "actual": off})
 
 
 def check_range(source: Source) -> tuple[Check, Any]:

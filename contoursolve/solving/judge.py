@@ -19,11 +19,12 @@ from contoursolve.solving.checks import (
     elements_at,
     is_failing,
     setbacks_of,
+    unverified,
 )
 from contoursolve.solving.events import BESIDE, NoteKind, RefusalKind
 from contoursolve.solving.fitting import LEAST, NEAR, largest_fitting
 from contoursolve.solving.path_outputs import PathOutputs
-from contoursolve.solving.solution import Note, Refusal, unverified
+from contoursolve.solving.solution import Note, Refusal
 from contoursolve.tolerance import LARGEST, LENGTH
 
 Failing = list[tuple[Check, float]]

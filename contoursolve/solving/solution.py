@@ -7,7 +7,6 @@ from math import floor, inf, log10
 from msgspec import Struct, field
 
 from contoursolve.solving.events import NoteKind, RefusalKind, Status
-from contoursolve.tolerance import RESIDUAL
 
 
 class Proof(Enum):
@@ -78,11 +77,6 @@ class Refusal(Struct, frozen=True):
     elements: tuple[str, ...] = ()
     """For a corner that is too large: the element that is too short for it, and the one that limits what fits. For a
     bevel outside its lines: the axis along which it is farthest."""
-
-
-def unverified(off: float) -> Refusal:
-    """The refusal of a result whose equations are off by so much, mm."""
-    return Refusal(RefusalKind.NOT_VERIFIED, "", (), {"limit": RESIDUAL, "actual": off})
 
 
 class Note(Struct, frozen=True):

@@ -26,7 +26,7 @@ from contoursolve.geometry import (
 from contoursolve.numeric import direction, inverse_norm
 from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.certify import certify, decide_meeting
-from contoursolve.solving.checks import Check, Source, Stage, Test, at_origin, check_step, is_failing
+from contoursolve.solving.checks import Check, Source, Stage, Test, at_origin, check_step, is_failing, unverified
 from contoursolve.solving.compare import compare_affine, compare_fact, givens_of
 from contoursolve.solving.compile import compile_system
 from contoursolve.solving.construction import ConstructionStep, StepKind, is_closed
@@ -35,7 +35,7 @@ from contoursolve.solving.events import NoteKind, RefusalKind, Status
 from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range
 from contoursolve.solving.numbers import inputs_of, lookup, scalars_of, sizes_of, solution_at
 from contoursolve.solving.path_outputs import PathOutputs
-from contoursolve.solving.solution import Certificate, Note, Point, Refusal, Solution, unverified, up_to_one_digit
+from contoursolve.solving.solution import Certificate, Note, Point, Refusal, Solution, up_to_one_digit
 from contoursolve.solving.step_outputs import StepOutputs
 from contoursolve.tolerance import ERROR_BOUND_WARNING, RESIDUAL, TOUCHING
 
