@@ -36,6 +36,7 @@ from .checks import (
     check_path as check_path,
     check_range as check_range,
     check_residuals as check_residuals,
+    compile_checked as compile_checked,
     compile_checks as compile_checks,
     passed_rows as passed_rows,
     plain_checks as plain_checks,

@@ -27,7 +27,7 @@ from contoursolve.solving.elimination import Obstacle
 from contoursolve.solving.enumerate import Doubt, Found, enumerate_solutions
 from contoursolve.solving.events import NoteKind, RefusalKind, Status, Topic, refusals_about
 from contoursolve.solving.exact_inputs import ground_of
-from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range
+from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range, vanishing_lines
 from contoursolve.solving.krawczyk import Prover, radius_of
 from contoursolve.solving.numbers import corner_of, scalars_of, sizes_of
 from contoursolve.solving.path_outputs import PathOutputs
@@ -108,8 +108,8 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: Found)
         )
         refusals += judge_range(path)
         if not refusals:
-            refusals, notes = judge_path(path)
-            remarks += notes
+            refusals += judge_path(path)
+            remarks += vanishing_lines(path)
     sides = sides_of(system, at, {choice.point for choice in profile.choices})
     # A circle about the middle of two of its points is an ordinary half circle.
     centers = {element.center for element in system.figure.path if isinstance(element, Arc)}

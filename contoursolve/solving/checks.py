@@ -1,6 +1,6 @@
 """What must hold of a contour, as one table of margins; and which of many values of some words pass it."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from functools import lru_cache, reduce
 from typing import Any
@@ -35,6 +35,7 @@ from contoursolve.numeric import (
     FLOATS,
     SINE,
     Array,
+    Compiled,
     Functions,
     Replay,
     Tape,
@@ -198,6 +199,12 @@ def compile_checks(system: System) -> Checked:
     return Checked(outputs, tuple(margin for _, margin in pairs), tape, worst, is_clear)
 
 
+@lru_cache(maxsize=1024)
+def compile_checked(system: System) -> Compiled:
+    """The function of a determined system in closed form with the outputs of its checks."""
+    return compile_checks(system).tape.finish()
+
+
 def _is_half_circle(check: Check) -> bool:
     """Whether a check is about two centres that may be one: a circle about the middle of two points is an ordinary half
     circle."""
@@ -260,17 +267,17 @@ def is_failing(check: Check, margin: float) -> bool:
 
 def _check_steps(source: Source, machine: Construction, tape: Tape) -> Checks:
     for step, measures in zip(machine.steps, machine.measures, strict=True):
-        yield from check_step(source, step, measures.read(tape.expression))
+        yield from check_step(source, step, measures, tape.expression)
 
 
-def check_step(source: Source, step: ConstructionStep, measures: StepOutputs) -> Checks:
-    """Whether a step of a construction with these measures has a solution."""
+def check_step(source: Source, step: ConstructionStep, measures: StepOutputs, out: Callable[[str], Any]) -> Checks:
+    """Whether a step of a construction has a solution; `out` gives its measures by their names."""
     for tail, through in step.lines_through():
         yield Check(RefusalKind.POINT_IS_START, through, "", Test.ABOVE, LENGTH), source.distance(tail, through)
     if step.kind is StepKind.AFFINE:
         givens = tuple(fact.given for fact in step.facts if fact.given)
         kind, subject = RefusalKind.LINES_PARALLEL, ",".join(step.unknowns)
-        yield Check(kind, subject, "", Test.APART, REGULAR, givens, is_doubtful=True), measures.determinant
+        yield Check(kind, subject, "", Test.APART, REGULAR, givens, is_doubtful=True), out(measures.determinant)
         return
     if step.kind is StepKind.RADIUS:
         # What is compared with a circle of no radius at all, a single solve tells.
@@ -281,11 +288,11 @@ def check_step(source: Source, step: ConstructionStep, measures: StepOutputs) ->
     if step.kind is StepKind.TWO_CIRCLES:
         kind = RefusalKind.RADIUS_TOO_SMALL if is_half else RefusalKind.CIRCLES_APART
         undefined = RefusalKind.CIRCLE_UNDEFINED if is_half else kind
-        yield Check(undefined, subject, "", Test.ABOVE, LENGTH), measures.distance
-    offset, radius, magnitude = measures.offset, measures.radius, source.at.functions.magnitude
-    give = measures.scale * TOUCHING
+        yield Check(undefined, subject, "", Test.ABOVE, LENGTH), out(measures.distance)
+    offset, radius, magnitude = out(measures.offset), out(measures.radius), source.at.functions.magnitude
+    give = out(measures.scale) * TOUCHING
     meets = Check(kind, subject, "", Test.AT_LEAST, 0.0)
-    yield meets, measures.gap + give
+    yield meets, out(measures.gap) + give
     yield meets, radius + offset + give
     apart = magnitude(radius - magnitude(offset)) - give
     yield Check(kind, subject, "", Test.ABOVE, 0.0, stage=Stage.TOUCHING, is_doubtful=True), apart

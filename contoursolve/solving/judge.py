@@ -50,14 +50,17 @@ def judge_range(path: MeasuredPath) -> list[Refusal]:
     return [] if is_there else _judge(path, [(check, margin)])
 
 
-def judge_path(path: MeasuredPath) -> tuple[list[Refusal], list[Note]]:
+def judge_path(path: MeasuredPath) -> list[Refusal]:
     """Everything that speaks against the path between points that satisfy the equations and lie within reach."""
-    source, measures = path.source, path.source.path
-    lines = (each.name for each in source.figure.path if isinstance(each, Line))
-    notes = [Note(NoteKind.LINE_VANISHES, name) for name in lines if abs(measures.lengths[name]) <= LENGTH]
-    residuals = [abs(each) for each in measures.residuals]
+    residuals = [abs(each) for each in path.source.path.residuals]
     worst = nan if isnan(sum(residuals)) else max(residuals, default=0.0)
-    return _judge(path, [*check_path(source), check_residuals(worst)]), notes
+    return _judge(path, [*check_path(path.source), check_residuals(worst)])
+
+
+def vanishing_lines(path: MeasuredPath) -> list[Note]:
+    """The lines of a path that have no length."""
+    lines = (each.name for each in path.source.figure.path if isinstance(each, Line))
+    return [Note(NoteKind.LINE_VANISHES, name) for name in lines if abs(path.source.path.lengths[name]) <= LENGTH]
 
 
 def _judge(path: MeasuredPath, checks: Sequence[tuple[Check, float]]) -> list[Refusal]:
