@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from msgspec import Struct
 
-from contoursolve.geometry import Fact, Line, Profile, System, scalar
+from contoursolve.geometry import Fact, Profile, System
 from contoursolve.numeric import Number, ball
 from contoursolve.solving.branch_and_prune import Division, Task, conditions_of, divide, settle
 from contoursolve.solving.closed_steps import close_step
@@ -15,6 +15,7 @@ from contoursolve.solving.determinacy import groups_of, witness_of
 from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Root, solve_step
 from contoursolve.solving.exact_inputs import Ground, ground_of
 from contoursolve.solving.partition import Group
+from contoursolve.solving.senses import Sense, senses_of
 from contoursolve.solving.step_equations import Coefficient, Kernel, make_kernel, polynomials_of
 
 
@@ -142,9 +143,6 @@ _Result = TypeVar("_Result")
 _Steps = Generator[tuple[Group, Task], tuple[list[Division], int], _Result]
 """Stops where a step has no closed form, and goes on with what its task leads to."""
 
-Sense = tuple[Fact, frozenset[str]]
-"""A fact, and the unknowns that its senses read."""
-
 MOST_SOLUTIONS = 512
 """Solutions that are followed; each point that may lie in two places doubles their number."""
 
@@ -169,15 +167,7 @@ class _Search:
         self.effort = effort
         self.left = effort.intervals
         self.near, self.far = ground.nearby(system), ground.farthest(system)
-        self.senses: list[Sense] = [
-            (fact, frozenset(system.unknowns_among(fact.sense_reads())))
-            for fact in system.facts
-            if fact not in unsensed
-        ]
-        lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
-        carriers = [line for line in lines if line.name in system.figure.carriers]
-        self.runs = [line for line in carriers if line.tail and line.head]
-        self.free = [line.name for line in carriers if not line.tail]
+        self.senses = [sense for sense in senses_of(system) if unsensed.isdisjoint(sense.facts)]
 
     def run(self) -> _Steps[Enumeration]:
         """Everything but the steps without a closed form, which are left to whoever runs it."""
@@ -214,7 +204,7 @@ class _Search:
         solved = self._solve_each(group, cases)
         unsolved = [case for case, roots in zip(cases, solved, strict=True) if roots is None]
         searched = iter((yield from self._search(group, kernel, unsolved)) if unsolved else [])
-        senses = [(fact, names) for fact, names in self.senses if not names.isdisjoint(kernel.unknowns)]
+        senses = [sense for sense in self.senses if not sense.reads.isdisjoint(kernel.unknowns)]
         found: list[Found] = []
         for case, roots in zip(cases, solved, strict=True):
             for root in next(searched) if roots is None else roots:
@@ -302,29 +292,12 @@ class _Search:
         return True
 
     def _must_be_positive(self, state: Found, kernel: Kernel, senses: Sequence[Sense]) -> Iterator[Number]:
-        new = set(kernel.unknowns)
-        yield from (state.scalars[name] for name in self.system.figure.radii if name in new)
-        at = self.ground.values(state.scalars, state.signs, self.system)
-        for fact, names in senses:
-            if names <= state.scalars.keys():
-                yield from fact.senses(at)
-        for line in self.runs:
-            yield from self._run(line, state, new)
-        for name in self.free:
-            # A line beside the path has no sense: it is taken to run to the right, or upwards.
-            if f"{name}.cos" in new:
-                cosine = state.scalars[f"{name}.cos"]
-                yield cosine if ball.sign(cosine) != 0 else state.scalars[f"{name}.sin"]
-
-    def _run(self, line: Line, state: Found, new: set[str]) -> Iterator[Number]:
-        ends = [scalar(point, axis) for point in (line.tail, line.head) for axis in (0, 1)]
-        names = {*ends, f"{line.name}.cos"} - self.system.known
-        if new & names and names <= state.scalars.keys():
+        yield from (state.scalars[name] for name in kernel.unknowns if name in self.system.figure.radii)
+        complete = [sense for sense in senses if sense.reads <= state.scalars.keys()]
+        if complete:
             at = self.ground.values(state.scalars, state.signs, self.system)
-            cosine, sine = at.bearing(line.name)
-            yield (at.coordinate(line.head, 0) - at.coordinate(line.tail, 0)) * cosine + (
-                at.coordinate(line.head, 1) - at.coordinate(line.tail, 1)
-            ) * sine
+            for sense in complete:
+                yield from sense.values(at)
 
 
 def _choices(state: Found, kernel: Kernel) -> Iterator[dict[str, int]]:
