@@ -42,8 +42,8 @@ from contoursolve.solving import (
     compile_path,
     input_values,
     make_kernel,
+    measured_figure,
     reason_of,
-    source_of,
     spare_of,
 )
 from contoursolve.tolerance import LENGTH
@@ -105,7 +105,7 @@ class BranchRows:
         self.solved = [*residuals]
         """The outputs of the equations that are solved."""
         equations = check_residuals(largest(residuals.values()))
-        stated = check_facts(source_of(self.system, tape, {}), spare, [fact.residual(at) for fact in spare])
+        stated = check_facts(measured_figure(self.system, tape, {}), spare, [fact.residual(at) for fact in spare])
         self.path = compile_path(self.system).path
         """The names of the outputs of the path."""
         checks = [equations, *stated, *add_path(tape, self.system, case.profile.givens)]
@@ -298,8 +298,8 @@ def add_path(tape: Tape, system: System, givens: Container[str]) -> list[tuple[C
     which sizes of corners are stated."""
     figure, machine = system.figure, compile_path(system)
     path = machine.tape.copy()
-    source = source_of(system, path, at_origin(figure), machine.path)
-    checks = [check_range(source), *check_path(source), check_residuals(largest(source.path.residuals))]
+    measured = measured_figure(system, path, at_origin(figure), machine.path)
+    checks = [check_range(measured), *check_path(measured), check_residuals(largest(measured.path.residuals))]
     radii = {each.size: f"{each.name}.radius" for each in figure.corners if each.size not in givens}
     inputs: dict[str, Any] = {name: tape.input(radii.get(name, name)) for name in path.inputs}
     # Inside a path counts from its start point.

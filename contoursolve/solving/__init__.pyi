@@ -26,7 +26,7 @@ from .checks import (
     Checked as Checked,
     CheckOutputs as CheckOutputs,
     Checks as Checks,
-    Source as Source,
+    MeasuredFigure as MeasuredFigure,
     Stage as Stage,
     Test as Test,
     add_checks as add_checks,
@@ -38,9 +38,9 @@ from .checks import (
     check_residuals as check_residuals,
     compile_checked as compile_checked,
     compile_checks as compile_checks,
+    measured_figure as measured_figure,
     passed_rows as passed_rows,
     plain_checks as plain_checks,
-    source_of as source_of,
 )
 from .closed_steps import is_searched as is_searched
 from .compare import (

@@ -35,7 +35,7 @@ DRAWING = Effort(300_000, 30_000, is_guessing=True)
 """For a single drawing; about three seconds."""
 
 
-class Found(Struct, frozen=True):
+class ExactSolution(Struct, frozen=True):
     """One solution of the equations: every unknown, exact or in a ball, and the sides at which elements touch.
 
     `doubles` are the unknowns of steps whose two solutions have become one.
@@ -56,7 +56,7 @@ class Doubt(Struct, frozen=True):
 class Enumeration(Struct, frozen=True):
     """What a search found. The list is complete, with proof, if there is no doubt."""
 
-    found: tuple[Found, ...]
+    found: tuple[ExactSolution, ...]
     doubts: tuple[Doubt, ...]
     within: float | None = None
     """How far from the start point there is no other solution, mm, where some step has no closed form and was searched
@@ -171,7 +171,7 @@ class _Search:
 
     def run(self) -> _Steps[Enumeration]:
         """Everything but the steps without a closed form, which are left to whoever runs it."""
-        states = [Found({}, {})]
+        states = [ExactSolution({}, {})]
         for group in self.groups:
             self.is_lost = False
             states = yield from self._advance(states, group)
@@ -183,7 +183,7 @@ class _Search:
         states = [self._with_sides(state) for state in states]
         return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.within, self.is_lost)
 
-    def _with_sides(self, state: Found) -> Found:
+    def _with_sides(self, state: ExactSolution) -> ExactSolution:
         """The state with the sides of facts that were not needed: where the fact is nearer to being true."""
         signs = dict(state.signs)
         for fact in self.system.facts:
@@ -196,26 +196,28 @@ class _Search:
                         for sign in (1, -1)
                     }
                     signs[side] = 1 if off[1] <= off[-1] else -1
-        return Found(state.scalars, signs, state.doubles)
+        return ExactSolution(state.scalars, signs, state.doubles)
 
-    def _advance(self, states: Sequence[Found], group: Group) -> _Steps[list[Found]]:
+    def _advance(self, states: Sequence[ExactSolution], group: Group) -> _Steps[list[ExactSolution]]:
         kernel = make_kernel(self.system, group)
-        cases = [Found(state.scalars, signs, state.doubles) for state in states for signs in _choices(state, kernel)]
+        cases = [
+            ExactSolution(state.scalars, signs, state.doubles) for state in states for signs in _choices(state, kernel)
+        ]
         solved = self._solve_each(group, cases)
         unsolved = [case for case, roots in zip(cases, solved, strict=True) if roots is None]
         searched = iter((yield from self._search(group, kernel, unsolved)) if unsolved else [])
         senses = [sense for sense in self.senses if not sense.reads.isdisjoint(kernel.unknowns)]
-        found: list[Found] = []
+        found: list[ExactSolution] = []
         for case, roots in zip(cases, solved, strict=True):
             for root in next(searched) if roots is None else roots:
                 values = {kernel.unknowns[index]: each for index, each in root.values.items()}
                 doubles = case.doubles + (kernel.unknowns if root.is_double else ())
-                after = Found({**case.scalars, **values}, case.signs, doubles)
+                after = ExactSolution({**case.scalars, **values}, case.signs, doubles)
                 if self._is_possible(after, kernel, senses):
                     found.append(after)
         return found
 
-    def _solve_each(self, group: Group, cases: Sequence[Found]) -> list[list[Root] | None]:
+    def _solve_each(self, group: Group, cases: Sequence[ExactSolution]) -> list[list[Root] | None]:
         """All solutions of a step for each case. Cases that differ elsewhere alone have the very same numbers here, and
         are solved once."""
         solved: dict[tuple[int, ...], list[Root] | None] = {}
@@ -234,10 +236,10 @@ class _Search:
                     self.doubts.append(Doubt(group.unknowns, Obstacle.TOUCHING))
         return [solved[key] for key in keys]
 
-    def _numbers(self, names: Sequence[str], case: Found) -> list[Number]:
+    def _numbers(self, names: Sequence[str], case: ExactSolution) -> list[Number]:
         return [self.ground.number(name, case.scalars, case.signs) for name in names]
 
-    def _eliminate(self, group: Group, case: Found) -> list[Root] | None:
+    def _eliminate(self, group: Group, case: ExactSolution) -> list[Root] | None:
         """All solutions of a step that the construction does not close, or that is a special one at these values; None
         if it has no closed form."""
         step = polynomials_of(self.system, group)
@@ -253,7 +255,7 @@ class _Search:
             self.doubts.append(Doubt(group.unknowns, error.obstacle))
             return []
 
-    def _search(self, group: Group, kernel: Kernel, cases: Sequence[Found]) -> _Steps[list[list[Root]]]:
+    def _search(self, group: Group, kernel: Kernel, cases: Sequence[ExactSolution]) -> _Steps[list[list[Root]]]:
         """All solutions of a step without a closed form, for each case; all cases are searched together. First what is
         nearby is searched, and where that could be decided, all that the control can reach."""
         conditions = conditions_of(self.system, group)
@@ -277,7 +279,7 @@ class _Search:
         self.is_lost = not any(found)
         return found
 
-    def _is_possible(self, state: Found, kernel: Kernel, senses: Sequence[Sense]) -> bool:
+    def _is_possible(self, state: ExactSolution, kernel: Kernel, senses: Sequence[Sense]) -> bool:
         """Whether radii are positive and everything runs in its stated sense; what cannot be decided is a doubt."""
         for value in self._must_be_positive(state, kernel, senses):
             match ball.sign(value):
@@ -291,7 +293,7 @@ class _Search:
                     return False
         return True
 
-    def _must_be_positive(self, state: Found, kernel: Kernel, senses: Sequence[Sense]) -> Iterator[Number]:
+    def _must_be_positive(self, state: ExactSolution, kernel: Kernel, senses: Sequence[Sense]) -> Iterator[Number]:
         yield from (state.scalars[name] for name in kernel.unknowns if name in self.system.figure.radii)
         complete = [sense for sense in senses if sense.reads <= state.scalars.keys()]
         if complete:
@@ -300,7 +302,7 @@ class _Search:
                 yield from sense.values(at)
 
 
-def _choices(state: Found, kernel: Kernel) -> Iterator[dict[str, int]]:
+def _choices(state: ExactSolution, kernel: Kernel) -> Iterator[dict[str, int]]:
     """The sides of a state with those that a step leaves open, chosen in every way."""
     open_sides = [side for side in kernel.sides if side not in state.signs]
     for values in product((1, -1), repeat=len(open_sides)):

@@ -29,7 +29,7 @@ from contoursolve.solving.affine import affine_facts
 from contoursolve.solving.certify import certify, decide_meeting
 from contoursolve.solving.checks import (
     Check,
-    Source,
+    MeasuredFigure,
     Stage,
     Test,
     at_origin,
@@ -136,7 +136,7 @@ class _Attempt:
         """Whether every check is known to be passed, but for those of half circles."""
         at = Values({**self.out, **at_origin(system.figure)}, {}, {})
         measures = self.machine.path.read(self.out.__getitem__)
-        self.source = Source(system.figure, at, measures, self._increment)
+        self.measured = MeasuredFigure(system.figure, at, measures, self._increment)
         self.refusals: list[Refusal] = []
         self.remarks: list[Note] = []
         self.doubles: dict[int, dict[str, float]] = {}
@@ -159,7 +159,7 @@ class _Attempt:
                 self._compare_all()
                 return self._refused()
         sizes = sizes_of(self.profile)
-        path = MeasuredPath(self.profile, self.source, sizes, self._resize)
+        path = MeasuredPath(self.profile, self.measured, sizes, self._resize)
         self.refusals += [] if self.is_clear else judge_range(path)
         if self.refusals or self.is_clear:
             self._compare_all()
@@ -175,7 +175,7 @@ class _Attempt:
             self.remarks.append(Note(NoteKind.SENSITIVE, "", (), {"limit": ERROR_BOUND_WARNING, "actual": bound}))
         agrees = any(remark.kind is NoteKind.WORDS_AGREE for remark in self.remarks)
         return replace(
-            solution_at(self.system, self.profile.start, sizes, self.out, self.source.path.corners),
+            solution_at(self.system, self.profile.start, sizes, self.out, self.measured.path.corners),
             status=Status.OVERDETERMINED if agrees else Status.SOLVED,
             remarks=tuple(self.remarks),
             error_bound=bound,
@@ -203,7 +203,7 @@ class _Attempt:
     def _examine_step(self, number: int, step: ConstructionStep, names: StepOutputs) -> Refusal | None:
         """The refusal by the first check of a step that fails; whether elements meet that floats cannot tell from
         touching ones is decided on the exact words."""
-        for check, margin in check_step(self.source, step, names, self.out.__getitem__):
+        for check, margin in check_step(self.measured, step, names, self.out.__getitem__):
             if is_failing(check, margin):
                 measures = names.read(self.out.__getitem__)
                 refusal = self._refusal(check, number, step, measures)
