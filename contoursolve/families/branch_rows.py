@@ -1,35 +1,48 @@
-"""Rows of which each may have several solutions: Newton's method from the boxes that hold one each, and a verdict."""
+"""Rows of which each may have several solutions: those of the construction over all its signs, and a verdict on each.
+
+A row that floats do not decide, close to a singular case or to two solutions that are one, is solved alone; so is each
+row of a system without a closed form.
+"""
 
 from collections.abc import Container, Iterable, Mapping, Sequence
+from functools import lru_cache
+from itertools import product
 from typing import Any
 
 import numpy
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from contoursolve.families.branches import side_margins
 from contoursolve.families.case_classes import CaseClass, asked_of
-from contoursolve.families.row_boxes import RowBoxes, SolutionBox
 from contoursolve.families.spec import Places, stretches
-from contoursolve.geometry import FIRST, SECOND, Fact, System, Unit, Values, scalar
+from contoursolve.geometry import FIRST, SECOND, Choice, Fact, System, Unit, Values, scalar
 from contoursolve.numeric import (
     COSINE,
     ROWS,
     SIDE,
     SINE,
     Array,
+    ColumnFunction,
     Columns,
     Tape,
-    columns_of,
+    at_most,
+    below,
     compile_columns,
     directions,
+    larger,
     largest,
+    magnitude,
+    true,
 )
 from contoursolve.solving import (
-    NO_POINT,
     UNVERIFIED,
     Check,
-    Kernel,
+    CheckOutputs,
+    Need,
+    NoClosedFormError,
     RowOutcome,
+    Solution,
     StatusCode,
     add_checks,
     at_origin,
@@ -39,38 +52,37 @@ from contoursolve.solving import (
     check_range,
     check_residuals,
     code_of,
+    compile_branches,
     compile_path,
+    enumerate_each,
     input_values,
-    make_kernel,
-    measured_figure,
     reason_of,
+    source_of,
     spare_of,
 )
-from contoursolve.tolerance import LENGTH
 
-BLOCK = 8_192
+BLOCK = 32_768
 """Rows that are looked at together."""
 
-STEPS = 20
-"""Newton's steps; from the middle of a proven box five or six do."""
+TOGETHER = 256
+"""Rows that are searched together."""
 
-STIFF = 1e3
-"""1. Where the inverse of the derivatives is larger, doubles may be off by more than 1e-12 of the coordinates."""
+CLOSE = {Need.REGULAR: 1e-6, Need.REAL: 1e-5, Need.POSITIVE: 1e-6}
+"""1, square mm, mm. So close to zero floats do not decide a condition of a construction: its row is solved alone."""
 
-STANDING = 1e-12
-"""1 (share of the coordinates). A last step that is longer has not arrived."""
+BESIDE = 1e-6
+"""mm. The same of what tells on which side a point lies."""
 
 
 Bits = NDArray[numpy.bool_]
 
 
 class RowCandidates(Struct, eq=False):
-    """Rows, each with one of its solutions: where it is sought (mm or cosines), and the sides at which it touches."""
+    """Rows, each with one of its solutions: the unknowns (mm or cosines), and the sides at which it touches."""
 
     rows: Places
     is_chosen: Bits
-    middles: Mapping[str, Array]
-    radii: Mapping[str, Array]
+    scalars: Mapping[str, Array]
     signs: Mapping[str, Array]
 
 
@@ -94,23 +106,11 @@ class BranchRows:
     def __init__(self, case: CaseClass) -> None:
         self.case = case
         self.system: System = case.system
-        basis, spare = basis_of(self.system), spare_of(self.system)
-        self.boxes = RowBoxes(case)
-        self.steps = [_step(make_kernel(self.system, group)) for group in self.boxes.groups]
-        tape = Tape()
-        at = input_values(self.system, tape, {})
-        residuals = {f"residual:{number}": fact.residual(at) for number, fact in enumerate(basis)}
-        for name, residual in residuals.items():
-            tape.output(name, residual)
-        self.solved = [*residuals]
-        """The outputs of the equations that are solved."""
-        equations = check_residuals(largest(residuals.values()))
-        stated = check_facts(measured_figure(self.system, tape, {}), spare, [fact.residual(at) for fact in spare])
-        self.path = compile_path(self.system).path
-        """The names of the outputs of the path."""
-        checks = [equations, *stated, *add_path(tape, self.system, case.profile.givens)]
-        self.outputs, _ = add_checks(tape, checks, self.path)
-        self.function = Columns(compile_columns(tape, tape.inputs))
+        self.branches = _compile(self.system, case.profile.choices)
+        self.construction = Columns(self.branches.function) if self.branches is not None else None
+        sizes = {corner.size for corner in self.system.figure.corners}
+        self.verdict = _compile_verdict(self.system, frozenset(sizes.intersection(case.profile.givens)))
+        self.function = Columns(self.verdict.function)
 
     def solve(self, values: Mapping[str, Array]) -> RowSolutions:
         """What becomes of rows with these values of the words."""
@@ -124,11 +124,17 @@ class BranchRows:
             {SIDE + side: numpy.zeros(rows) for fact in self.system.facts for side in fact.sides()},
             numpy.zeros(rows, bool),
         )
-        pairs = self._pairs(values, settled)
-        if pairs.rows.size:
-            self._decide(pairs, self._given(values), settled)
-        for row in numpy.flatnonzero(settled.again).tolist():
-            self._solve_alone(values, row, [row], settled)
+        given = self._given(values)
+        if self.branches is None or self.construction is None:
+            settled.again[:] = True
+        elif (pairs := self._candidates(self.branches, self.construction, values, given, settled)).rows.size:
+            self._decide(pairs, given, settled)
+        alone = numpy.flatnonzero(settled.again)
+        for first, last in stretches(alone.size, TOGETHER):
+            rows_of = [{word: float(each[row]) for word, each in values.items()} for row in alone[first:last]]
+            found = enumerate_each([self.case.at(each) for each in rows_of], self.system)
+            for row, own, enumeration in zip(alone[first:last], rows_of, found, strict=True):
+                self._settle(self.case.solve(own, enumeration), [row], settled)
         return settled
 
     def _given(self, values: Mapping[str, Array]) -> dict[str, Array]:
@@ -145,36 +151,45 @@ class BranchRows:
         found |= {name: numpy.array([value]) for name, value in case.profile.increments.items()}
         return found
 
-    def _pairs(self, values: Mapping[str, Array], settled: RowSolutions) -> RowCandidates:
-        """Every row with each of its solutions; rows without any are settled."""
-        found: list[tuple[Places, SolutionBox]] = []
-        for cell in self.boxes.cells(values):
-            if cell.solutions is None:
-                settled.again[cell.rows] = True
-                continue
-            if cell.is_lost:
-                settled.status[cell.rows] = StatusCode.NO_SOLUTION
-                settled.reason[cell.rows] = NO_POINT
-                continue
-            if not any(place.is_chosen for place in cell.solutions):
-                # Why there is none is the same for all of them.
-                self._solve_alone(values, int(cell.rows[cell.rows.size // 2]), cell.rows, settled)
-                continue
-            found += [(cell.rows, place) for place in cell.solutions]
-        places = [place for _, place in found]
-        sizes = numpy.array([rows.size for rows, _ in found], numpy.int64)
+    def _candidates(
+        self,
+        branches: "_Branches",
+        function: Columns,
+        values: Mapping[str, Array],
+        given: Mapping[str, Array],
+        settled: RowSolutions,
+    ) -> RowCandidates:
+        """Every row with each of its solutions; rows without any that may be chosen are settled."""
+        rows, found, ways = settled.status.size, list[RowCandidates](), list[Array]()
+        is_chosen = numpy.zeros(rows, bool)
+        for numbers in product((1.0, -1.0), repeat=len(branches.signs)):
+            signs = {name: numpy.array([sign]) for name, sign in zip(branches.signs, numbers, strict=True)}
+            out = _run(function, {**given, **signs}, rows)
+            settled.again |= out[_OPEN] > 0
+            ways.append((2 * out[_PASSED] + out[_CHOSEN]).astype(numpy.int64))
+            own = numpy.flatnonzero(out[_PASSED] == branches.count)
+            chosen = out[_CHOSEN][own] > 0
+            is_chosen[own[chosen]] = True
+            sides = {name: numpy.repeat(sign, own.size) for name, sign in signs.items() if name in settled.signs}
+            found.append(RowCandidates(own, chosen, {name: out[name][own] for name in self.system.unknowns}, sides))
+        # Why there is none is the same for all rows whose solutions fail in the same way.
+        rest = numpy.flatnonzero(~is_chosen & ~settled.again)
+        kinds = numpy.zeros(rest.size, numpy.int64)
+        for way in ways:
+            kinds = numpy.unique(kinds * 2 * (branches.count + 1) + way[rest], return_inverse=True)[1]
+        for kind in range(kinds.max(initial=-1) + 1):
+            alike = rest[kinds == kind]
+            middle = {word: float(each[alike[alike.size // 2]]) for word, each in values.items()}
+            self._settle(self.case.solve(middle), alike, settled)
 
-        def spread(values: Iterable[float]) -> Array:
-            return numpy.repeat(numpy.array(list(values), float), sizes)
+        def joined(columns: Iterable[Array]) -> Array:
+            return numpy.concatenate(list(columns))
 
-        bounds = {name: [place.bounds[name] for place in places] for name in self.system.unknowns}
-        sides = places[0].signs if places else ()
         return RowCandidates(
-            numpy.concatenate([numpy.zeros(0, numpy.int64), *(rows for rows, _ in found)]),
-            numpy.repeat(numpy.array([place.is_chosen for place in places], bool), sizes),
-            {name: spread((low + high) / 2 for low, high in each) for name, each in bounds.items()},
-            {name: spread((high - low) / 2 for low, high in each) for name, each in bounds.items()},
-            {SIDE + side: spread(place.signs[side] for place in places) for side in sides},
+            numpy.concatenate([each.rows for each in found]),
+            numpy.concatenate([each.is_chosen for each in found]),
+            {name: joined(each.scalars[name] for each in found) for name in self.system.unknowns},
+            {name: joined(each.signs[name] for each in found) for name in found[0].signs},
         )
 
     def _decide(self, pairs: RowCandidates, given: Mapping[str, Array], settled: RowSolutions) -> None:
@@ -186,11 +201,10 @@ class BranchRows:
             return numpy.bincount(pairs.rows[which], minlength=rows)
 
         known = {name: each if each.size == 1 else each[pairs.rows] for name, each in given.items()} | {**pairs.signs}
-        scalars, is_bad = self._follow(pairs, known)
-        size = pairs.rows.size
-        verdict = RowOutcome(self.outputs, _run(self.function, {**known, **scalars}, size), size)
+        size, scalars = pairs.rows.size, pairs.scalars
+        verdict = RowOutcome(self.verdict.outputs, _run(self.function, {**known, **scalars}, size), size)
         status, reason = verdict.status, verdict.reason
-        settled.again |= count(is_bad | verdict.again | (reason == UNVERIFIED)) > 0
+        settled.again |= count(verdict.again | (reason == UNVERIFIED)) > 0
         status[(status == StatusCode.OVERDETERMINED) & (reason != 0)] = StatusCode.NO_SOLUTION
         is_path = (reason == 0) & (status <= StatusCode.OVERDETERMINED) & pairs.is_chosen
         # A word that tells a solution from another one is needed after all.
@@ -203,7 +217,8 @@ class BranchRows:
             at = numpy.flatnonzero(mask)[::-1]
             settled.status[pairs.rows[at]], settled.reason[pairs.rows[at]] = status[at], reason[at]
         paths, chosen = count(is_path), count(pairs.is_chosen)
-        differs = count(pairs.is_chosen & (status != settled.status[pairs.rows])) > 0
+        is_other = (status != settled.status[pairs.rows]) | (reason != settled.reason[pairs.rows])
+        differs = count(pairs.is_chosen & is_other) > 0
         settled.again |= differs & (paths == 0)
         if self.case.profile.picks:
             # Which of several a number chooses is counted for each row by itself.
@@ -219,37 +234,8 @@ class BranchRows:
         settled.is_shown[pairs.rows[at]] = True
         settled.is_path[pairs.rows[at]] = is_path[at]
 
-    def _follow(self, pairs: RowCandidates, given: Mapping[str, Array]) -> tuple[dict[str, Array], Bits]:
-        """The solutions of all pairs, step by step; and where they did not end in their boxes, or may be inexact."""
-        rows = pairs.rows.size
-        known, is_bad = dict(given), numpy.zeros(rows, bool)
-        with numpy.errstate(all="ignore"):
-            for kernel, function in self.steps:
-                size = len(kernel.unknowns)
-                at = numpy.stack([pairs.middles[name] for name in kernel.unknowns], axis=1)
-                for _ in range(STEPS):
-                    known |= {name: at[:, column] for column, name in enumerate(kernel.unknowns)}
-                    out = _run(function, known, rows)
-                    residuals = numpy.stack([out[str(row)] for row in range(size)], axis=1)
-                    slopes = numpy.stack([out[str(size + entry)] for entry in range(size * size)], axis=1)
-                    inverse = _inverse(slopes.reshape(rows, size, size))
-                    step = (inverse @ residuals[:, :, None])[:, :, 0]
-                    at = at - step
-                    largest = numpy.maximum(1.0, numpy.abs(at).max(axis=1))
-                    if not (numpy.abs(step).max(axis=1) > STANDING / 8 * largest).any():
-                        break
-                is_bad |= ~(numpy.abs(step).max(axis=1) <= STANDING * largest)
-                is_bad |= ~(numpy.abs(inverse).sum(axis=2).max(axis=1) <= STIFF)
-                for column, name in enumerate(kernel.unknowns):
-                    known[name] = at[:, column]
-                    is_bad |= ~(numpy.abs(known[name] - pairs.middles[name]) <= pairs.radii[name] + LENGTH)
-        return {name: known[name] for name in self.system.unknowns}, is_bad
-
-    def _solve_alone(
-        self, values: Mapping[str, Array], row: int, rows: Sequence[int] | Places, settled: RowSolutions
-    ) -> None:
-        """What a single solve of one row says, for all of some rows."""
-        solution = self.case.solve({word: float(each[row]) for word, each in values.items()})
+    def _settle(self, solution: Solution, rows: Sequence[int] | Places, settled: RowSolutions) -> None:
+        """Note what the single solve of a row says, for all of some rows."""
         settled.status[rows] = code_of(solution.status)
         settled.reason[rows] = reason_of(solution.refusals[0].kind if solution.refusals else None)
         settled.is_path[rows] = settled.is_shown[rows] = bool(solution.scalars)
@@ -266,13 +252,15 @@ class BranchRows:
         known = {**self._given(values), **{name: each[rows] for name, each in settled.scalars.items()}}
         # A side that is not known is the one on which the equation is true.
         tried: list[list[Array]] = []
-        for sign in (1.0, -1.0):
+        for sign in (1.0, -1.0)[: 1 + bool(settled.signs)]:
             signs = {name: numpy.where(each[rows] == 0, sign, each[rows]) for name, each in settled.signs.items()}
             out = _run(self.function, {**known, **signs}, rows.size)
-            tried.append([numpy.abs(out[name]) for name in self.solved])
-        worst = numpy.maximum.reduce([numpy.zeros(rows.size), *(numpy.abs(out[name]) for name in self.path.residuals)])
-        for one, other in zip(*tried, strict=True):
-            numpy.maximum(worst, numpy.minimum(one, other), out=worst)
+            tried.append([numpy.abs(out[name]) for name in self.verdict.solved])
+        worst = numpy.maximum.reduce(
+            [numpy.zeros(rows.size), *(numpy.abs(out[name]) for name in self.verdict.outputs.path.residuals)]
+        )
+        for each in zip(*tried, strict=True):
+            numpy.maximum(worst, numpy.minimum.reduce(each), out=worst)
         asked = asked_of(self.case.profile).items()
         return {**known, **out} | {name: self._ask(each.fact, known, rows.size) for name, each in asked}, worst
 
@@ -298,8 +286,8 @@ def add_path(tape: Tape, system: System, givens: Container[str]) -> list[tuple[C
     which sizes of corners are stated."""
     figure, machine = system.figure, compile_path(system)
     path = machine.tape.copy()
-    measured = measured_figure(system, path, at_origin(figure), machine.path)
-    checks = [check_range(measured), *check_path(measured), check_residuals(largest(measured.path.residuals))]
+    source = source_of(system, path, at_origin(figure), machine.path)
+    checks = [check_range(source), *check_path(source), check_residuals(largest(source.path.residuals))]
     radii = {each.size: f"{each.name}.radius" for each in figure.corners if each.size not in givens}
     inputs: dict[str, Any] = {name: tape.input(radii.get(name, name)) for name in path.inputs}
     # Inside a path counts from its start point.
@@ -317,9 +305,79 @@ def add_path(tape: Tape, system: System, givens: Container[str]) -> list[tuple[C
     return [(check, tape.expression(f"path:{number}")) for number, (check, _) in enumerate(checks)]
 
 
-def _step(kernel: Kernel) -> tuple[Kernel, Columns]:
-    outputs = [str(number) for number in range(kernel.function.nnz_out(0))]
-    return kernel, Columns(columns_of(kernel.function, kernel.arguments, outputs, kernel.arguments))
+class _Verdict(Struct, frozen=True, eq=False):
+    """The checks of a system at given points, and the names of the residuals of the equations that are solved."""
+
+    function: ColumnFunction
+    outputs: CheckOutputs
+    solved: tuple[str, ...]
+
+
+@lru_cache(maxsize=64)
+def _compile_verdict(system: System, sizes: frozenset[str]) -> _Verdict:
+    """The checks of a system; `sizes` are those of corners that are stated."""
+    basis, spare, tape = basis_of(system), spare_of(system), Tape()
+    at = input_values(system, tape, {})
+    residuals = {f"residual:{number}": fact.residual(at) for number, fact in enumerate(basis)}
+    for name, residual in residuals.items():
+        tape.output(name, residual)
+    equations, path = check_residuals(largest(residuals.values())), compile_path(system).path
+    stated = check_facts(source_of(system, tape, {}), spare, [fact.residual(at) for fact in spare])
+    outputs, _ = add_checks(tape, [equations, *stated, *add_path(tape, system, sizes)], path)
+    return _Verdict(compile_columns(tape, tape.inputs), outputs, tuple(residuals))
+
+
+_OPEN, _PASSED, _CHOSEN = "open", "passed", "chosen"
+"""What tells of a solution: that floats do not decide it; how many conditions hold in their order; and that it lies on
+the sides that words choose."""
+
+
+class _Branches(Struct, frozen=True, eq=False):
+    """The solutions of a system in closed form, one for each choice of the signs, and how many conditions each has."""
+
+    function: ColumnFunction
+    signs: tuple[str, ...]
+    count: int
+
+
+@lru_cache(maxsize=64)
+def _compile(system: System, choices: tuple[Choice, ...]) -> _Branches | None:
+    """The solutions of a system; None without a closed form."""
+    try:
+        form = compile_branches(system)
+    except NoClosedFormError:
+        return None
+    tape = form.tape.copy()
+
+    def decide(margins: Iterable[tuple[Any, float]]) -> tuple[Any, Any]:
+        """How many margins are above zero in their order, and whether the next one may be."""
+        is_alive, is_open, passed = true(), 0 * true(), 0 * true()
+        for margin, close in margins:
+            passes = below(close, margin)
+            is_open = larger(is_open, is_alive * (1 - passes - below(margin, -close)))
+            is_alive *= passes
+            passed += is_alive
+        return passed, is_open
+
+    # A conic on a line counts along a direction of this length.
+    unit = {each.discriminant: tape.expression(each.determinant) for each in form.measures if each.determinant}
+    needed = list[tuple[Any, float]]()
+    for each in form.conditions:
+        margin = tape.expression(each.output)
+        margin *= unit[each.output] ** 2 if each.output in unit else 1.0
+        needed.append((magnitude(margin) if each.need is Need.REGULAR else margin, CLOSE[each.need]))
+    sides = {choice: (margin, BESIDE) for choice, margin in side_margins(form, choices)}
+    # What the form chooses by itself is no alternative.
+    needed += [each for choice, each in sides.items() if not choice.given]
+    stated = [each for choice, each in sides.items() if choice.given]
+    passed, is_open = decide(needed)
+    chosen, is_beside = decide(stated)
+    is_found = at_most(len(needed), passed)
+    tape.output(_PASSED, passed)
+    tape.output(_CHOSEN, is_found * at_most(len(stated), chosen))
+    tape.output(_OPEN, larger(is_open, is_found * is_beside))
+    kept = tape.keep([_PASSED, _CHOSEN, _OPEN, *system.unknowns])
+    return _Branches(compile_columns(kept, kept.inputs), form.signs, len(needed))
 
 
 def _run(function: Columns, values: Mapping[str, Array], rows: int) -> dict[str, Array]:
@@ -336,10 +394,3 @@ def _run(function: Columns, values: Mapping[str, Array], rows: int) -> dict[str,
     return (
         parts[0] if len(parts) == 1 else {name: numpy.concatenate([each[name] for each in parts]) for name in parts[0]}
     )
-
-
-def _inverse(matrices: Array) -> Array:
-    """The inverses of square matrices; of one that is singular, NaN."""
-    is_regular = (numpy.abs(numpy.linalg.det(matrices)) > 0)[:, None, None]
-    found: Array = numpy.linalg.inv(numpy.where(is_regular, matrices, numpy.eye(matrices.shape[1])))
-    return numpy.where(is_regular, found, numpy.nan)

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import product
 from math import inf
+from typing import Any
 
 import numpy
 from msgspec import Struct
@@ -34,9 +35,9 @@ from contoursolve.solving import (
     compile_branches,
     compile_checks,
     compile_system,
-    measured_figure,
     orders_of,
     settled_by,
+    source_of,
 )
 from contoursolve.tolerance import REGULAR
 
@@ -276,9 +277,9 @@ def _compile(system: System, follows: Follows, choices: tuple[Choice, ...]) -> t
     form = compile_branches(system)
     tape = form.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
-    measured = measured_figure(system, tape, known | at_origin(system.figure), form.path)
-    facts = check_facts(measured, form.checks, map(tape.expression, form.compared))
-    found = [*_conditions(form), *_sides(form, choices), *facts, check_range(measured), *check_path(measured)]
+    source = source_of(system, tape, known | at_origin(system.figure), form.path)
+    facts = check_facts(source, form.checks, map(tape.expression, form.compared))
+    found = [*_conditions(form), *_sides(form, choices), *facts, check_range(source), *check_path(source)]
     outputs = {str(number): expression for number, (_, expression) in enumerate(found)}
     return form, Margins(tuple(each for each, _ in found), Chart(tape, outputs, dict(follows)))
 
@@ -303,13 +304,15 @@ def _conditions(form: Construction) -> Checks:
 
 
 def _sides(form: Construction, choices: Sequence[Choice]) -> Checks:
-    """The sides that the words or the form choose."""
+    for choice, margin in side_margins(form, choices):
+        givens = (choice.given,) if choice.given else ()
+        yield Check(RefusalKind.NO_POINT, choice.point, "", Test.AT_LEAST, 0.0, givens), margin
+
+
+def side_margins(form: Construction, choices: Sequence[Choice]) -> Iterator[tuple[Choice, Any]]:
+    """The sides that the words or the form choose, each with a number that is positive there."""
     for choice in choices:
         if choice.point in form.sides:
             output, positive = form.sides[choice.point]
             value = form.tape.expression(output)
-            givens = (choice.given,) if choice.given else ()
-            yield (
-                Check(RefusalKind.NO_POINT, choice.point, "", Test.AT_LEAST, 0.0, givens),
-                value if choice.side.value == positive else -value,
-            )
+            yield choice, value if choice.side.value == positive else -value

@@ -26,11 +26,10 @@ from contoursolve.reading import ParsedContour, Premises, ReadIssue, all_resting
 from contoursolve.solving import (
     Checked,
     Construction,
+    Enumeration,
     NoteKind,
     Solution,
     Status,
-    StepKind,
-    StepOutputs,
     analyse,
     axes_of,
     code_of,
@@ -47,9 +46,6 @@ from contoursolve.tolerance import LARGEST
 
 ORIGIN = "origin:"
 """What the inputs for the coordinates of the start point begin with."""
-
-MOST_OPEN = 3
-"""Points of which both places are tried in columns."""
 
 Follows = tuple[tuple[str, Following], ...]
 """The values that follow words, by name."""
@@ -109,14 +105,6 @@ class CaseClass(Struct, frozen=True, eq=False):
     def system(self) -> System:
         """The equations."""
         return assemble(self.profile)
-
-    @property
-    def open_points(self) -> tuple[str, ...]:
-        """The points between whose two places nothing chooses, where each place has a closed form and nothing is said
-        twice; none where there are too many."""
-        found = _open_points(self.profile)
-        is_twice = len(self.system.facts) > len(self.system.unknowns)
-        return () if found is None or is_twice or len(found) > MOST_OPEN else found
 
     @property
     def machine(self) -> Construction:
@@ -206,13 +194,14 @@ class CaseClass(Struct, frozen=True, eq=False):
         )
         return replace(self.profile, givens={**self.profile.givens, **givens}, start=Start((first, second)))
 
-    def solve(self, values: Mapping[str, float]) -> Solution:
-        """A single solve of one row, as `examine` does it, without a proof."""
+    def solve(self, values: Mapping[str, float], enumeration: Enumeration | None = None) -> Solution:
+        """A single solve of one row, as `examine` does it, without a proof; `enumeration` has its solutions if they
+        are known."""
         from contoursolve.solving import place_cuts, settle  # noqa: PLC0415 - not every class solves a row alone
 
         profile = self.at(values)
         if not self.is_closed:
-            settlement = settle(profile)
+            settlement = settle(profile, enumeration=enumeration)
             placed, cuts = place_cuts(profile, settlement.loose) if settlement.loose else (profile, ())
             return settle(placed).solution if cuts else settlement.solution
         solution = solve(profile, is_proven=False)
@@ -322,16 +311,14 @@ def case_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, floa
             raise FamilyError(f"{typed.text} cannot vary: the contour has no value of it")
         number = Decimal(repr(values[word]))
         free |= {given.name: Linear(word, factor_of(answer, typed, given, number)) for given in stated}
-    is_closed = status is not None or _open_points(profile) == ()
+    is_closed = status is not None or _has_one_function(profile)
     return CaseClass(profile, status, free, is_closed=is_closed, resting=answer.resting)
 
 
-def _open_points(profile: Profile) -> tuple[str, ...] | None:
-    """The points between whose two places nothing chooses; None where some have no closed form."""
+def _has_one_function(profile: Profile) -> bool:
+    """Whether words choose all that is between two places, and each place has a closed form."""
     system, chosen = assemble(profile), {choice.point for choice in profile.choices}
-    if profile.is_extended or not is_closed(system):
-        return None
-    return tuple(point for point in points_with_two_solutions(system) if point not in chosen)
+    return not profile.is_extended and is_closed(system) and chosen.issuperset(points_with_two_solutions(system))
 
 
 def verdict_of(answer: Answer) -> Status | None:
@@ -505,15 +492,3 @@ def fill_row(case: CaseClass, values: Mapping[str, float], row: int, table: Resu
     touching = {remark.subject for remark in solution.remarks if remark.kind is NoteKind.TOUCHES}
     for point, side in sides_of_choice(case).items():
         table[f"branch.{point}"][row] = 0 if point in touching else side
-
-
-def half_circles(case: CaseClass, out: Mapping[str, Any]) -> Iterator[tuple[StepOutputs, Any]]:
-    """The measures of steps whose two centres of a half circle may be one, and where they are; `out` are outputs."""
-    for measures in half_circle_steps(case.machine):
-        yield measures, measures.is_touching(out)
-
-
-def half_circle_steps(machine: Construction) -> list[StepOutputs]:
-    """The measures of the steps that may find the centre of a half circle."""
-    pairs = zip(machine.steps, machine.measures, strict=True)
-    return [measures for step, measures in pairs if step.kind is StepKind.TWO_CIRCLES]

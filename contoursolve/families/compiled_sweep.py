@@ -3,7 +3,6 @@
 import threading
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from itertools import product
 from math import nan
 from typing import Any
 
@@ -24,8 +23,6 @@ from contoursolve.families.case_classes import (
     case_alone,
     case_of,
     fill_row,
-    half_circle_steps,
-    half_circles,
     names_of,
     resting_of,
     results_of,
@@ -37,25 +34,17 @@ from contoursolve.families.free_words import Examples
 from contoursolve.families.spec import Places, Ranges, SweepSpec, Template, called, stretches
 from contoursolve.families.traced_reading import place_of_contour, read_alone
 from contoursolve.geometry import System
-from contoursolve.numeric import ROWS, SIDE, Array, ColumnFunction, Columns, compile_columns, where
+from contoursolve.numeric import ROWS, Array, ColumnFunction, Columns, compile_columns, where
 from contoursolve.reading import Premises
 from contoursolve.solving import (
-    NO_PLACE,
-    NO_POINT,
     RowOutcome,
-    StatusCode,
     code_of,
     compile_checks,
-    compile_system,
-    reason_of,
 )
 
 Table = dict[str, NDArray[Any]]
 Target = slice | Places
 Bits = NDArray[numpy.bool_]
-
-_NOWHERE = [reason_of(kind) for kind in (None, *NO_PLACE)]
-"""Reasons of places that do not exist; where that is so of all, no point satisfies the block."""
 
 
 class CompiledSweep(Struct, eq=False):
@@ -185,8 +174,6 @@ class _ClassRows:
         """Fill in the results of some rows: those at these places of the values, as `target` of a table."""
         if isinstance(target, slice) or self.case.is_closed:
             self._solve_closed(ranges, places, target, table)
-        elif self.case.open_points:
-            self._solve_open(ranges, places, target, table)
         else:
             self._solve_several(ranges.at(places), target, table)
 
@@ -224,40 +211,6 @@ class _ClassRows:
             table[name][target[rows]] = column if is_measure else numpy.where(is_path, column, numpy.nan)
         table["residual"][target[rows]] = worst
 
-    def _solve_open(self, ranges: Ranges, places: Mapping[str, Places], target: Places, table: Results) -> None:
-        """The rows of a class with choices that nothing makes: every side of every point is tried."""
-        names, rows = names_of(self.case), target.size
-        function = self._function(ranges, places, rows)
-        count, again = numpy.zeros(rows, numpy.int64), numpy.zeros(rows, bool)
-        reason = numpy.full(rows, NO_POINT, numpy.uint8)
-        sides = [function.compiled.fixed.index(SIDE + point) for point in self.case.open_points]
-        for signs in product((1.0, -1.0), repeat=len(sides)):
-            function.fix(sides, signs)
-            out = function.evaluate(rows)
-            verdict = RowOutcome(self.case.checked.outputs, out, rows)
-            is_path = verdict.is_clear
-            again |= verdict.again
-            for _, is_one in half_circles(self.case, out):
-                again |= is_one
-            is_first = (reason == NO_POINT) & ~numpy.isin(verdict.reason, _NOWHERE)
-            reason = numpy.where(is_first, verdict.reason, reason)
-            shown = numpy.flatnonzero(is_path & (count == 0))
-            count += is_path
-            for output, name in names.items():
-                table[name][target[shown]] = numpy.broadcast_to(out[output], rows)[shown]
-        several = target[count > 1]
-        for name in names.values():
-            table[name][several] = numpy.nan
-        status = numpy.choose(
-            numpy.minimum(count, 2), (StatusCode.NO_SOLUTION, StatusCode.SOLVED, StatusCode.AMBIGUOUS)
-        )
-        self._note(count == 1, status.astype(numpy.uint8), numpy.where(count == 0, reason, 0), target, table)
-        if again.any():
-            for name in names.values():
-                table[name][target[again]] = numpy.nan
-            values = ranges.at({word: place[again] for word, place in places.items()})
-            self._solve_several(values, target[again], table)
-
     def _function(self, ranges: Ranges, places: Mapping[str, Places], rows: int) -> Columns:
         """The function, with the values of some rows as its inputs."""
         case = self.case
@@ -265,8 +218,8 @@ class _ClassRows:
             self.ranges, self.inputs = ranges, case.columns(ranges)
         if self.function is None:
             shown, varied = tuple(results_of(case).values()), frozenset(self.inputs)
-            self.function = Columns(_compile(case.system, varied, shown, bool(case.open_points)))
-            fixed = {SIDE + point: 1.0 for point in case.open_points} | case.numbers()
+            self.function = Columns(_compile(case.system, varied, shown))
+            fixed = case.numbers()
             self.function.fix(slice(None), [fixed[name] for name in self.function.compiled.fixed])
         for place, name in enumerate(self.function.compiled.varied):
             self.inputs[name].fill(places, self.function.inputs[place, :rows])
@@ -280,14 +233,12 @@ class _ClassRows:
 
 
 @lru_cache(maxsize=64)
-def _compile(system: System, varied: frozenset[str], shown: tuple[Behind, ...], is_open: bool) -> ColumnFunction:
+def _compile(system: System, varied: frozenset[str], shown: tuple[Behind, ...]) -> ColumnFunction:
     """The function of a system for columns: what the verdict reads, and the results as they are shown."""
     checked = compile_checks(system)
     tape, path, outputs = checked.tape, checked.outputs.path, checked.outputs
     needed = [outputs.passed, *outputs.margins.values(), checked.worst]
     needed += [corner.cosine for corner in path.corners.values()]
-    for measures in half_circle_steps(compile_system(system)) if is_open else ():
-        needed += measures.of_touching
     kept = tape.keep(needed)
     gap, rooms = where(checked.is_clear, 0.0, nan), set(path.rooms.values())
     for output, axis in shown:

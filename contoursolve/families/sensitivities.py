@@ -16,14 +16,14 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Shown
 from contoursolve.families.branch_rows import add_path
-from contoursolve.families.case_classes import CaseClass, case_in, half_circles, results_of
+from contoursolve.families.case_classes import CaseClass, case_in, results_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.free_words import check_block, factor_of
 from contoursolve.families.spec import BlockOptions, first_error, spec_of, subject_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble, scalar
 from contoursolve.numeric import COSINE, SIDE, SINE, Compiled, Tape, condition, direction
-from contoursolve.solving import NoteKind, Solution, Status, analyse, basis_of, input_values
+from contoursolve.solving import NoteKind, Solution, Status, StepKind, analyse, basis_of, input_values
 from contoursolve.tolerance import RESIDUAL
 
 SINGULAR = 1e-9
@@ -161,9 +161,9 @@ def _by_given(given: Given, rates: Mapping[str, float]) -> float:
 def _singular(case: CaseClass, inputs: Mapping[str, float]) -> frozenset[str]:
     """The words by which there is no derivative: they would part the two places of a centre that have become one, as
     in a half circle."""
-    found = set[str]()
-    for measures, is_one in half_circles(case, case.machine.function(inputs)):
-        if is_one:
+    found, out = set[str](), case.machine.function(inputs)
+    for step, measures in zip(case.machine.steps, case.machine.measures, strict=True):
+        if step.kind is StepKind.TWO_CIRCLES and measures.is_touching(out):
             rates = _slopes(case.machine.tape, [measures.radius, measures.offset], inputs)
             for name, each in case.free.items():
                 radius, offset = (_by_given(case.profile.givens[name], own) for own in rates.values())

@@ -10,7 +10,6 @@ from .columns import (
     ROWS as ROWS,
     ColumnFunction as ColumnFunction,
     Columns as Columns,
-    columns_of as columns_of,
     compile_columns as compile_columns,
     difference as difference,
     directions as directions,

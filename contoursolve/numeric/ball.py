@@ -57,19 +57,6 @@ def direction(degrees: Decimal) -> tuple[Number, Number]:
     return _direction(degrees, flint.ctx.prec)
 
 
-def directions(low: Decimal, high: Decimal) -> tuple[Number, Number]:
-    """(cosine, sine) of all angles between two."""
-    if low == high:
-        return direction(low)
-    turns = hull(low, high) / 180
-    return turns.cos_pi(), turns.sin_pi()
-
-
-def hull(low: Decimal, high: Decimal) -> Number:
-    """The ball from one decimal to another; the rational number if they are one."""
-    return exact(low) if low == high else arb(exact(low)).union(arb(exact(high)))
-
-
 @lru_cache(maxsize=65536)
 def _direction(degrees: Decimal, _bits: int) -> tuple[Number, Number]:
     turns = exact(degrees) / 180

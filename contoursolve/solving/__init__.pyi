@@ -21,12 +21,11 @@ from .certify import (
     certify as certify,
 )
 from .checks import (
-    NO_PLACE as NO_PLACE,
     Check as Check,
     Checked as Checked,
     CheckOutputs as CheckOutputs,
     Checks as Checks,
-    MeasuredFigure as MeasuredFigure,
+    Source as Source,
     Stage as Stage,
     Test as Test,
     add_checks as add_checks,
@@ -36,11 +35,10 @@ from .checks import (
     check_path as check_path,
     check_range as check_range,
     check_residuals as check_residuals,
-    compile_checked as compile_checked,
     compile_checks as compile_checks,
-    measured_figure as measured_figure,
     passed_rows as passed_rows,
     plain_checks as plain_checks,
+    source_of as source_of,
 )
 from .closed_steps import is_searched as is_searched
 from .compare import (
@@ -90,14 +88,9 @@ from .drawn import (
     Drawn as Drawn,
     Stated as Stated,
 )
-from .elimination import (
-    Close as Close,
-)
 from .enumerate import (
-    DRAWING as DRAWING,
-    Effort as Effort,
     Enumeration as Enumeration,
-    enumerate_many as enumerate_many,
+    enumerate_each as enumerate_each,
 )
 from .events import (
     BESIDE as BESIDE,
@@ -113,10 +106,7 @@ from .events import (
     refusals_about as refusals_about,
 )
 from .exact_inputs import (
-    BALLS as BALLS,
     SMALLEST as SMALLEST,
-    Ground as Ground,
-    ground_of as ground_of,
 )
 from .free_cuts import (
     joints_among as joints_among,
@@ -150,7 +140,6 @@ from .picks import (
     resolved_later as resolved_later,
 )
 from .row_outcome import (
-    NO_POINT as NO_POINT,
     REASONS as REASONS,
     UNVERIFIED as UNVERIFIED,
     RowOutcome as RowOutcome,
@@ -160,8 +149,6 @@ from .row_outcome import (
 )
 from .sides import (
     ARCS as ARCS,
-    BOTH as BOTH,
-    sides_of as sides_of,
 )
 from .sketch import (
     Sketch as Sketch,
@@ -179,10 +166,6 @@ from .solution import (
 from .solve import (
     ROUNDING as ROUNDING,
     solve as solve,
-)
-from .step_equations import (
-    Kernel as Kernel,
-    make_kernel as make_kernel,
 )
 from .step_outputs import (
     Need as Need,

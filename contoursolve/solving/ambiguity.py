@@ -31,7 +31,7 @@ from contoursolve.solving.compare import compare_affine
 from contoursolve.solving.construction import is_closed
 from contoursolve.solving.determinacy import analyse, groups_of
 from contoursolve.solving.elimination import Obstacle
-from contoursolve.solving.enumerate import enumerate_solutions
+from contoursolve.solving.enumerate import Enumeration, enumerate_solutions
 from contoursolve.solving.events import Status, Topic, events_about, refusals_about
 from contoursolve.solving.identities import is_affine
 from contoursolve.solving.partition import Group
@@ -96,13 +96,14 @@ class Settlement(Struct, frozen=True):
     loose: tuple[str, ...] = ()
 
 
-def settle(profile: Profile, *, is_blaming: bool = True) -> Settlement:
-    """The contour that the control makes of a determined profile, or the only one that there is.
+def settle(profile: Profile, *, is_blaming: bool = True, enumeration: Enumeration | None = None) -> Settlement:
+    """The contour that the control makes of a determined profile, or the only one that there is; `enumeration` has its
+    solutions if they are known.
 
     Where the first facts are singular or undecided at their values, those that were not needed are tried instead. Which
     facts are to blame where there is no contour takes searches of its own.
     """
-    alternatives = find_alternatives(profile)
+    alternatives = find_alternatives(profile, enumeration)
     unsettled = [] if alternatives.items else _unsettled(alternatives)
     if unsettled:
         tried = (find_alternatives(other) for other in (*orders_of(profile), *_last(profile, unsettled)))

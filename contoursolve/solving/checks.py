@@ -1,6 +1,6 @@
 """What must hold of a contour, as one table of margins; and which of many values of some words pass it."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from functools import lru_cache, reduce
 from typing import Any
@@ -35,7 +35,6 @@ from contoursolve.numeric import (
     FLOATS,
     SINE,
     Array,
-    Compiled,
     Functions,
     Replay,
     Tape,
@@ -50,7 +49,7 @@ from contoursolve.solving.compile import compile_plainly, compile_system
 from contoursolve.solving.construction import Construction, ConstructionStep, StepKind, is_closed
 from contoursolve.solving.corners import Pair
 from contoursolve.solving.determinacy import analyse
-from contoursolve.solving.events import RefusalKind, Topic, refusals_about
+from contoursolve.solving.events import RefusalKind
 from contoursolve.solving.inputs import EXPRESSIONS, input_values
 from contoursolve.solving.numbers import axes_of, inputs_of
 from contoursolve.solving.path_outputs import PathOutputs
@@ -114,9 +113,6 @@ class Check(Struct, frozen=True):
     """What is refused instead where both directions at the corner are opposite."""
 
 
-NO_PLACE = refusals_about(Topic.PLACE, Topic.ARITHMETIC)
-"""What is refused where a step of the construction has no solution."""
-
 Checks = Iterator[tuple[Check, Any]]
 """Checks with their margins, mm but for turns and landings (1)."""
 
@@ -124,9 +120,9 @@ Checks = Iterator[tuple[Check, Any]]
 NO_PATH = PathOutputs({}, {}, {}, {})
 
 
-class MeasuredFigure(Struct, frozen=True, eq=False):
-    """The expressions or numbers that margins are made of: the coordinates, radii and angles of a figure, the measures
-    of its path, and the least increment of a coordinate by its axis, or of a value by its name, mm or degrees."""
+class Source(Struct, frozen=True, eq=False):
+    """What margins are made of, expressions or numbers: the coordinates, radii and angles of a figure, the measures of
+    its path, and the least increment of a coordinate by its axis, or of a value by its name, mm or degrees."""
 
     figure: Figure
     at: Values
@@ -148,12 +144,10 @@ class MeasuredFigure(Struct, frozen=True, eq=False):
         return self.at.root(first**2 + second**2)
 
 
-def measured_figure(
-    system: System, tape: Tape, known: Mapping[str, Any], path: PathOutputs = NO_PATH
-) -> MeasuredFigure:
+def source_of(system: System, tape: Tape, known: Mapping[str, Any], path: PathOutputs = NO_PATH) -> Source:
     """The expressions of a tape, whose outputs measure a path; scalars that are not `known` are inputs."""
     at = input_values(system, tape, known)
-    return MeasuredFigure(system.figure, at, path.read(tape.expression), lambda name: tape.input(INCREMENT_OF + name))
+    return Source(system.figure, at, path.read(tape.expression), lambda name: tape.input(INCREMENT_OF + name))
 
 
 class CheckOutputs(Struct, frozen=True, eq=False):
@@ -184,15 +178,15 @@ class Checked(Struct, frozen=True, eq=False):
 def compile_checks(system: System) -> Checked:
     """The checks of a determined system in closed form."""
     machine = compile_system(system)
-    tape, measured = _measured_of(system, machine)
+    tape, source = _source_of(system, machine)
     basis = largest(map(tape.expression, machine.residuals))
-    corners = largest(measured.path.residuals)
+    corners = largest(source.path.residuals)
     pairs = [
-        *(pair for pair in _check_steps(measured, machine, tape) if not _is_half_circle(pair[0])),
-        check_range(measured),
+        *(pair for pair in _check_steps(source, machine, tape) if not _is_half_circle(pair[0])),
+        check_range(source),
         check_residuals(basis),
-        *check_facts(measured, machine.checks, map(tape.expression, machine.compared)),
-        *check_path(measured),
+        *check_facts(source, machine.checks, map(tape.expression, machine.compared)),
+        *check_path(source),
         check_residuals(corners),
     ]
     outputs, is_clear = add_checks(tape, pairs, machine.path)
@@ -201,32 +195,26 @@ def compile_checks(system: System) -> Checked:
     return Checked(outputs, tuple(margin for _, margin in pairs), tape, worst, is_clear)
 
 
-@lru_cache(maxsize=1024)
-def compile_checked(system: System) -> Compiled:
-    """The function of a determined system in closed form with the outputs of its checks."""
-    return compile_checks(system).tape.finish()
-
-
 def _is_half_circle(check: Check) -> bool:
     """Whether a check is about two centres that may be one: a circle about the middle of two points is an ordinary half
     circle."""
     return check.stage is Stage.TOUCHING and check.kind is RefusalKind.RADIUS_TOO_SMALL
 
 
-def _measured_of(system: System, machine: Construction) -> tuple[Tape, MeasuredFigure]:
+def _source_of(system: System, machine: Construction) -> tuple[Tape, Source]:
     """The expressions of a system in closed form, and a tape of their own."""
     tape = machine.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
-    return tape, measured_figure(system, tape, known | at_origin(system.figure), machine.path)
+    return tape, source_of(system, tape, known | at_origin(system.figure), machine.path)
 
 
-def plain_checks(system: System) -> tuple[Tape, MeasuredFigure, list[tuple[Check, Any]]]:
+def plain_checks(system: System) -> tuple[Tape, Source, list[tuple[Check, Any]]]:
     """The checks of a determined system that a control has to make by itself, and where their margins come from."""
     machine = compile_plainly(system)
-    tape, measured = _measured_of(system, machine)
-    steps = (pair for pair in _check_steps(measured, machine, tape) if pair[0].stage is not Stage.TOUCHING)
-    facts = check_facts(measured, machine.checks, map(tape.expression, machine.compared))
-    return tape, measured, [*steps, *facts, *check_path(measured)]
+    tape, source = _source_of(system, machine)
+    steps = (pair for pair in _check_steps(source, machine, tape) if pair[0].stage is not Stage.TOUCHING)
+    facts = check_facts(source, machine.checks, map(tape.expression, machine.compared))
+    return tape, source, [*steps, *facts, *check_path(source)]
 
 
 def add_checks(tape: Tape, pairs: Sequence[tuple[Check, Any]], path: PathOutputs) -> tuple[CheckOutputs, Any]:
@@ -267,36 +255,34 @@ def is_failing(check: Check, margin: float) -> bool:
     return not margin > check.limit and not is_passed(check, margin, FLOATS)
 
 
-def _check_steps(measured: MeasuredFigure, machine: Construction, tape: Tape) -> Checks:
+def _check_steps(source: Source, machine: Construction, tape: Tape) -> Checks:
     for step, measures in zip(machine.steps, machine.measures, strict=True):
-        yield from check_step(measured, step, measures, tape.expression)
+        yield from check_step(source, step, measures.read(tape.expression))
 
 
-def check_step(
-    measured: MeasuredFigure, step: ConstructionStep, measures: StepOutputs, out: Callable[[str], Any]
-) -> Checks:
-    """Whether a step of a construction has a solution; `out` gives its measures by their names."""
+def check_step(source: Source, step: ConstructionStep, measures: StepOutputs) -> Checks:
+    """Whether a step of a construction with these measures has a solution."""
     for tail, through in step.lines_through():
-        yield Check(RefusalKind.POINT_IS_START, through, "", Test.ABOVE, LENGTH), measured.distance(tail, through)
+        yield Check(RefusalKind.POINT_IS_START, through, "", Test.ABOVE, LENGTH), source.distance(tail, through)
     if step.kind is StepKind.AFFINE:
         givens = tuple(fact.given for fact in step.facts if fact.given)
         kind, subject = RefusalKind.LINES_PARALLEL, ",".join(step.unknowns)
-        yield Check(kind, subject, "", Test.APART, REGULAR, givens, is_doubtful=True), out(measures.determinant)
+        yield Check(kind, subject, "", Test.APART, REGULAR, givens, is_doubtful=True), measures.determinant
         return
     if step.kind is StepKind.RADIUS:
         # What is compared with a circle of no radius at all, a single solve tells.
         kind, (circle,) = RefusalKind.CIRCLE_UNDEFINED, step.circles
-        yield Check(kind, circle.center, "", Test.ABOVE, LENGTH, is_doubtful=True), measured.at.radius(circle.radius)
+        yield Check(kind, circle.center, "", Test.ABOVE, LENGTH, is_doubtful=True), source.at.radius(circle.radius)
         return
     kind, subject, is_half = RefusalKind.CIRCLE_MISSED, step.point, step.is_equal
     if step.kind is StepKind.TWO_CIRCLES:
         kind = RefusalKind.RADIUS_TOO_SMALL if is_half else RefusalKind.CIRCLES_APART
         undefined = RefusalKind.CIRCLE_UNDEFINED if is_half else kind
-        yield Check(undefined, subject, "", Test.ABOVE, LENGTH), out(measures.distance)
-    offset, radius, magnitude = out(measures.offset), out(measures.radius), measured.at.functions.magnitude
-    give = out(measures.scale) * TOUCHING
+        yield Check(undefined, subject, "", Test.ABOVE, LENGTH), measures.distance
+    offset, radius, magnitude = measures.offset, measures.radius, source.at.functions.magnitude
+    give = measures.scale * TOUCHING
     meets = Check(kind, subject, "", Test.AT_LEAST, 0.0)
-    yield meets, out(measures.gap) + give
+    yield meets, measures.gap + give
     yield meets, radius + offset + give
     apart = magnitude(radius - magnitude(offset)) - give
     yield Check(kind, subject, "", Test.ABOVE, 0.0, stage=Stage.TOUCHING, is_doubtful=True), apart
@@ -312,15 +298,15 @@ def unverified(off: float) -> Refusal:
     return Refusal(RefusalKind.NOT_VERIFIED, "", (), {"limit": RESIDUAL, "actual": off})
 
 
-def check_range(measured: MeasuredFigure) -> tuple[Check, Any]:
+def check_range(source: Source) -> tuple[Check, Any]:
     """Whether words reach every point from the start."""
-    start, functions = measured.figure.start, measured.at.functions
-    ways = [functions.magnitude(way) for name in measured.figure.points for way in measured.way(start, name)]
+    start, functions = source.figure.start, source.at.functions
+    ways = [functions.magnitude(way) for name in source.figure.points for way in source.way(start, name)]
     farthest: Any = reduce(functions.larger, ways) if ways else 0.0
     return Check(RefusalKind.OUT_OF_RANGE, "", "", Test.NOT_BELOW, 0.0, stage=Stage.RANGE), LARGEST - farthest
 
 
-def check_facts(measured: MeasuredFigure, facts: Iterable[Fact], residuals: Iterable[Any]) -> Checks:
+def check_facts(source: Source, facts: Iterable[Fact], residuals: Iterable[Any]) -> Checks:
     """Whether facts that were not needed, with these residuals (mm), agree at the points that the others give."""
     for fact, residual in zip(facts, residuals, strict=True):
         is_doubtful = bool(fact.given) and not isinstance(fact, Coordinate | Offset | Radius | Heading)
@@ -330,33 +316,33 @@ def check_facts(measured: MeasuredFigure, facts: Iterable[Fact], residuals: Iter
             if isinstance(fact, OnCircle):
                 kind, subject = RefusalKind.RADIUS_DIFFERENCE, fact.point
         check = Check(kind, subject, "", Test.NOT_BELOW, 0.0, (), Stage.FACTS, is_doubtful, fact.given)
-        for margin in agreement(fact, residual, measured.at, measured.increment, measured.figure):
+        for margin in agreement(fact, residual, source.at, source.increment, source.figure):
             yield check, margin
 
 
-def check_path(measured: MeasuredFigure) -> Checks:
+def check_path(source: Source) -> Checks:
     """Whether the control can make the path: the direction of travel, and the room for each corner."""
-    figure = measured.figure
+    figure = source.figure
     for element in figure.path:
         if not (isinstance(element, Arc) and element.may_be_full):
-            yield _check_element(measured, element)
+            yield _check_element(source, element)
     for corner in figure.corners:
-        yield from _check_corner(measured, corner)
-    yield from check_room(measured)
+        yield from _check_corner(source, corner)
+    yield from check_room(source)
 
 
-def _check_element(measured: MeasuredFigure, element: Line | Arc) -> tuple[Check, Any]:
+def _check_element(source: Source, element: Line | Arc) -> tuple[Check, Any]:
     name = element.name
     if isinstance(element, Arc):
         check = Check(RefusalKind.ARC_EMPTY, name, name, Test.ABOVE, LENGTH, stage=Stage.ELEMENTS)
-        return check, measured.distance(element.tail, element.head)
+        return check, source.distance(element.tail, element.head)
     told = RefusalKind.CORNER_SIGN if element.is_signed else RefusalKind.LINE_REVERSED
     kind = RefusalKind.LINE_BACKWARDS if element.heading is None else told
-    return Check(kind, name, name, Test.AT_LEAST, -LENGTH, stage=Stage.ELEMENTS), measured.path.lengths[name]
+    return Check(kind, name, name, Test.AT_LEAST, -LENGTH, stage=Stage.ELEMENTS), source.path.lengths[name]
 
 
-def _check_corner(measured: MeasuredFigure, corner: Corner) -> Checks:
-    path, name, functions = measured.path, corner.name, measured.at.functions
+def _check_corner(source: Source, corner: Corner) -> Checks:
+    path, name, functions = source.path, corner.name, source.at.functions
 
     def check(kind: RefusalKind, test: Test, limit: float, on: str = "", opposite: RefusalKind | None = None) -> Check:
         return Check(kind, name, on, test, limit, stage=Stage.CORNERS, opposite=opposite)
@@ -378,31 +364,31 @@ def _check_corner(measured: MeasuredFigure, corner: Corner) -> Checks:
         back = functions.below(built.cosine, 0)
         yield check(RefusalKind.CORNER_STRAIGHT, Test.ABOVE, corner.least), functions.larger(size, back)
     if corner.shape.share:
-        for axis, margin in _inside(measured, corner):
+        for axis, margin in _inside(source, corner):
             yield check(RefusalKind.BEVEL_OUTSIDE, Test.NOT_BELOW, -LENGTH, str(axis)), margin
         for setback in (built.setback_in, built.setback_out):
             # Not a number is a bevel that is too large for its arc.
             yield check(RefusalKind.BEVEL_IN_BAND, Test.NOT_BELOW, -LENGTH), setback
 
 
-def _inside(measured: MeasuredFigure, corner: Corner) -> Iterator[tuple[int, Any]]:
+def _inside(source: Source, corner: Corner) -> Iterator[tuple[int, Any]]:
     """How far a corner lies inside the rectangle spanned by the ends of its two lines along each axis, mm."""
-    path, larger = {element.name: element for element in measured.figure.path}, measured.at.functions.larger
+    path, larger = {element.name: element for element in source.figure.path}, source.at.functions.larger
     before, after = path[corner.before], path.get(corner.after or "")
     if after is None or isinstance(before, Arc) or isinstance(after, Arc):
         return
-    tail, head, at = measured.point(before.tail), measured.point(after.head), measured.point(corner.at)
+    tail, head, at = source.point(before.tail), source.point(after.head), source.point(corner.at)
     for axis in (FIRST, SECOND):
         # Either coordinate is exact to half its increment.
-        give = measured.increment(str(axis))
+        give = source.increment(str(axis))
         yield axis, larger(at[axis] - tail[axis], at[axis] - head[axis]) + give
         yield axis, larger(tail[axis] - at[axis], head[axis] - at[axis]) + give
 
 
-def check_room(measured: MeasuredFigure) -> Checks:
+def check_room(source: Source) -> Checks:
     """Whether each element is as long as the setbacks of the corners at its two ends. A setback on an arc that is not a
     number belongs to a corner that cannot touch the arc at all; a negative one would leave the arc beyond its end."""
-    figure, path = measured.figure, measured.path
+    figure, path = source.figure, source.path
     for corner in figure.corners:
         for name, setback in setbacks_of(corner, path).items():
             fits = Check(RefusalKind.CORNER_TOO_LARGE, corner.name, name, Test.AT_LEAST, -LENGTH, stage=Stage.ROOM)

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from msgspec import Struct
 
-from contoursolve.geometry import Fact, Profile, System
+from contoursolve.geometry import Fact, Line, Profile, System, scalar
 from contoursolve.numeric import Number, ball
 from contoursolve.solving.branch_and_prune import Division, Task, conditions_of, divide, settle
 from contoursolve.solving.closed_steps import close_step
@@ -15,7 +15,6 @@ from contoursolve.solving.determinacy import groups_of, witness_of
 from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Root, solve_step
 from contoursolve.solving.exact_inputs import Ground, ground_of
 from contoursolve.solving.partition import Group
-from contoursolve.solving.senses import Sense, senses_of
 from contoursolve.solving.step_equations import Coefficient, Kernel, make_kernel, polynomials_of
 
 
@@ -35,7 +34,7 @@ DRAWING = Effort(300_000, 30_000, is_guessing=True)
 """For a single drawing; about three seconds."""
 
 
-class ExactSolution(Struct, frozen=True):
+class Found(Struct, frozen=True):
     """One solution of the equations: every unknown, exact or in a ball, and the sides at which elements touch.
 
     `doubles` are the unknowns of steps whose two solutions have become one.
@@ -56,13 +55,11 @@ class Doubt(Struct, frozen=True):
 class Enumeration(Struct, frozen=True):
     """What a search found. The list is complete, with proof, if there is no doubt."""
 
-    found: tuple[ExactSolution, ...]
+    found: tuple[Found, ...]
     doubts: tuple[Doubt, ...]
     within: float | None = None
     """How far from the start point there is no other solution, mm, where some step has no closed form and was searched
     for; None where all have one."""
-    is_lost: bool = False
-    """Whether there is none because the search of such a step found none."""
 
     @property
     def is_complete(self) -> bool:
@@ -72,34 +69,32 @@ class Enumeration(Struct, frozen=True):
 
 def enumerate_solutions(profile: Profile, system: System, unsensed: frozenset[Fact] = frozenset()) -> Enumeration:
     """All solutions of a determined system at the values of a profile, whatever the choices of the control, and
-    whichever way what `unsensed` facts are about runs.
+    whichever way what `unsensed` facts are about runs."""
+    (found,) = enumerate_each([profile], system, unsensed)
+    return found
+
+
+def enumerate_each(
+    profiles: Sequence[Profile], system: System, unsensed: frozenset[Fact] = frozenset()
+) -> list[Enumeration]:
+    """The solutions at the values of each profile; what has no closed form is searched for all of them together.
 
     Where a ball is too wide to decide, everything is done again with four times the digits.
     """
-    groups = groups_of(system)
-    enumeration = Enumeration((), ())
+    groups, found = groups_of(system), [Enumeration((), ())] * len(profiles)
+    left = list(range(len(profiles)))
     for bits, close in ((ball.WORKING, Close.REFUSE), (ball.HIGHEST, Close.DOUBLE)):
         with ball.precision(bits):
-            enumeration = enumerate_on(ground_of(profile), system, groups, close, DRAWING, unsensed)
+            grounds = [ground_of(profiles[number]) for number in left]
+            for number, each in zip(
+                left, enumerate_many(grounds, system, groups, close, DRAWING, unsensed), strict=True
+            ):
+                if not isinstance(each, Enumeration):
+                    raise each
+                found[number] = each
         # More digits do not finish a search.
-        if not any(doubt.obstacle in (Obstacle.TOUCHING, Obstacle.UNDECIDED) for doubt in enumeration.doubts):
-            break
-    return enumeration
-
-
-def enumerate_on(
-    ground: Ground,
-    system: System,
-    groups: tuple[Group, ...],
-    close: Close,
-    effort: Effort,
-    unsensed: frozenset[Fact] = frozenset(),
-) -> Enumeration:
-    """All solutions on a ground, with the balls of the precision that is set. Where the ground is a whole box of
-    values, each one is proven for all of them."""
-    (found,) = enumerate_many([ground], system, groups, close, effort, unsensed)
-    if not isinstance(found, Enumeration):
-        raise found
+        unsure = (Obstacle.TOUCHING, Obstacle.UNDECIDED)
+        left = [number for number in left if any(doubt.obstacle in unsure for doubt in found[number].doubts)]
     return found
 
 
@@ -143,6 +138,9 @@ _Result = TypeVar("_Result")
 _Steps = Generator[tuple[Group, Task], tuple[list[Division], int], _Result]
 """Stops where a step has no closed form, and goes on with what its task leads to."""
 
+Sense = tuple[Fact, frozenset[str]]
+"""A fact, and the unknowns that its senses read."""
+
 MOST_SOLUTIONS = 512
 """Solutions that are followed; each point that may lie in two places doubles their number."""
 
@@ -162,18 +160,24 @@ class _Search:
         self.ground = ground
         self.close = close
         self.doubts: list[Doubt] = []
-        self.is_lost = False
         self.within: float | None = None
         self.effort = effort
         self.left = effort.intervals
         self.near, self.far = ground.nearby(system), ground.farthest(system)
-        self.senses = [sense for sense in senses_of(system) if unsensed.isdisjoint(sense.facts)]
+        self.senses: list[Sense] = [
+            (fact, frozenset(system.unknowns_among(fact.sense_reads())))
+            for fact in system.facts
+            if fact not in unsensed
+        ]
+        lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
+        carriers = [line for line in lines if line.name in system.figure.carriers]
+        self.runs = [line for line in carriers if line.tail and line.head]
+        self.free = [line.name for line in carriers if not line.tail]
 
     def run(self) -> _Steps[Enumeration]:
         """Everything but the steps without a closed form, which are left to whoever runs it."""
-        states = [ExactSolution({}, {})]
+        states = [Found({}, {})]
         for group in self.groups:
-            self.is_lost = False
             states = yield from self._advance(states, group)
             if not states:
                 break
@@ -181,9 +185,9 @@ class _Search:
                 self.doubts.append(Doubt(group.unknowns, Obstacle.UNFINISHED))
                 states = states[:MOST_SOLUTIONS]
         states = [self._with_sides(state) for state in states]
-        return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.within, self.is_lost)
+        return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.within)
 
-    def _with_sides(self, state: ExactSolution) -> ExactSolution:
+    def _with_sides(self, state: Found) -> Found:
         """The state with the sides of facts that were not needed: where the fact is nearer to being true."""
         signs = dict(state.signs)
         for fact in self.system.facts:
@@ -196,28 +200,26 @@ class _Search:
                         for sign in (1, -1)
                     }
                     signs[side] = 1 if off[1] <= off[-1] else -1
-        return ExactSolution(state.scalars, signs, state.doubles)
+        return Found(state.scalars, signs, state.doubles)
 
-    def _advance(self, states: Sequence[ExactSolution], group: Group) -> _Steps[list[ExactSolution]]:
+    def _advance(self, states: Sequence[Found], group: Group) -> _Steps[list[Found]]:
         kernel = make_kernel(self.system, group)
-        cases = [
-            ExactSolution(state.scalars, signs, state.doubles) for state in states for signs in _choices(state, kernel)
-        ]
+        cases = [Found(state.scalars, signs, state.doubles) for state in states for signs in _choices(state, kernel)]
         solved = self._solve_each(group, cases)
         unsolved = [case for case, roots in zip(cases, solved, strict=True) if roots is None]
         searched = iter((yield from self._search(group, kernel, unsolved)) if unsolved else [])
-        senses = [sense for sense in self.senses if not sense.reads.isdisjoint(kernel.unknowns)]
-        found: list[ExactSolution] = []
+        senses = [(fact, names) for fact, names in self.senses if not names.isdisjoint(kernel.unknowns)]
+        found: list[Found] = []
         for case, roots in zip(cases, solved, strict=True):
             for root in next(searched) if roots is None else roots:
                 values = {kernel.unknowns[index]: each for index, each in root.values.items()}
                 doubles = case.doubles + (kernel.unknowns if root.is_double else ())
-                after = ExactSolution({**case.scalars, **values}, case.signs, doubles)
+                after = Found({**case.scalars, **values}, case.signs, doubles)
                 if self._is_possible(after, kernel, senses):
                     found.append(after)
         return found
 
-    def _solve_each(self, group: Group, cases: Sequence[ExactSolution]) -> list[list[Root] | None]:
+    def _solve_each(self, group: Group, cases: Sequence[Found]) -> list[list[Root] | None]:
         """All solutions of a step for each case. Cases that differ elsewhere alone have the very same numbers here, and
         are solved once."""
         solved: dict[tuple[int, ...], list[Root] | None] = {}
@@ -236,10 +238,10 @@ class _Search:
                     self.doubts.append(Doubt(group.unknowns, Obstacle.TOUCHING))
         return [solved[key] for key in keys]
 
-    def _numbers(self, names: Sequence[str], case: ExactSolution) -> list[Number]:
+    def _numbers(self, names: Sequence[str], case: Found) -> list[Number]:
         return [self.ground.number(name, case.scalars, case.signs) for name in names]
 
-    def _eliminate(self, group: Group, case: ExactSolution) -> list[Root] | None:
+    def _eliminate(self, group: Group, case: Found) -> list[Root] | None:
         """All solutions of a step that the construction does not close, or that is a special one at these values; None
         if it has no closed form."""
         step = polynomials_of(self.system, group)
@@ -255,7 +257,7 @@ class _Search:
             self.doubts.append(Doubt(group.unknowns, error.obstacle))
             return []
 
-    def _search(self, group: Group, kernel: Kernel, cases: Sequence[ExactSolution]) -> _Steps[list[list[Root]]]:
+    def _search(self, group: Group, kernel: Kernel, cases: Sequence[Found]) -> _Steps[list[list[Root]]]:
         """All solutions of a step without a closed form, for each case; all cases are searched together. First what is
         nearby is searched, and where that could be decided, all that the control can reach."""
         conditions = conditions_of(self.system, group)
@@ -275,11 +277,9 @@ class _Search:
                 break
             inner = reach
         self.within = min(far, self.within or far)
-        found = [settle(kernel, each, at) for each, at in zip(zip(*searched, strict=True), inputs, strict=True)]
-        self.is_lost = not any(found)
-        return found
+        return [settle(kernel, each, at) for each, at in zip(zip(*searched, strict=True), inputs, strict=True)]
 
-    def _is_possible(self, state: ExactSolution, kernel: Kernel, senses: Sequence[Sense]) -> bool:
+    def _is_possible(self, state: Found, kernel: Kernel, senses: Sequence[Sense]) -> bool:
         """Whether radii are positive and everything runs in its stated sense; what cannot be decided is a doubt."""
         for value in self._must_be_positive(state, kernel, senses):
             match ball.sign(value):
@@ -293,16 +293,33 @@ class _Search:
                     return False
         return True
 
-    def _must_be_positive(self, state: ExactSolution, kernel: Kernel, senses: Sequence[Sense]) -> Iterator[Number]:
-        yield from (state.scalars[name] for name in kernel.unknowns if name in self.system.figure.radii)
-        complete = [sense for sense in senses if sense.reads <= state.scalars.keys()]
-        if complete:
+    def _must_be_positive(self, state: Found, kernel: Kernel, senses: Sequence[Sense]) -> Iterator[Number]:
+        new = set(kernel.unknowns)
+        yield from (state.scalars[name] for name in self.system.figure.radii if name in new)
+        at = self.ground.values(state.scalars, state.signs, self.system)
+        for fact, names in senses:
+            if names <= state.scalars.keys():
+                yield from fact.senses(at)
+        for line in self.runs:
+            yield from self._run(line, state, new)
+        for name in self.free:
+            # A line beside the path has no sense: it is taken to run to the right, or upwards.
+            if f"{name}.cos" in new:
+                cosine = state.scalars[f"{name}.cos"]
+                yield cosine if ball.sign(cosine) != 0 else state.scalars[f"{name}.sin"]
+
+    def _run(self, line: Line, state: Found, new: set[str]) -> Iterator[Number]:
+        ends = [scalar(point, axis) for point in (line.tail, line.head) for axis in (0, 1)]
+        names = {*ends, f"{line.name}.cos"} - self.system.known
+        if new & names and names <= state.scalars.keys():
             at = self.ground.values(state.scalars, state.signs, self.system)
-            for sense in complete:
-                yield from sense.values(at)
+            cosine, sine = at.bearing(line.name)
+            yield (at.coordinate(line.head, 0) - at.coordinate(line.tail, 0)) * cosine + (
+                at.coordinate(line.head, 1) - at.coordinate(line.tail, 1)
+            ) * sine
 
 
-def _choices(state: ExactSolution, kernel: Kernel) -> Iterator[dict[str, int]]:
+def _choices(state: Found, kernel: Kernel) -> Iterator[dict[str, int]]:
     """The sides of a state with those that a step leaves open, chosen in every way."""
     open_sides = [side for side in kernel.sides if side not in state.signs]
     for values in product((1, -1), repeat=len(open_sides)):

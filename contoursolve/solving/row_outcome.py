@@ -51,8 +51,8 @@ def reason_of(kind: RefusalKind | None) -> int:
     return _REASON[kind]
 
 
-NO_POINT, UNVERIFIED = reason_of(RefusalKind.NO_POINT), reason_of(RefusalKind.NOT_VERIFIED)
-"""The numbers of two reasons: that there is no such point, and that rounding keeps equations from holding."""
+UNVERIFIED = reason_of(RefusalKind.NOT_VERIFIED)
+"""The number of the reason that rounding keeps equations from holding."""
 
 
 class RowOutcome:

@@ -156,8 +156,6 @@ class Kernel(Struct, frozen=True, eq=False):
     arguments: tuple[str, ...]
     equations: Replay
     function: Any
-    is_affine: bool
-    """Whether the derivatives are free of the unknowns."""
 
 
 class Polynomials(Struct, frozen=True, eq=False):
@@ -192,8 +190,8 @@ def make_kernel(system: System, group: Group) -> Kernel:
     at = Tape()
     unknowns = [at.input(name) for name in group.unknowns]
     outputs = [fact.equation(input_values(system, at, {})) for fact in group.facts]
-    vector, is_affine = expressions.with_slopes(outputs, unknowns)
-    at.output("equations and slopes", vector)
+    for number, expression in enumerate((*outputs, *expressions.derivatives(outputs, unknowns))):
+        at.output(str(number), expression)
     function = at.function()
     return Kernel(
         facts=group.facts,
@@ -202,5 +200,4 @@ def make_kernel(system: System, group: Group) -> Kernel:
         arguments=at.inputs,
         equations=Replay(function, ball, ball.exact),
         function=function,
-        is_affine=is_affine,
     )
