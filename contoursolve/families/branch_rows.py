@@ -56,8 +56,8 @@ from contoursolve.solving import (
     compile_path,
     enumerate_each,
     input_values,
+    measured_figure,
     reason_of,
-    source_of,
     spare_of,
 )
 
@@ -286,8 +286,8 @@ def add_path(tape: Tape, system: System, givens: Container[str]) -> list[tuple[C
     which sizes of corners are stated."""
     figure, machine = system.figure, compile_path(system)
     path = machine.tape.copy()
-    source = source_of(system, path, at_origin(figure), machine.path)
-    checks = [check_range(source), *check_path(source), check_residuals(largest(source.path.residuals))]
+    measured = measured_figure(system, path, at_origin(figure), machine.path)
+    checks = [check_range(measured), *check_path(measured), check_residuals(largest(measured.path.residuals))]
     radii = {each.size: f"{each.name}.radius" for each in figure.corners if each.size not in givens}
     inputs: dict[str, Any] = {name: tape.input(radii.get(name, name)) for name in path.inputs}
     # Inside a path counts from its start point.
@@ -322,7 +322,7 @@ def _compile_verdict(system: System, sizes: frozenset[str]) -> _Verdict:
     for name, residual in residuals.items():
         tape.output(name, residual)
     equations, path = check_residuals(largest(residuals.values())), compile_path(system).path
-    stated = check_facts(source_of(system, tape, {}), spare, [fact.residual(at) for fact in spare])
+    stated = check_facts(measured_figure(system, tape, {}), spare, [fact.residual(at) for fact in spare])
     outputs, _ = add_checks(tape, [equations, *stated, *add_path(tape, system, sizes)], path)
     return _Verdict(compile_columns(tape, tape.inputs), outputs, tuple(residuals))
 

@@ -35,9 +35,9 @@ from contoursolve.solving import (
     compile_branches,
     compile_checks,
     compile_system,
+    measured_figure,
     orders_of,
     settled_by,
-    source_of,
 )
 from contoursolve.tolerance import REGULAR
 
@@ -277,9 +277,9 @@ def _compile(system: System, follows: Follows, choices: tuple[Choice, ...]) -> t
     form = compile_branches(system)
     tape = form.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
-    source = source_of(system, tape, known | at_origin(system.figure), form.path)
-    facts = check_facts(source, form.checks, map(tape.expression, form.compared))
-    found = [*_conditions(form), *_sides(form, choices), *facts, check_range(source), *check_path(source)]
+    measured = measured_figure(system, tape, known | at_origin(system.figure), form.path)
+    facts = check_facts(measured, form.checks, map(tape.expression, form.compared))
+    found = [*_conditions(form), *_sides(form, choices), *facts, check_range(measured), *check_path(measured)]
     outputs = {str(number): expression for number, (_, expression) in enumerate(found)}
     return form, Margins(tuple(each for each, _ in found), Chart(tape, outputs, dict(follows)))
 

@@ -1,7 +1,7 @@
 """Facts as equations: what they have in common, the values that they look up, the vectors that they are made of."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Set
-from functools import lru_cache
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence, Set
+from functools import lru_cache, reduce
 from typing import Any, NamedTuple, Protocol
 
 from msgspec import Struct, field
@@ -48,6 +48,9 @@ class Lookup(Protocol):
 
     def vanishes(self, value: Any) -> bool:
         """Whether a value is zero."""
+
+    def first_that_moves(self, moves: Sequence[Any]) -> Any:
+        """The first of some values that is not zero; the first one where all are."""
 
 
 class Placed(NamedTuple):
@@ -381,6 +384,12 @@ class Values(Struct, frozen=True):
 
     def vanishes(self, value: Any) -> bool:
         return self.functions.vanishes(value)
+
+    def first_that_moves(self, moves: Sequence[Any]) -> Any:
+        unless_zero = self.functions.unless_zero
+        if unless_zero is None:
+            return next((move for move in moves if not self.vanishes(move)), moves[0])
+        return reduce(lambda found, move: unless_zero(move, found), reversed(moves[:-1]), moves[-1])
 
     def root(self, value: Any) -> Any:
         return self.functions.root(value)

@@ -281,8 +281,7 @@ def moves_of(at: Lookup, advance: tuple[tuple[str, ...], ...], axis: int) -> lis
 
 def way(at: Lookup, advance: tuple[tuple[str, ...], ...], axis: int) -> Any:
     """The advance of a path along an axis, by the first of its lines that moves along it at all."""
-    moves = moves_of(at, advance, axis)
-    return next((move for move in moves if not at.vanishes(move)), moves[0])
+    return at.first_that_moves(moves_of(at, advance, axis))
 
 
 def left_of(at: Lookup, line: str, point: str) -> Any:

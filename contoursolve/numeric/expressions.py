@@ -80,8 +80,9 @@ def _binary(operation: int, first: Any, second: Any) -> Expression:
 
 
 def _stack(values: Iterable[Any]) -> Any:
-    """Scalars as one vector."""
-    stacked = casadi.vertcat(*map(_sx, values))
+    """Scalars, and vectors, as one vector."""
+    parts = [*map(_sx, values)]
+    stacked = parts[0] if len(parts) == 1 else casadi.vertcat(*parts)
     return stacked if isinstance(stacked, casadi.SX) else casadi.SX(stacked)  # of numbers alone it is another matrix
 
 
@@ -171,8 +172,10 @@ def is_zero(value: Any) -> Expression:
 
 def is_number(value: Expression, number: float | None = None) -> bool:
     """Whether an expression is a number, or this one."""
-    sx = casadi.SX(value.sx)
-    return bool(sx.is_constant()) and (number is None or float(sx) == number)
+    sx = value.sx
+    if isinstance(sx, casadi.SX) and not sx.is_constant():
+        return False
+    return number is None or float(sx) == number
 
 
 class Tape:
@@ -288,10 +291,14 @@ def jacobian_parts(
     return {(row, column): Expression(jacobian[row, column]) for row, column in zip(rows, columns, strict=True)}
 
 
-def derivatives(residuals: Sequence[Any], unknowns: Sequence[Any]) -> list[Expression]:
-    """The dense Jacobian of residuals by unknowns, row by row."""
-    jacobian = casadi.densify(casadi.jacobian(_stack(residuals), _stack(unknowns)))
-    return [Expression(jacobian[row, column]) for row in range(len(residuals)) for column in range(len(unknowns))]
+def with_slopes(residuals: Sequence[Any], unknowns: Sequence[Any]) -> tuple[Expression, bool]:
+    """Residuals and then their derivatives by unknowns (symbols), row by row, as one vector; and whether the
+    derivatives are free of the unknowns."""
+    stacked, symbols = _stack(residuals), _stack(unknowns)
+    jacobian = casadi.jacobian(stacked, symbols)
+    is_affine = jacobian.is_constant() or not casadi.depends_on(jacobian, symbols)
+    rows = jacobian if jacobian.is_scalar() else casadi.vec(casadi.densify(jacobian).T)
+    return Expression(casadi.vertcat(stacked, rows)), is_affine
 
 
 def quadratic_parts(

@@ -25,6 +25,8 @@ class Functions(Struct, frozen=True):
     sine: Callable[[Any], Any] = math.sin
     vanishes: Callable[[Any], bool] = _may_vanish
     """Test that a number is zero, or, of a ball about one number, that it may be."""
+    unless_zero: Callable[[Any, Any], Any] | None = None
+    """The first of two numbers, or the other where it is zero; None where `vanishes` tells."""
     magnitude: Callable[[Any], Any] = abs
     larger: Callable[[Any, Any], Any] = _larger
     """The larger of two; of one that is not a number, the other."""

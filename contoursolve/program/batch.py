@@ -23,6 +23,7 @@ from contoursolve.solving import (
     StatusCode,
     against_angles,
     certify,
+    compile_checked,
     compile_checks,
     compile_system,
     dropped_corners,
@@ -106,7 +107,7 @@ class Batch(Struct):
             wanted = [*system.unknowns, *(name for each in corners for name in (*each.begin, *each.end, each.turn))]
             wanted += [name for each in corners if each.center is not None for name in each.center]
             checked = compile_checks(system)
-            kind = Kind(answer, system, machine, checked.outputs, checked.tape.finish(), tuple(wanted))
+            kind = Kind(answer, system, machine, checked.outputs, compile_checked(system), tuple(wanted))
             self.kinds[key] = kind
 
     def _key(self, claim: ParsedContour) -> Hashable:

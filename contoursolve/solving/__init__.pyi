@@ -25,7 +25,7 @@ from .checks import (
     Checked as Checked,
     CheckOutputs as CheckOutputs,
     Checks as Checks,
-    Source as Source,
+    MeasuredFigure as MeasuredFigure,
     Stage as Stage,
     Test as Test,
     add_checks as add_checks,
@@ -35,10 +35,11 @@ from .checks import (
     check_path as check_path,
     check_range as check_range,
     check_residuals as check_residuals,
+    compile_checked as compile_checked,
     compile_checks as compile_checks,
+    measured_figure as measured_figure,
     passed_rows as passed_rows,
     plain_checks as plain_checks,
-    source_of as source_of,
 )
 from .closed_steps import is_searched as is_searched
 from .compare import (

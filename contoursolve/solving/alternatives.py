@@ -19,15 +19,15 @@ from contoursolve.geometry import (
     scalar,
 )
 from contoursolve.numeric import COSINE, SINE, Number, ball, direction
-from contoursolve.solving.checks import Source, unverified
+from contoursolve.solving.checks import MeasuredFigure, unverified
 from contoursolve.solving.compare import compare_fact, increments_of
 from contoursolve.solving.compile import compile_path
 from contoursolve.solving.determinacy import analyse, groups_of, spare_of
 from contoursolve.solving.elimination import Obstacle
-from contoursolve.solving.enumerate import Doubt, Enumeration, Found, enumerate_solutions
+from contoursolve.solving.enumerate import Doubt, Enumeration, ExactSolution, enumerate_solutions
 from contoursolve.solving.events import NoteKind, RefusalKind, Status, Topic, refusals_about
 from contoursolve.solving.exact_inputs import ground_of
-from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range
+from contoursolve.solving.judge import MeasuredPath, judge_path, judge_range, vanishing_lines
 from contoursolve.solving.krawczyk import Prover, radius_of
 from contoursolve.solving.numbers import corner_of, scalars_of, sizes_of
 from contoursolve.solving.path_outputs import PathOutputs
@@ -94,7 +94,7 @@ def _agrees(item: Alternative, choices: Sequence[Choice]) -> bool:
     return all(item.sides.get(choice.point) in (choice.side.value, BOTH, None) for choice in choices)
 
 
-def _alternative(profile: Profile, system: System, prover: Prover, found: Found) -> Alternative:
+def _alternative(profile: Profile, system: System, prover: Prover, found: ExactSolution) -> Alternative:
     proof, boxes = prover.prove(found.scalars, found.signs)
     starts = [float(value) for value in profile.start.values if value is not None]
     scalars = {name: ball.middle(value) for name, value in boxes.items()}
@@ -106,14 +106,14 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: Found)
     if not refusals:
         sizes = _sizes(profile, scalars)
         numbers = Values(scalars_of(points), {}, {})
-        source = Source(system.figure, numbers, measures, increments_of(profile))
+        measured = MeasuredFigure(system.figure, numbers, measures, increments_of(profile))
         path = MeasuredPath(
-            profile, source, sizes, lambda sizes: machine.path.read(machine.function({**values, **sizes}).__getitem__)
+            profile, measured, sizes, lambda sizes: machine.path.read(machine.function({**values, **sizes}).__getitem__)
         )
         refusals += judge_range(path)
         if not refusals:
-            refusals, notes = judge_path(path)
-            remarks += notes
+            refusals += judge_path(path)
+            remarks += vanishing_lines(path)
     sides = sides_of(system, at, {choice.point for choice in profile.choices})
     # A circle about the middle of two of its points is an ordinary half circle.
     centers = {element.center for element in system.figure.path if isinstance(element, Arc)}
@@ -142,7 +142,7 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: Found)
     return Alternative(solution, scalars, sides, certificate)
 
 
-def _doubtful(found: Found, radius: float, gap: float | None) -> Certificate:
+def _doubtful(found: ExactSolution, radius: float, gap: float | None) -> Certificate:
     if found.doubles:
         return Certificate(Proof.VERIFIED, radius, "two solutions have become one, so no proof can part them", gap)
     return Certificate(Proof.UNKNOWN, radius, "nothing near it could be proven to hold this solution alone", gap)
@@ -235,7 +235,7 @@ def _compare(
     return refusals, remarks
 
 
-def _touching(system: System, found: Found) -> str:
+def _touching(system: System, found: ExactSolution) -> str:
     """The point at which two solutions have become one; a centre only if there is no other."""
     points = {name.rpartition(".")[0] for name in found.doubles}
     centers = {fact.circle.center for fact in system.facts if fact.circle}

@@ -137,8 +137,7 @@ def conditions_of(system: System, group: Group) -> Conditions:
     slopes = Tape()
     unknowns = [slopes.input(name) for name in group.unknowns]
     equations = [fact.equation(input_values(system, slopes, {})) for fact in group.facts]
-    for number, expression in enumerate((*equations, *expressions.derivatives(equations, unknowns))):
-        slopes.output(str(number), expression)
+    slopes.output("equations and slopes", expressions.with_slopes(equations, unknowns)[0])
     return Conditions(
         group.unknowns,
         Narrower(tape.shared(), len(zeros)),

@@ -1,6 +1,6 @@
 """What must hold of a contour, as one table of margins; and which of many values of some words pass it."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from functools import lru_cache, reduce
 from typing import Any
@@ -35,6 +35,7 @@ from contoursolve.numeric import (
     FLOATS,
     SINE,
     Array,
+    Compiled,
     Functions,
     Replay,
     Tape,
@@ -120,9 +121,9 @@ Checks = Iterator[tuple[Check, Any]]
 NO_PATH = PathOutputs({}, {}, {}, {})
 
 
-class Source(Struct, frozen=True, eq=False):
-    """What margins are made of, expressions or numbers: the coordinates, radii and angles of a figure, the measures of
-    its path, and the least increment of a coordinate by its axis, or of a value by its name, mm or degrees."""
+class MeasuredFigure(Struct, frozen=True, eq=False):
+    """The expressions or numbers that margins are made of: the coordinates, radii and angles of a figure, the measures
+    of its path, and the least increment of a coordinate by its axis, or of a value by its name, mm or degrees."""
 
     figure: Figure
     at: Values
@@ -144,10 +145,12 @@ class Source(Struct, frozen=True, eq=False):
         return self.at.root(first**2 + second**2)
 
 
-def source_of(system: System, tape: Tape, known: Mapping[str, Any], path: PathOutputs = NO_PATH) -> Source:
+def measured_figure(
+    system: System, tape: Tape, known: Mapping[str, Any], path: PathOutputs = NO_PATH
+) -> MeasuredFigure:
     """The expressions of a tape, whose outputs measure a path; scalars that are not `known` are inputs."""
     at = input_values(system, tape, known)
-    return Source(system.figure, at, path.read(tape.expression), lambda name: tape.input(INCREMENT_OF + name))
+    return MeasuredFigure(system.figure, at, path.read(tape.expression), lambda name: tape.input(INCREMENT_OF + name))
 
 
 class CheckOutputs(Struct, frozen=True, eq=False):
@@ -178,15 +181,15 @@ class Checked(Struct, frozen=True, eq=False):
 def compile_checks(system: System) -> Checked:
     """The checks of a determined system in closed form."""
     machine = compile_system(system)
-    tape, source = _source_of(system, machine)
+    tape, measured = _measured_of(system, machine)
     basis = largest(map(tape.expression, machine.residuals))
-    corners = largest(source.path.residuals)
+    corners = largest(measured.path.residuals)
     pairs = [
-        *(pair for pair in _check_steps(source, machine, tape) if not _is_half_circle(pair[0])),
-        check_range(source),
+        *(pair for pair in _check_steps(measured, machine, tape) if not _is_half_circle(pair[0])),
+        check_range(measured),
         check_residuals(basis),
-        *check_facts(source, machine.checks, map(tape.expression, machine.compared)),
-        *check_path(source),
+        *check_facts(measured, machine.checks, map(tape.expression, machine.compared)),
+        *check_path(measured),
         check_residuals(corners),
     ]
     outputs, is_clear = add_checks(tape, pairs, machine.path)
@@ -195,26 +198,32 @@ def compile_checks(system: System) -> Checked:
     return Checked(outputs, tuple(margin for _, margin in pairs), tape, worst, is_clear)
 
 
+@lru_cache(maxsize=1024)
+def compile_checked(system: System) -> Compiled:
+    """The function of a determined system in closed form with the outputs of its checks."""
+    return compile_checks(system).tape.finish()
+
+
 def _is_half_circle(check: Check) -> bool:
     """Whether a check is about two centres that may be one: a circle about the middle of two points is an ordinary half
     circle."""
     return check.stage is Stage.TOUCHING and check.kind is RefusalKind.RADIUS_TOO_SMALL
 
 
-def _source_of(system: System, machine: Construction) -> tuple[Tape, Source]:
+def _measured_of(system: System, machine: Construction) -> tuple[Tape, MeasuredFigure]:
     """The expressions of a system in closed form, and a tape of their own."""
     tape = machine.tape.copy()
     known = {name: tape.expression(name) for name in system.unknowns}
-    return tape, source_of(system, tape, known | at_origin(system.figure), machine.path)
+    return tape, measured_figure(system, tape, known | at_origin(system.figure), machine.path)
 
 
-def plain_checks(system: System) -> tuple[Tape, Source, list[tuple[Check, Any]]]:
+def plain_checks(system: System) -> tuple[Tape, MeasuredFigure, list[tuple[Check, Any]]]:
     """The checks of a determined system that a control has to make by itself, and where their margins come from."""
     machine = compile_plainly(system)
-    tape, source = _source_of(system, machine)
-    steps = (pair for pair in _check_steps(source, machine, tape) if pair[0].stage is not Stage.TOUCHING)
-    facts = check_facts(source, machine.checks, map(tape.expression, machine.compared))
-    return tape, source, [*steps, *facts, *check_path(source)]
+    tape, measured = _measured_of(system, machine)
+    steps = (pair for pair in _check_steps(measured, machine, tape) if pair[0].stage is not Stage.TOUCHING)
+    facts = check_facts(measured, machine.checks, map(tape.expression, machine.compared))
+    return tape, measured, [*steps, *facts, *check_path(measured)]
 
 
 def add_checks(tape: Tape, pairs: Sequence[tuple[Check, Any]], path: PathOutputs) -> tuple[CheckOutputs, Any]:
@@ -255,34 +264,36 @@ def is_failing(check: Check, margin: float) -> bool:
     return not margin > check.limit and not is_passed(check, margin, FLOATS)
 
 
-def _check_steps(source: Source, machine: Construction, tape: Tape) -> Checks:
+def _check_steps(measured: MeasuredFigure, machine: Construction, tape: Tape) -> Checks:
     for step, measures in zip(machine.steps, machine.measures, strict=True):
-        yield from check_step(source, step, measures.read(tape.expression))
+        yield from check_step(measured, step, measures, tape.expression)
 
 
-def check_step(source: Source, step: ConstructionStep, measures: StepOutputs) -> Checks:
-    """Whether a step of a construction with these measures has a solution."""
+def check_step(
+    measured: MeasuredFigure, step: ConstructionStep, measures: StepOutputs, out: Callable[[str], Any]
+) -> Checks:
+    """Whether a step of a construction has a solution; `out` gives its measures by their names."""
     for tail, through in step.lines_through():
-        yield Check(RefusalKind.POINT_IS_START, through, "", Test.ABOVE, LENGTH), source.distance(tail, through)
+        yield Check(RefusalKind.POINT_IS_START, through, "", Test.ABOVE, LENGTH), measured.distance(tail, through)
     if step.kind is StepKind.AFFINE:
         givens = tuple(fact.given for fact in step.facts if fact.given)
         kind, subject = RefusalKind.LINES_PARALLEL, ",".join(step.unknowns)
-        yield Check(kind, subject, "", Test.APART, REGULAR, givens, is_doubtful=True), measures.determinant
+        yield Check(kind, subject, "", Test.APART, REGULAR, givens, is_doubtful=True), out(measures.determinant)
         return
     if step.kind is StepKind.RADIUS:
         # What is compared with a circle of no radius at all, a single solve tells.
         kind, (circle,) = RefusalKind.CIRCLE_UNDEFINED, step.circles
-        yield Check(kind, circle.center, "", Test.ABOVE, LENGTH, is_doubtful=True), source.at.radius(circle.radius)
+        yield Check(kind, circle.center, "", Test.ABOVE, LENGTH, is_doubtful=True), measured.at.radius(circle.radius)
         return
     kind, subject, is_half = RefusalKind.CIRCLE_MISSED, step.point, step.is_equal
     if step.kind is StepKind.TWO_CIRCLES:
         kind = RefusalKind.RADIUS_TOO_SMALL if is_half else RefusalKind.CIRCLES_APART
         undefined = RefusalKind.CIRCLE_UNDEFINED if is_half else kind
-        yield Check(undefined, subject, "", Test.ABOVE, LENGTH), measures.distance
-    offset, radius, magnitude = measures.offset, measures.radius, source.at.functions.magnitude
-    give = measures.scale * TOUCHING
+        yield Check(undefined, subject, "", Test.ABOVE, LENGTH), out(measures.distance)
+    offset, radius, magnitude = out(measures.offset), out(measures.radius), measured.at.functions.magnitude
+    give = out(measures.scale) * TOUCHING
     meets = Check(kind, subject, "", Test.AT_LEAST, 0.0)
-    yield meets, measures.gap + give
+    yield meets, out(measures.gap) + give
     yield meets, radius + offset + give
     apart = magnitude(radius - magnitude(offset)) - give
     yield Check(kind, subject, "", Test.ABOVE, 0.0, stage=Stage.TOUCHING, is_doubtful=True), apart
@@ -298,15 +309,15 @@ def unverified(off: float) -> Refusal:
     return Refusal(RefusalKind.NOT_VERIFIED, "", (), {"limit": RESIDUAL, "actual": off})
 
 
-def check_range(source: Source) -> tuple[Check, Any]:
+def check_range(measured: MeasuredFigure) -> tuple[Check, Any]:
     """Whether words reach every point from the start."""
-    start, functions = source.figure.start, source.at.functions
-    ways = [functions.magnitude(way) for name in source.figure.points for way in source.way(start, name)]
+    start, functions = measured.figure.start, measured.at.functions
+    ways = [functions.magnitude(way) for name in measured.figure.points for way in measured.way(start, name)]
     farthest: Any = reduce(functions.larger, ways) if ways else 0.0
     return Check(RefusalKind.OUT_OF_RANGE, "", "", Test.NOT_BELOW, 0.0, stage=Stage.RANGE), LARGEST - farthest
 
 
-def check_facts(source: Source, facts: Iterable[Fact], residuals: Iterable[Any]) -> Checks:
+def check_facts(measured: MeasuredFigure, facts: Iterable[Fact], residuals: Iterable[Any]) -> Checks:
     """Whether facts that were not needed, with these residuals (mm), agree at the points that the others give."""
     for fact, residual in zip(facts, residuals, strict=True):
         is_doubtful = bool(fact.given) and not isinstance(fact, Coordinate | Offset | Radius | Heading)
@@ -316,33 +327,33 @@ def check_facts(source: Source, facts: Iterable[Fact], residuals: Iterable[Any])
             if isinstance(fact, OnCircle):
                 kind, subject = RefusalKind.RADIUS_DIFFERENCE, fact.point
         check = Check(kind, subject, "", Test.NOT_BELOW, 0.0, (), Stage.FACTS, is_doubtful, fact.given)
-        for margin in agreement(fact, residual, source.at, source.increment, source.figure):
+        for margin in agreement(fact, residual, measured.at, measured.increment, measured.figure):
             yield check, margin
 
 
-def check_path(source: Source) -> Checks:
+def check_path(measured: MeasuredFigure) -> Checks:
     """Whether the control can make the path: the direction of travel, and the room for each corner."""
-    figure = source.figure
+    figure = measured.figure
     for element in figure.path:
         if not (isinstance(element, Arc) and element.may_be_full):
-            yield _check_element(source, element)
+            yield _check_element(measured, element)
     for corner in figure.corners:
-        yield from _check_corner(source, corner)
-    yield from check_room(source)
+        yield from _check_corner(measured, corner)
+    yield from check_room(measured)
 
 
-def _check_element(source: Source, element: Line | Arc) -> tuple[Check, Any]:
+def _check_element(measured: MeasuredFigure, element: Line | Arc) -> tuple[Check, Any]:
     name = element.name
     if isinstance(element, Arc):
         check = Check(RefusalKind.ARC_EMPTY, name, name, Test.ABOVE, LENGTH, stage=Stage.ELEMENTS)
-        return check, source.distance(element.tail, element.head)
+        return check, measured.distance(element.tail, element.head)
     told = RefusalKind.CORNER_SIGN if element.is_signed else RefusalKind.LINE_REVERSED
     kind = RefusalKind.LINE_BACKWARDS if element.heading is None else told
-    return Check(kind, name, name, Test.AT_LEAST, -LENGTH, stage=Stage.ELEMENTS), source.path.lengths[name]
+    return Check(kind, name, name, Test.AT_LEAST, -LENGTH, stage=Stage.ELEMENTS), measured.path.lengths[name]
 
 
-def _check_corner(source: Source, corner: Corner) -> Checks:
-    path, name, functions = source.path, corner.name, source.at.functions
+def _check_corner(measured: MeasuredFigure, corner: Corner) -> Checks:
+    path, name, functions = measured.path, corner.name, measured.at.functions
 
     def check(kind: RefusalKind, test: Test, limit: float, on: str = "", opposite: RefusalKind | None = None) -> Check:
         return Check(kind, name, on, test, limit, stage=Stage.CORNERS, opposite=opposite)
@@ -364,31 +375,31 @@ def _check_corner(source: Source, corner: Corner) -> Checks:
         back = functions.below(built.cosine, 0)
         yield check(RefusalKind.CORNER_STRAIGHT, Test.ABOVE, corner.least), functions.larger(size, back)
     if corner.shape.share:
-        for axis, margin in _inside(source, corner):
+        for axis, margin in _inside(measured, corner):
             yield check(RefusalKind.BEVEL_OUTSIDE, Test.NOT_BELOW, -LENGTH, str(axis)), margin
         for setback in (built.setback_in, built.setback_out):
             # Not a number is a bevel that is too large for its arc.
             yield check(RefusalKind.BEVEL_IN_BAND, Test.NOT_BELOW, -LENGTH), setback
 
 
-def _inside(source: Source, corner: Corner) -> Iterator[tuple[int, Any]]:
+def _inside(measured: MeasuredFigure, corner: Corner) -> Iterator[tuple[int, Any]]:
     """How far a corner lies inside the rectangle spanned by the ends of its two lines along each axis, mm."""
-    path, larger = {element.name: element for element in source.figure.path}, source.at.functions.larger
+    path, larger = {element.name: element for element in measured.figure.path}, measured.at.functions.larger
     before, after = path[corner.before], path.get(corner.after or "")
     if after is None or isinstance(before, Arc) or isinstance(after, Arc):
         return
-    tail, head, at = source.point(before.tail), source.point(after.head), source.point(corner.at)
+    tail, head, at = measured.point(before.tail), measured.point(after.head), measured.point(corner.at)
     for axis in (FIRST, SECOND):
         # Either coordinate is exact to half its increment.
-        give = source.increment(str(axis))
+        give = measured.increment(str(axis))
         yield axis, larger(at[axis] - tail[axis], at[axis] - head[axis]) + give
         yield axis, larger(tail[axis] - at[axis], head[axis] - at[axis]) + give
 
 
-def check_room(source: Source) -> Checks:
+def check_room(measured: MeasuredFigure) -> Checks:
     """Whether each element is as long as the setbacks of the corners at its two ends. A setback on an arc that is not a
     number belongs to a corner that cannot touch the arc at all; a negative one would leave the arc beyond its end."""
-    figure, path = source.figure, source.path
+    figure, path = measured.figure, measured.path
     for corner in figure.corners:
         for name, setback in setbacks_of(corner, path).items():
             fits = Check(RefusalKind.CORNER_TOO_LARGE, corner.name, name, Test.AT_LEAST, -LENGTH, stage=Stage.ROOM)

@@ -1,6 +1,6 @@
 """The solutions of one group in closed form on exact numbers and balls: the construction's own expressions."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -12,7 +12,7 @@ from contoursolve.solving.construction import Builder, ConstructionStep, NoClose
 from contoursolve.solving.elimination import Root, has_closed_form
 from contoursolve.solving.inputs import input_values
 from contoursolve.solving.partition import Group
-from contoursolve.solving.step_equations import polynomials_of
+from contoursolve.solving.step_equations import Kernel, make_kernel, polynomials_of
 
 
 class ClosedStep(Struct, frozen=True, eq=False):
@@ -21,7 +21,7 @@ class ClosedStep(Struct, frozen=True, eq=False):
     parameters: tuple[str, ...]
     size: int
     has_root: bool
-    function: Replay
+    function: Callable[[Sequence[Number]], list[Number]]
     """At the parameters and the sign: the unknowns, so many as is the size, then numbers that must not be zero, and
     last the discriminant of the root."""
 
@@ -61,7 +61,7 @@ class _Open:
         return ball.root(value if ball.sign(value) != -1 else ball.wider(value, 0.0))
 
 
-_PLUS, _MINUS = ball.exact(1.0), ball.exact(-1.0)
+_ZERO, _PLUS, _MINUS = map(ball.exact, (0.0, 1.0, -1.0))
 
 
 def _root(values: Sequence[Number], *, is_double: bool) -> Root:
@@ -71,6 +71,8 @@ def _root(values: Sequence[Number], *, is_double: bool) -> Root:
 @lru_cache(maxsize=8192)
 def close_step(system: System, group: Group) -> ClosedStep | None:
     """The closed form of a group; None if it has none."""
+    if len(group.facts) == len(group.unknowns) == 1 and (kernel := make_kernel(system, group)).is_affine:
+        return ClosedStep(kernel.arguments[1:], 1, has_root=False, function=_quotient_of(kernel))
     builder = _StepBuilder(system, touching=0.0)
     try:
         builder.run(ConstructionStep(StepKind.GENERAL, group.facts, group.unknowns))
@@ -84,6 +86,16 @@ def close_step(system: System, group: Group) -> ClosedStep | None:
     conditions = (each for each in (measures.determinant, measures.leading, measures.discriminant) if each is not None)
     tape = builder.tape.of((*parameters, *root), (*group.unknowns, *conditions))
     return ClosedStep(parameters, len(group.unknowns), bool(root), Replay(tape.function(), _Open, ball.exact))
+
+
+def _quotient_of(kernel: Kernel) -> Callable[[Sequence[Number]], list[Number]]:
+    """The solution of one affine equation, by its value and its slope at 0."""
+
+    def function(numbers: Sequence[Number]) -> list[Number]:
+        constant, slope = kernel.equations([_ZERO, *numbers[:-1]])
+        return [-constant / slope, slope]
+
+    return function
 
 
 class _StepBuilder(Builder):

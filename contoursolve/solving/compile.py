@@ -11,16 +11,11 @@ from contoursolve.geometry import (
     FIRST,
     SECOND,
     Arc,
-    ChamferLeg,
     Corner,
-    Fact,
     Line,
     OnCircle,
-    Parallel,
     Radius,
     System,
-    Values,
-    moves_of,
     scalar,
 )
 from contoursolve.numeric import (
@@ -49,6 +44,7 @@ from contoursolve.solving.construction import (
 from contoursolve.solving.corners import CornerPath, Edge, Pair, build_corner, drop_straight, unit
 from contoursolve.solving.determinacy import basis_of, spare_of
 from contoursolve.solving.path_outputs import PathOutputs
+from contoursolve.solving.senses import senses_of
 from contoursolve.solving.sides import side_values
 from contoursolve.solving.step_outputs import Need
 from contoursolve.tolerance import LENGTH, REGULAR, TOUCHING
@@ -295,36 +291,16 @@ class _BranchBuilder(_PathBuilder):
         # Of a half circle it is zero, and rounding may make it less.
         return sqrt(larger(discriminant, 0))
 
-    def _must_be_positive(self, value: Any, facts: Sequence[Fact], unknowns: Sequence[str]) -> None:
-        output = f"sense:{len(self.conditions)}"
-        self.tape.output(output, value)
-        self._need(Need.POSITIVE, output, facts, unknowns)
-
     def _check_senses(self) -> None:
-        """Declare the conditions on senses that are stated, as `enumerate` has them."""
-        at, figure = self.at(), self.system.figure
-        for fact in self.system.facts:
-            for value in self._senses(fact, at):
-                self._must_be_positive(value, (fact,), self.system.unknowns_among(fact.sense_reads()))
-        for line in (*figure.path, *figure.lines):
-            if not isinstance(line, Line) or line.name not in figure.carriers:
-                continue
-            if not line.tail:
-                raise NoClosedFormError(f"the sense of {line.name} is open", (), ())
-            if line.head:
-                cosine, sine = at.bearing(line.name)
-                first, second = (at.coordinate(line.head, axis) - at.coordinate(line.tail, axis) for axis in (0, 1))
-                self._must_be_positive(first * cosine + second * sine, (), (line.name,))
-
-    def _senses(self, fact: Fact, at: Values) -> Iterator[Any]:
-        """The numbers that must be positive; which of several lines tells how a path advances depends on values."""
-        if not isinstance(fact, Parallel | ChamferLeg) or len(fact.advance) < 2:  # noqa: PLR2004 - several lines
-            yield from fact.senses(at)
-            return
-        way, *others = reversed(moves_of(at, fact.advance, fact.axis))
-        for move in others:
-            way = where(is_zero(move), way, move)
-        yield way * (at.bearing(fact.line)[fact.axis] if isinstance(fact, Parallel) else at.side(fact.side))
+        """Declare the conditions on senses."""
+        at = self.at()
+        for sense in senses_of(self.system):
+            if sense.is_free:
+                raise NoClosedFormError(f"the sense of {sense.unknowns[0]} is open", (), ())
+            for value in sense.values(at):
+                output = f"sense:{len(self.conditions)}"
+                self.tape.output(output, value)
+                self._need(Need.POSITIVE, output, sense.facts, sense.unknowns)
 
     def _sides(self) -> Iterator[tuple[str, tuple[str, str]]]:
         chosen = set(self.system.choices)

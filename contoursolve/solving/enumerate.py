@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from msgspec import Struct
 
-from contoursolve.geometry import Fact, Line, Profile, System, scalar
+from contoursolve.geometry import Fact, Profile, System
 from contoursolve.numeric import Number, ball
 from contoursolve.solving.branch_and_prune import Division, Task, conditions_of, divide, settle
 from contoursolve.solving.closed_steps import close_step
@@ -15,6 +15,7 @@ from contoursolve.solving.determinacy import groups_of, witness_of
 from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Root, solve_step
 from contoursolve.solving.exact_inputs import Ground, ground_of
 from contoursolve.solving.partition import Group
+from contoursolve.solving.senses import Sense, senses_of
 from contoursolve.solving.step_equations import Coefficient, Kernel, make_kernel, polynomials_of
 
 
@@ -34,7 +35,7 @@ DRAWING = Effort(300_000, 30_000, is_guessing=True)
 """For a single drawing; about three seconds."""
 
 
-class Found(Struct, frozen=True):
+class ExactSolution(Struct, frozen=True):
     """One solution of the equations: every unknown, exact or in a ball, and the sides at which elements touch.
 
     `doubles` are the unknowns of steps whose two solutions have become one.
@@ -55,7 +56,7 @@ class Doubt(Struct, frozen=True):
 class Enumeration(Struct, frozen=True):
     """What a search found. The list is complete, with proof, if there is no doubt."""
 
-    found: tuple[Found, ...]
+    found: tuple[ExactSolution, ...]
     doubts: tuple[Doubt, ...]
     within: float | None = None
     """How far from the start point there is no other solution, mm, where some step has no closed form and was searched
@@ -138,9 +139,6 @@ _Result = TypeVar("_Result")
 _Steps = Generator[tuple[Group, Task], tuple[list[Division], int], _Result]
 """Stops where a step has no closed form, and goes on with what its task leads to."""
 
-Sense = tuple[Fact, frozenset[str]]
-"""A fact, and the unknowns that its senses read."""
-
 MOST_SOLUTIONS = 512
 """Solutions that are followed; each point that may lie in two places doubles their number."""
 
@@ -164,19 +162,11 @@ class _Search:
         self.effort = effort
         self.left = effort.intervals
         self.near, self.far = ground.nearby(system), ground.farthest(system)
-        self.senses: list[Sense] = [
-            (fact, frozenset(system.unknowns_among(fact.sense_reads())))
-            for fact in system.facts
-            if fact not in unsensed
-        ]
-        lines = [line for line in (*system.figure.path, *system.figure.lines) if isinstance(line, Line)]
-        carriers = [line for line in lines if line.name in system.figure.carriers]
-        self.runs = [line for line in carriers if line.tail and line.head]
-        self.free = [line.name for line in carriers if not line.tail]
+        self.senses = [sense for sense in senses_of(system) if unsensed.isdisjoint(sense.facts)]
 
     def run(self) -> _Steps[Enumeration]:
         """Everything but the steps without a closed form, which are left to whoever runs it."""
-        states = [Found({}, {})]
+        states = [ExactSolution({}, {})]
         for group in self.groups:
             states = yield from self._advance(states, group)
             if not states:
@@ -187,7 +177,7 @@ class _Search:
         states = [self._with_sides(state) for state in states]
         return Enumeration(tuple(states), tuple(dict.fromkeys(self.doubts)), self.within)
 
-    def _with_sides(self, state: Found) -> Found:
+    def _with_sides(self, state: ExactSolution) -> ExactSolution:
         """The state with the sides of facts that were not needed: where the fact is nearer to being true."""
         signs = dict(state.signs)
         for fact in self.system.facts:
@@ -200,26 +190,28 @@ class _Search:
                         for sign in (1, -1)
                     }
                     signs[side] = 1 if off[1] <= off[-1] else -1
-        return Found(state.scalars, signs, state.doubles)
+        return ExactSolution(state.scalars, signs, state.doubles)
 
-    def _advance(self, states: Sequence[Found], group: Group) -> _Steps[list[Found]]:
+    def _advance(self, states: Sequence[ExactSolution], group: Group) -> _Steps[list[ExactSolution]]:
         kernel = make_kernel(self.system, group)
-        cases = [Found(state.scalars, signs, state.doubles) for state in states for signs in _choices(state, kernel)]
+        cases = [
+            ExactSolution(state.scalars, signs, state.doubles) for state in states for signs in _choices(state, kernel)
+        ]
         solved = self._solve_each(group, cases)
         unsolved = [case for case, roots in zip(cases, solved, strict=True) if roots is None]
         searched = iter((yield from self._search(group, kernel, unsolved)) if unsolved else [])
-        senses = [(fact, names) for fact, names in self.senses if not names.isdisjoint(kernel.unknowns)]
-        found: list[Found] = []
+        senses = [sense for sense in self.senses if not sense.reads.isdisjoint(kernel.unknowns)]
+        found: list[ExactSolution] = []
         for case, roots in zip(cases, solved, strict=True):
             for root in next(searched) if roots is None else roots:
                 values = {kernel.unknowns[index]: each for index, each in root.values.items()}
                 doubles = case.doubles + (kernel.unknowns if root.is_double else ())
-                after = Found({**case.scalars, **values}, case.signs, doubles)
+                after = ExactSolution({**case.scalars, **values}, case.signs, doubles)
                 if self._is_possible(after, kernel, senses):
                     found.append(after)
         return found
 
-    def _solve_each(self, group: Group, cases: Sequence[Found]) -> list[list[Root] | None]:
+    def _solve_each(self, group: Group, cases: Sequence[ExactSolution]) -> list[list[Root] | None]:
         """All solutions of a step for each case. Cases that differ elsewhere alone have the very same numbers here, and
         are solved once."""
         solved: dict[tuple[int, ...], list[Root] | None] = {}
@@ -238,10 +230,10 @@ class _Search:
                     self.doubts.append(Doubt(group.unknowns, Obstacle.TOUCHING))
         return [solved[key] for key in keys]
 
-    def _numbers(self, names: Sequence[str], case: Found) -> list[Number]:
+    def _numbers(self, names: Sequence[str], case: ExactSolution) -> list[Number]:
         return [self.ground.number(name, case.scalars, case.signs) for name in names]
 
-    def _eliminate(self, group: Group, case: Found) -> list[Root] | None:
+    def _eliminate(self, group: Group, case: ExactSolution) -> list[Root] | None:
         """All solutions of a step that the construction does not close, or that is a special one at these values; None
         if it has no closed form."""
         step = polynomials_of(self.system, group)
@@ -257,7 +249,7 @@ class _Search:
             self.doubts.append(Doubt(group.unknowns, error.obstacle))
             return []
 
-    def _search(self, group: Group, kernel: Kernel, cases: Sequence[Found]) -> _Steps[list[list[Root]]]:
+    def _search(self, group: Group, kernel: Kernel, cases: Sequence[ExactSolution]) -> _Steps[list[list[Root]]]:
         """All solutions of a step without a closed form, for each case; all cases are searched together. First what is
         nearby is searched, and where that could be decided, all that the control can reach."""
         conditions = conditions_of(self.system, group)
@@ -279,7 +271,7 @@ class _Search:
         self.within = min(far, self.within or far)
         return [settle(kernel, each, at) for each, at in zip(zip(*searched, strict=True), inputs, strict=True)]
 
-    def _is_possible(self, state: Found, kernel: Kernel, senses: Sequence[Sense]) -> bool:
+    def _is_possible(self, state: ExactSolution, kernel: Kernel, senses: Sequence[Sense]) -> bool:
         """Whether radii are positive and everything runs in its stated sense; what cannot be decided is a doubt."""
         for value in self._must_be_positive(state, kernel, senses):
             match ball.sign(value):
@@ -293,33 +285,16 @@ class _Search:
                     return False
         return True
 
-    def _must_be_positive(self, state: Found, kernel: Kernel, senses: Sequence[Sense]) -> Iterator[Number]:
-        new = set(kernel.unknowns)
-        yield from (state.scalars[name] for name in self.system.figure.radii if name in new)
-        at = self.ground.values(state.scalars, state.signs, self.system)
-        for fact, names in senses:
-            if names <= state.scalars.keys():
-                yield from fact.senses(at)
-        for line in self.runs:
-            yield from self._run(line, state, new)
-        for name in self.free:
-            # A line beside the path has no sense: it is taken to run to the right, or upwards.
-            if f"{name}.cos" in new:
-                cosine = state.scalars[f"{name}.cos"]
-                yield cosine if ball.sign(cosine) != 0 else state.scalars[f"{name}.sin"]
-
-    def _run(self, line: Line, state: Found, new: set[str]) -> Iterator[Number]:
-        ends = [scalar(point, axis) for point in (line.tail, line.head) for axis in (0, 1)]
-        names = {*ends, f"{line.name}.cos"} - self.system.known
-        if new & names and names <= state.scalars.keys():
+    def _must_be_positive(self, state: ExactSolution, kernel: Kernel, senses: Sequence[Sense]) -> Iterator[Number]:
+        yield from (state.scalars[name] for name in kernel.unknowns if name in self.system.figure.radii)
+        complete = [sense for sense in senses if sense.reads <= state.scalars.keys()]
+        if complete:
             at = self.ground.values(state.scalars, state.signs, self.system)
-            cosine, sine = at.bearing(line.name)
-            yield (at.coordinate(line.head, 0) - at.coordinate(line.tail, 0)) * cosine + (
-                at.coordinate(line.head, 1) - at.coordinate(line.tail, 1)
-            ) * sine
+            for sense in complete:
+                yield from sense.values(at)
 
 
-def _choices(state: Found, kernel: Kernel) -> Iterator[dict[str, int]]:
+def _choices(state: ExactSolution, kernel: Kernel) -> Iterator[dict[str, int]]:
     """The sides of a state with those that a step leaves open, chosen in every way."""
     open_sides = [side for side in kernel.sides if side not in state.signs]
     for values in product((1, -1), repeat=len(open_sides)):

@@ -11,6 +11,7 @@ EXPRESSIONS = Functions(
     expressions.sqrt,
     expressions.cosine,
     expressions.sine,
+    unless_zero=lambda value, other: expressions.where(expressions.is_zero(value), other, value),
     magnitude=expressions.magnitude,
     larger=expressions.larger,
     at_most=expressions.at_most,

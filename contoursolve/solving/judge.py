@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from contoursolve.geometry import Arc, Corner, Line, Profile
 from contoursolve.solving.checks import (
     Check,
-    Source,
+    MeasuredFigure,
     Stage,
     check_path,
     check_range,
@@ -38,26 +38,29 @@ class MeasuredPath(Struct, frozen=True, eq=False):
     """A path in numbers, mm, which count from its start point, and its measures at other sizes of its corners."""
 
     profile: Profile
-    source: Source
+    measured: MeasuredFigure
     sizes: Sizes
     resize: Callable[[Sizes], PathOutputs]
 
 
 def judge_range(path: MeasuredPath) -> list[Refusal]:
     """The point of a path that lies farthest from the start, if no word reaches it."""
-    check, margin = check_range(path.source)
+    check, margin = check_range(path.measured)
     is_there = margin >= check.limit or not path.profile.figure.path
     return [] if is_there else _judge(path, [(check, margin)])
 
 
-def judge_path(path: MeasuredPath) -> tuple[list[Refusal], list[Note]]:
+def judge_path(path: MeasuredPath) -> list[Refusal]:
     """Everything that speaks against the path between points that satisfy the equations and lie within reach."""
-    source, measures = path.source, path.source.path
-    lines = (each.name for each in source.figure.path if isinstance(each, Line))
-    notes = [Note(NoteKind.LINE_VANISHES, name) for name in lines if abs(measures.lengths[name]) <= LENGTH]
-    residuals = [abs(each) for each in measures.residuals]
+    residuals = [abs(each) for each in path.measured.path.residuals]
     worst = nan if isnan(sum(residuals)) else max(residuals, default=0.0)
-    return _judge(path, [*check_path(source), check_residuals(worst)]), notes
+    return _judge(path, [*check_path(path.measured), check_residuals(worst)])
+
+
+def vanishing_lines(path: MeasuredPath) -> list[Note]:
+    """The lines of a path that have no length."""
+    lines = (each.name for each in path.measured.figure.path if isinstance(each, Line))
+    return [Note(NoteKind.LINE_VANISHES, name) for name in lines if abs(path.measured.path.lengths[name]) <= LENGTH]
 
 
 def _judge(path: MeasuredPath, checks: Sequence[tuple[Check, float]]) -> list[Refusal]:
@@ -71,7 +74,7 @@ class _Told:
     """What the checks of one stage that fail say of a path."""
 
     def __init__(self, path: MeasuredPath) -> None:
-        self.path, self.measures = path, path.source.path
+        self.path, self.measures = path, path.measured.path
         self.figure = path.profile.figure
         self.corners = {corner.name: corner for corner in self.figure.corners}
 
@@ -91,7 +94,7 @@ class _Told:
         kind, subject, margin = check.kind, check.subject, failing[0][1]
         match kind:
             case RefusalKind.OUT_OF_RANGE:
-                way, start = self.path.source.way, self.figure.start
+                way, start = self.path.measured.way, self.figure.start
                 away, name = max((abs(at), name) for name in self.figure.points for at in way(start, name))
                 return Refusal(kind, name, (), {"limit": LARGEST, "actual": away})
             case RefusalKind.NOT_VERIFIED:
@@ -107,7 +110,7 @@ class _Told:
                 values = {"limit": 0.0, "actual": self.path.sizes[size]}
                 return Refusal(kind, subject, (size,), values, (), (check.element, check.element))
             case RefusalKind.BEVEL_OUTSIDE:
-                increment, axes = self.path.source.increment, self.path.profile.plane.axes
+                increment, axes = self.path.measured.increment, self.path.profile.plane.axes
                 off, axis = max((increment(each.element) - own, axes[int(each.element)]) for each, own in failing)
                 return Refusal(kind, subject, (size,), {"off_by_mm": off}, (), (axis,))
             case RefusalKind.BEVEL_IN_BAND:
@@ -204,7 +207,7 @@ class _Told:
         leave less; not a number where a corner is none."""
         names = {corner.name for corner in corners}
         elements = {name for corner in corners for name in elements_at(corner, path)}
-        room = check_room(replace(self.path.source, path=path))
+        room = check_room(replace(self.path.measured, path=path))
         left = [(path.corners[corner.name].setback_out + LENGTH, corner.before) for corner in corners]
         left += [
             (margin - check.limit, check.element) for check, margin in room if {check.subject} & (names | elements)

@@ -156,6 +156,8 @@ class Kernel(Struct, frozen=True, eq=False):
     arguments: tuple[str, ...]
     equations: Replay
     function: Any
+    is_affine: bool
+    """Whether the derivatives are free of the unknowns."""
 
 
 class Polynomials(Struct, frozen=True, eq=False):
@@ -190,8 +192,8 @@ def make_kernel(system: System, group: Group) -> Kernel:
     at = Tape()
     unknowns = [at.input(name) for name in group.unknowns]
     outputs = [fact.equation(input_values(system, at, {})) for fact in group.facts]
-    for number, expression in enumerate((*outputs, *expressions.derivatives(outputs, unknowns))):
-        at.output(str(number), expression)
+    vector, is_affine = expressions.with_slopes(outputs, unknowns)
+    at.output("equations and slopes", vector)
     function = at.function()
     return Kernel(
         facts=group.facts,
@@ -200,4 +202,5 @@ def make_kernel(system: System, group: Group) -> Kernel:
         arguments=at.inputs,
         equations=Replay(function, ball, ball.exact),
         function=function,
+        is_affine=is_affine,
     )

@@ -215,22 +215,13 @@ def test_no_name_that_a_package_lists_is_that_of_another_of_its_modules():
         assert {name: home for name, home in of_modules.items() if name in PATHS and home != name} == {}
 
 
-TWO_MEANINGS = {
-    "Found": "families/inverse.py solving/enumerate.py",
-    "Source": "diagnostics/source.py solving/checks.py",
-}
-"""Names of classes in files that are being rewritten; whoever writes one of these gives it a name of its own."""
-
-
 def test_no_public_class_name_has_two_meanings():
     homes: dict[str, list[str]] = {}
     for module in MODULES:
         for node in ast.parse(module.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 homes.setdefault(node.name, []).append(module.relative_to(HOUSE).as_posix())
-    shared = {name: set(files) for name, files in homes.items() if len(files) > 1}
-    allowed = {name: set(files.split()) for name, files in TWO_MEANINGS.items()}
-    assert {name: files for name, files in shared.items() if not files <= allowed.get(name, set())} == {}
+    assert {name: files for name, files in homes.items() if len(files) > 1} == {}
 
 
 def test_no_control_stands_in_where_none_is_named():

@@ -31,7 +31,7 @@ from contoursolve.numeric import (
 from contoursolve.postprocess.formulas.word_dependence import FormulaError, Reader, less
 from contoursolve.solving import (
     Check,
-    Source,
+    MeasuredFigure,
     Test,
     axes_of,
     is_closed,
@@ -117,7 +117,7 @@ def body_of(reader: Reader, profile: Profile, stated: Mapping[str, Affine], writ
     loose = [point for point in points_with_two_solutions(system) if point not in chosen]
     if loose:
         raise FormulaError(f"nothing chooses between the two places of {loose[0]}")
-    tape, source, checks = plain_checks(system)
+    tape, measured, checks = plain_checks(system)
     absent = {
         corner.name: LARGEST * at_most(magnitude(tape.input(corner.size)), ZERO)
         for corner in profile.figure.corners
@@ -125,7 +125,7 @@ def body_of(reader: Reader, profile: Profile, stated: Mapping[str, Affine], writ
     }
     """Added to what is asked of corners, where their size may be 0: then there is none."""
     margins = [_failing(check, margin, absent.get(check.subject)) for check, margin in checks]
-    path = list(_path(tape, source, profile, writing))
+    path = list(_path(tape, measured, profile, writing))
     outputs = [margin for margin, *_ in margins]
     for leg in path:
         outputs += leg.values
@@ -178,12 +178,12 @@ class _Way(Struct, frozen=True):
     values: tuple[Any, ...]
 
 
-def _path(tape: Tape, source: Source, profile: Profile, writing: Mapping[str, BlockUnits]) -> Iterator[_Way]:
+def _path(tape: Tape, measured: MeasuredFigure, profile: Profile, writing: Mapping[str, BlockUnits]) -> Iterator[_Way]:
     """The elements and corners of a path, as `solving.contour.trace` has them."""
     figure = profile.figure
     corners = {corner.at: corner for corner in figure.corners}
     origin = tape.input(f"{ORIGIN}0"), tape.input(f"{ORIGIN}1")
-    here = source.point(figure.start)
+    here = measured.point(figure.start)
 
     def way(name: str, end: Any, center: Any = None, turn: Any = None) -> _Way:
         scales, is_incremental = writing[name].scales, writing[name].is_incremental
@@ -202,16 +202,16 @@ def _path(tape: Tape, source: Source, profile: Profile, writing: Mapping[str, Bl
 
     for element in figure.path:
         corner = corners.get(element.head)
-        end = source.point(element.head)
+        end = measured.point(element.head)
         if corner is not None:
-            end = source.path.corners[corner.name].begin
+            end = measured.path.corners[corner.name].begin
         if isinstance(element, Arc):
-            yield way(element.name, end, source.point(element.center), element.turn.sign)
+            yield way(element.name, end, measured.point(element.center), element.turn.sign)
         else:
             yield way(element.name, end)
         here = end
         if corner is not None:
-            built = source.path.corners[corner.name]
+            built = measured.path.corners[corner.name]
             end = built.end
             yield way(corner.name, end, built.center, built.turn)
             here = end
