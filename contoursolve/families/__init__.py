@@ -1,6 +1,6 @@
 """Families: one block with some words free, a million contours at once.
 
-A block with free words comes in; rows, ranges, regions and sensitivities go out. Begin with `spec`, then
+A block with free words comes in; rows, ranges, regions and sensitivities go out. Begin with `block_template`, then
 `compiled_sweep`.
 """
 

@@ -1,3 +1,9 @@
+from .block_template import (
+    RefusedError as RefusedError,
+    errors_of as errors_of,
+    unit_word as unit_word,
+    write as write,
+)
 from .case_classes import (
     ORIGIN as ORIGIN,
     verdict_of as verdict_of,
@@ -43,6 +49,9 @@ from .feasible_ranges import (
 from .free_words import (
     limits_beside as limits_beside,
 )
+from .goals import (
+    Goal as Goal,
+)
 from .inverse import (
     Found as Found,
     Hit as Hit,
@@ -76,17 +85,10 @@ from .sensitivities import (
     sensitivity as sensitivity,
     slopes_of as slopes_of,
 )
-from .spec import (
-    Ranges as Ranges,
-    RefusedError as RefusedError,
-    errors_of as errors_of,
-    name_of as name_of,
-    unit_word as unit_word,
-    write as write,
-)
-from .targets import (
-    Goal as Goal,
-)
 from .variables import (
     with_numbers as with_numbers,
+)
+from .word_values import (
+    Ranges as Ranges,
+    name_of as name_of,
 )

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from contoursolve.families.branches import side_margins
 from contoursolve.families.case_classes import CaseClass, asked_of
-from contoursolve.families.spec import Places, stretches
+from contoursolve.families.word_values import Places, stretches
 from contoursolve.geometry import FIRST, SECOND, Choice, Fact, System, Unit, Values, scalar
 from contoursolve.numeric import (
     COSINE,
@@ -87,7 +87,7 @@ class RowCandidates(Struct, eq=False):
 
 
 class RowSolutions(Struct, eq=False):
-    """What becomes of rows: status and reason, and the scalars and sides of those that show a solution (0 for a side
+    """The verdict on rows: status and reason, and the scalars and sides of those that show a solution (0 for a side
     that is not known); `is_path` tells which of these are contours, and `again` has the rows that a single solve must
     decide."""
 
@@ -113,7 +113,7 @@ class BranchRows:
         self.function = Columns(self.verdict.function)
 
     def solve(self, values: Mapping[str, Array]) -> RowSolutions:
-        """What becomes of rows with these values of the words."""
+        """The verdict on rows with these values of the words."""
         rows = next(iter(values.values())).size
         settled = RowSolutions(
             numpy.zeros(rows, numpy.uint8),
@@ -193,11 +193,11 @@ class BranchRows:
         )
 
     def _decide(self, pairs: RowCandidates, given: Mapping[str, Array], settled: RowSolutions) -> None:
-        """Which of the solutions of each row is the contour."""
+        """Settle which of the solutions of each row is the contour."""
         rows = settled.status.size
 
         def count(which: Bits) -> Places:
-            """How many of these pairs each row has."""
+            """The number of these pairs in each row."""
             return numpy.bincount(pairs.rows[which], minlength=rows)
 
         known = {name: each if each.size == 1 else each[pairs.rows] for name, each in given.items()} | {**pairs.signs}
@@ -265,7 +265,7 @@ class BranchRows:
         return {**known, **out} | {name: self._ask(each.fact, known, rows.size) for name, each in asked}, worst
 
     def _ask(self, fact: Fact, known: Mapping[str, Array], rows: int) -> Array:
-        """What a fact would state, row by row: mm or degrees."""
+        """The values that a fact would state, row by row: mm or degrees."""
         if fact.sizes:
             return known[fact.sizes]
         if fact.placed and not fact.placed.origin:
@@ -328,7 +328,7 @@ def _compile_verdict(system: System, sizes: frozenset[str]) -> _Verdict:
 
 
 _OPEN, _PASSED, _CHOSEN = "open", "passed", "chosen"
-"""What tells of a solution: that floats do not decide it; how many conditions hold in their order; and that it lies on
+"""Outputs about a solution: floats do not decide it; the number of conditions that hold in their order; and it lies on
 the sides that words choose."""
 
 
@@ -350,7 +350,7 @@ def _compile(system: System, choices: tuple[Choice, ...]) -> _Branches | None:
     tape = form.tape.copy()
 
     def decide(margins: Iterable[tuple[Any, float]]) -> tuple[Any, Any]:
-        """How many margins are above zero in their order, and whether the next one may be."""
+        """The number of margins above zero in their order, and whether the next one may be."""
         is_alive, is_open, passed = true(), 0 * true(), 0 * true()
         for margin, close in margins:
             passes = below(close, margin)

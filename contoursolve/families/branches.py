@@ -44,7 +44,7 @@ from contoursolve.tolerance import REGULAR
 Bits = NDArray[numpy.bool_]
 
 GOAL = "goal:"
-"""What the inputs for the goals of coordinates begin with."""
+"""Prefix of the inputs for the goals of coordinates."""
 
 _OF_FLOATS = (Stage.TOUCHING, Stage.EQUATIONS)
 """Checks that do not tell whether there is a contour, but what floats know of it."""
@@ -63,12 +63,12 @@ class Margins(Struct, frozen=True, eq=False):
 
     @property
     def is_apart(self) -> Bits:
-        """Which checks are about being apart from zero, as a column."""
+        """Mask of the checks that are about being apart from zero, as a column."""
         return numpy.array([[each.test is Test.APART] for each in self.checks])
 
     def failing(self, values: Array) -> Bits:
-        """Which checks fail, by (check, place). NaN fails, and a margin that is just at its limit passes, whatever the
-        test says of these: ends are looked at by single solves."""
+        """Mask of the checks that fail, by (check, place). NaN fails, and a margin that is just at its
+        limit passes, whatever the test says of these: ends are looked at by single solves."""
         size = numpy.where(self.is_apart, numpy.abs(values), values)
         return ~numpy.where(self.is_apart, size > self.limits, size >= self.limits)
 
@@ -99,7 +99,7 @@ def compile_margins(system: System, follows: Follows) -> Margins:
 
 
 PLACES, LEVEL = 64, 1e-10
-"""What is less than this, mm, at so many places drawn at random is zero everywhere: the checks are analytic between the
+"""A margin below this, mm, at so many places drawn at random is zero everywhere: the checks are analytic between the
 few places where a direction turns."""
 
 
@@ -112,8 +112,8 @@ class Branch(Struct, frozen=True, eq=False):
     signs: tuple[tuple[str, float], ...] = ()
 
     def target(self, goals: Mapping[str, tuple[int, float]]) -> tuple[Chart, list[float]]:
-        """How far a coordinate is from its goal as a function of the word, or half the rate at which the square of the
-        distance of several grows; and the other inputs. See `targets.TargetCurve`."""
+        """The distance of a coordinate from its goal as a function of the word, or half the rate at which the square of
+        the distance of several grows; and the other inputs. See `goals.TargetCurve`."""
         # Coordinates count from the start point inside, which may follow the word.
         starts = {f"{ORIGIN}{axis}": self.case.moves.get(axis) for axis, _ in goals.values()}
         rates = {
@@ -286,7 +286,7 @@ def _compile(system: System, follows: Follows, choices: tuple[Choice, ...]) -> t
 
 @lru_cache(maxsize=256)
 def _compile_target(system: System, follows: Follows, axes: tuple[tuple[str, int], ...], *, is_closed: bool) -> Chart:
-    """How far outputs of a system are from a goal as a function of one word (see `Branch.target`)."""
+    """The distance of outputs of a system from a goal as a function of one word (see `Branch.target`)."""
     tape = (compile_system(system) if is_closed else compile_branches(system)).tape.copy()
     away = [tape.expression(name) + tape.input(f"{ORIGIN}{axis}") - tape.input(GOAL + name) for name, axis in axes]
     is_rate = len(away) > 1

@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 
 from contoursolve.diagnosis import MOST_CHOICES, Answer, count_choices, join
 from contoursolve.diagnostics import Basis
+from contoursolve.families.block_template import Template, called, errors_of
 from contoursolve.families.errors import ByRowError, FamilyError
 from contoursolve.families.free_words import bordered, factor_of, kind_of, limits_of, stated_by, value_of
-from contoursolve.families.spec import Places, Ranges, Template, called, errors_of, read_limits
 from contoursolve.families.traced_reading import OWN, Alike, Reading, placed_of, trace_reading
+from contoursolve.families.word_values import Places, Ranges, read_limits
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import FIRST, SECOND, CornerShape, Profile, Question, Start, System, Unit, assemble, scalar
 from contoursolve.numeric import COSINE, SINE, Affine, Array, Following, difference, directions
@@ -45,7 +46,7 @@ from contoursolve.solving import (
 from contoursolve.tolerance import LARGEST
 
 ORIGIN = "origin:"
-"""What the inputs for the coordinates of the start point begin with."""
+"""Prefix of the inputs for the coordinates of the start point."""
 
 Follows = tuple[tuple[str, Following], ...]
 """The values that follow words, by name."""
@@ -99,7 +100,7 @@ class CaseClass(Struct, frozen=True, eq=False):
     moves: Mapping[int, Linear] = field(default_factory=dict)
     is_closed: bool = True
     resting: Premises = Premises()
-    """What its contours rest on beside the words."""
+    """Premises of its contours beside the words."""
 
     @property
     def system(self) -> System:
@@ -162,7 +163,7 @@ class CaseClass(Struct, frozen=True, eq=False):
         return replace(self, free=free, moves=moves)
 
     def follows(self) -> Follows:
-        """How the inputs that vary follow the one free word."""
+        """The inputs that vary, as they follow the one free word."""
         found: dict[str, Following] = {}
         for name, own, start in self._varying():
             factor = own.factor if own is not None else Decimal(0)
@@ -172,8 +173,8 @@ class CaseClass(Struct, frozen=True, eq=False):
         return tuple(found.items())
 
     def fixed(self, names: Iterable[str], signs: Mapping[str, float] | None = None) -> list[float]:
-        """What a chart of the free word needs besides it, by name; of a value that follows a word, what is added.
-        `signs` are inputs that choose a branch."""
+        """The numbers that a chart of the free word needs besides it, by name; of a value that follows a word, its
+        constant. `signs` are inputs that choose a branch."""
         numbers = {**self.numbers(), **(signs or {})}
         for name, own, start in self._varying():
             value = self.profile.givens[name].value if own is None else own.base
@@ -235,7 +236,7 @@ class CaseClass(Struct, frozen=True, eq=False):
 
     @property
     def _drawing(self) -> object:
-        """What is drawn and stated; profiles with further facts have layouts of their own."""
+        """The equations, or the layout; profiles with further facts have layouts of their own."""
         return self.system if self.profile.is_extended else self.profile.layout
 
     @property
@@ -275,12 +276,12 @@ def _linear(value: Affine) -> Linear:
 
 
 INSTEAD = "solve it value by value with `family` (`contoursolve sweep`)"
-"""What to do where no range can be told."""
+"""The remedy where no range can be told."""
 
 
 class ByRow(Struct, frozen=True, eq=False):
-    """How the rows of one key are read one by one: at the place of which contour, none if all of the program is read;
-    and the number of the class of each kind of reading."""
+    """The way in which the rows of one key are read one by one: the contour at whose place, none if all of the program
+    is read; and the number of the class of each kind of reading."""
 
     like: ParsedContour | None
     classes: dict[Alike, int]
@@ -340,7 +341,7 @@ def verdict_of(answer: Answer) -> Status | None:
 
 
 def resting_of(cases: Iterable[CaseClass], template: Template, more: Iterable[Premises] = ()) -> Premises:
-    """What the contours of classes rest on beside their words, those that are not refused."""
+    """The premises of the contours of classes beside their words, without those that are refused."""
     dialect = template.asked.dialect
     several = (*more, *(case.resting for case in cases if case.status is None))
     return all_resting(several, dialect.name if dialect is not None else "")
@@ -384,14 +385,14 @@ class FreeWords:
         return self.answer_at(*values).contour is not None
 
     def case_at(self, *values: float) -> CaseClass:
-        """How the words are read at these values."""
+        """The class of the row with these values."""
         case = case_of(self.template, self.at(values), self.answer_at(*values), is_sampled=self.is_sampled)
         self._cases.append(case)
         return case
 
     @property
     def resting(self) -> Premises:
-        """What the contours rest on that were looked at."""
+        """Premises of the contours that were looked at."""
         own = [self.answer.resting] if self.answer.contour is not None else []
         return resting_of(self._cases, self.template, own)
 
@@ -445,7 +446,7 @@ def sides_of_choice(case: CaseClass) -> dict[str, int]:
 
 
 def results_of(case: CaseClass) -> dict[str, Behind]:
-    """What is behind each result."""
+    """The output behind each result."""
     figure, path = case.system.figure, compile_path(case.system).path
     axes = list(zip((FIRST, SECOND), case.profile.plane.axes, strict=True))
     found: dict[str, Behind] = {}

@@ -118,7 +118,7 @@ def parts_of(target: Path, ready: CompiledSweep) -> Checkpoints:
 
 
 def _real(target: Path) -> Path:
-    """What is written in the place of a target: where a link leads to, else itself."""
+    """The file that is written in the place of a target: the one to which a link leads, else itself."""
     return target.resolve() if target.is_symlink() else target
 
 

@@ -11,6 +11,7 @@ from msgspec import Struct, field
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis import join
+from contoursolve.families.block_template import SweepSpec, Template, called
 from contoursolve.families.branch_rows import BLOCK, BranchRows
 from contoursolve.families.case_classes import (
     ORIGIN,
@@ -31,8 +32,8 @@ from contoursolve.families.case_classes import (
 )
 from contoursolve.families.export import Measure, measures_of
 from contoursolve.families.free_words import Examples
-from contoursolve.families.spec import Places, Ranges, SweepSpec, Template, called, stretches
 from contoursolve.families.traced_reading import place_of_contour, read_alone
+from contoursolve.families.word_values import Places, Ranges, stretches
 from contoursolve.geometry import System
 from contoursolve.numeric import ROWS, Array, ColumnFunction, Columns, compile_columns, where
 from contoursolve.reading import Premises
@@ -59,7 +60,7 @@ class CompiledSweep(Struct, eq=False):
     numbers: NDArray[numpy.int64]
     """The class of each example."""
     by_row: Mapping[int, ByRow] = {}
-    """How rows are read one by one, by their key."""
+    """The way in which rows are read one by one, by their key."""
     local: threading.local = field(default_factory=threading.local)
 
     @property
@@ -70,7 +71,7 @@ class CompiledSweep(Struct, eq=False):
 
     @property
     def resting(self) -> Premises:
-        """What its contours rest on beside the words."""
+        """Premises of its contours beside the words."""
         return resting_of(self.cases, self.template)
 
     @property
@@ -108,7 +109,7 @@ class CompiledSweep(Struct, eq=False):
         return {name: found[name] if name in found else numpy.zeros(rows, kind) for name, kind in kinds.items()}
 
     def measures(self) -> dict[str, Measure]:
-        """What the words and the results are measured in."""
+        """The units of the words and of the results."""
         return measures_of(self.template, self.ranges, self.columns())
 
     def evaluate(self, first: int, last: int, table: Results) -> None:

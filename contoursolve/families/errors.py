@@ -1,4 +1,4 @@
-"""Why a family cannot be evaluated."""
+"""Errors of families."""
 
 from contoursolve.diagnostics import UserError
 
@@ -8,7 +8,7 @@ class FamilyError(UserError, ValueError):
 
 
 class NotClosedError(FamilyError):
-    """What needs a closed form is asked about a block that has none."""
+    """A question that needs a closed form, about a block that has none."""
 
 
 class ByRowError(NotClosedError):

@@ -13,20 +13,12 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 from numpy.typing import ArrayLike, NDArray
 
+from contoursolve.families.block_template import BlockOptions, SweepSpec, Template, errors_of, spec_of
 from contoursolve.families.compiled_sweep import CompiledSweep, Table, cases_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.export import Family
 from contoursolve.families.free_words import Examples, check_block, examples_of
-from contoursolve.families.spec import (
-    BlockOptions,
-    Ranges,
-    SweepSpec,
-    Template,
-    errors_of,
-    ranges_of,
-    spec_of,
-    stretches,
-)
+from contoursolve.families.word_values import Ranges, ranges_of, stretches
 from contoursolve.numeric import Array
 from contoursolve.reading import Dialect
 from contoursolve.solving import REASONS, Status, StatusCode
@@ -41,7 +33,7 @@ AHEAD = 8
 Result = TypeVar("Result")
 
 THREADS = "contoursolve"
-"""What the names of the threads begin with."""
+"""Prefix of the names of the threads."""
 
 
 @contextmanager
@@ -238,7 +230,7 @@ def solve_parts(
 
 
 def _pack(ready: CompiledSweep) -> bytes:
-    """What a family is made from; functions of CasADi cannot be sent. Raises FamilyError."""
+    """The data from which a family is made; functions of CasADi cannot be sent. Raises FamilyError."""
     try:
         return pickle.dumps((ready.spec, ready.examples))
     except (pickle.PicklingError, AttributeError, TypeError) as error:
@@ -283,7 +275,7 @@ class FailureSummary(Struct, frozen=True):
 
 
 class Tally(Struct):
-    """How many rows have each status and reason, and the values of the first of each."""
+    """The number of rows with each status and reason, and the values of the first of each."""
 
     words: tuple[str, ...]
     counts: NDArray[numpy.int64] = field(

@@ -1,5 +1,5 @@
-"""What a family comes to: named arrays with a row for every set of values, what they are measured in, and the formats
-of others; the packages for these are needed only here.
+"""Family as named arrays with a row for every set of values, their units, and the formats of other packages, which are
+needed only here.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Shown, need
+from contoursolve.families.block_template import SweepSpec, Template
 from contoursolve.families.case_classes import asked_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.free_words import kind_of
-from contoursolve.families.spec import Ranges, SweepSpec, Template
+from contoursolve.families.word_values import Ranges
 from contoursolve.gcode import Word
 from contoursolve.geometry import Unit
 from contoursolve.reading import Premises
@@ -58,8 +59,8 @@ def measures_of(template: Template, ranges: Ranges, columns: Iterable[str]) -> d
 
 
 def measure_of_word(word: Word, answer: Answer) -> Measure:
-    """What a word of a block or of the start point, or a fact, is written in; no unit for one that only chooses between
-    two places, and where nothing tells."""
+    """The unit of a word of a block or of the start point, or of a fact; none for one that only chooses between two
+    places, and where nothing tells."""
     try:
         kind, is_diameter = kind_of(word, answer)
     except FamilyError:
@@ -93,7 +94,7 @@ class Family(Shown):
     spec: SweepSpec = field(repr=False)
     """Plain data from which its block can be read again."""
     resting: Premises = field(default=Premises(), repr=False)
-    """What its contours rest on beside the words."""
+    """Premises of its contours beside the words."""
     remark: str = field(default="", repr=False)
     """That rows are read one by one, and why; empty if they are not."""
 
@@ -120,16 +121,16 @@ class Family(Shown):
 
     @property
     def has_contour(self) -> NDArray[numpy.bool_]:
-        """Where there is a contour: solved, or with words that agree; and nothing speaks against it."""
+        """Mask of the rows with a contour: solved, or with words that agree; and nothing speaks against it."""
         is_solved = (self["status"] <= StatusCode.OVERDETERMINED) & (self["reason"] == 0)
         return numpy.asarray(is_solved)
 
     def summary(self) -> dict[Status, int]:
-        """How many rows have each status, without those that none has."""
+        """The number of rows with each status, without those that none has."""
         return summary_of(numpy.bincount(self.columns["status"], minlength=len(StatusCode)))
 
     def measures(self) -> dict[str, Measure]:
-        """What each array is measured in, by name."""
+        """The unit of each array, by name."""
         return measures_of(self.spec.template(), self.ranges, self.columns)
 
     def to_arrow(self) -> Any:
@@ -158,10 +159,10 @@ _WORDS: Mapping[str, list[str | None]] = {
     "status": [code.status.value for code in StatusCode],
     "reason": [kind.value if kind else None for kind in REASONS],
 }
-"""What the numbers of two columns stand for."""
+"""Meanings of the numbers of two columns."""
 
 Measures = Mapping[str, Measure]
-"""What columns are measured in, by name."""
+"""Units of columns, by name."""
 
 
 def to_arrow(columns: Mapping[str, NDArray[Any]], measures: Measures) -> Any:

@@ -1,4 +1,4 @@
-"""Where a contour exists: every range of one word's values in which it is solved, and what ends each."""
+"""Ranges of one word's values in which a contour is solved, all of them, and what ends each."""
 
 from collections.abc import Callable, Mapping, Sequence
 from enum import Enum
@@ -10,10 +10,10 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, element_text, join, limit_text, unknowns_text, value_text
 from contoursolve.diagnostics import Shown
+from contoursolve.families.block_template import BlockOptions, called, errors_of, first_error, spec_of
 from contoursolve.families.case_classes import CaseClass
 from contoursolve.families.free_words import check_block
 from contoursolve.families.range_pieces import Onset, RangePiece, RangeSearch
-from contoursolve.families.spec import BlockOptions, called, errors_of, first_error, spec_of
 from contoursolve.geometry import Line
 from contoursolve.numeric import Created
 from contoursolve.reading import Premises
@@ -24,7 +24,7 @@ ASIDE = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4)
 
 
 class Reason(Struct, frozen=True):
-    """Why a contour does not exist beyond an end.
+    """Reason against a contour beyond an end.
 
     `text` says it about the word, such as "P too large for line 2: 6.340 mm at most"; `code` and `message` are those
     of the finding about a block just beyond the end (empty where that finding is only about rounding).
@@ -48,10 +48,10 @@ def failure_of(answer: Answer) -> tuple[Reason, Enum | None]:
 
 
 class Way(Enum):
-    """How an end was found."""
+    """Ways in which an end was found."""
 
     CLOSED_FORM = "closed form"
-    """What ends there is a polynomial of degree 1 or 2 in the word."""
+    """As a zero of a polynomial of degree 1 or 2 in the word."""
     BISECTION = "bisection"
     """By dividing a stretch outside of which it is proven that there is no end."""
     RULE = "rule"
@@ -108,13 +108,13 @@ class Feasible(Shown, Struct, frozen=True):
     intervals: tuple[Interval, ...]
     doubts: tuple[str, ...]
     refusal: str
-    """Why the block as it stands has no contour; empty if it has."""
+    """The error of the block as it stands; empty if it has a contour."""
     is_diameter: bool = False
     """Whether the values are diameters."""
     is_open: bool = False
     """Whether it is a variable of which nobody says the value; `stated` says nothing then."""
     resting: Premises = Premises()
-    """What the contours rest on beside the words."""
+    """Premises of the contours beside the words."""
 
     @property
     def is_complete(self) -> bool:
@@ -202,8 +202,8 @@ def _sides(
 def _reason(
     search: RangeSearch, value: float, way: int, outside: float | None, onset: Onset | None, near: Sequence[RangePiece]
 ) -> tuple[Reason, bool]:
-    """What fails beyond an end, and whether it is a rule or the reading of the words; `near` are the pieces on its two
-    sides, the one beyond it first."""
+    """The reason against a contour beyond an end, and whether it is a rule or the reading of the words; `near` are the
+    pieces on its two sides, the one beyond it first."""
     at, limit = value_text(value, search.unit), limit_text(value, search.unit, way, is_included=search.is_solved(value))
     name = called(search.word)
     limit = f"{name} at {at}" if near[0].is_value else f"{name} at {'most' if way > 0 else 'least'} {limit}"
@@ -241,7 +241,7 @@ def refused(code: str, event: Enum | None, values: str) -> str:
 
 
 def phrase(check: Check, kind: RefusalKind, case: CaseClass) -> str:
-    """What fails where a check does not pass, without values."""
+    """The failure of a check in words, without values."""
     return kind.event.phrase.format_map(Created(lambda field: _FIELDS[field](check, case)))
 
 
@@ -298,7 +298,7 @@ _FIELDS: Mapping[str, Callable[[Check, CaseClass], str]] = {
     "disagreeing": lambda check, case: case.words((check.subject,)),
     "apart": _apart,
 }
-"""What the phrases of events are about (see `GeometricEvent`)."""
+"""Subjects of the phrases of events (see `GeometricEvent`)."""
 
 
 def same(one: RefusalKind, other: RefusalKind) -> bool:

@@ -15,20 +15,10 @@ from numpy.typing import NDArray
 
 from contoursolve.diagnosis import Answer, join
 from contoursolve.diagnostics import Basis
+from contoursolve.families.block_template import Template, called, errors_of, first_error, is_same, unit_word
 from contoursolve.families.errors import FamilyError
-from contoursolve.families.spec import (
-    LONGEST,
-    Places,
-    Ranges,
-    Template,
-    called,
-    errors_of,
-    first_error,
-    is_same,
-    stretches,
-    unit_word,
-)
 from contoursolve.families.traced_reading import Alike, Reading, place_of_contour, read_alone, trace_reading
+from contoursolve.families.word_values import LONGEST, Places, Ranges, stretches
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Given, Profile, Unit, names_of_roles
 from contoursolve.numeric import Affine, Array
@@ -47,8 +37,8 @@ def value_of(word: Word, answer: Answer) -> float:
 
 
 def kind_of(word: Word, answer: Answer) -> tuple[Unit, bool]:
-    """What a word of a block or of the start point, or a fact, states, and whether it is a diameter. Raises FamilyError
-    where nothing tells, or a fact cannot be read."""
+    """The unit of a word of a block or of the start point, or of a fact, and whether it is a diameter. Raises
+    FamilyError where nothing tells, or a fact cannot be read."""
     unread = next((each for each in answer.diagnostics if each.about is ReadIssue.FACT_UNREADABLE), None)
     if unread is not None:
         raise FamilyError(unread.message)
@@ -78,7 +68,7 @@ WIDE = 256
 """Intervals that have a number of one byte."""
 
 SAME = 1e-12
-"""What two limits may differ by that are one, as a share of them."""
+"""Share of a limit by which two that are one may differ."""
 
 
 class WordLimits(Struct, frozen=True):
@@ -89,7 +79,7 @@ class WordLimits(Struct, frozen=True):
 
     @property
     def count(self) -> int:
-        """How many intervals there are; a bound is an interval of its own."""
+        """The number of intervals; a bound is an interval of its own."""
         return 2 * len(self.bounds) + 1
 
     def intervals(self, values: Array) -> NDArray[Any]:
@@ -279,7 +269,7 @@ def _kinds_of(
 
 
 def reading_of(template: Template, values: Mapping[str, float]) -> Reading:
-    """How the row of these values is read. Raises FamilyError as `Template.solve`."""
+    """The reading of the row of these values. Raises FamilyError as `Template.solve`."""
     return trace_reading(template, values, template.solve(values))
 
 
@@ -342,7 +332,7 @@ def check_block(template: Template, values: Mapping[str, float] | None = None) -
 
 
 def _refusals(answer: Answer) -> Refusals:
-    """What refuses a block by its text, its words or the structure of its equations."""
+    """The errors that refuse a block by its text, its words or the structure of its equations."""
     if answer.status not in _REFUSED:
         return frozenset()
     return frozenset(
@@ -353,11 +343,11 @@ def _refusals(answer: Answer) -> Refusals:
 
 
 _REFUSED = (Status.REJECTED, Status.CONFLICTING, Status.UNDERDETERMINED)
-"""What a block may be without its values."""
+"""Statuses that a block may have without its values."""
 
 
 def _weight(refusals: Refusals) -> tuple[int, int]:
-    """How much is refused: findings, and the words that they name."""
+    """The size of refusals: findings, and the words that they name."""
     return len(refusals), sum(len(words) for _, _, words in refusals)
 
 

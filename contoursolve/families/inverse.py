@@ -10,15 +10,12 @@ from msgspec import Struct
 
 from contoursolve.diagnosis import Answer, join, value_text, write_word
 from contoursolve.diagnostics import Shown
+from contoursolve.families.block_template import BlockOptions, Template, first_error, spec_of, with_value, write
 from contoursolve.families.branches import Branch
 from contoursolve.families.case_classes import results_of
 from contoursolve.families.errors import FamilyError, NotClosedError, NotMovedError
 from contoursolve.families.free_words import check_block
-from contoursolve.families.isolate import Zero, isolate
-from contoursolve.families.range_pieces import LEAST_GAP, RangePiece, RangeSearch, short
-from contoursolve.families.sensitivities import slopes_of
-from contoursolve.families.spec import BlockOptions, Template, first_error, spec_of, with_value, write
-from contoursolve.families.targets import (
+from contoursolve.families.goals import (
     CONSTANT,
     Goal,
     TargetCurve,
@@ -27,6 +24,9 @@ from contoursolve.families.targets import (
     place_of,
     read_goal,
 )
+from contoursolve.families.isolate import Zero, isolate
+from contoursolve.families.range_pieces import LEAST_GAP, RangePiece, RangeSearch, short
+from contoursolve.families.sensitivities import slopes_of
 from contoursolve.gcode import FACT
 from contoursolve.geometry import FIRST, SECOND, Length, Plane, Unit, assemble
 from contoursolve.numeric import Intervals
@@ -81,10 +81,10 @@ class Found(Shown, Struct, frozen=True):
     hits: tuple[Hit, ...]
     doubts: tuple[str, ...]
     remark: str = ""
-    """Why there is no value, where the word does not move the point, with the words that do, or where the block as it
-    stands has no contour; else empty."""
+    """Reason for no value: the word does not move the point, with the words that do; or the block as it stands has no
+    contour. Else empty."""
     resting: Premises = Premises()
-    """What the contours rest on beside the words."""
+    """Premises of the contours beside the words."""
 
     @property
     def is_complete(self) -> bool:
@@ -151,7 +151,7 @@ def find_word(
 
 
 def _moved_by(answer: Answer, goal: Goal, error: NotMovedError) -> str:
-    """What an error says, and which words move the point, as far as derivatives tell."""
+    """The text of an error, with the words that move the point, as far as derivatives tell."""
     name, axes = end_name(answer.profile.figure) if goal.point == "end" else goal.point, answer.plane.axes
     try:
         slopes = slopes_of(answer).slopes
@@ -244,7 +244,7 @@ class _TargetSearch:
 
     @property
     def all_doubts(self) -> tuple[str, ...]:
-        """Why the values that were found are not proven to be all."""
+        """The reasons for which the values that were found are not proven to be all."""
         return tuple(dict.fromkeys((*self.search.doubts, *self.doubts)))
 
     def doubt(self, value: float, why: str) -> None:
@@ -282,7 +282,7 @@ class _TargetSearch:
         return found
 
     def _of_zero(self, zero: Zero, curve: TargetCurve, piece: RangePiece) -> Iterator[_Candidate]:
-        """What a zero of the curve may be."""
+        """The candidate at a zero of the curve."""
         is_proven = not zero.width
         if self.goal.is_nearest and is_proven and zero.way < 0:
             return  # farther than its neighbours
@@ -336,8 +336,8 @@ class _TargetSearch:
         return TargetCurve(branch, goals, within)
 
     def hit(self, value: float, give: float = ARRIVED) -> Hit | None:
-        """What becomes of a value by its single solve, as a shorter number where rounding alone parts the two; None if
-        it does not meet the goal."""
+        """The hit at a value by its single solve, as a shorter number where rounding alone parts the two; None if it
+        does not meet the goal."""
         return next(
             (hit for each in dict.fromkeys((short(value), value)) if (hit := self._hit(each, give)) is not None), None
         )

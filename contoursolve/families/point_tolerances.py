@@ -1,4 +1,4 @@
-"""Which word moves a point of a contour most, and what tolerances come to: to first order and solved again."""
+"""Tolerances of a point of a contour: the word that moves it most, to first order and solved again."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import ROUND_HALF_EVEN, Decimal
@@ -11,14 +11,15 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Shown
+from contoursolve.families.block_template import BlockOptions, Template, find_words, first_error, spec_of, unit_word
 from contoursolve.families.case_classes import resting_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.evaluate import Tally, compile_sweep, solve_sweep
 from contoursolve.families.export import Family
 from contoursolve.families.free_words import check_block, kind_of, value_of
+from contoursolve.families.goals import end_name, place_of
 from contoursolve.families.sensitivities import Spread, read_tolerances, slopes_of, stated_words
-from contoursolve.families.spec import BlockOptions, Template, find_words, first_error, ranges_of, spec_of, unit_word
-from contoursolve.families.targets import end_name, place_of
+from contoursolve.families.word_values import ranges_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Length, Plane, Unit
 from contoursolve.numeric import Array
@@ -30,7 +31,7 @@ MOST_WORDS = 10
 
 
 class Contribution(Struct, frozen=True):
-    """What one word or fact does to the point.
+    """Contribution of one word or fact to the move of the point.
 
     `slope` is by how much it moves on each axis, mm (X as radius) for each unit of the word as written, in `unit` (mm,
     inch or deg); NaN where two places have become one. `tolerance` is what the word may be off by,
@@ -64,7 +65,7 @@ class Missing(Struct, frozen=True):
 
 
 class Limits(Struct, frozen=True):
-    """Where the point lies on each axis at most and at least, mm, at all combinations of the limits of the tolerances,
+    """Bounds of the point on each axis, mm, at all combinations of the limits of the tolerances,
     each solved; `without` counts those that have no contour, `missing` says which and why."""
 
     low: Point
@@ -75,8 +76,8 @@ class Limits(Struct, frozen=True):
 
 
 class Tolerances(Shown, Struct, frozen=True):
-    """How words move a point of a contour: the words, the one that moves it most first; how far it may be off on each
-    axis to first order; and where it lies at the limits, None without tolerances or with too many of them."""
+    """Moves of a point of a contour by words: the words, the one that moves it most first; how far it may be off on
+    each axis to first order; and where it lies at the limits, None without tolerances or with too many of them."""
 
     point: str
     place: Point
@@ -86,7 +87,7 @@ class Tolerances(Shown, Struct, frozen=True):
     spread: tuple[Spread, Spread]
     limits: Limits | None
     resting: Premises = Premises()
-    """What the contour rests on beside its words."""
+    """Premises of the contour beside its words."""
 
 
 def tolerances(
@@ -96,8 +97,8 @@ def tolerances(
     point: str = "end",
     **options: Unpack[BlockOptions],
 ) -> Tolerances:
-    """What each word does to a point, and what tolerances come to: at worst, statistically (RSS), and at all
-    combinations of their limits.
+    """The effect of each word on a point, and of tolerances: at worst, statistically (RSS), and at all combinations of
+    their limits.
 
     Args:
         block: the block, or the blocks of one contour.
@@ -151,7 +152,7 @@ def _missing(template: Template, found: Family, words: Sequence[str]) -> Iterato
 
 
 def _limits(first: Array, second: Array) -> Limits:
-    """Where a point lies at all combinations, NaN where it does not."""
+    """The places of a point at all combinations, NaN without one."""
     has = ~numpy.isnan(first)
     count = int(has.sum())
     if not count:
@@ -193,7 +194,7 @@ class _Study:
         return 1.0 / value_of(unit_word(typed, has_point=typed.has_point), self.answer)
 
     def effect(self, word: str, slope: Point, tolerance: float | None) -> Contribution:
-        """What a word does."""
+        """The effect of a word."""
         moves, typed = hypot(*slope) * tolerance if tolerance else 0.0, self.words.get(word)
         lexicon, value = self.answer.claim.lexicon, self.value(word)
         stated = kind_of(self._typed(word), self.answer)[0]
@@ -214,6 +215,6 @@ class _Study:
         )
 
     def _moved(self, word: str, value: float) -> float | None:
-        """How far the point moves when a word gets another value, mm; None where there is no contour then."""
+        """The way that the point moves when a word gets another value, mm; None where there is no contour then."""
         at = place_of(self.point, replace(self.template, words={word: self._typed(word)}).solve({word: value}).contour)
         return None if at is None else hypot(at[0] - self.place[0], at[1] - self.place[1])

@@ -11,11 +11,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import value_text
+from contoursolve.families.block_template import Template
 from contoursolve.families.branches import Bits, Branch, LeastMargin, branches_of
 from contoursolve.families.case_classes import INSTEAD, CaseClass, FreeWords
 from contoursolve.families.errors import FamilyError, NotClosedError
 from contoursolve.families.isolate import SAMPLES, Piece, Zero, isolate, section
-from contoursolve.families.spec import Template
 from contoursolve.families.traced_reading import Alike, place_of_contour, read_alone, trace_reading
 from contoursolve.geometry import Unit
 from contoursolve.numeric import Array
@@ -69,8 +69,8 @@ class RangePiece(Struct, frozen=True):
 
 
 class Onset(Struct, frozen=True):
-    """Where a check begins to fail: the check, the solution that it is about, and whether the value is a zero in closed
-    form."""
+    """Value at which a check begins to fail: the check, the solution that it is about, and whether the value is a zero
+    in closed form."""
 
     check: Check
     branch: Branch
@@ -78,7 +78,7 @@ class Onset(Struct, frozen=True):
 
     @property
     def case(self) -> CaseClass:
-        """How the words are read."""
+        """The class of the rows there."""
         return self.branch.case
 
 
@@ -119,7 +119,7 @@ def _passing(lines: Sequence[Sequence[Piece]]) -> list[_Passing]:
 
 
 def _changes(kind: Callable[[float], Alike], low: float, high: float) -> Iterator[float]:
-    """Where the kind of a value changes between two others, each to the last digit of a double."""
+    """The values between two others at which the kind changes, each to the last digit of a double."""
     own, last, begin = kind(low), kind(high), low
     for _ in range(READ):
         if own == last:

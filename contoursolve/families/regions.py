@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import short_name
 from contoursolve.diagnostics import Shown
+from contoursolve.families.block_template import BlockOptions, RefusedError, SweepSpec, Template, spec_of
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords, resting_of
 from contoursolve.families.compiled_sweep import CompiledSweep
@@ -24,7 +25,7 @@ from contoursolve.families.sampled_lines import (
     is_contour,
     outcomes_of,
 )
-from contoursolve.families.spec import BlockOptions, Ranges, RefusedError, SweepSpec, Template, spec_of
+from contoursolve.families.word_values import Ranges
 from contoursolve.geometry import Unit
 from contoursolve.numeric import Array
 from contoursolve.reading import Premises

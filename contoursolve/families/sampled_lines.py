@@ -11,10 +11,10 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis import join
+from contoursolve.families.block_template import Template, called, errors_of
 from contoursolve.families.case_classes import case_in
 from contoursolve.families.feasible_ranges import Reason, failure_of, phrase, refused
 from contoursolve.families.free_words import stated_by
-from contoursolve.families.spec import Template, called, errors_of
 from contoursolve.numeric import Array
 from contoursolve.solving import REASONS, Check, Point, RefusalKind, StatusCode, Test
 

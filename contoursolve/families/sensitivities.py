@@ -15,11 +15,11 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Shown
+from contoursolve.families.block_template import BlockOptions, first_error, spec_of, subject_of
 from contoursolve.families.branch_rows import add_path
 from contoursolve.families.case_classes import CaseClass, case_in, results_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.free_words import check_block, factor_of
-from contoursolve.families.spec import BlockOptions, first_error, spec_of, subject_of
 from contoursolve.gcode import Word, call
 from contoursolve.geometry import Given, Plane, Profile, System, Unit, assemble, scalar
 from contoursolve.numeric import COSINE, SIDE, SINE, Compiled, Tape, condition, direction
@@ -37,7 +37,7 @@ Rates = Mapping[str, Mapping[str, float]]
 
 
 class Spread(Struct, frozen=True):
-    """How far a coordinate moves, mm, to first order: if all words are off in the worst way, and if they are off
+    """Move of a coordinate, mm, to first order: if all words are off in the worst way, and if they are off
     independently of each other (root of the sum of squares)."""
 
     worst: float
@@ -53,7 +53,7 @@ class Sensitivity(Shown, Struct, frozen=True):
     plane: Plane
 
     def spread(self, tolerances: Mapping[str, float]) -> dict[str, Spread]:
-        """How far each result moves when the words are off by up to these tolerances, as written. Raises FamilyError
+        """The move of each result when the words are off by up to these tolerances, as written. Raises FamilyError
         for a word that is not there, and a tolerance below 0."""
         tolerances = read_tolerances(tolerances, next(iter(self.slopes.values())))
         found: dict[str, Spread] = {}
@@ -212,7 +212,7 @@ def _tied(system: System) -> frozenset[str]:
 
 
 def _fact_name(given: Given, word: Word, profile: Profile) -> str:
-    """What a fact gives the value of; of a place, with the axis."""
+    """The subject of a fact; of a place, with the axis."""
     axis = given.name.rpartition(".")[2]
     name = subject_of(word.text)
     return f"{name} [{profile.plane.axes[int(axis)]}]" if "=" not in word.text and axis.isdigit() else name
@@ -302,4 +302,4 @@ _UNSOLVED = {
     Status.NO_SOLUTION: "the block has no contour",
     Status.UNDECIDED: "no contour was found, and that there is none is not proven",
 }
-"""What the statuses say of a block."""
+"""Statuses in words about a block."""

@@ -1,4 +1,4 @@
-"""What a control makes of free words when it reads them: how each value follows them, and what they were compared with.
+"""Reading of free words by a control, traced: how each value follows them, and what they were compared with.
 
 A block is read with numbers that remember the words that they come from. What decides how it is read, a sign or a
 comparison, is a border between rows that are read alike; rows on the same sides of all borders differ in nothing but
@@ -14,7 +14,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
-from contoursolve.families.spec import Template, is_same
+from contoursolve.families.block_template import Template, is_same
 from contoursolve.gcode import FACT, Block, Word
 from contoursolve.geometry import assemble
 from contoursolve.numeric import Affine
@@ -24,7 +24,7 @@ from contoursolve.solving import analyse, joints_among
 
 
 class Notes:
-    """What happened to the numbers of one reading."""
+    """Notes about the numbers of one reading."""
 
     def __init__(self) -> None:
         self.borders: dict[tuple[tuple[tuple[str, Decimal], ...], Decimal], Affine] = {}
@@ -170,7 +170,7 @@ def _sum(one: Traced, own: int, other: Any, others: int) -> Affine:
 
 
 class Reading(Struct, frozen=True, eq=False):
-    """What became of the free words in one row.
+    """Reading of the free words in one row.
 
     `givens` are the values of the contour that follow words, by name; `start` has the coordinates of its start point
     that do, by axis, mm. `borders` are values that decide by their sign how the block is read. `is_calculated` tells
@@ -210,7 +210,7 @@ class Reading(Struct, frozen=True, eq=False):
 
 
 def trace_reading(template: Template, values: Mapping[str, float], answer: Answer) -> Reading:
-    """How the block of a template is read in the row of these values, of which `answer` is the single solve. Facts
+    """The reading of the block of a template in the row of these values, of which `answer` is the single solve. Facts
     beside the words are not among what it follows."""
     notes = Notes()
     claim = read_row(template, values, answer.claim, notes)
@@ -288,14 +288,14 @@ def _first_contour(
 
 
 OWN = "@"
-"""What the names of values begin with that each row states by itself."""
+"""Prefix of the names of values that each row states by itself."""
 
 Alike = tuple[object, ...]
-"""What is the same of rows that are read alike."""
+"""All that is the same of rows that are read alike."""
 
 
 class RowReading(Struct, frozen=True, eq=False):
-    """How one row is read: what it shares with others, and the values of its own, beside those of its words."""
+    """Reading of one row: what it shares with others, and the values of its own, beside those of its words."""
 
     kind: Alike
     values: Mapping[str, float]
@@ -319,8 +319,8 @@ def _may_have_cuts(claim: ParsedContour) -> bool:
 def read_alone(
     template: Template, values: Mapping[str, float], like: ParsedContour | None, *, is_kept: bool = False
 ) -> RowReading:
-    """How the row of these values is read, by itself: at the place of a contour, or else with all of the program.
-    One that `is_kept` is not read again the next time. Raises FamilyError as `Template.solve`."""
+    """The reading of the row of these values by itself: at the place of a contour, or else with all of the program. One
+    that `is_kept` is not read again the next time. Raises FamilyError as `Template.solve`."""
     key = (*values.values(), like.blocks[0].line if like is not None else None)
     found = template.readings.pop(key, None) or _read_alone(template, values, like)
     if is_kept:
@@ -348,7 +348,7 @@ def placed_of(answer: Answer) -> list[str]:
 
 
 def _alike(claim: ParsedContour) -> Alike:
-    """What a contour has that is no number."""
+    """All of a contour that is no number."""
     profile = read(claim, frozenset())
     known = tuple(value is not None for value in profile.start.values)
     return profile.layout, profile.plane, profile.choices, profile.picks, claim.circumstances, known
@@ -362,7 +362,7 @@ def _numbers_of(claim: ParsedContour) -> dict[str, Decimal]:
 
 
 def _at(value: Decimal, values: Mapping[str, float]) -> Decimal:
-    """What a number is in the row of these values."""
+    """The value of a number in the row of these values."""
     if not isinstance(value, Traced):
         return value
     parts = (factor * Decimal(repr(values[name])) for name, factor in value.follows.factors.items())

@@ -48,7 +48,7 @@ def numbered(
 def _number(
     word: WordFormula, text: str, values: Mapping[str, float], free: Sequence[str], language: MacroLanguage
 ) -> str:
-    """What stands for a word's value."""
+    """The text that stands for a word's value."""
     typed = text[word.begin : word.end]
     inside = [each.name for each in variables_of(word.value) if isinstance(each, Variable) and each.name in free]
     if inside and not isinstance(word.value, Variable):

@@ -11,8 +11,9 @@ from generate_families import BLOCKS, ROWS, draw
 
 from contoursolve import FamilyError, family, find_word, sensitivity, solve, tolerances
 from contoursolve.families import feasible, is_contour, region, regions, traced_reading
-from contoursolve.families.spec import name_of, spec_of
+from contoursolve.families.block_template import spec_of
 from contoursolve.families.traced_reading import Traced
+from contoursolve.families.word_values import name_of
 from contoursolve.output.families import rest_lines
 from contoursolve.solving import StatusCode
 

@@ -18,8 +18,8 @@ import contoursolve
 from contoursolve.cli import main
 from contoursolve.diagnosis.solutions import list_solutions
 from contoursolve.families import FamilyError, family, find_word, inverse
-from contoursolve.families.spec import spec_of
-from contoursolve.families.targets import place_of
+from contoursolve.families.block_template import spec_of
+from contoursolve.families.goals import place_of
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
 WORDS = [

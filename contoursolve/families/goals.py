@@ -1,5 +1,5 @@
-"""Where a point of a contour is wanted: as a function of one word whose zeros are sought, and where there is no closed
-form as a fact, with the word asked for.
+"""Goals of points of a contour: as a function of one word whose zeros are sought, and where there is no closed form as
+a fact, with the word asked for.
 """
 
 import re
@@ -22,10 +22,10 @@ from contoursolve.diagnosis import (
     unknowns_text,
 )
 from contoursolve.diagnostics import Span
+from contoursolve.families.block_template import Template, first_error, is_same, with_value, write
 from contoursolve.families.branches import PLACES, Branch
 from contoursolve.families.errors import FamilyError, NotMovedError
 from contoursolve.families.isolate import VOID, Fineness, Signs
-from contoursolve.families.spec import Template, first_error, is_same, with_value, write
 from contoursolve.gcode import Word, read_directive
 from contoursolve.geometry import Figure, Length, Plane, Unit
 from contoursolve.numeric import Array, Intervals
@@ -37,7 +37,7 @@ CONSTANT = 1e-10
 
 
 class Goal(Struct, frozen=True):
-    """Where a point is wanted: its name, and a value for one axis or both, mm, X of a lathe as radius."""
+    """Place at which a point is wanted: its name, and a value for one axis or both, mm, X of a lathe as radius."""
 
     point: str
     place: tuple[float | None, float | None]
@@ -48,7 +48,7 @@ class Goal(Struct, frozen=True):
         return None not in self.place
 
     def away(self, at: Point) -> float:
-        """How far a point is from there, mm."""
+        """The distance of a point from there, mm."""
         return hypot(*(have - want for have, want in zip(at, self.place, strict=True) if want is not None))
 
 
@@ -81,7 +81,7 @@ def read_goal(text: str, plane: Plane, lexicon: Lexicon, unit: Length) -> Goal:
 
 
 def place_of(name: str, contour: Contour | None) -> Point | None:
-    """Where a named point of a solved contour lies; None where it has no such point, or there is no contour."""
+    """The place of a named point of a solved contour; None where it has no such point, or there is no contour."""
     if contour is None:
         return None
     if name == "end":
@@ -204,7 +204,7 @@ def _values(found: Answer, typed: Word) -> Iterator[float]:
 
 
 def _doubts(found: Answer) -> Iterator[str]:
-    """Why the solutions are not proven to be all."""
+    """The reasons for which the solutions are not proven to be all."""
     alternatives = list_alternatives(found)
     if alternatives is not None:
         for doubt in alternatives.doubts:

@@ -1,0 +1,147 @@
+"""Values of free words: columns side by side or the axes of a grid, and what names of words mean."""
+
+from collections.abc import Iterator, Mapping
+from math import isfinite
+
+import numpy
+from msgspec import Struct
+from numpy.typing import ArrayLike, NDArray
+
+from contoursolve.families.errors import FamilyError
+from contoursolve.numeric import Array
+from contoursolve.tolerance import LARGEST
+
+Places = NDArray[numpy.int64]
+
+LONGEST = 262_144
+"""Values of one word of a grid that are prepared once for all rows; of more, a stretch at a time."""
+
+
+_FEW = 64
+"""Rows whose places are computed one by one where they lie far apart."""
+
+
+class Ranges(Struct, frozen=True, eq=False):
+    """The values of each free word, by its name: as columns side by side (`is_paired`), or as the axes of a grid whose
+    last word varies fastest."""
+
+    values: Mapping[str, Array]
+    is_paired: bool
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """(rows,) for columns, one size for each word for a grid."""
+        sizes = tuple(each.size for each in self.values.values())
+        return sizes[:1] if self.is_paired else sizes
+
+    @property
+    def count(self) -> int:
+        """Rows altogether."""
+        total = 1
+        for size in self.shape:
+            total *= size
+        return total
+
+    def places(self, word: str, first: int, last: int) -> Places:
+        """The places of the values of a word for the rows from `first` to before `last`."""
+        if self.is_paired:
+            return numpy.arange(first, last)
+        number = list(self.values).index(word)
+        size, stride = self.shape[number], 1
+        for other in self.shape[number + 1 :]:
+            stride *= other
+        if stride > last - first and last - first <= _FEW:
+            # A stride, and the number of a row, may be beyond all that fits into memory.
+            return numpy.array([row // stride % size for row in range(first, last)], numpy.intp)
+        # Repeating what is there takes a tenth of the time of dividing row numbers.
+        if stride == 1:
+            skipped = first % size
+            return numpy.resize(numpy.arange(size), skipped + last - first)[skipped:]
+        wholes = numpy.arange(first // stride, (last - 1) // stride + 1) % size
+        skipped = first % stride
+        return numpy.repeat(wholes, stride)[skipped : skipped + last - first]
+
+    def at(self, places: Mapping[str, Places]) -> dict[str, Array]:
+        """The values at some places."""
+        return {word: values[places[word]] for word, values in self.values.items()}
+
+    def rows(self, first: int, last: int) -> "Ranges":
+        """The rows from `first` to before `last` as columns."""
+        return Ranges(self.at({word: self.places(word, first, last) for word in self.values}), True)
+
+    def row(self, places: Mapping[str, Places], number: int) -> dict[str, float]:
+        """The values of one row, from where those of some rows are."""
+        return {word: float(values[places[word][number]]) for word, values in self.values.items()}
+
+    @property
+    def is_long(self) -> bool:
+        """Whether there are too many values to prepare all of them beforehand."""
+        return self.is_paired or max(self.shape) > LONGEST
+
+
+def name_of(text: str) -> str:
+    """The name of a word, upper case; of a word of the start point, `start.X`; of a fact, its text."""
+    parts = text.split()
+    if len(parts) > 1:
+        return " ".join(parts)
+    head, dot, rest = text.strip().partition(".")
+    return f"{START}.{rest.upper()}" if dot and head.lower() == START else text.strip().upper()
+
+
+START = "start"
+
+
+def ranges_of(vary: Mapping[str, ArrayLike], *, is_paired: bool) -> Ranges:
+    """The ranges of a mapping. Raises FamilyError for what is no list of numbers."""
+    if not isinstance(vary, Mapping):
+        raise TypeError(f"vary is a mapping of words to their values, such as {{'A': [170, 180]}}, not {vary!r}")
+    if not vary:
+        raise FamilyError("no word varies; name one with its values, such as A with 170 to 190")
+    values: dict[str, Array] = {}
+    for name, each in vary.items():
+        word = name_of(name)
+        try:
+            array = numpy.atleast_1d(numpy.asarray(each, dtype=numpy.float64))
+        except (TypeError, ValueError):
+            raise FamilyError(f"the values of {name} are not numbers") from None
+        if array.ndim != 1 or not array.size:
+            raise FamilyError(f"{name} needs a list of one or more numbers, not an array of shape {array.shape}")
+        if not numpy.isfinite(array).all():
+            raise FamilyError(f"the values of {name} must be finite numbers")
+        if numpy.abs(array).max() > LARGEST:
+            value = array[numpy.abs(array).argmax()]
+            raise FamilyError(
+                f"{name} goes to {value:g}, beyond {LARGEST:,.0f}, the largest value that contoursolve reads"
+            )
+        if word in values:
+            raise FamilyError(f"{name} is named twice")
+        values[word] = array
+    sizes = {word: array.size for word, array in values.items()}
+    if is_paired and len(set(sizes.values())) > 1:
+        told = ", ".join(f"{word} has {size:,}" for word, size in sizes.items())
+        raise FamilyError(f"paired words need equally many values: {told}")
+    return Ranges(values, is_paired)
+
+
+def read_limits(word: str, within: tuple[float, float], largest: float, unit: str) -> tuple[float, float]:
+    """The range in which a word is looked at, as it is written. Raises FamilyError for one that is none, or that goes
+    beyond the largest value that is read."""
+    try:
+        low, high = map(float, within)
+    except (TypeError, ValueError):
+        raise FamilyError(f"the range of {word} is two numbers, the smaller one first, not {within!r}") from None
+    told = f"{word} from {low:g} to {high:g}"
+    if not (isfinite(low) and isfinite(high)):
+        raise FamilyError(f"{told} is no range; give two finite numbers")
+    if low >= high:
+        raise FamilyError(f"{told} is no range; the smaller number comes first")
+    if low < -largest or high > largest:
+        raise FamilyError(
+            f"{told} goes beyond {largest:,.0f} {unit}, the largest value that contoursolve reads; give a smaller range"
+        )
+    return low, high
+
+
+def stretches(count: int, size: int) -> Iterator[tuple[int, int]]:
+    """The rows from 0 to `count` in stretches of at most `size`."""
+    return ((first, min(first + size, count)) for first in range(0, count, size))
