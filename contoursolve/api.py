@@ -91,6 +91,8 @@ def solve(
         settings: conventions of the controls by `control.name` (see `contoursolve rules`); the default ones without.
         variables: values of variables by name, such as `{"#100": 95.0}`, whatever the program says of them.
         folders: where files with subprograms are, besides that of the program.
+        trust: words that are right, such as `"Z-50. A120."`: no fix changes them, and a conflict names the others.
+        reference: coordinates with which the end of the only contour is compared; they are not used.
         name: what findings call the program.
 
     Returns:
@@ -100,6 +102,7 @@ def solve(
     Raises:
         UnknownControlError: the control is unknown, or the program does not tell it.
         FactPlaceError: facts for a program of several contours.
+        NamedWordError: a trusted word is not there, or a reference cannot be compared.
         SettingError: there is no such setting, or it has no such value.
         ValueError: units, rules or depth is none of its choices.
 

@@ -233,8 +233,29 @@ apart_options = together(
 )
 """The options for what is stated apart from a program file."""
 
+named_options = together(
+    click.option(
+        "--trust",
+        "trust",
+        multiple=True,
+        metavar="WORDS",
+        help='Words that are right, such as "Z-50. A120.": no fix changes them, and a conflict names the others. In a '
+        "program, write the comment (contoursolve trust: Z-50. A120.); may be repeated.",
+    ),
+    click.option(
+        "--reference",
+        "reference",
+        multiple=True,
+        metavar="WORDS",
+        help='Coordinates of the contour\'s end, such as "Z-50.": not used, only compared. In a program, write the '
+        "comment (contoursolve reference: Z-50.) beside the block that ends there; may be repeated.",
+    ),
+)
+"""The options for words that are named, about which something is said."""
+
 common_options = together(
     apart_options,
+    named_options,
     control_option("The control. Without it, contoursolve finds it from the program where that is clear."),
     units_option,
     rules_option,
@@ -252,6 +273,8 @@ _SHARED = {
     "blocks": "--block",
     "start": "--start",
     "facts": "--fact",
+    "trust": "--trust",
+    "reference": "--reference",
     "variables": "--let",
     "folders": "--path",
     "control": "--control",

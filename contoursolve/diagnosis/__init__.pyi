@@ -43,6 +43,9 @@ from .fill import (
 from .legality_table import (
     tabulate as tabulate,
 )
+from .references import (
+    compare_reference as compare_reference,
+)
 from .repairs import (
     find_repairs as find_repairs,
 )

@@ -131,6 +131,8 @@ class Trial(Struct, frozen=True):
 
     def repair(self, edits: tuple[Edit, ...]) -> Repair | None:
         """The repair with the reasons for it, if it is one."""
+        if any(edit.span in self.claim.trusted for edit in edits):
+            return None
         if self.reach is not None and self.reach.leaves_a_problem(edits):
             return None
         repair = self._solve(edits)

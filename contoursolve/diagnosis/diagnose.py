@@ -222,7 +222,8 @@ def _reasons(
             about = addresses if finding.about in SINGULAR else addresses.intersection(finding.addresses)
             if about and about <= {*finding.addresses}:
                 is_about_direction = is_opposite or _is_turned(answer, ties, circuit)
-                yield from conflict_reasons(profile, affine, circuit, is_about_direction=is_about_direction)
+                trusted = answer.claim.trusted
+                yield from conflict_reasons(profile, affine, circuit, trusted, is_about_direction=is_about_direction)
     if finding.about in _ABOUT_FREEDOM:
         lost = _points_lost(profile, affine) if affine is not None else set()
         yield from freedom_reasons(profile, [each for each in diagnosis.freedoms if each.point not in lost])

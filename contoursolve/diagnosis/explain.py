@@ -113,6 +113,8 @@ class Context(Struct, frozen=True, dict=True):
     words: Mapping[str, Word] = field(default_factory=dict)
     place: Span = _BEGINNING
     """The place to point at if no word is to blame."""
+    trusted: frozenset[Span] = frozenset()
+    """The places of words that are said to be right: a finding points at the others."""
 
     @cached_property
     def typed(self) -> Mapping[str, str]:
@@ -135,7 +137,11 @@ class Context(Struct, frozen=True, dict=True):
 def context_of(claim: ParsedContour, rules: tuple[Rule, ...]) -> Context:
     """The context of a contour; it begins where its first block does, and rows of its own roles come first."""
     return Context(
-        _own_first(rules, claim.form.roles), claim.after.unit, {**claim.kept, **claim.words}, claim.blocks[0].span
+        _own_first(rules, claim.form.roles),
+        claim.after.unit,
+        {**claim.kept, **claim.words},
+        claim.blocks[0].span,
+        claim.trusted,
     )
 
 
@@ -168,16 +174,18 @@ def report(
         **fields,
     }
     texts = list(labels) + [""] * len(spans)
+    marked = [Label(span, note) for span, note in zip(spans, texts, strict=False)]
+    marked.sort(key=lambda label: label.span in context.trusted)
     return Diagnostic(
         code=rule.code,
         severity=rule.severity,
         basis=basis,
-        span=spans[0],
+        span=marked[0].span,
         message=rule.message.format_map(stated),
         help=rule.help.format_map(stated),
         source=rule.source,
         alarm=rule.alarm,
-        labels=tuple(Label(span, note) for span, note in zip(spans, texts, strict=False)),
+        labels=tuple(marked),
         addresses=tuple(dict.fromkeys(word.address for word in blamed)),
         values=values or {},
         about=rule.about,
@@ -443,10 +451,34 @@ def explain_result(
         if rooms and not any(each.startswith("write") for each in advice):
             advice += _for_both(values, profile.unit)
         fields["smaller"] = ", or ".join(advice) or f"make the corners smaller, to need {fields['off']} less together"
-    finding = report(context, event.kind, Basis.NUMERICAL, words, values, labels, **fields)
+    finding = _against_trusted(context, event, words, values, profile, fields)
+    finding = finding or report(context, event.kind, Basis.NUMERICAL, words, values, labels, **fields)
     if isinstance(event, Refusal):
         finding = _with_what_helps(finding, event, values, asked, profile)
     return replace(finding, notes=finding.notes + notes)
+
+
+def _against_trusted(
+    context: Context,
+    event: Refusal | Note,
+    words: Sequence[Word],
+    values: Mapping[str, float],
+    profile: Profile,
+    fields: Mapping[str, str],
+) -> Diagnostic | None:
+    """The finding that others disagree with words which are right; None where these are not right, or all others are,
+    too."""
+    is_trusted = bool(words) and {word.span for word in words} <= context.trusted
+    if not is_trusted or event.kind not in SAID_AGAIN or not isinstance(event, Refusal):
+        return None
+    others = [word for word in _tied_words(event, profile) if word.span not in context.trusted]
+    if not others:
+        return None
+    wrong, trusted = (join([word.text for word in each]) for each in (others, words))
+    verb = "disagree" if len(others) > 1 else "disagrees"
+    finding = report(context, event.kind, Basis.NUMERICAL, [*words, *others], values, **fields)
+    message = f"{wrong} {verb} with {trusted}, which you trust, by {fields['off']}"
+    return replace(finding, message=message, help=f"correct {wrong}")
 
 
 def _off(event: Refusal | Note, turned: float | None, unit: Length, profile: Profile, *, is_diameter: bool) -> str:
@@ -575,14 +607,19 @@ def _causes(asked: Word, profile: Profile) -> Iterator[str]:
                     yield word.text
 
 
-def _others(event: Refusal | Note, profile: Profile) -> dict[str, str]:
-    """The words and facts from which a word or a fact follows, or else all others, and their verbs."""
+def _tied_words(event: Refusal | Note, profile: Profile) -> list[Word]:
+    """The words and facts from which a word or a fact follows."""
     from contoursolve.solving import tied_with  # noqa: PLC0415 - few blocks say anything twice
 
     system = assemble(profile)
     facts = [fact for fact in profile.facts if fact.given == event.subject]
     names = [name for fact in facts for name in tied_with(system, fact) if name != event.subject]
-    words = [word for word in (profile.givens[name].word for name in dict.fromkeys(names)) if word]
+    return [word for word in (profile.givens[name].word for name in dict.fromkeys(names)) if word]
+
+
+def _others(event: Refusal | Note, profile: Profile) -> dict[str, str]:
+    """The same in words, or else all others, and their verbs."""
+    words = _tied_words(event, profile)
     if len(words) == 1:
         return {"others": words[0].text, "they": words[0].text, "give": "gives"}
     are_named = profile.is_extended or len(words) <= _FEW

@@ -3,7 +3,7 @@
 import json
 import pkgutil
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
@@ -18,7 +18,7 @@ from contoursolve.diagnosis.wording import (
     place_text,
     statement_text,
 )
-from contoursolve.diagnostics import Diagnostic, Freedom
+from contoursolve.diagnostics import Diagnostic, Freedom, Span
 from contoursolve.geometry import FIRST, SECOND, Arc, Fact, Line, Profile, assemble, scalar
 from contoursolve.solving import (
     AffineFacts,
@@ -59,9 +59,15 @@ def _shipped() -> dict[str, str]:
 
 
 def conflict_reasons(
-    profile: Profile, affine: AffineFacts, circuit: Circuit, *, is_about_direction: bool
+    profile: Profile,
+    affine: AffineFacts,
+    circuit: Circuit,
+    trusted: Container[Span] = (),
+    *,
+    is_about_direction: bool,
 ) -> Iterator[str]:
-    """Sentences on where the facts of a circuit put their point, and how far apart.
+    """Sentences on where the facts of a circuit put their point, and how far apart; nobody needs to change words at
+    `trusted` places.
 
     The last fact that is not an angle is compared with the others, because a place can be compared; where a direction
     is only opposite (`is_about_direction`), no place tells.
@@ -89,7 +95,9 @@ def conflict_reasons(
             f"and {given.word.text if given.word else 'what is not written'} puts it at "
             f"{place_text(profile, {scalar(point, axis): own})}: {ending}"
         )
-    agreeing = [text for fact in circuit.facts if (text := _agreeing(profile, affine, circuit, fact))]
+    places_of = {name: given.word.span for name, given in profile.givens.items() if given.word}
+    others = [fact for fact in circuit.facts if places_of.get(fact.given) not in trusted]
+    agreeing = [text for fact in others if (text := _agreeing(profile, affine, circuit, fact))]
     if (is_apart or is_about_direction) and agreeing:
         several = f"change one: {', '.join(agreeing[:-1])} or {agreeing[-1]}"
         yield several if len(agreeing) > 1 else f"write {agreeing[0]} instead"

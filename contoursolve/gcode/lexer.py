@@ -8,7 +8,7 @@ from typing import overload
 
 from contoursolve.diagnostics import Span
 from contoursolve.gcode.syntax import ISO, Syntax
-from contoursolve.gcode.word import Block, Directive, Fault, FaultKind, Macro, Program, Word
+from contoursolve.gcode.word import Block, Directive, Fault, FaultKind, Macro, Named, NamedAs, Program, Word
 
 LONGEST_BLOCK = 2_000
 """Characters of a block outside comments; no control reads more, and a listing shows no more."""
@@ -101,10 +101,12 @@ def parse_block(text: str, line: int, syntax: Syntax = ISO) -> Block:
     looks = text.translate(_READ_AS)
     directives: list[Directive] = []
     unmarked: list[Directive] = []
+    named: list[Named] = []
     skip = syntax.skip.match(text)
     for token in syntax.token.finditer(looks, skip.end() if skip else 0):
         shape = token.lastgroup
         if shape == "comment":
+            named += _named(token[0], line, token.start(), syntax)
             directives += _directives(token[0], line, token.start(), syntax)
             unmarked += _unmarked(token[0], line, token.start(), syntax)
         elif looks != text:
@@ -135,6 +137,7 @@ def parse_block(text: str, line: int, syntax: Syntax = ISO) -> Block:
         tuple(faults),
         directives=tuple(directives),
         unmarked=tuple(unmarked),
+        named=tuple(named),
         is_skippable=skip is not None,
         syntax=syntax,
     )
@@ -177,6 +180,14 @@ def read_directive(text: str, line: int, column: int = 1) -> Directive:
     return Directive(text.strip(), Span(line, begin, begin + max(len(text.strip()), 1)))
 
 
+def read_named(role: NamedAs, text: str, syntax: Syntax, line: int = 0, column: int = 1) -> Named:
+    """Words that are named on a line, from a column on, as a syntax spells them, with signs between them or none; no
+    words where anything else is there."""
+    block = parse_block(" " * (column - 1) + _BETWEEN_WORDS.sub(" ", text), line, syntax)
+    words = () if block.faults or block.macro else block.words
+    return Named(role, text.strip(), words, read_directive(text, line, column).span)
+
+
 def looks_like(character: str) -> str:
     """The character that one looks like on a screen, where it is another one."""
     return character.translate(_READ_AS) if len(character) == 1 else character
@@ -185,7 +196,7 @@ def looks_like(character: str) -> str:
 def _directives(comment: str, line: int, offset: int, syntax: Syntax) -> list[Directive]:
     """The facts in a comment, separated by semicolons."""
     match = _DIRECTIVE.match(comment)
-    if match is None or not comment.startswith(syntax.remark[0]):
+    if match is None or _NAMED.match(comment) or not comment.startswith(syntax.remark[0]):
         return []
     found, at = [], match.end()
     told = comment[at:].removesuffix(")") if "(" in match[0] else comment[at:]
@@ -196,6 +207,19 @@ def _directives(comment: str, line: int, offset: int, syntax: Syntax) -> list[Di
     return found
 
 
+def _named(comment: str, line: int, offset: int, syntax: Syntax) -> list[Named]:
+    """The words that a comment names."""
+    match = _NAMED.match(comment)
+    if match is None:
+        return []
+    text = comment[match.end() :].removesuffix(")") if "(" in match[0] else comment[match.end() :]
+    return [read_named(NamedAs(match["role"].lower()), text, syntax, line, offset + match.end() + 1)]
+
+
+_BETWEEN_WORDS = re.compile(r";|,(?=\s)|,$")
+_NAMED = re.compile(
+    r"(?:\(|;\s*+\(?+)\s*+contoursolve\s*+:?+\s*+(?P<role>trust|reference)(?:ed|d|s)?+(?:\s*+:|(?=\s))", re.IGNORECASE
+)
 _DIRECTIVE = re.compile(r"(?:\(|;\s*+\(?+)\s*+contoursolve\s*+:", re.IGNORECASE)
 _UNMARKED = re.compile(r"[(;]\s*+c\w*tour[\s_-]*+sol\w*+(?P<gap>[\s:;.,=-]*+)(?P<fact>[^)]*+)", re.IGNORECASE)
 _STATES = re.compile(r"=|passes\s++through|tangent\s++to|meets", re.IGNORECASE)
@@ -204,7 +228,7 @@ _STATES = re.compile(r"=|passes\s++through|tangent\s++to|meets", re.IGNORECASE)
 def _unmarked(comment: str, line: int, offset: int, syntax: Syntax) -> list[Directive]:
     """A comment that begins almost like one that states facts, as it would have to be written."""
     match = _UNMARKED.match(comment)
-    if match is None or (_DIRECTIVE.match(comment) and comment.startswith(syntax.remark[0])):
+    if match is None or _NAMED.match(comment) or (_DIRECTIVE.match(comment) and comment.startswith(syntax.remark[0])):
         return []
     fact = match["fact"]
     if not _STATES.search(fact):

@@ -124,6 +124,25 @@ def call(word: Word, words: Sequence[Word]) -> str:
     return word.address if is_alone else f"{word.span.line}:{word.address}"
 
 
+class NamedAs(Enum):
+    """The part that words play which a comment names for contoursolve alone."""
+
+    TRUST = "trust"
+    """They are right: no fix changes them."""
+    REFERENCE = "reference"
+    """They are compared with the contour, and not used."""
+
+
+class Named(Struct, frozen=True):
+    """Words that a comment names for contoursolve alone, `(contoursolve trust: Z-50. A120.)`, or that are named apart
+    from the program, on a line below 1; none where the comment cannot be read as words."""
+
+    role: NamedAs
+    text: str
+    words: tuple[Word, ...]
+    span: Span
+
+
 class Macro(Enum):
     """Macro statements that a block may consist of."""
 
@@ -165,6 +184,7 @@ class Block(Shown, Struct, frozen=True):
     directives: tuple[Directive, ...] = ()
     unmarked: tuple[Directive, ...] = ()
     """Comments that look like facts, but lack the mark: what would have to be written."""
+    named: tuple[Named, ...] = ()
     is_skippable: bool = False
     """The block begins with `/`: a switch at the machine decides whether it runs."""
     syntax: Syntax = ISO

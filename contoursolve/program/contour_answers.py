@@ -8,6 +8,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer, Depth, examine
 from contoursolve.diagnostics import Severity
 from contoursolve.gcode import Block
+from contoursolve.program.named_words import mark_trusted, with_named_words
 from contoursolve.program.outside_contours import NEAR
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Pending
@@ -75,7 +76,9 @@ class Answers:
 
     def examine(self, found: ParsedContour, pending: Pending) -> Answer:
         """The answer to what is read as a contour is."""
-        return explained(self.asked, self.dialect, answer_to(self.asked, self.dialect, found, pending), pending)
+        found = mark_trusted(found, self.asked)
+        answer = explained(self.asked, self.dialect, answer_to(self.asked, self.dialect, found, pending), pending)
+        return with_named_words(answer, self.asked)
 
 
 class AnswersInPasses(Answers):
@@ -99,12 +102,12 @@ class AnswersInPasses(Answers):
         return self._known[key]
 
     def examine(self, found: ParsedContour, pending: Pending) -> Answer:
-        answer = answer_to(self.asked, self.dialect, found, pending)
+        answer = answer_to(self.asked, self.dialect, mark_trusted(found, self.asked), pending)
         if _is_wrong(answer) and self._is_late(found.blocks[0]):
             note = f"only the first {MOST_EXPLAINED} wrong results of a contour are explained; this is a later one"
             noted = (replace(each, notes=(*each.notes, note)) for each in answer.diagnostics)
             return replace(answer, diagnostics=tuple(noted))
-        return explained(self.asked, self.dialect, answer, pending)
+        return with_named_words(explained(self.asked, self.dialect, answer, pending), self.asked)
 
     def _is_late(self, first: Block) -> bool:
         """Whether enough results of a contour, of which this is the first block, are explained; it is wrong again."""

@@ -14,6 +14,7 @@ from contoursolve.execution import EventKind, ProgramEvent
 from contoursolve.gcode import Block, Passage
 from contoursolve.program.contour_answers import BEHIND, Answers, AnswersInPasses
 from contoursolve.program.lookahead import Line, Lookahead, View, each_block, says_something
+from contoursolve.program.named_words import untouched
 from contoursolve.program.outside_contours import (
     NEAR,
     findings_of_arc,
@@ -138,7 +139,8 @@ class Examination:
             findings = (*here.findings, *found)
         else:
             found = findings_of_block(asked, block, apply_modes(here.state, block, modes), here.previous)
-            findings = tuple(with_slips(asked, view, states, here.previous, [*here.findings, *found]))
+            told = [*here.findings, *found]
+            findings = untouched(with_slips(asked, view, states, here.previous, told), blocks, asked)
         previous = ((block,), here.state) if block.words else here.previous
         behind = Cursor(states[1], here.marks, here.count, previous)
         return WalkStep(Step(blocks, here.state, findings=findings), len(blocks), lambda: behind)

@@ -27,6 +27,7 @@ from contoursolve.gcode import ISO, Block, Blocks, Program, Syntax, parse, parse
 from contoursolve.geometry import Length, Plane
 from contoursolve.program.agreeing_controls import choose_alike
 from contoursolve.program.examination import Cursor, Examination
+from contoursolve.program.named_words import has_named, is_named_for_all
 from contoursolve.program.no_contour import conclusions, nothing_to_solve
 from contoursolve.program.pipeline import Result, run
 from contoursolve.program.project_file import CONTROL, FIRST_LINES, SettingError, stated_settings
@@ -287,7 +288,7 @@ class OpenProgram:
         if first < FIRST_LINES or self.trouble or is_shown or self._concludes_otherwise([*gone, *new]):
             self._choose()
         is_run = self.dialect is not None and (
-            self._examination is None or needs_running(new, self.dialect.modes.language)
+            self._examination is None or needs_running(new, self.dialect.modes.language) or any(map(has_named, new))
         )
         if old is None or self.dialect is None or is_run or not _alike(old, self.dialect):
             self._begin()
@@ -346,12 +347,20 @@ class OpenProgram:
         self._diagnostics, self._walk, self._parts, self._moves, self._examination = None, None, [], [], None
         if self.dialect is not None:
             self._lines.spell(self.dialect.modes.syntax)
-        # A program that calls or computes is examined as a whole.
-        if self.dialect is not None and not needs_running(self._lines.texts, self.dialect.modes.language):
+        # A program that calls or computes is examined as a whole, or that names words for all of it.
+        if (
+            self.dialect is not None
+            and not needs_running(self._lines.texts, self.dialect.modes.language)
+            and not any(map(is_named_for_all, (self._lines[at] for at in self._marked_lines())))
+        ):
             asked = replace(self._asked, dialect=self.dialect)
             self._examination = Examination(asked, self.dialect, goes_on=True)
             known = self._examination.begin
             self._parts = [_Part(known, len(self._lines), is_stale=True), _Part(known, 0)]
+
+    def _marked_lines(self) -> Iterator[int]:
+        """The indices of the lines that may name words."""
+        return (at for at, line in enumerate(self._lines.texts) if has_named(line))
 
     def _make_stale(self, first: int, last: int, more: int) -> None:
         """The lines from an index to another are others now, and so many more."""

@@ -30,6 +30,7 @@ from contoursolve.diagnosis import (
 from contoursolve.diagnostics import Basis, Diagnostic, Severity
 from contoursolve.gcode import Block, FaultKind, Word, has_lookalike_code
 from contoursolve.program.lookahead import View
+from contoursolve.program.named_words import named_outside
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Pending, Previous, Step
 from contoursolve.reading import (
@@ -97,7 +98,7 @@ def findings_of_block(
 
 def _is_clean(block: Block, dialect: Dialect, here: State | None) -> bool:
     """Whether a block has words alone, each once, all as usual and all read: there is nothing to say then."""
-    if block.faults or block.directives or block.unmarked:
+    if block.faults or block.directives or block.unmarked or block.named:
         return False
     addresses, modes = [word.address for word in block.words], dialect.modes
     own = {*_OF_ARCS, modes.radius} if here is not None and here.motion in _ARCS else set[str]()
@@ -127,6 +128,7 @@ def _of_facts(asked: Request, block: Block) -> Iterator[Diagnostic]:
     for directive in block.directives:
         place = Context(asked.rules, asked.unit, place=directive.span)
         yield report(place, place.row(ReadIssue.FACT_NOWHERE), Basis.RULE, [])
+    yield from named_outside(asked, block)
 
 
 def _of_vocabulary(

@@ -15,6 +15,7 @@ from contoursolve.program.calls import machine_for
 from contoursolve.program.cycle_profiles import CycleProfile
 from contoursolve.program.examination import Examination, tell
 from contoursolve.program.lookahead import Line
+from contoursolve.program.named_words import has_named, with_named
 from contoursolve.program.no_contour import conclusions, look_without_control, nothing_to_solve
 from contoursolve.program.recognise import begins_for_another
 from contoursolve.program.request import Request
@@ -126,6 +127,11 @@ class Run:
         if dialect is not None:
             program = spelled(program, dialect.modes.syntax)
         program, facts = attach(program, asked)
+        self._beside: tuple[Diagnostic, ...] = ()
+        if dialect is not None and (asked.named or has_named(program.text)):
+            asked, self._beside = with_named(asked, dialect, program)
+            # Contours that are solved together say nothing of words that are named.
+            together = None
         self.frame = Result(
             program,
             dialect.name if dialect else None,
@@ -153,6 +159,7 @@ class Run:
             return
         if own is not None:
             yield from conclusions(asked, blocks)
+        yield from self._beside
         for step in self._steps():
             is_told = is_told or any(each.is_error or each.about in ELSEWHERE for each in step.findings)
             yield from step.findings

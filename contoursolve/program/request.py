@@ -13,7 +13,7 @@ from contoursolve.controls import COMMON_RULES, DIALECTS
 from contoursolve.diagnosis import Depth, Policy
 from contoursolve.diagnostics import choice_of
 from contoursolve.execution import ALONE, Surroundings, check_names, surroundings_of
-from contoursolve.gcode import Directive, Program, parse, read_directive, spelled
+from contoursolve.gcode import ISO, Directive, Named, NamedAs, Program, parse, read_directive, read_named, spelled
 from contoursolve.geometry import Length
 from contoursolve.program.called_files import blocks_of_called_files
 from contoursolve.reading import Dialect, Rule
@@ -38,6 +38,8 @@ class Request(Struct, frozen=True):
     """A block that states the start point apart from the program; its line is line 0."""
     facts: tuple[Directive, ...] = ()
     """Further facts about the only contour; their lines are -1, -2, ..."""
+    named: tuple[Named, ...] = ()
+    """Words that are named for the whole program: those that are right, and those that are compared."""
     around: Surroundings = ALONE
     """The values of variables, and where subprograms are."""
     is_strict: bool = False
@@ -80,13 +82,20 @@ class ProgramKeywords(ReadingKeywords, total=False):
     folders: "Iterable[str | Path]"
 
 
-class SolveKeywords(ProgramKeywords, total=False):
+class FindingKeywords(ProgramKeywords, total=False):
+    """These, and words about which something is said."""
+
+    trust: "str | Iterable[str]"
+    reference: "str | Iterable[str]"
+
+
+class SolveKeywords(FindingKeywords, total=False):
     """These, and how far findings are explained."""
 
     depth: str
 
 
-class CheckKeywords(ProgramKeywords, total=False):
+class CheckKeywords(FindingKeywords, total=False):
     """Those without it, and whether all findings are told."""
 
     strict: bool
@@ -108,6 +117,8 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     settings: "Mapping[str, str] | None" = None
     variables: "Mapping[str, float] | None" = None
     folders: "Iterable[str | Path]" = ()
+    trust: "str | Iterable[str]" = ()
+    reference: "str | Iterable[str]" = ()
     strict: bool = False
 
     def request(self, name: str, dialect: Dialect | None = None) -> Request:
@@ -121,6 +132,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
             choice_of(Depth, self.depth, "depth"),
             parse(self.start, name, first_line=0) if self.start is not None else None,
             tuple(_fact(fact, -number) for number, fact in enumerate(several, 1)),
+            tuple(_named(NamedAs.TRUST, self.trust) + _named(NamedAs.REFERENCE, self.reference)),
             surroundings_of(name, self.variables, self.folders),
             self.strict,
         )
@@ -157,6 +169,11 @@ def takes(keywords: type[ReadingKeywords]) -> Callable[[Callable[P, T]], Callabl
         return checked
 
     return with_keywords
+
+
+def _named(role: NamedAs, texts: "str | Iterable[str]") -> list[Named]:
+    """Words that are named apart from a program, as they are typed; its control reads them."""
+    return [read_named(role, text, ISO) for text in ([texts] if isinstance(texts, str) else texts)]
 
 
 def _fact(fact: "str | Statement", line: int) -> Directive:

@@ -63,6 +63,10 @@ class ReadIssue(Enum):
     FACT_NOWHERE = "fact-nowhere"
     FACT_UNMARKED = "fact-unmarked"
     FACT_BEYOND = "fact-beyond"
+    TRUSTED_ABSENT = "trusted-absent"
+    REFERENCE_MET = "reference-met"
+    REFERENCE_MISSED = "reference-missed"
+    REFERENCE_UNUSED = "reference-unused"
     FACTS_SINGULAR = "facts-singular"
     START_UNITS = "start-units"
     START_DIAMETER = "start-diameter"
@@ -128,6 +132,8 @@ class ParsedContour:
     block."""
     lasting: frozenset[str] = frozenset()
     """Names of words that stay in force behind their block, whether they state anything in it or not."""
+    trusted: frozenset[Span] = frozenset()
+    """The places of the words that are said to be right."""
     doubts: Mapping[Mode | str, str] = field(default_factory=dict)
     """The modes that are not known to be in force in some of its blocks, and why (see `State`)."""
 
