@@ -9,15 +9,16 @@ from contoursolve.diagnosis.explain import context_of, report
 from contoursolve.diagnosis.wording import length_text
 from contoursolve.diagnostics import Basis, Diagnostic
 from contoursolve.gcode import Block, Named, Word
+from contoursolve.geometry import Length
 from contoursolve.reading import ReadIssue, Rule
 from contoursolve.solving import Point
-from contoursolve.tolerance import INCREMENT
+from contoursolve.tolerance import INCREMENT, INCREMENT_INCH
 
 
 def compare_reference(
     answer: Answer, named: Named, block: Block | None, rules: tuple[Rule, ...]
 ) -> Iterator[Diagnostic]:
-    """What is said of the words that are named as references: those beside a block of the contour are compared with the
+    """The findings about words that are named as references: those beside a block of the contour are compared with the
     end of what that block draws, a virtual intersection where a corner follows, all others with the end of the contour.
 
     Within half an increment a word is met. A word that states no coordinate is refused.
@@ -43,7 +44,7 @@ def compare_reference(
         stated = float(answer.claim.lexicon.value(word, answer.unit) or 0) * width
         actual = point[axis] * width
         off = abs(actual - stated)
-        is_met = off <= INCREMENT / 2
+        is_met = off <= (INCREMENT_INCH if answer.unit is Length.INCH else INCREMENT) / 2
         yield report(
             context,
             ReadIssue.REFERENCE_MET if is_met else ReadIssue.REFERENCE_MISSED,

@@ -94,7 +94,7 @@ def _absent(named: Named, there: Iterable[Word], where: str) -> str:
 
 
 def _key(word: Word) -> object:
-    """What two spellings of one word have in common."""
+    """The key of a word, which two spellings of it have in common."""
     return word.address, word.number if word.number is not None else word.text.strip(), word.has_point, word.is_asked
 
 
@@ -115,7 +115,7 @@ def mark_trusted(found: ParsedContour, asked: Request) -> ParsedContour:
 
 
 def with_named_words(answer: Answer, asked: Request) -> Answer:
-    """An answer with what is said of the words that are named for it, and without fixes that change trusted ones."""
+    """An answer with the findings about the words that are named for it, and without fixes that change trusted ones."""
     claim = answer.claim
     beside = [(block, each) for block in claim.blocks if says_something(block) for each in block.named]
     references: list[tuple[Block | None, Named]] = [
@@ -140,7 +140,7 @@ def with_named_words(answer: Answer, asked: Request) -> Answer:
 
 
 def named_outside(asked: Request, block: Block) -> Iterator[Diagnostic]:
-    """What is said of the words that a comment names beside a block that is no contour."""
+    """The findings about words that a comment names beside a block that is no contour."""
     for each in block.named if says_something(block) else ():
         about, reason = ReadIssue.REFERENCE_UNUSED, "there is no contour in this line"
         if each.role is NamedAs.TRUST:
