@@ -16,6 +16,7 @@ from contoursolve.cli.options import (
     files_named,
     follow,
     load,
+    named_options,
     status_of,
 )
 from contoursolve.cli.printing import print_lines, print_pieces, say, style_of_output
@@ -44,6 +45,7 @@ _NOTHING = "nothing"
 @click.command(short_help="Report findings only, for any number of programs.")
 @click.argument("programs", nargs=-1, metavar="PROGRAM...")
 @common_options
+@named_options
 @click.option(
     "--format",
     "format_",

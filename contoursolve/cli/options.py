@@ -255,7 +255,6 @@ named_options = together(
 
 common_options = together(
     apart_options,
-    named_options,
     control_option("The control. Without it, contoursolve finds it from the program where that is clear."),
     units_option,
     rules_option,

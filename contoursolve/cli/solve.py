@@ -9,6 +9,7 @@ from contoursolve.cli.options import (
     explain_option,
     follow,
     load,
+    named_options,
     status_of,
 )
 from contoursolve.cli.printing import print_lines, print_pieces, style_of_output
@@ -19,6 +20,7 @@ from contoursolve.output import Totals, closing_lines, stream_json, stream_listi
 @click.command(short_help="Solve every contour block of a program.")
 @click.argument("program", required=False)
 @common_options
+@named_options
 @click.option(
     "--format",
     "format_",
