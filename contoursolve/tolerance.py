@@ -33,7 +33,7 @@ contour: the other half is for its own words."""
 
 INCREMENT, INCREMENT_INCH, INCREMENT_ANGLE = 0.001, 0.0001 * 25.4, 0.001
 """mm, mm of a program in inches, degrees. The least increments of the controls. What a word gives is exact to half of
-its own; that of a diameter counts half as a radius (see `solving.compare.allowance`)."""
+its own; that of a diameter counts half as a radius (see `Fact.allowance`)."""
 
 AGREEMENT = 0.001
 """mm or degrees. Facts of other kinds than words agree within this."""

@@ -42,7 +42,7 @@ from contoursolve.geometry import (
 )
 from contoursolve.numeric import Array, direction, pinv, svd
 from contoursolve.reading import Dialect, ParsedContour, offences_of, read, unused_words
-from contoursolve.tolerance import AGREEMENT, ERROR_BOUND_WARNING, LARGEST, LENGTH, RESIDUAL
+from contoursolve.tolerance import ERROR_BOUND_WARNING, LARGEST, LENGTH, RESIDUAL
 
 ROUNDING = 16 * 2.0**-52
 """1 (share of the sizes that take part). The rounding of a handful of operations on doubles."""
@@ -54,7 +54,7 @@ MOST_WAYS = 32
 """In which claimed elements are taken for those of the words, where some of these have no length."""
 
 
-class Case(Struct, frozen=True):
+class Case(Struct, frozen=True, dict=True):
     """Words of a contour, read with the tables of its control, and the claims about it.
 
     `blank` has the values of givens alone, counted from `origin`, the start point. Reading alone tells that words are
@@ -96,14 +96,14 @@ class Case(Struct, frozen=True):
         subjects = dict.fromkeys(name.rpartition(".")[0] or name for name in fact.reads())
         return fact.phrase(axes, ()) or f"what is stated about {', '.join(subjects)}"
 
-    def allowance(self, fact: Fact, at: Values) -> float:
-        """The allowed difference of a fact from the others, mm: coordinates and words are exact to half of their
-        increments."""
-        if fact.circle is not None and not fact.given:
-            return fact.circle.slack
-        steps = self.profile.increments
-        reach = fact.reach(at, lambda name: steps.get(INCREMENT_OF + name, 0.0))
-        return AGREEMENT if reach is None else float(reach) / 2 + RESIDUAL
+    def increment(self, name: str) -> float:
+        """The least increment of a coordinate by its axis, or of a value by its name; 0 of what no word states."""
+        return self.increments.get(INCREMENT_OF + name, 0.0)
+
+    @cached_property
+    def increments(self) -> dict[str, float]:
+        """The least increments of the control, see `Profile.increments`."""
+        return self.profile.increments
 
 
 def prepare(
@@ -180,7 +180,7 @@ class Measured(Struct, frozen=True, dict=True):
 
     def off(self, fact: Fact) -> tuple[float, float]:
         """The error of a fact, and its limit, mm."""
-        off, allowance = self.place.error(fact), self.case.allowance(fact, self.place.at)
+        off, allowance = self.place.error(fact), fact.allowance(self.place.at, self.case.increment)
         allowed = max(self.limit, allowance) if fact in self.spare else self.limit
         if fact not in self.case.profile.facts:
             # A corner is cut in the stated direction, which is exact to its increment only.

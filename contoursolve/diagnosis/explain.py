@@ -45,7 +45,6 @@ from contoursolve.solving import (
     Status,
     Topic,
     against_angles,
-    allowance,
     compare,
     dropped_corners,
     events_about,
@@ -264,7 +263,7 @@ def explain_ignored(context: Context, offence: Offence, profile: Profile, soluti
     comparison = "; they leave it no value to have"
     label = ""
     if expected is not None:
-        comparison = _compared(values, allowance(fact, at, increments_of(profile)), context.unit)
+        comparison = _compared(values, fact.allowance(at, increments_of(profile)), context.unit)
         label = f"ignored; the line runs at {angle_text(expected)}"
     return report(context, offence.rule, Basis.NUMERICAL, [word], values, [label], comparison=comparison)
 

@@ -8,6 +8,7 @@ from msgspec import Struct, field
 
 from contoursolve.geometry.figure import FIRST, SECOND, line_scalars, scalar
 from contoursolve.numeric import FLOATS, Created, Functions
+from contoursolve.tolerance import AGREEMENT, RESIDUAL
 
 
 class Lookup(Protocol):
@@ -162,6 +163,12 @@ class Fact:
         """The distance by which it moves with the last digit of each coordinate and word in it, mm; None where no word
         alone states it."""
         return None
+
+    def allowance(self, at: Lookup, increment: Increments) -> Any:
+        """The distance by which it may miss other facts, mm: every coordinate and every word is exact to half its
+        increment."""
+        reach = self.reach(at, increment)
+        return AGREEMENT if reach is None else reach / 2 + RESIDUAL
 
     def follows(self, _known: Incidence, _at: Lookup) -> Iterator[Any]:
         """Expressions that are zero wherever it holds in its senses, together with the points on its lines and circles,

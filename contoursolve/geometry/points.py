@@ -177,6 +177,9 @@ class OnCircle(Fact, Struct, frozen=True):
             else f"{self.point} on the circle about {self.center}"
         )
 
+    def allowance(self, at: Lookup, increment: Increments) -> Any:
+        return Fact.allowance(self, at, increment) if self.given else self.slack
+
     def excess(self, at: Lookup) -> Any:
         return apart(at, self.center, self.point) - at.radius(self.radius)
 

@@ -43,7 +43,6 @@ from .checks import (
 )
 from .closed_steps import is_searched as is_searched
 from .compare import (
-    allowance as allowance,
     compare as compare,
     compare_affine as compare_affine,
     increments_of as increments_of,

@@ -32,17 +32,10 @@ QUARTER_TURN, FULL_TURN = 90.0, 360.0
 """Degrees."""
 
 
-def allowance(fact: Fact, at: Values, increment: Increments) -> Any:
-    """The distance by which a fact may miss the others, mm: every coordinate and every word is exact to half its
-    increment."""
-    reach = fact.reach(at, increment)
-    return AGREEMENT if reach is None else reach / 2 + RESIDUAL
-
-
 def agreement(fact: Fact, off: Any, at: Values, increment: Increments, figure: Figure) -> Iterator[Any]:
     """Margins that are not below 0 (mm) where a fact agrees that was not needed and is off by so much at these points;
     numbers or expressions."""
-    limit, excess = allowance(fact, at, increment), fact.excess(at)
+    limit, excess = fact.allowance(at, increment), fact.excess(at)
     larger = at.functions.larger
     if fact.circle is not None and not fact.given:
         # The residual is the difference of the radii to first order only.
@@ -81,7 +74,7 @@ def is_conflict(circuit: Circuit, profile: Profile, affine: AffineFacts) -> bool
     fixed = affine.fixed_by(circuit.facts[:-1])
     if not fixed.keys() >= {*assemble(profile).unknowns_of(last)}:
         return circuit.off[-1] > AGREEMENT
-    return circuit.off[-1] > float(allowance(last, lookup(profile, fixed), increments_of(profile)))
+    return circuit.off[-1] > float(last.allowance(lookup(profile, fixed), increments_of(profile)))
 
 
 def is_directed(fact: Fact, figure: Figure) -> bool:
