@@ -271,10 +271,14 @@ def nearest_of_determined(profile: Profile) -> tuple[Profile, Alternative] | Non
 
 def _determined(profile: Profile) -> Profile | None:
     """The part of a profile that its facts determine, itself if that is all; None if that is nothing."""
-    system = assemble(profile)
+    system, figure = assemble(profile), profile.figure
     free = analyse(system).free
     if not free:
-        return profile
+        # A corner whose size nothing tells is no part of it.
+        sized = {*profile.givens, *figure.radii}
+        told = tuple(each for each in figure.corners if {each.size, f"{each.name}.radius"} & sized)
+        is_whole = told == figure.corners
+        return profile if is_whole else replace(profile, layout=Layout(replace(figure, corners=told), profile.facts))
     part = restrict(profile, (name for name in system.unknowns if name not in free))
     return part if part.facts and analyse(assemble(part)).is_determined else None
 

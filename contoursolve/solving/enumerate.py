@@ -200,7 +200,8 @@ class _Search:
         solved = self._solve_each(group, cases)
         unsolved = [case for case, roots in zip(cases, solved, strict=True) if roots is None]
         searched = iter((yield from self._search(group, kernel, unsolved)) if unsolved else [])
-        senses = [sense for sense in self.senses if not sense.reads.isdisjoint(kernel.unknowns)]
+        new = {*kernel.unknowns, *kernel.sides}
+        senses = [sense for sense in self.senses if not new.isdisjoint(sense.reads | sense.sides)]
         found: list[ExactSolution] = []
         for case, roots in zip(cases, solved, strict=True):
             for root in next(searched) if roots is None else roots:
@@ -287,7 +288,9 @@ class _Search:
 
     def _must_be_positive(self, state: ExactSolution, kernel: Kernel, senses: Sequence[Sense]) -> Iterator[Number]:
         yield from (state.scalars[name] for name in kernel.unknowns if name in self.system.figure.radii)
-        complete = [sense for sense in senses if sense.reads <= state.scalars.keys()]
+        # The side of a fact that was not needed is chosen in the end, and its senses are compared there.
+        known = state.scalars.keys() | state.signs.keys()
+        complete = [sense for sense in senses if sense.reads | sense.sides <= known]
         if complete:
             at = self.ground.values(state.scalars, state.signs, self.system)
             for sense in complete:

@@ -21,6 +21,11 @@ class Sense(Struct, frozen=True, eq=False):
     is_free: bool = False
     """Whether nothing states the sense: a line beside the path is taken to run to the right, or upwards."""
 
+    @property
+    def sides(self) -> frozenset[str]:
+        """The open sides that they read."""
+        return frozenset(side for fact in self.facts for side in fact.sides())
+
 
 def senses_of(system: System) -> Iterator[Sense]:
     """The senses of a system: those that facts state, and those of lines whose directions are unknown."""

@@ -1202,3 +1202,20 @@ def test_a_question_about_what_is_no_part_of_the_contour_is_refused(word: str) -
 def test_a_fact_that_holds_where_nothing_is_cut_is_pointed_out(block: str, fact: str, is_beyond: bool) -> None:
     found = document(block, fact)
     assert ("fact-beyond" in {each["code"] for each in found["diagnostics"]}) is is_beyond, found["contours"]
+
+
+BESIDE = "G00 X40. Z0.\nG111 A180. K-30. B120. X100. P5. Q? (contoursolve: corner 1 passes beside {})"
+CHAIN = "G17 G90 G42 G0 X100 Y20\n{}\n{} (contoursolve: arc tangent to line 1)"
+
+
+@pytest.mark.parametrize(
+    ("text", "control", "status"),
+    [
+        # The centre of corner 1 lies at Z-27.113, X50: 10 mm beside the place, and 4.910 mm beside the other one.
+        (BESIDE.format("[Z-27.1132487 X70.] at 5"), "yasnac-lx3", Status.UNDERDETERMINED),
+        (BESIDE.format("[Z-31. X44.] at 0.5"), "yasnac-lx3", Status.CONFLICTING),
+        (CHAIN.format("G3 X27 Y28 R50 ,R?", "G3 X-45 Y26 R40"), "nct-99m", Status.REJECTED),
+    ],
+)
+def test_a_fact_that_nothing_needs_is_compared_beside_a_size_that_nothing_tells(text, control, status):
+    assert solve(text, control=control).answers[0].status is status

@@ -280,14 +280,13 @@ class Touches(Statement, frozen=True):
 
     def _touch(self, draft: Draft, name: str, other: str | DraftCircle) -> Fact:
         """Elements that are not neighbours: the side is open."""
-        first = draft.element(self.first)
-        is_line = isinstance(other, str) and isinstance(draft.element(other), Line)
-        if isinstance(first, Line) and is_line:
+        elements = (self.first, other)
+        lines = [each for each in elements if isinstance(each, str) and isinstance(draft.element(each), Line)]
+        if len(lines) > 1:
             raise StatementError("two lines cannot be tangent unless they are neighbours")
-        side = f"{name}.side"
-        line, circle = (str(other), self.first) if is_line else (self.first, other)
-        form = draft.round(circle) if isinstance(circle, str) else circle
-        return _named(draft, make_tangent(_whole(draft, line), form, side, name))
+        rounds = [draft.round(each) if isinstance(each, str) else each for each in elements if each not in lines]
+        element = draft.line(lines[0]) if lines else rounds[0]
+        return _named(draft, make_tangent(element, rounds[-1], f"{name}.side", name))
 
 
 class EqualLengths(Statement, frozen=True):
