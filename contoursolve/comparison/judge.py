@@ -324,8 +324,10 @@ def _measure(
     scalars = {**dict.fromkeys(system.unknowns, 0.0), **guessed, **case.blank.at.scalars, **told}
     values = replace(case.blank.at, scalars=scalars, headed=system.headed)
     found, rest = Place(system, values), [name for name in system.unknowns if name not in told]
+    # A side can be told where the line that it belongs to is known.
+    found = found.settled(rest, [fact for fact in system.facts if not fact.sides()])
     for _ in range(2):
-        found = found.with_sides().settled(rest)
+        found = found.with_sides().settled(rest, system.facts)
     return Measured(case, path, named, found.with_sides(), limit)
 
 

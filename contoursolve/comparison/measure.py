@@ -97,14 +97,14 @@ class Place(Struct, frozen=True):
                 found[row, column[name]] = (errors[0] - 8 * errors[1] + 8 * errors[2] - errors[3]) / (12 * STEP)
         return found
 
-    def settled(self, names: Sequence[str]) -> "Place":
-        """The place with what a result does not list, such as the direction of a line, where the facts about it put
-        that, one after the other; everything else stays as it is claimed."""
+    def settled(self, names: Sequence[str], facts: Sequence[Fact]) -> "Place":
+        """The place with what a result does not list, such as the direction of a line, where facts about it put that,
+        one after the other; everything else stays as it is claimed."""
         values, unsettled, owners = dict(self.at.scalars), {*names}, dict[str, list[str]]()
         here = replace(self, at=replace(self.at, scalars=values))
         for name in names:
             owners.setdefault(name.rpartition(".")[0], []).append(name)
-        reads = [(fact, {*self.system.unknowns_of(fact)}) for fact in self.system.facts]
+        reads = [(fact, {*self.system.unknowns_of(fact)}) for fact in facts]
         about = {owner: [each for each in reads if each[1] & {*own}] for owner, own in owners.items()}
         for _ in range(SWEEPS):
             largest = 0.0

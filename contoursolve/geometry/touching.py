@@ -21,6 +21,7 @@ from contoursolve.geometry.fact import (
 )
 from contoursolve.geometry.figure import FIRST, SECOND, Arc, Corner, Line, Round, Turn
 from contoursolve.geometry.lines import Along, TurnBetween, left_of
+from contoursolve.tolerance import AGREEMENT
 
 
 class EqualRadii(Fact, Struct, frozen=True):
@@ -75,8 +76,10 @@ class Spoke(Fact, Struct, frozen=True):
         return off - part * at.radius(self.radius)
 
     def implied(self, at: Lookup) -> float | None:
-        first, second = step(at, self.center, self.point)
-        return degrees(atan2(float(second), float(first))) - 90 * self.quarters
+        first, second = map(float, step(at, self.center, self.point))
+        if abs(hypot(first, second) - float(at.radius(self.radius))) > AGREEMENT:
+            return None  # no direction puts the point on the circle
+        return degrees(atan2(second, first)) - 90 * self.quarters
 
     @property
     def is_half(self) -> bool:

@@ -406,6 +406,22 @@ def test_random_programs_of_every_form_are_right(desk, count):
     assert count < 25 or statuses >= {"solved", "no-solution", "conflicting"}
 
 
+BESIDE = "1 L X+0 Y+0 R0 FMAX\n{}\n{}"
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ("FL X+21 Y+36", "FL X+26 PDX+10 PDY+10 D3"),
+        ("FL LEN10 P1X+5 P1Y+12", "FL LEN20 PDX+10 PDY+10 D3"),
+    ],
+)
+def test_lines_beside_a_place_are_measured_on_the_side_where_they_lie(desk, lines):
+    result = desk.solve(BESIDE.format(*lines), "--control", "heidenhain")
+    assert result["contours"][0]["status"] == "ambiguous"
+    assert desk.receipt(result)["verdict"] == "verified"
+
+
 @some_of(
     ("name", "setting", "value"),
     [

@@ -504,3 +504,12 @@ def test_the_construction_has_the_solutions_that_elimination_finds_in_the_same_o
     for ours, theirs in zip(*found, strict=True):
         for one, other in zip(ours, theirs, strict=True):
             assert one[2] == pytest.approx(other[2], abs=1e-12)
+
+
+def test_an_end_that_no_direction_puts_on_its_circle_conflicts():
+    """The centre lies 10 mm left of X-17 Y-18, and CCA+90 above it: the arc ends at Y-8."""
+    text = "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0 FMAX\n2 L X-17 Y-18\n3 FC DR+ Y{} AN+90 R10 CCA+90\n4 END PGM A MM\n"
+    for end, status in (("+47", "conflicting"), ("-8.01", "conflicting"), ("-8", "overdetermined")):
+        (answer,) = contoursolve.solve(text.format(end), control="heidenhain").answers
+        assert answer.status.value == status
+        assert answer.contour is None or answer.contour.end == pytest.approx((-27, -8), abs=1e-9)
