@@ -20,18 +20,15 @@ class Sense(Struct, frozen=True, eq=False):
     unknowns: tuple[str, ...]
     is_free: bool = False
     """Whether nothing states the sense: a line beside the path is taken to run to the right, or upwards."""
-
-    @property
-    def sides(self) -> frozenset[str]:
-        """The open sides that they read."""
-        return frozenset(side for fact in self.facts for side in fact.sides())
+    sides: frozenset[str] = frozenset()
+    """The open sides that they read."""
 
 
 def senses_of(system: System) -> Iterator[Sense]:
     """The senses of a system: those that facts state, and those of lines whose directions are unknown."""
     for fact in system.facts:
         names = system.unknowns_among(fact.sense_reads())
-        yield Sense(fact.senses, frozenset(names), (fact,), names)
+        yield Sense(fact.senses, frozenset(names), (fact,), names, sides=frozenset(fact.sides()))
     figure = system.figure
     lines = [line for line in (*figure.path, *figure.lines) if isinstance(line, Line) and line.name in figure.carriers]
     for line in lines:
