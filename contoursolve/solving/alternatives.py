@@ -281,7 +281,7 @@ _RANKS = ("lowest", "second lowest", "third lowest", "fourth lowest")
 
 
 def _place(item: Alternative, same: list[Alternative], profile: Profile) -> str:
-    """Which of several solutions it is by the first coordinate or radius in which they differ."""
+    """The name of one of several solutions: the first coordinate or radius in which they differ."""
     for key in item.scalars:
         values = _apart(other.scalars[key] for other in same)
         if len(values) > 1 and not key.endswith((".cos", ".sin", ".off")):
@@ -343,8 +343,8 @@ def _without_selecting(solution: Solution, alternatives: Alternatives) -> Soluti
 
 
 def _refused(items: tuple[Alternative, ...], alternatives: Alternatives) -> Solution:
-    """Why there is no contour: what speaks against the first of the solutions, or that there is none. Where a search
-    was given up, there may be others."""
+    """The reasons why there is no contour: the refusals of the first of the solutions, or that there is none. Where a
+    search was given up, there may be others."""
     given_up = (Obstacle.UNFINISHED, Obstacle.FARTHER)
     is_open = any(doubt.obstacle in given_up for doubt in alternatives.doubts)
     if items and not is_open:

@@ -53,8 +53,8 @@ MARGINS = (2.0**-43, 2.0**-37, 2.0**-31)
 which rounding hides the solution."""
 
 STARTS, STEPS, TRIED = 2000, 25, 64
-"""How many of the boxes that remain undecided Newton's method starts from, how many steps it takes, and how many of the
-places to which it leads are tried to be proven to hold a solution."""
+"""The number of boxes that remain undecided from which Newton's method starts, how many steps it takes, and how many of
+the places to which it leads are tried to be proven to hold a solution."""
 
 PASSES, WORTHWHILE = 3, 0.8
 """The number of times that boxes are narrowed by each equation before they are by all, and the share of an unknown's

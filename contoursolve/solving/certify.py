@@ -49,8 +49,8 @@ DECISION = 256
 
 
 def decide_meeting(profile: Profile, system: System, number: int) -> tuple[int, float]:
-    """Whether the elements of a step of the construction miss each other (-1), touch (0) or meet twice (1), on the
-    exact words; and the discriminant, mm**2."""
+    """The way in which the elements of a step of the construction miss each other (-1), touch (0) or meet twice (1), on
+    the exact words; and the discriminant, mm**2."""
     decision = compile_decision(system, number)
     with ball.precision(DECISION):
         try:

@@ -1,4 +1,4 @@
-"""What must hold of a contour, as one table of margins; and which of many values of some words pass it."""
+"""The conditions on a contour as one table of margins, and the values of some words that pass it."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
@@ -73,26 +73,26 @@ class Test(Enum):
 
 
 class Stage(Enum):
-    """What a check is about, in the order in which a contour is judged: where checks of one fail, those that follow are
-    not looked at."""
+    """The subjects of checks, in the order in which a contour is judged: where checks of one fail, those that follow
+    are not looked at."""
 
     CONSTRUCTION = "construction"
-    """Whether a step of the construction has a solution."""
+    """A step of the construction has a solution."""
     TOUCHING = "touching"
-    """Whether two solutions are apart, as far as floats can tell. There is a contour in either case."""
+    """Two solutions are apart, as far as floats can tell. There is a contour in either case."""
     RANGE = "range"
-    """Whether words reach every point."""
+    """Words reach every point."""
     EQUATIONS = "equations"
-    """Whether the equations are satisfied, as they are by construction but for rounding. Those of corners come last,
+    """The equations are satisfied, as they are by construction but for rounding. Those of corners come last,
     because a corner that does not fit may be huge."""
     FACTS = "facts"
-    """Whether a fact that was not needed agrees with the others."""
+    """A fact that was not needed agrees with the others."""
     ELEMENTS = "elements"
-    """Whether each element runs the way that is stated."""
+    """Each element runs the way that is stated."""
     CORNERS = "corners"
-    """Whether each corner is one."""
+    """Each corner is one."""
     ROOM = "room"
-    """Whether the corners fit on the elements."""
+    """The corners fit on the elements."""
 
 
 class Check(Struct, frozen=True):
@@ -111,7 +111,7 @@ class Check(Struct, frozen=True):
     fact: str = ""
     """The value that a fact states which was not needed."""
     opposite: RefusalKind | None = None
-    """What is refused instead where both directions at the corner are opposite."""
+    """The refusal instead where both directions at the corner are opposite."""
 
 
 Checks = Iterator[tuple[Check, Any]]
@@ -140,7 +140,7 @@ class MeasuredFigure(Struct, frozen=True, eq=False):
         return c - a, d - b
 
     def distance(self, tail: str, head: str) -> Any:
-        """How far two points are apart, mm."""
+        """The distance of two points, mm."""
         first, second = self.way(tail, head)
         return self.at.root(first**2 + second**2)
 
@@ -160,7 +160,7 @@ class CheckOutputs(Struct, frozen=True, eq=False):
     checks: tuple[Check, ...]
     path: PathOutputs
     passed: str
-    """How many are passed in their order until one is not."""
+    """The number that are passed in their order until one is not."""
     margins: Mapping[int, str]
     """The margins of those of facts, by their numbers."""
 
@@ -247,7 +247,7 @@ def at_origin(figure: Figure) -> dict[str, float]:
 
 
 def is_passed(check: Check, margin: Any, functions: Functions) -> Any:
-    """Whether a check is passed by its margin, a number or an expression."""
+    """True, or an expression that is 1, where a check is passed by its margin."""
     match check.test:
         case Test.AT_LEAST:
             return functions.at_most(check.limit, margin)
@@ -272,7 +272,7 @@ def _check_steps(measured: MeasuredFigure, machine: Construction, tape: Tape) ->
 def check_step(
     measured: MeasuredFigure, step: ConstructionStep, measures: StepOutputs, out: Callable[[str], Any]
 ) -> Checks:
-    """Whether a step of a construction has a solution; `out` gives its measures by their names."""
+    """The checks that a step of a construction has a solution; `out` gives its measures by their names."""
     for tail, through in step.lines_through():
         yield Check(RefusalKind.POINT_IS_START, through, "", Test.ABOVE, LENGTH), measured.distance(tail, through)
     if step.kind is StepKind.AFFINE:
@@ -300,7 +300,7 @@ def check_step(
 
 
 def check_residuals(worst: Any) -> tuple[Check, Any]:
-    """Whether equations that were solved are satisfied, by their largest residual (mm)."""
+    """The check that equations that were solved are satisfied, by their largest residual (mm)."""
     return Check(RefusalKind.NOT_VERIFIED, "", "", Test.AT_LEAST, -RESIDUAL, stage=Stage.EQUATIONS), -worst
 
 
@@ -310,7 +310,7 @@ def unverified(off: float) -> Refusal:
 
 
 def check_range(measured: MeasuredFigure) -> tuple[Check, Any]:
-    """Whether words reach every point from the start."""
+    """The check that words reach every point from the start."""
     start, functions = measured.figure.start, measured.at.functions
     ways = [functions.magnitude(way) for name in measured.figure.points for way in measured.way(start, name)]
     farthest: Any = reduce(functions.larger, ways) if ways else 0.0
@@ -318,7 +318,7 @@ def check_range(measured: MeasuredFigure) -> tuple[Check, Any]:
 
 
 def check_facts(measured: MeasuredFigure, facts: Iterable[Fact], residuals: Iterable[Any]) -> Checks:
-    """Whether facts that were not needed, with these residuals (mm), agree at the points that the others give."""
+    """The checks that facts that were not needed, with these residuals (mm), agree at the points of the others."""
     for fact, residual in zip(facts, residuals, strict=True):
         is_doubtful = bool(fact.given) and not isinstance(fact, Coordinate | Offset | Radius | Heading)
         kind, subject = RefusalKind.WORDS_DISAGREE, fact.given
@@ -332,7 +332,7 @@ def check_facts(measured: MeasuredFigure, facts: Iterable[Fact], residuals: Iter
 
 
 def check_path(measured: MeasuredFigure) -> Checks:
-    """Whether the control can make the path: the direction of travel, and the room for each corner."""
+    """The checks that the control can make the path: the direction of travel, and the room for each corner."""
     figure = measured.figure
     for element in figure.path:
         if not (isinstance(element, Arc) and element.may_be_full):
@@ -383,7 +383,7 @@ def _check_corner(measured: MeasuredFigure, corner: Corner) -> Checks:
 
 
 def _inside(measured: MeasuredFigure, corner: Corner) -> Iterator[tuple[int, Any]]:
-    """How far a corner lies inside the rectangle spanned by the ends of its two lines along each axis, mm."""
+    """The depth of a corner inside the rectangle spanned by the ends of its two lines along each axis, mm."""
     path, larger = {element.name: element for element in measured.figure.path}, measured.at.functions.larger
     before, after = path[corner.before], path.get(corner.after or "")
     if after is None or isinstance(before, Arc) or isinstance(after, Arc):
@@ -397,8 +397,9 @@ def _inside(measured: MeasuredFigure, corner: Corner) -> Iterator[tuple[int, Any
 
 
 def check_room(measured: MeasuredFigure) -> Checks:
-    """Whether each element is as long as the setbacks of the corners at its two ends. A setback on an arc that is not a
-    number belongs to a corner that cannot touch the arc at all; a negative one would leave the arc beyond its end."""
+    """The checks that each element is as long as the setbacks of the corners at its two ends. A setback on an arc that
+    is not a number belongs to a corner that cannot touch the arc at all; a negative one would leave the arc beyond its
+    end."""
     figure, path = measured.figure, measured.path
     for corner in figure.corners:
         for name, setback in setbacks_of(corner, path).items():

@@ -18,7 +18,7 @@ Pair = tuple[Any, Any]
 
 
 class Edge(Struct, frozen=True):
-    """How an element passes the virtual intersection: its unit direction of travel there, and for an arc the
+    """The passage of an element by the virtual intersection: its unit direction of travel there, and for an arc the
     vector from the centre to the intersection, the radius, and +1 if it turns to the left, -1 to the right."""
 
     direction: Pair
@@ -33,7 +33,8 @@ class Edge(Struct, frozen=True):
 
 
 class CornerPath(Struct, frozen=True):
-    """Where a corner leaves the element before (`setback_in` along it from the intersection) and joins the one after.
+    """The places where a corner leaves the element before (`setback_in` along it from the intersection) and joins the
+    next.
 
     `center` is None for a chamfer. `turn` is the sine of the turn, positive to the left; `cosine` its
     cosine. `residuals` are those of the corner's definition, mm.
@@ -140,7 +141,7 @@ def _beside_circles(before: Edge, after: Edge, size: Any, side: Any) -> Pair:
 
 
 def _reach(arc: Edge, size: Any, side: Any) -> Any:
-    """How far the centre of a fillet is from that of a circle; negative where the fillet is the larger one, around
+    """The distance of the centre of a fillet from that of a circle; negative where the fillet is the larger one, around
     it."""
     return arc.radius - arc.turn * side * size
 
@@ -151,7 +152,7 @@ def _cathetus(hypotenuse: Any, other: Any) -> Any:
 
 
 def _contact(edge: Edge, center: Pair, size: Any, side: Any) -> Pair:
-    """Where an edge is touched by the circle about `center` that lies to its side."""
+    """The point of an edge that is touched by the circle about `center` that lies to its side."""
     if edge.spoke is None:
         return _times(_dot(center, edge.direction), edge.direction)
     from_center = _plus(edge.spoke, center)
@@ -177,7 +178,7 @@ def _chamfer_45(before: Edge, after: Edge, extent: Pair, turn: Any) -> tuple[Pai
 
 
 def _chord(direction: Pair, arc: Edge, extent: Pair) -> Any:
-    """How far along a line `extent` begins so that it ends on the circle: |spoke + x u + extent| = R."""
+    """The place along a line where `extent` begins so that it ends on the circle: |spoke + x u + extent| = R."""
     spoke = _spoke(arc)
     half = _dot(direction, _plus(spoke, extent))
     constant = _dot(extent, _plus(_times(2, spoke), extent))
@@ -204,7 +205,7 @@ _STEPS = 8
 
 
 def _leg(before: Edge, after: Edge, face: Any) -> Any:
-    """How far both ends of a chamfer are from the intersection whose face has a length. Between two lines the face
+    """The setback of both ends of a chamfer whose face has a length. Between two lines the face
     spans their directions, each as long as that."""
     leg = face / _norm(_plus(before.direction, after.direction))
     if before.spoke is None and after.spoke is None:
@@ -227,7 +228,7 @@ def _growth(edge: Edge, distance: Any, way: int) -> Pair:
 
 
 def _setback(edge: Edge, point: Pair, way: int) -> Any:
-    """How far along an edge a point of it lies after (+1) or before (-1) the intersection, mm."""
+    """The way along an edge to a point of it after (+1) or before (-1) the intersection, mm."""
     if edge.spoke is None:
         return way * _dot(point, edge.direction)
     spoke = _plus(edge.spoke, point)
@@ -235,7 +236,7 @@ def _setback(edge: Edge, point: Pair, way: int) -> Any:
 
 
 def _off(edge: Edge, point: Pair) -> Any:
-    """How far a point lies off an edge's line or circle, mm."""
+    """The distance of a point from an edge's line or circle, mm."""
     if edge.spoke is None:
         return _cross(point, edge.direction)
     return _norm(_plus(edge.spoke, point)) - edge.radius
@@ -244,7 +245,7 @@ def _off(edge: Edge, point: Pair) -> Any:
 def _misfit(
     shape: CornerShape, before: Edge, after: Edge, size: Any, begin: Pair, end: Pair, center: Pair | None, at: Pair
 ) -> tuple[Any, ...]:
-    """What the definition of a shape is off by, mm, besides that its ends lie on the edges."""
+    """The residuals of the definition of a shape, mm, besides that its ends lie on the edges."""
     if shape is CornerShape.CHAMFER_SETBACK:
         return _norm(begin) - size, _norm(end) - size
     if shape is CornerShape.CHAMFER_FACE:

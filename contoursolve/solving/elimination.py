@@ -24,7 +24,7 @@ intersections have the same abscissa in ordinary drawings."""
 
 
 class Obstacle(Enum):
-    """Why a step could not be solved in closed form."""
+    """The reasons why a step could not be solved in closed form."""
 
     SINGULAR = "at these values its equations do not fix it"
     UNDECIDED = "whether its equations have one solution is too close to decide"
@@ -55,7 +55,7 @@ none."""
 
 
 class Close(Enum):
-    """What to do with two solutions that cannot be told apart, or from none."""
+    """The treatment of two solutions that cannot be told apart, or from none."""
 
     REFUSE = "raise an error"
     DOUBLE = "take them for one double solution"

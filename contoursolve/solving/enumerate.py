@@ -20,8 +20,8 @@ from contoursolve.solving.step_equations import Coefficient, Kernel, make_kernel
 
 
 class Effort(Struct, frozen=True):
-    """How many intervals, one for each unknown of a box, are looked at for one drawing before the search is given up
-    as undecided; and how many every step may look at, however many the ones before it used.
+    """The number of intervals, one for each unknown of a box, that are looked at for one drawing before the search is
+    given up as undecided; and how many every step may look at, however many the ones before it used.
 
     With `is_guessing`, a search that is given up is followed by one for solutions near what it left undecided.
     """
@@ -54,13 +54,13 @@ class Doubt(Struct, frozen=True):
 
 
 class Enumeration(Struct, frozen=True):
-    """What a search found. The list is complete, with proof, if there is no doubt."""
+    """The result of a search. The list is complete, with proof, if there is no doubt."""
 
     found: tuple[ExactSolution, ...]
     doubts: tuple[Doubt, ...]
     within: float | None = None
-    """How far from the start point there is no other solution, mm, where some step has no closed form and was searched
-    for; None where all have one."""
+    """The distance from the start point within which there is no other solution, mm, where some step has no closed form
+    and was searched for; None where all have one."""
 
     @property
     def is_complete(self) -> bool:
@@ -100,7 +100,7 @@ def enumerate_each(
 
 
 Undecidable = ArithmeticError | ValueError
-"""What numbers raise that are too wide to decide by."""
+"""The errors of numbers that are too wide to decide by."""
 
 
 def enumerate_many(

@@ -34,7 +34,7 @@ BESIDE = ("limit_first", "limit_second")
 
 
 class PointsAt(Enum):
-    """What an event points at."""
+    """The places that an event points at."""
 
     WORDS = "words"
     POINT = "point"
@@ -60,7 +60,7 @@ class Topic(Enum):
 
 
 class GeometricEvent(Struct, frozen=True):
-    """What is said of one geometric event, for all controls that say nothing else.
+    """The texts of one geometric event, for all controls that say nothing else.
 
     `message` and `help` have fields in braces. `phrase` says what fails beyond the end of a range, without values, and
     `stop` what a machine shows where a program with variables fails: controls show 26 characters. `limits` are the
@@ -103,7 +103,7 @@ class GeometricEventKind(Enum):
 
 
 class RefusalKind(GeometricEventKind):
-    """Why a determined system gives no contour at the values of this block."""
+    """The reasons why a determined system gives no contour at the values of this block."""
 
     LINES_PARALLEL = GeometricEvent(
         "lines-parallel",
@@ -385,7 +385,7 @@ class RefusalKind(GeometricEventKind):
 
 
 class NoteKind(GeometricEventKind):
-    """What a user should know about a contour that was solved."""
+    """The facts that a user should know about a contour that was solved."""
 
     TOUCHES = GeometricEvent(
         "touches",
@@ -429,7 +429,7 @@ class NoteKind(GeometricEventKind):
         "state one more fact, or simpler ones",
         severity=Severity.WARNING,
     )
-    """Whether these are all contours is not proven."""
+    """It is not proven that these are all contours."""
 
     SENSITIVE = GeometricEvent(
         "sensitive",

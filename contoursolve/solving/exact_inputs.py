@@ -1,4 +1,4 @@
-"""What a profile states, as exact numbers: the ground on which every solution is proven."""
+"""The statements of a profile as exact numbers: the ground on which every solution is proven."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -8,7 +8,8 @@ from contoursolve.numeric import COSINE, SIDE, Functions, Number, ball
 from contoursolve.solving.numbers import axes_of
 
 REACH = 4.0
-"""How many times as far as anything that is given a search goes first: there are the solutions that are meant."""
+"""The reach of a search at first, in distances of the farthest that is given: there are the solutions that are
+meant."""
 
 SMALLEST = 1e-4
 """mm. The least radius or length of a line, and distance of the centres of circles that go on smoothly into each other,
@@ -36,8 +37,8 @@ class Ground:
         return Values({**self.scalars, **scalars}, self.amounts, directions, system.headed, signs, BALLS)
 
     def nearby(self, system: System) -> float:
-        """How far from the start point solutions are searched for first: `REACH` times as far as anything that is
-        given, mm."""
+        """The distance from the start point within which solutions are searched for first: `REACH` times as far as
+        anything that is given, mm."""
         starts, absolute = self._starts(system), axes_of(system)
         sizes = [
             abs(ball.middle(value) - (starts[absolute[name]] if name in absolute else 0.0))
@@ -46,7 +47,7 @@ class Ground:
         return REACH * max([1e-3, *sizes])
 
     def farthest(self, system: System) -> float:
-        """How far from the start point all solutions are searched for, mm."""
+        """The distance from the start point within which all solutions are searched for, mm."""
         return max(self.travel, self.nearby(system))
 
     def _starts(self, system: System) -> list[float]:

@@ -43,11 +43,11 @@ def largest_fitting(left: Callable[[float], float], high: float) -> float:
 
 
 def _zero(first: float, before: float, second: float, value: float) -> float:
-    """Where the line through two values falls to zero; infinite if it does not."""
+    """The place where the line through two values falls to zero; infinite if it does not."""
     slope = (value - before) / (second - first)
     return second - value / slope if slope < 0 else inf
 
 
 def _beside(low: float) -> float:
-    """How far above a size that fits one that does not is looked for, mm."""
+    """The distance above a size that fits in which one that does not is looked for, mm."""
     return (NEAR if low == round(low, DECIMALS) else TINY) * max(1.0, low)

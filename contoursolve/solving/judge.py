@@ -1,4 +1,4 @@
-"""What is refused of a path in numbers: the checks that fail first, with the values that a refusal states."""
+"""The refusals of a path in numbers: the checks that fail first, with the values that a refusal states."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import groupby, islice
@@ -71,7 +71,7 @@ def _judge(path: MeasuredPath, checks: Sequence[tuple[Check, float]]) -> list[Re
 
 
 class _Told:
-    """What the checks of one stage that fail say of a path."""
+    """The refusals by the checks of one stage that fail."""
 
     def __init__(self, path: MeasuredPath) -> None:
         self.path, self.measures = path, path.measured.path

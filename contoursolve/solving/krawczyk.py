@@ -20,7 +20,7 @@ class Content(Enum):
 
 
 def content_of(kernel: Kernel, box: Sequence[Number], inputs: Mapping[str, Number]) -> tuple[Content, list[Number]]:
-    """What a box (a ball for each unknown) holds, and a box that holds the same solutions, no larger.
+    """The content of a box (a ball for each unknown), and a box that holds the same solutions, no larger.
 
     `inputs` gives the kernel's other arguments by name; solutions are counted for each value that they may have.
     """
@@ -113,7 +113,7 @@ class Prover:
         have a step in common have its numbers."""
 
     def prove(self, scalars: Mapping[str, Number], signs: Mapping[str, int]) -> tuple[Proof, dict[str, Number]]:
-        """What is proven about a solution, and a box for every unknown that holds the exact solution.
+        """The proof of a solution, and a box for every unknown that holds the exact solution.
 
         The steps are tested one after the other, each for all values that the ones before may have: the product of
         their boxes then holds exactly one solution of all equations.

@@ -1,4 +1,4 @@
-"""What is measured of a path, as one record: of expressions, of the names of a function's outputs, or of numbers."""
+"""The measures of a path as one record: of expressions, of the names of a function's outputs, or of numbers."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -56,7 +56,7 @@ class PathOutputs(Struct, frozen=True, eq=False):
         )
 
     def read(self, out: Callable[[str], Any]) -> "PathOutputs":
-        """What is behind these names: numbers, columns or expressions."""
+        """The numbers, columns or expressions behind these names."""
         return PathOutputs(
             {name: out(value) for name, value in self.lengths.items()},
             {name: out(value) for name, value in self.rooms.items()},

@@ -36,7 +36,7 @@ class StatusCode(IntEnum):
 
 
 REASONS: tuple[RefusalKind | None, ...] = (None, *RefusalKind)
-"""What a number in the column `reason` stands for."""
+"""The meaning of a number in the column `reason`."""
 
 _REASON = {kind: number for number, kind in enumerate(REASONS)}
 
@@ -56,8 +56,8 @@ UNVERIFIED = reason_of(RefusalKind.NOT_VERIFIED)
 
 
 class RowOutcome:
-    """What the checks found, row by row: `status` and `reason` as numbers; and the rows `again` that need the exact
-    arithmetic of a single solve: a step that is singular, a line that touches its circle.
+    """The findings of the checks, row by row: `status` and `reason` as numbers; and the rows `again` that need the
+    exact arithmetic of a single solve: a step that is singular, a line that touches its circle.
 
     `out` has the outputs of the checks, and the cosines at the corners.
     """

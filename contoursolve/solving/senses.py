@@ -8,7 +8,7 @@ from contoursolve.geometry import FIRST, SECOND, Fact, Line, System, Values, sca
 from contoursolve.numeric import Expression, Number, ball
 
 Signed = Number | Expression
-"""What a sense is told by."""
+"""A number, or an expression of one, by which a sense is told."""
 
 
 class Sense(Struct, frozen=True, eq=False):
@@ -42,7 +42,7 @@ def senses_of(system: System) -> Iterator[Sense]:
 
 
 def _along(line: Line) -> Callable[[Values], Iterable[Signed]]:
-    """How far its head lies along a line from its tail, mm."""
+    """The way from the tail of a line to its head, along it, mm."""
 
     def values(at: Values) -> Iterator[Signed]:
         cosine, sine = at.bearing(line.name)

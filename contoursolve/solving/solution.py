@@ -1,4 +1,4 @@
-"""What a solver answers: values with their status and certificate, or the reasons why there are none."""
+"""The answer of a solver: values with their status and certificate, or the reasons why there are none."""
 
 from collections.abc import Mapping
 from enum import Enum
@@ -10,7 +10,7 @@ from contoursolve.solving.events import NoteKind, RefusalKind, Status
 
 
 class Proof(Enum):
-    """What is proven about a solution; the values are those of the JSON."""
+    """The grades of what is proven about a solution; the values are those of the JSON."""
 
     EXACT = "exact"
     """Its numbers satisfy the equations exactly, in rational arithmetic."""

@@ -183,7 +183,7 @@ class _Attempt:
         )
 
     def _certificate(self, bound: float) -> Certificate:
-        """What is proven of the points and the corners, as they are printed."""
+        """The proof of the points and the corners, as they are printed."""
         certificate = certify(self.profile, self.system, self.out, bound)
         touches = any(remark.kind is NoteKind.TOUCHES for remark in self.remarks)
         return replace(certificate, gap=0.0) if touches else certificate
@@ -218,7 +218,7 @@ class _Attempt:
         return None
 
     def _refusal(self, check: Check, number: int, step: ConstructionStep, measures: StepOutputs) -> Refusal:
-        """What the words say of a step of which a check fails."""
+        """The refusal of a step of which a check fails."""
         if check.kind is RefusalKind.POINT_IS_START:
             at = {scalar(check.subject, axis) for axis in (FIRST, SECOND)}
             facts = (fact for fact in self.system.facts if at & {*self.system.unknowns_of(fact)})
@@ -262,7 +262,7 @@ class _Attempt:
         return givens, self._reach(step, measures.distance)
 
     def _reach(self, step: ConstructionStep, distance: float) -> dict[str, float]:
-        """How far apart the centres of two circles are, and the nearest distance at which they would meet, mm."""
+        """The distance of the centres of two circles, and the nearest distance at which they would meet, mm."""
         one, other = (self.out[circle.radius] for circle in step.circles)
         limit = one + other if distance >= max(one, other) else abs(one - other)
         return {"limit": limit, "actual": distance, "off_by_mm": abs(distance - limit)}
