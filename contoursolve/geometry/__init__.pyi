@@ -4,6 +4,7 @@ from .fact import (
     Incidence as Incidence,
     Increments as Increments,
     Lookup as Lookup,
+    OfCircle as OfCircle,
     Placed as Placed,
     Radial as Radial,
     Values as Values,

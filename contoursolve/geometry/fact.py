@@ -233,6 +233,10 @@ class Fact:
         """Two points and a third one on the line through them, if it is about that."""
         return None
 
+    def affine_in(self, _unknowns: Set[str]) -> "Fact":
+        """The same fact in a form whose residual is affine in some unknowns, if it has one."""
+        return self
+
     @property
     def sizes(self) -> str:
         """The name of the radius to which it gives a value, if it is about that alone."""
@@ -252,6 +256,16 @@ class Fact:
     def foot(self) -> tuple[str, str, str] | None:
         """The line, the centre and the point in which that line touches the circle about it, if it is about that."""
         return None
+
+    @property
+    def contact(self) -> str:
+        """The point in which it lets two elements touch, so that there is one place for it; empty otherwise."""
+        return ""
+
+    @property
+    def side_names(self) -> tuple[str, str]:
+        """The names of the two sides on which elements may touch where it does not state one."""
+        return "left", "right"
 
     @property
     def centers(self) -> tuple[str, str] | None:

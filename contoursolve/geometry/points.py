@@ -1,13 +1,13 @@
 """Facts about points and circles: coordinates, directions from one point to another, points on circles, radii."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Set
 from math import atan2, degrees, hypot, pi
 from typing import Any
 
 from msgspec import Struct
 
 from contoursolve.geometry.fact import Fact, Increments, Lookup, OfCircle, Placed, apart, cross, dot, place, size, step
-from contoursolve.geometry.figure import FIRST, SECOND
+from contoursolve.geometry.figure import FIRST, SECOND, both
 from contoursolve.tolerance import LENGTH, RADIUS_DIFFERENCE
 
 
@@ -92,6 +92,10 @@ class Collinear(Fact, Struct, frozen=True):
     def residual(self, at: Lookup) -> Any:
         along = step(at, self.tail, self.through)
         return self.equation(at) / at.root(dot(along, along))
+
+    def affine_in(self, unknowns: Set[str]) -> Fact:
+        """The line may be taken to lead through either of two points: through the one that is known."""
+        return self if unknowns.isdisjoint(both(self.through)) else Collinear(self.tail, self.point, self.through)
 
     @property
     def collinear(self) -> tuple[str, str, str]:

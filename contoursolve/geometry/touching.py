@@ -167,6 +167,10 @@ class Foot(Fact, Struct, frozen=True):
     def foot(self) -> tuple[str, str, str]:
         return self.line, self.center, self.point
 
+    @property
+    def contact(self) -> str:
+        return self.point
+
     def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
         return f"{self.point} where the circle touches {self.line}"
 
@@ -224,6 +228,10 @@ class TangentCircles(Fact, Struct, frozen=True):
         yield center, contact
         yield other, contact
 
+    @property
+    def side_names(self) -> tuple[str, str]:
+        return "outside", "inside"
+
     def phrase(self, _axes: tuple[str, str], _sought: Collection[str]) -> str:
         return f"the circles about {self.first[0]} and {self.second[0]} touch"
 
@@ -274,6 +282,10 @@ class Contact(Fact, Struct, frozen=True):
             first, second = map(at.radius, radii)
             part, rest = step(at, self.first, self.point), step(at, self.point, self.second)
             yield from (self.side * second * part[axis] - rest[axis] * first for axis in (FIRST, SECOND))
+
+    @property
+    def contact(self) -> str:
+        return self.point
 
     @property
     def centers(self) -> tuple[str, str]:

@@ -13,17 +13,12 @@ from contoursolve.geometry import (
     INCREMENT_OF,
     SECOND,
     Arc,
-    Coordinate,
     Corner,
     Fact,
     Figure,
-    Heading,
     Increments,
     Line,
-    Offset,
-    OnCircle,
     Profile,
-    Radius,
     System,
     Unit,
     Values,
@@ -320,12 +315,13 @@ def check_range(measured: MeasuredFigure) -> tuple[Check, Any]:
 def check_facts(measured: MeasuredFigure, facts: Iterable[Fact], residuals: Iterable[Any]) -> Checks:
     """The checks that facts that were not needed, with these residuals (mm), agree at the points of the others."""
     for fact, residual in zip(facts, residuals, strict=True):
-        is_doubtful = bool(fact.given) and not isinstance(fact, Coordinate | Offset | Radius | Heading)
+        is_plain = fact.sizes or fact.heading or (fact.placed and fact.placed.is_stepped)
+        is_doubtful = bool(fact.given) and not is_plain
         kind, subject = RefusalKind.WORDS_DISAGREE, fact.given
         if not fact.given:
             kind = RefusalKind.FACT_DISAGREES
-            if isinstance(fact, OnCircle):
-                kind, subject = RefusalKind.RADIUS_DIFFERENCE, fact.point
+            if fact.circle:
+                kind, subject = RefusalKind.RADIUS_DIFFERENCE, fact.circle.point
         check = Check(kind, subject, "", Test.NOT_BELOW, 0.0, (), Stage.FACTS, is_doubtful, fact.given)
         for margin in agreement(fact, residual, measured.at, measured.increment, measured.figure):
             yield check, margin

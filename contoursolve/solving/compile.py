@@ -13,8 +13,6 @@ from contoursolve.geometry import (
     Arc,
     Corner,
     Line,
-    OnCircle,
-    Radius,
     System,
     scalar,
 )
@@ -55,7 +53,7 @@ class _PathBuilder(Builder):
 
     def __init__(self, system: System, touching: float = TOUCHING) -> None:
         super().__init__(system, touching)
-        self.compared = {(fact.point, fact.center) for fact in spare_of(system) if isinstance(fact, OnCircle)}
+        self.compared = {fact.circle[:2] for fact in spare_of(system) if fact.circle}
         """Points that are compared with a circle that others determine, with its centre."""
         self.lengths: dict[str, Any] = {}
         self.rooms: dict[str, Any] = {}
@@ -71,9 +69,9 @@ class _PathBuilder(Builder):
             names.append(f"residual:{len(names)}")
             self.tape.output(names[-1], fact.residual(at))
         for number, fact in enumerate(basis):
-            if isinstance(fact, Radius) and fact.radius in self.short:
+            if fact.sizes in self.short:
                 names[number] = f"excess:{number}"
-                self.tape.output(names[number], fact.residual(at) - self.short[fact.radius])
+                self.tape.output(names[number], fact.residual(at) - self.short[fact.sizes])
         return tuple(names[: len(basis)]), tuple(names[len(basis) :])
 
     def slopes(self) -> tuple[tuple[int, int, str], ...]:
@@ -284,7 +282,7 @@ class _BranchBuilder(_PathBuilder):
 
     def size_of(self, corner: Corner) -> Any:
         name = f"{corner.name}.radius"
-        is_stated = any(isinstance(fact, Radius) and fact.given == corner.size for fact in self.system.facts)
+        is_stated = any(fact.sizes and fact.given == corner.size for fact in self.system.facts)
         return self.scalars[name] if name in self.scalars and not is_stated else super().size_of(corner)
 
     def _spread(self, discriminant: Any, _is_touching: Any) -> Any:

@@ -18,15 +18,9 @@ from contoursolve.geometry import (
     INCREMENT_OF,
     SECOND,
     Arc,
-    Collinear,
-    Coordinate,
     Fact,
-    Heading,
-    Level,
     Line,
-    Offset,
-    OnCircle,
-    Radius,
+    OfCircle,
     System,
     Values,
     both,
@@ -102,14 +96,19 @@ class ConstructionStep(Struct, frozen=True):
     unknowns: tuple[str, ...]
 
     @property
-    def circles(self) -> tuple[OnCircle, ...]:
+    def circles(self) -> tuple[OfCircle, ...]:
         """The circles on which its point lies."""
-        return tuple(fact for fact in self.facts if isinstance(fact, OnCircle))
+        return tuple(fact.circle for fact in self.facts if fact.circle)
 
     @property
-    def line(self) -> Heading | Collinear:
-        """The line on which its point lies."""
-        return next(fact for fact in self.facts if isinstance(fact, Heading | Collinear))
+    def of_circles(self) -> tuple[Fact, ...]:
+        """The facts that put it there."""
+        return tuple(fact for fact in self.facts if fact.circle)
+
+    @property
+    def of_line(self) -> Fact:
+        """The fact that puts its point on a line."""
+        return next(fact for fact in self.facts if fact.heading or fact.collinear)
 
     @property
     def has_two_places(self) -> bool:
@@ -134,9 +133,10 @@ class ConstructionStep(Struct, frozen=True):
     def lines_through(self) -> Iterator[tuple[str, str]]:
         """The two known points of each line through two points on which it finds a third."""
         for fact in self.facts if self.kind in (StepKind.AFFINE, StepKind.LINE_CIRCLE) else ():
-            if isinstance(fact, Collinear):
-                is_found = not set(self.unknowns).isdisjoint(both(fact.through))
-                yield fact.tail, fact.point if is_found else fact.through
+            if fact.collinear:
+                tail, through, point = fact.collinear
+                is_found = not set(self.unknowns).isdisjoint(both(through))
+                yield tail, point if is_found else through
 
 
 class SideCondition(Struct, frozen=True):
@@ -244,8 +244,8 @@ def _starts_first(groups: Sequence[Group], system: System) -> tuple[Sequence[Gro
 
 
 def _kind(group: Group, system: System) -> StepKind:
-    circles = [fact for fact in group.facts if isinstance(fact, OnCircle)]
-    lines = [fact for fact in group.facts if isinstance(fact, Heading | Collinear)]
+    circles = [fact.circle for fact in group.facts if fact.circle]
+    lines = [fact for fact in group.facts if fact.heading or fact.collinear]
     unknowns, size = set(group.unknowns), len(group.facts)
     if not circles:
         # Of two, a refusal can tell what they say against each other.
@@ -264,13 +264,12 @@ def _kind(group: Group, system: System) -> StepKind:
 
 def _is_affine(fact: Fact, unknowns: set[str], system: System) -> bool:
     """Whether a fact is affine in unknowns while everything else is known."""
-    if isinstance(fact, Coordinate | Offset | Level | Heading):
+    if fact.placed or fact.heading:
         return True
-    if isinstance(fact, Collinear):
+    if fact.collinear:
         # Affine in either of two points, at which the line may be taken to end.
-        return unknowns.isdisjoint(both(fact.tail)) and not all(
-            not unknowns.isdisjoint(both(point)) for point in (fact.through, fact.point)
-        )
+        tail, *others = (not unknowns.isdisjoint(both(point)) for point in fact.collinear)
+        return not tail and not all(others)
     tape = Tape()
     return is_affine([fact.residual(input_values(system, tape, {}))], [tape.input(name) for name in sorted(unknowns)])
 
@@ -348,7 +347,7 @@ class Builder:
         symbols = {name: symbol(name) for name in step.unknowns}
         at = self.at(symbols)
         entries, constants = affine_parts(
-            [_as_affine(fact, step).residual(at) for fact in step.facts], list(symbols.values())
+            [fact.affine_in(symbols.keys()).residual(at) for fact in step.facts], list(symbols.values())
         )
         matrix = [list(map(or_none, row)) for row in entries]
         measures = StepOutputs(tuple(map(tuple, entries)), tuple(constants), or_zero(determinant(matrix)))
@@ -374,11 +373,12 @@ class Builder:
 
     def _line_of(self, step: ConstructionStep) -> tuple[Pair, Pair]:
         """A known point of a step's line, and the line's direction."""
-        line = step.line
-        if isinstance(line, Heading):
-            return self.point(line.tail if line.head == step.point else line.head), self.directions[line.given]
-        tail, through = self.point(line.tail), self.point(line.through)
-        return tail, unit((through[0] - tail[0], through[1] - tail[1]))
+        line = step.of_line
+        if line.heading:
+            tail, head = line.heading
+            return self.point(tail if head == step.point else head), self.directions[line.given]
+        begin, end = map(self.point, next(step.lines_through()))
+        return begin, unit((end[0] - begin[0], end[1] - begin[1]))
 
     def _two_circles(self, step: ConstructionStep) -> Measured:
         """Along the line of centres to the common chord, then along it to the left or to the right."""
@@ -421,7 +421,7 @@ class Builder:
         the words are exact to: then it is a half circle, and as large as the points say. By how much it is less, and
         what is left of it beyond the half. None where no word states the radius."""
         radius = self.radius(name)
-        given = next((fact.given for fact in self.system.facts if isinstance(fact, Radius) and fact.radius == name), "")
+        given = next((fact.given for fact in self.system.facts if fact.sizes == name), "")
         if not given:
             return None
         give = half_circle_allowance(chord, 2 * half, given, lambda key: self.tape.input(INCREMENT_OF + key), magnitude)
@@ -496,11 +496,3 @@ class Builder:
 def _by_determinants(matrix: Matrix, constants: Column, found: Any) -> list[Any]:
     """The unknowns of affine equations with this determinant."""
     return [or_zero(replaced(matrix, constants, column)) / found for column in range(len(matrix))]
-
-
-def _as_affine(fact: Fact, step: ConstructionStep) -> Fact:
-    """A fact in the form in which it is affine in the unknowns of a step."""
-    if isinstance(fact, Collinear) and not set(both(fact.through)).isdisjoint(step.unknowns):
-        # The same line, through the point that is known.
-        return Collinear(fact.tail, fact.point, fact.through)
-    return fact

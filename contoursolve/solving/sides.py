@@ -8,15 +8,9 @@ from contoursolve.geometry import (
     FIRST,
     SECOND,
     Arc,
-    Contact,
-    Coordinate,
-    Foot,
     Line,
-    Offset,
-    OnCircle,
     Side,
     System,
-    TangentCircles,
     Values,
 )
 from contoursolve.numeric import ball
@@ -37,8 +31,7 @@ def sides_of(system: System, at: Values, chosen: Set[str]) -> dict[str, str]:
     sides = {name: {1: left, -1: right}.get(ball.sign(value) or 0, BOTH) for name, (value, left, right) in values}
     for fact in system.facts:
         for side in fact.sides():
-            words = ("outside", "inside") if isinstance(fact, TangentCircles) else ("left", "right")
-            sides[side.removesuffix(".side")] = words[0] if at.signs[side] == 1 else words[1]
+            sides[side.removesuffix(".side")] = fact.side_names[0 if at.signs[side] == 1 else 1]
     return sides
 
 
@@ -51,14 +44,14 @@ def side_values(system: System, at: Values, chosen: Set[str]) -> dict[str, tuple
         return first, second
 
     sides: dict[str, tuple[Any, str, str]] = {}
-    circles = [fact for fact in system.facts if isinstance(fact, OnCircle)]
-    axes = {(fact.point, fact.axis) for fact in system.facts if isinstance(fact, Coordinate | Offset)}
+    circles = [fact.circle for fact in system.facts if fact.circle]
+    axes = {fact.placed[:2] for fact in system.facts if fact.placed and fact.placed.is_stepped}
     stated = {point for point, _ in axes}
     # A point whose coordinates are both stated is at one place, whatever else passes through it.
     unknown = {point for point in system.figure.points if not {(point, FIRST), (point, SECOND)} <= axes}
     ends = {element.head for element in system.figure.path}
     # Where two elements of the path touch, there is one place.
-    unknown -= ends & {fact.point for fact in system.facts if isinstance(fact, Contact | Foot)}
+    unknown -= ends & {fact.contact for fact in system.facts}
     beside = (line for line in system.figure.lines if line.heading is not None)
     for line in (*(element for element in system.figure.path if isinstance(element, Line)), *beside):
         for circle in circles:

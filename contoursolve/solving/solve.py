@@ -12,13 +12,8 @@ from contoursolve.geometry import (
     FIRST,
     INCREMENT_OF,
     SECOND,
-    Collinear,
-    Coordinate,
     Fact,
-    Heading,
-    Offset,
     Profile,
-    Radius,
     System,
     Values,
     assemble,
@@ -249,16 +244,16 @@ class _Attempt:
     def _meeting(self, step: ConstructionStep, measures: StepOutputs) -> tuple[tuple[str, ...], dict[str, float]]:
         """The words by which a point lies on a line or a circle and on another circle, and what is compared, mm."""
         if step.kind is StepKind.RADIUS:
-            return self._givens_of(step.circles[0]), {}
+            return self._givens_of(step.of_circles[0]), {}
         offset, radius = abs(measures.offset), measures.radius
         if step.kind is StepKind.LINE_CIRCLE:
-            is_stated = bool(self.profile.words_of([step.line])) or isinstance(step.line, Collinear)
+            is_stated = bool(self.profile.words_of([step.of_line])) or not step.of_line.heading
             angles = self._meeting_angles(step, radius) if is_stated else {}
-            givens = self._givens_of(step.line if is_stated else step.circles[0])
+            givens = self._givens_of(step.of_line if is_stated else step.of_circles[0])
             return givens, {"limit": radius, "actual": offset, **angles}
         if step.is_equal:
-            return self._givens_of(step.circles[0]), {"limit": offset, "actual": radius}
-        givens = tuple(given for circle in step.circles for given in self._givens_of(circle))
+            return self._givens_of(step.of_circles[0]), {"limit": offset, "actual": radius}
+        givens = tuple(given for circle in step.of_circles for given in self._givens_of(circle))
         return givens, self._reach(step, measures.distance)
 
     def _reach(self, step: ConstructionStep, distance: float) -> dict[str, float]:
@@ -280,22 +275,22 @@ class _Attempt:
             half, short = abs(measures.offset), measures.short
             values = {"limit": half, "actual": half - short, "off_by_mm": short}
             self.remarks.append(Note(NoteKind.HALF_CIRCLE, refusal.subject, refusal.givens, values))
-        circle, point = step.circles[-1], step.point
+        point = step.point
         if step.kind is StepKind.LINE_CIRCLE:
             first, second = self._line_direction(step)
         else:
             begin, end = (self._point(center) for center in step.centers)
             length = hypot(end[0] - begin[0], end[1] - begin[1])
             first, second = (begin[1] - end[1]) / length, (end[0] - begin[0]) / length
-        row = self.machine.basis.index(circle)
+        row = self.machine.basis.index(step.of_circles[-1])
         self.doubles[row] = {scalar(point, FIRST): first, scalar(point, SECOND): second}
         if not self._is_half_circle(step, measures):
             self.split = max(self.split, (2 * measures.radius * TOUCHING * measures.scale) ** 0.5)
 
     def _line_direction(self, step: ConstructionStep) -> Point:
-        if isinstance(step.line, Heading):
-            return direction(self.profile.givens[step.line.given].value)
-        tail, through = self._point(step.line.tail), self._point(step.line.through)
+        if step.of_line.heading:
+            return direction(self.profile.givens[step.of_line.given].value)
+        tail, through = map(self._point, next(step.lines_through()))
         length = hypot(through[0] - tail[0], through[1] - tail[1])
         return (through[0] - tail[0]) / length, (through[1] - tail[1]) / length
 
@@ -309,12 +304,11 @@ class _Attempt:
         radius = Decimal(0)
         for fact in self.system.facts:
             value = self.profile.givens[fact.given].value if fact.given else Decimal(0)
-            if isinstance(fact, Radius) and fact.radius == step.circles[0].radius:
+            placed = fact.placed
+            if fact.sizes == step.circles[0].radius:
                 radius = value
-            elif isinstance(fact, Coordinate):
-                values[fact.point, fact.axis] = value - self.start[fact.axis]
-            elif isinstance(fact, Offset) and fact.origin == self.system.figure.start:
-                values[fact.point, fact.axis] = value
+            elif placed and placed.is_stepped and placed.origin in ("", self.system.figure.start):
+                values[placed.point, placed.axis] = value - (0 if placed.origin else self.start[placed.axis])
         if step.circles[0].point != self.system.figure.start:
             return False
         chord = [values.get((step.circles[1].point, axis)) for axis in (FIRST, SECOND)]
@@ -322,10 +316,10 @@ class _Attempt:
 
     def _meeting_angles(self, step: ConstructionStep, radius: float) -> dict[str, float]:
         """Between which angles of travel a line through the known point of the heading meets the circle, degrees."""
-        if not isinstance(step.line, Heading):
+        ends, (circle,) = step.of_line.heading, step.circles
+        if ends is None:
             return {}
-        line, (circle,) = step.line, step.circles
-        (tail, head) = (circle.center, line.head) if line.tail == circle.point else (line.tail, circle.center)
+        tail, head = (circle.center, ends[1]) if ends[0] == circle.point else (ends[0], circle.center)
         (a, b), (c, d) = self._point(tail), self._point(head)
         first, second = c - a, d - b
         distance = hypot(first, second)
