@@ -1,5 +1,6 @@
 """Contours that are solved together come out as they do one by one: the same answers, findings and bytes."""
 
+import sys
 from random import Random
 
 import pytest
@@ -142,3 +143,22 @@ def test_contours_solved_together_are_those_solved_one_by_one(seed, alone, monke
         bounds = [answer.error_bound for answer in result.answers]
         found.append((expansion.text, told, left, to_json(result), bounds))
     assert found[0] == found[1]
+
+
+@pytest.mark.parametrize("seed", [1, 3, *(pytest.param(n, marks=pytest.mark.slow) for n in range(4, 40))])
+def test_a_block_that_is_solved_often_is_told_as_at_first(seed, monkeypatch):
+    """From then on its checks are a part of its function, and nothing else may differ."""
+    rng = Random(seed)
+    control, text = ("nct-99m", mill_program(rng)) if seed % 2 else ("yasnac-lx3", lathe_program(rng))
+    monkeypatch.setattr("contoursolve.api._MANY", 10**9)
+    solving, start = sys.modules["contoursolve.solving.solve"], "X0 Y0" if seed % 2 else "X40. Z0."
+    judge, judged, told = solving.judge_range, [], []
+    monkeypatch.setattr(solving, "judge_range", lambda path: judged.append(path) or judge(path))
+    for often in (10**9, 0):
+        monkeypatch.setattr(solving, "OFTEN", often)
+        told.append((to_json(contoursolve.solve(text, control=control, start=start)), len(judged)))
+        judged.clear()
+    (at_first, one_by_one), (often_told, rest) = told
+    assert at_first == often_told
+    # What passes all its checks is no more judged one by one.
+    assert rest < one_by_one
