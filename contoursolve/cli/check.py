@@ -134,7 +134,7 @@ def check(
     with click.progressbar(loaders, label="checking", file=sys.stderr, hidden=not is_shown) as loaded:
         for name, loader in zip(names or [""], loaded, strict=True):
             try:
-                run = fixed(fixing, name, blocks, examine) if fixing else examine(loader())
+                run = fixed(fixing, name, blocks, examine, hiding.hidden_in) if fixing else examine(loader())
                 telling.take(name, hiding.hide(run))
             except UserError as error:
                 CouldNotRunError(str(error)).show()
@@ -163,8 +163,7 @@ class _Hiding:
 
     def hide(self, run: Run | Collected) -> Run | Collected:
         """The part of a program's findings that is to be told."""
-        name = run.frame.program.name
-        known = self._new or self._given or self._named_by(Path() if name.startswith("<") else Path(name).parent)
+        known = self._new or self._known_of(run.frame)
         if known is None:
             return run
         whole = run if isinstance(run, Collected) else Collected(run.collect(), run.is_strict)
@@ -172,9 +171,17 @@ class _Hiding:
             known.add(whole.frame)
         return known.hide(whole)
 
-    def _named_by(self, folder: Path) -> Baseline | None:
-        """The baseline that a project file names."""
-        file = find_baseline(folder)
+    def hidden_in(self, result: Result) -> set[int]:
+        """The identities of the findings of a program that are hidden; what is new is not."""
+        known = None if self._new else self._known_of(result)
+        return known.hidden_in(result) if known else set()
+
+    def _known_of(self, result: Result) -> Baseline | None:
+        """The baseline that is given, or that a project file names."""
+        if self._given is not None:
+            return self._given
+        name = result.program.name
+        file = find_baseline(Path() if name.startswith("<") else Path(name).parent)
         if file is not None and file not in self._named:
             self._named[file] = read_baseline(file)
         return self._named[file] if file is not None else None

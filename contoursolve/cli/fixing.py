@@ -1,7 +1,7 @@
 """Fixes that `check` applies to programs: what is asked, what is written where, and what is told of it."""
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from difflib import unified_diff
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ from contoursolve import gcode
 from contoursolve.cli.options import together
 from contoursolve.cli.printing import print_bytes, say, style_of_output
 from contoursolve.diagnosis import count
+from contoursolve.diagnostics import Diagnostic, Fix
 from contoursolve.gcode import (
     STANDARD_INPUT,
     CannotWriteError,
@@ -24,7 +25,7 @@ from contoursolve.gcode import (
     write_whole,
 )
 from contoursolve.output import Collected, printable
-from contoursolve.program import DECLINED, Mend, Run, examined_result, likely_fixes, mend, safe_fixes
+from contoursolve.program import DECLINED, Examined, Mend, Result, Run, examined_result, likely_fixes, mend, safe_fixes
 
 MACHINE_READ = ("json", "sarif", "github")
 """Formats that are no place for a diff."""
@@ -66,24 +67,37 @@ class Fixing:
         told += [f"{count(self._left, 'fix', 'fixes')} not applied"] if self._left else []
         return "; " + ", ".join(told) if told else ""
 
-    def fix(self, source: OpenFile, text: str, examine: Callable[[Program], Run | Collected]) -> Collected:
+    def fix(
+        self,
+        source: OpenFile,
+        text: str,
+        examine: Callable[[Program], Run | Collected],
+        hidden_in: Callable[[Result], set[int]],
+    ) -> Collected:
         """Fix a program whose text was read, and write it where it belongs; what is found in it then, with a diff as it
-        is now. Raises UserError where it cannot be examined or written."""
-        runs = dict[str, Collected]()
+        is now. Findings that are hidden are left alone. Raises UserError where it cannot be examined or written."""
+        runs, hidden, alive = dict[str, Collected](), set[int](), list[Result]()
         path = None if source.stamp is None else Path(source.name)
         if path is not None and not self.is_diff:
             check_unprotected(path)
 
-        def examined(now: str) -> Any:
+        def examined(now: str) -> Examined:
             run = examine(gcode.parse(now, source.name))
             result = run.collect()
-            runs[now] = Collected(result, run.is_strict, getattr(run, "hidden", 0))
+            runs[now] = Collected(result, run.is_strict)
+            # An identity is that of one finding as long as that lives.
+            alive.append(result)
+            hidden.update(hidden_in(result))
             return examined_result(now, result)
+
+        def wanted(finding: Diagnostic) -> Sequence[Fix]:
+            fixes = likely_fixes if self.is_unsafe else safe_fixes
+            return () if id(finding) in hidden else fixes(finding)
 
         def agrees(mended: Mend) -> bool:
             return self._ask(mended, source.name)
 
-        mended = mend(text, examined, likely_fixes if self.is_unsafe else safe_fixes, agrees)
+        mended = mend(text, examined, wanted, agrees)
         left = [each for each in mended.left if each.trouble != DECLINED]
         self._applied, self._left = self._applied + len(mended.applied), self._left + len(left)
         if self.is_diff:
@@ -181,14 +195,18 @@ def read_fixing(options: dict[str, Any]) -> Fixing | None:
 
 
 def fixed(
-    fixing: Fixing, name: str, blocks: tuple[str, ...], examine: Callable[[Program], Run | Collected]
+    fixing: Fixing,
+    name: str,
+    blocks: tuple[str, ...],
+    examine: Callable[[Program], Run | Collected],
+    hidden_in: Callable[[Result], set[int]],
 ) -> Collected:
     """Fix the program of a name, or the blocks that stand in for one, as `Fixing.fix`."""
     if blocks:
         text = "".join(f"{block}\n" for block in blocks)
-        return fixing.fix(file_in_memory(text, "<block>"), text, examine)
+        return fixing.fix(file_in_memory(text, "<block>"), text, examine, hidden_in)
     if name != STANDARD_INPUT and Path(name).exists() and not (Path(name).is_file() or Path(name).is_dir()):
         raise CannotWriteError(f"{name} is not a regular file; give - for standard input")
     with open_program_file(name) as source:
         text = source.read()
-    return fixing.fix(source, text, examine)
+    return fixing.fix(source, text, examine, hidden_in)

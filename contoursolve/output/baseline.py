@@ -49,13 +49,17 @@ class Baseline:
         known = self.known.setdefault(self._path(result), Counter())
         known.update(subject[:2] for finding, subject in subjects_of(result) if _may_be_hidden(finding))
 
+    def hidden_in(self, result: Result) -> set[int]:
+        """The identities of the findings of a program that are known."""
+        known = self._known(result)
+        found = ((finding, *subject) for finding, subject in subjects_of(result) if _may_be_hidden(finding))
+        return {id(finding) for finding, code, block, place in found if place <= known[code, block]}
+
     def hide(self, run: Collected) -> Collected:
         """The findings of a program without those that are known."""
         result = run.frame
-        known = self.known.get(self._path(result), Counter[tuple[str, str]]())
-        found = [(finding, subject) for finding, subject in subjects_of(result) if _may_be_hidden(finding)]
-        hidden = {id(finding) for finding, (*subject, place) in found if place <= known[subject[0], subject[1]]}
-        self.gone += known.total() - len(hidden)
+        hidden = self.hidden_in(result)
+        self.gone += self._known(result).total() - len(hidden)
 
         def left(findings: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
             return tuple(each for each in findings if id(each) not in hidden)
@@ -71,6 +75,9 @@ class Baseline:
             for path, known in sorted(self.known.items())
         }
         return json_text({"schema": SCHEMA, "programs": rows}) + "\n"
+
+    def _known(self, result: Result) -> Counter[tuple[str, str]]:
+        return self.known.get(self._path(result), Counter())
 
     def _path(self, result: Result) -> str:
         name = result.program.name

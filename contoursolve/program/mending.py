@@ -172,7 +172,7 @@ def mend(
     return Mended(now.text, tuple(applied), tuple(left.values()), now)
 
 
-_AT_ONCE = 64
+_AT_ONCE = 1 << 16
 """Fixes that are applied before the program is examined again."""
 
 

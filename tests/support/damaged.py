@@ -4,14 +4,12 @@ No import of the package but for its examples of right programs.
 """
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import cache
-from pathlib import Path
 from random import Random
 
-from contoursolve import DIALECTS, Severity, solve
+from contoursolve import DIALECTS, solve
 
-PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
 NUMBER = re.compile(r"(?<=[A-Z=+,-])(\d+\.?\d*|\.\d+)")
 WORD = re.compile(r"(?<!\S)[,#]?[A-Z]{1,4}=?[+-]?\d*\.?\d+(?!\S)")
 ENDS = ("\n", "\r\n", "\r")
@@ -19,19 +17,11 @@ REMARK = "\u00e4\u00f6\u00fc \u00b0"
 
 
 @cache
-def right_programs() -> list[tuple[str, str]]:
-    """Programs that have a contour and no error, with their controls."""
-    found = dict[str, str]()
-    for name, dialect in DIALECTS.items():
-        for rule in dialect.rules:
-            for text in rule.accepted:
-                if text not in found and any(each.contour for each in solve(text, control=name).answers):
-                    found[text] = name
-    return [
-        (text, name)
-        for text, name in found.items()
-        if all(each.severity is not Severity.ERROR for each in solve(text, control=name).diagnostics)
-    ]
+def right_programs(control: str) -> list[str]:
+    """The programs of a control's own examples that have a contour and no error."""
+    examples = dict.fromkeys(text for rule in DIALECTS[control].rules for text in rule.accepted)
+    results = ((text, solve(text, control=control)) for text in examples)
+    return [text for text, each in results if any(one.contour for one in each.answers) and not each.has_errors]
 
 
 def _number(text: str, draw: Random, change: Callable[[str], str]) -> str:
@@ -101,28 +91,36 @@ SLIPS: tuple[Callable[[str, Random], str], ...] = (
 )
 
 
+TOO_MANY: tuple[Callable[[str, Random], str], ...] = (
+    lambda text, draw: f"{text} {draw.choice(('M08', 'T0101', 'G01', 'R5.', 'I5.', 'J5.', 'Q1', 'CR=20', '#ANG=30'))}",
+    lambda text, draw: _word(text, draw, lambda word: f"{word} {word}"),
+    lambda text, draw: _word(text, draw, lambda word: f"{word} {_other(word, draw)}"),
+    lambda text, draw: re.sub(r"(A|ANG=)(-?\d+)\.?", lambda angle: f"{angle[1]}{int(angle[2]) + 360}.", text, count=1),
+)
+"""Words too many, and those that say the same in other words."""
+
+
 def damaged(seed: int) -> tuple[bytes, str]:
     """A program of one or several contours with a slip or two, in bytes with line ends and characters of every kind,
     and its control."""
     draw = Random(seed)
-    programs = right_programs()
-    text, control = draw.choice(programs)
-    alike = [text for text, name in programs if name == control and ("BEGIN PGM" not in text)]
-    parts = [text] if "BEGIN PGM" in text else [text, *draw.sample(alike, draw.choice((0, 1, 2)))]
+    control = draw.choice([*DIALECTS])
+    programs = right_programs(control)
+    text = draw.choice(programs)
+    others = [each for each in programs if "BEGIN PGM" not in each]
+    parts = [text] if "BEGIN PGM" in text else [text, *draw.sample(others, min(draw.choice((0, 1, 2)), len(others)))]
     lines = [line for part in parts for line in part.split("\n")]
+    if draw.random() < 0.5:
+        # What a fix may mend without a change of the contour.
+        at = draw.choice([at for at, line in enumerate(lines) if len(line) > len(lines[0])] or [len(lines) - 1])
+        lines[at] = draw.choice(TOO_MANY)(lines[at], draw)
     for _ in range(draw.choice((1, 1, 2, 3))):
         # A long line is rather one of a contour.
         at = max(draw.choices(range(len(lines)), k=2), key=lambda at: len(lines[at]))
         lines[at] = draw.choice(SLIPS)(lines[at], draw)
-    comment = {"heidenhain": "; {}", "siemens-840d": "; {}", "siemens-808d": "; {}"}.get(control, "({})")
-    lines.insert(0, comment.format(REMARK))
+    lines.insert(0, DIALECTS[control].modes.syntax.remark.format(REMARK))
     usual, encoding = draw.choice(ENDS), draw.choice(("utf-8", "utf-8-sig", "cp1252"))
     ends = [draw.choice(ENDS) if draw.random() < 0.1 else usual for _ in lines]
     ends[-1] = draw.choice(("", usual))
     whole = "".join(line + end for line, end in zip(lines, ends, strict=True))
     return whole.encode(encoding), control
-
-
-def several(first: int, count: int) -> Iterator[tuple[bytes, str]]:
-    """So many of them."""
-    return (damaged(seed) for seed in range(first, first + count))
