@@ -44,7 +44,7 @@ from contoursolve.families import (
     write_parquet,
 )
 from contoursolve.gcode import CannotWriteError, check_target, open_whole, write_whole
-from contoursolve.output import columns, rest_lines, resting_data
+from contoursolve.output import columns, premise_data, rest_lines
 from contoursolve.pictures import Theme, draw_sweep, sweep_title
 from contoursolve.solving import REASONS, StatusCode
 
@@ -254,7 +254,7 @@ def sweep_(
         leave_threads(STOPPED)
         context.exit(STOPPED)
     if format_ == "json":
-        told = {"remark": ready.remark or None, **resting_data(ready.resting)}
+        told = {"remark": ready.remark or None, **premise_data(ready.premises)}
         print_json({**_summary_data(tally.counts, failures), **told})
     else:
         notes = filter(None, (ready.remark, *rest_lines(ready)))

@@ -154,7 +154,7 @@ class Answer(Shown, Struct, frozen=True):
         return self.claim.rests_on([AT_ITS_LIMIT] if self._has_bevel_at_its_limit() else [])
 
     @property
-    def resting(self) -> Premises:
+    def premises(self) -> Premises:
         """All that the contour rests on beside its words."""
         return Premises(self.claim.conventions, self.assumptions)
 

@@ -23,7 +23,7 @@ from contoursolve.families.word_values import Places, Ranges, read_limits
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import FIRST, SECOND, CornerShape, Profile, Question, Start, System, Unit, assemble, scalar
 from contoursolve.numeric import COSINE, SINE, Affine, Array, Following, difference, directions
-from contoursolve.reading import ParsedContour, Premises, ReadIssue, all_resting
+from contoursolve.reading import ParsedContour, Premises, ReadIssue, join_premises
 from contoursolve.solving import (
     Checked,
     Construction,
@@ -99,7 +99,7 @@ class CaseClass(Struct, frozen=True, eq=False):
     free: Mapping[str, Linear]
     moves: Mapping[int, Linear] = field(default_factory=dict)
     is_closed: bool = True
-    resting: Premises = Premises()
+    premises: Premises = Premises()
     """Premises of its contours beside the words."""
 
     @property
@@ -313,7 +313,7 @@ def case_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, floa
         number = Decimal(repr(values[word]))
         free |= {given.name: Linear(word, factor_of(answer, typed, given, number)) for given in stated}
     is_closed = status is not None or _has_one_function(profile)
-    return CaseClass(profile, status, free, is_closed=is_closed, resting=answer.resting)
+    return CaseClass(profile, status, free, is_closed=is_closed, premises=answer.premises)
 
 
 def _has_one_function(profile: Profile) -> bool:
@@ -340,11 +340,11 @@ def verdict_of(answer: Answer) -> Status | None:
     raise FamilyError(f"{errors[0].message}; leave out what is said twice, or apply no rules")
 
 
-def resting_of(cases: Iterable[CaseClass], template: Template, more: Iterable[Premises] = ()) -> Premises:
+def premises_of(cases: Iterable[CaseClass], template: Template, more: Iterable[Premises] = ()) -> Premises:
     """The premises of the contours of classes beside their words, without those that are refused."""
     dialect = template.asked.dialect
-    several = (*more, *(case.resting for case in cases if case.status is None))
-    return all_resting(several, dialect.name if dialect is not None else "")
+    several = (*more, *(case.premises for case in cases if case.status is None))
+    return join_premises(several, dialect.name if dialect is not None else "")
 
 
 class FreeWords:
@@ -391,10 +391,10 @@ class FreeWords:
         return case
 
     @property
-    def resting(self) -> Premises:
+    def premises(self) -> Premises:
         """Premises of the contours that were looked at."""
-        own = [self.answer.resting] if self.answer.contour is not None else []
-        return resting_of(self._cases, self.template, own)
+        own = [self.answer.premises] if self.answer.contour is not None else []
+        return premises_of(self._cases, self.template, own)
 
     def limits_within(self, number: int, within: tuple[float, float]) -> tuple[float, float]:
         """The range in which a word is looked at. Raises FamilyError for one that is none."""

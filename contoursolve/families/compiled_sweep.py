@@ -25,7 +25,7 @@ from contoursolve.families.case_classes import (
     case_of,
     fill_row,
     names_of,
-    resting_of,
+    premises_of,
     results_of,
     shown_as,
     sides_of_choice,
@@ -70,9 +70,9 @@ class CompiledSweep(Struct, eq=False):
         return len(self.cases) == 1 and case.status is None and case.is_closed and not self.by_row
 
     @property
-    def resting(self) -> Premises:
+    def premises(self) -> Premises:
         """Premises of its contours beside the words."""
-        return resting_of(self.cases, self.template)
+        return premises_of(self.cases, self.template)
 
     @property
     def remark(self) -> str:

@@ -198,11 +198,11 @@ def solve_sweep(ready: CompiledSweep, workers: int | None = None, executor: Exec
         ):
             for name, column in table.items():
                 column[first:last] = part[name]
-        return Family(ready.ranges, table, ready.spec, ready.resting, ready.remark)
+        return Family(ready.ranges, table, ready.spec, ready.premises, ready.remark)
     with _pool(ready, count) as pool:
         for _ in in_order((partial(fill, *part) for part in rows_of(ready)), pool, count):
             pass
-    return Family(ready.ranges, table, ready.spec, ready.resting, ready.remark)
+    return Family(ready.ranges, table, ready.spec, ready.premises, ready.remark)
 
 
 def pieces(ready: CompiledSweep, workers: int | None = None, executor: Executor | None = None) -> Iterator[Table]:

@@ -93,7 +93,7 @@ class Family(Shown):
     columns: Mapping[str, NDArray[Any]]
     spec: SweepSpec = field(repr=False)
     """Plain data from which its block can be read again."""
-    resting: Premises = field(default=Premises(), repr=False)
+    premises: Premises = field(default=Premises(), repr=False)
     """Premises of its contours beside the words."""
     remark: str = field(default="", repr=False)
     """That rows are read one by one, and why; empty if they are not."""

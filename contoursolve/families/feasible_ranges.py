@@ -113,7 +113,7 @@ class Feasible(Shown, Struct, frozen=True):
     """Whether the values are diameters."""
     is_open: bool = False
     """Whether it is a variable of which nobody says the value; `stated` says nothing then."""
-    resting: Premises = Premises()
+    premises: Premises = Premises()
     """Premises of the contours beside the words."""
 
     @property
@@ -168,7 +168,7 @@ def feasible(
     refusal = "" if is_open else first_error(search.answer)
     about = (search.word, search.unit, search.stated, (low, high))
     doubts = tuple(search.doubts)
-    return Feasible(*about, tuple(intervals), doubts, refusal, search.diameters[0], is_open, search.resting)
+    return Feasible(*about, tuple(intervals), doubts, refusal, search.diameters[0], is_open, search.premises)
 
 
 def _end(search: RangeSearch, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:

@@ -83,7 +83,7 @@ class Found(Shown, Struct, frozen=True):
     remark: str = ""
     """Reason for no value: the word does not move the point, with the words that do; or the block as it stands has no
     contour. Else empty."""
-    resting: Premises = Premises()
+    premises: Premises = Premises()
     """Premises of the contours beside the words."""
 
     @property
@@ -141,13 +141,13 @@ def find_word(
             hits = target.hits_by_asking(answer, (low, high))
         except NotMovedError as error:
             hits, remark = target.there(), _moved_by(answer, wanted, error)
-        return Found(*about, tuple(hits), tuple(target.doubts), "" if hits else remark, search.resting)
+        return Found(*about, tuple(hits), tuple(target.doubts), "" if hits else remark, search.premises)
     except NotMovedError as error:
         moved = _moved_by(answer, wanted, error)
-        return Found(*about, tuple(target.there()), target.all_doubts, moved, search.resting)
+        return Found(*about, tuple(target.there()), target.all_doubts, moved, search.premises)
     if wanted.is_nearest:
         hits.sort(key=lambda each: each.away)
-    return Found(*about, tuple(hits), target.all_doubts, "" if hits else remark, search.resting)
+    return Found(*about, tuple(hits), target.all_doubts, "" if hits else remark, search.premises)
 
 
 def _moved_by(answer: Answer, goal: Goal, error: NotMovedError) -> str:

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer
 from contoursolve.diagnostics import Shown
 from contoursolve.families.block_template import BlockOptions, Template, find_words, first_error, spec_of, unit_word
-from contoursolve.families.case_classes import resting_of
+from contoursolve.families.case_classes import premises_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.evaluate import Tally, compile_sweep, solve_sweep
 from contoursolve.families.export import Family
@@ -86,7 +86,7 @@ class Tolerances(Shown, Struct, frozen=True):
     effects: tuple[Contribution, ...]
     spread: tuple[Spread, Spread]
     limits: Limits | None
-    resting: Premises = Premises()
+    premises: Premises = Premises()
     """Premises of the contour beside its words."""
 
 
@@ -137,8 +137,8 @@ def tolerances(
         limits = _limits(*(found.columns.get(f"{name}.{axis}", none) for axis in axes))
         limits = replace(limits, missing=tuple(_missing(template, found, list(allowed))))
     spread = Spread(sum(parts[0]), hypot(*parts[0])), Spread(sum(parts[1]), hypot(*parts[1]))
-    resting = resting_of((), template, [answer.resting])
-    return Tolerances(point, study.place, answer.plane, answer.unit, tuple(effects), spread, limits, resting)
+    premises = premises_of((), template, [answer.premises])
+    return Tolerances(point, study.place, answer.plane, answer.unit, tuple(effects), spread, limits, premises)
 
 
 def _missing(template: Template, found: Family, words: Sequence[str]) -> Iterator[Missing]:

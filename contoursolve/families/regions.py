@@ -12,7 +12,7 @@ from contoursolve.diagnosis import short_name
 from contoursolve.diagnostics import Shown
 from contoursolve.families.block_template import BlockOptions, RefusedError, SweepSpec, Template, spec_of
 from contoursolve.families.branches import branches_of
-from contoursolve.families.case_classes import CaseClass, FreeWords, resting_of
+from contoursolve.families.case_classes import CaseClass, FreeWords, premises_of
 from contoursolve.families.compiled_sweep import CompiledSweep
 from contoursolve.families.errors import ByRowError, FamilyError
 from contoursolve.families.evaluate import compile_sweep, solve_sweep
@@ -69,7 +69,7 @@ class Region(Shown, Struct, frozen=True, eq=False):
     """Whether the contour exists at any value that was looked at."""
     outcomes: Outcomes
     spec: SweepSpec
-    resting: Premises = Premises()
+    premises: Premises = Premises()
     """Premises of its contours beside the words."""
 
     @property
@@ -157,7 +157,7 @@ class _RegionSearch(FreeWords):
             exists=bool(is_contour(outcomes).any()),
             outcomes=outcomes,
             spec=self.spec,
-            resting=resting_of(self.cases, self.template),
+            premises=premises_of(self.cases, self.template),
         )
 
     def _outcomes(self, points: Array) -> Outcomes:

@@ -98,7 +98,7 @@ from .plain_text import (
     printable as printable,
 )
 from .premises import (
-    resting_data as resting_data,
+    premise_data as premise_data,
 )
 from .receipts import (
     receipt_json as receipt_json,

@@ -25,7 +25,7 @@ from contoursolve.diagnostics import Diagnosis, Verdict
 from contoursolve.gcode import FACT
 from contoursolve.geometry import Length, Turn
 from contoursolve.output.plain_text import NAMELESS, Name, Table, columns, printable
-from contoursolve.output.premises import resting_texts
+from contoursolve.output.premises import premise_texts
 from contoursolve.output.word_meanings import form_text, found_value, meaning_of, stated_words
 from contoursolve.program import Result
 from contoursolve.solving import ArcSegment, Contour, resolved_later
@@ -61,7 +61,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
     if answer.contour:
         path = path_table(answer.contour, answer.unit)
         lines += ["", *columns([("", "", *path.header[2:]), *path.rows], path.left)]
-        lines += [line for text in resting_texts(answer.resting, result.control or "") for line in ("", f"  {text}")]
+        lines += [line for text in premise_texts(answer.premises, result.control or "") for line in ("", f"  {text}")]
         lines += [line for text in _later_texts(answer) for line in ("", f"  {text}")]
     if answer.filled:
         lines += ["", f"  filled in (the contour moves by {small(answer.filled.deviation)}):"]

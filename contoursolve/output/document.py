@@ -7,7 +7,7 @@ from typing import Any
 from contoursolve.diagnosis import DECIMALS, Answer, AskedValue, decimals_of, list_solutions, printed_certificate, rank
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Span, json_text, members, plain
 from contoursolve.output.listing import Collected, Totals, findings_of
-from contoursolve.output.premises import resting_data
+from contoursolve.output.premises import premise_data
 from contoursolve.program import Result, Run
 from contoursolve.solving import ArcSegment, Certificate, Contour, Point, Proof, Segment
 
@@ -171,7 +171,7 @@ def _contour(answer: Answer) -> dict[str, Any]:
         "branch": ", ".join(side.value for side in answer.sides.values()) or None,
         "branches": plain(answer.sides),
         "certificate": _certificate(certificate),
-        **resting_data(answer.resting),
+        **premise_data(answer.premises),
         "facts": [directive.text for directive in answer.claim.directives],
         "asked": [_asked(each, answer) for each in answer.answers],
         "filled": {"blocks": list(answer.filled.blocks), "deviation_mm": _number(answer.filled.deviation)}

@@ -21,7 +21,7 @@ from contoursolve.families import (
 )
 from contoursolve.geometry import Length
 from contoursolve.output.plain_text import Table
-from contoursolve.output.premises import resting_data, resting_texts
+from contoursolve.output.premises import premise_data, premise_texts
 
 # Ranges of a word --------------------------------------------------------------------------------------------
 
@@ -43,7 +43,7 @@ def range_notes(found: Feasible) -> Iterator[str]:
 
 def rest_lines(found: Feasible | Region | Found | Tolerances | CompiledSweep | Family) -> Iterator[str]:
     """Lines of the premises of an answer: settings and assumptions beside the words."""
-    yield from resting_texts(found.resting, found.resting.control)
+    yield from premise_texts(found.premises, found.premises.control)
 
 
 def range_title(found: Feasible) -> str:
@@ -87,7 +87,7 @@ def range_data(found: Feasible) -> dict[str, Any]:
         "schema": "contoursolve/range/1",
         **members(found, "word unit stated within complete=is_complete doubts"),
         "refusal": found.refusal or None,
-        **resting_data(found.resting),
+        **premise_data(found.premises),
         "ranges": [{"low": _end_data(each.low), "high": _end_data(each.high)} for each in found.intervals],
     }
 
@@ -148,7 +148,7 @@ def region_data(found: Region) -> dict[str, Any]:
         "schema": "contoursolve/region/2",
         **members(found, "words units stated within exists"),
         "sampled": members(found, "edges_within=cell narrower_may_be_missing=seen"),
-        **resting_data(found.resting),
+        **premise_data(found.premises),
         "boundaries": [
             {"reason": _reason_data(each.reason), **members(each, "outside points")} for each in found.boundaries
         ],
@@ -205,7 +205,7 @@ def found_data(found: Found) -> dict[str, Any]:
         "aim": "nearest" if found.goal.is_nearest else "reach",
         **members(found, "complete=is_complete doubts"),
         "remark": found.remark or None,
-        **resting_data(found.resting),
+        **premise_data(found.premises),
         "values": [_hit_data(hit) for hit in found.hits],
     }
 
@@ -306,7 +306,7 @@ def tolerances_data(found: Tolerances) -> dict[str, Any]:
         "point": found.point,
         "plane": list(found.plane.axes),
         "at": list(found.place),
-        **resting_data(found.resting),
+        **premise_data(found.premises),
         "words": [_effect_data(each) for each in found.effects],
         "spread": [None if isnan(each.worst) else members(each, "worst typical") for each in found.spread],
         "limits": {

@@ -20,7 +20,7 @@ from contoursolve.output.contours import (
 )
 from contoursolve.output.findings import Piece, finding_pieces
 from contoursolve.output.plain_text import NAMELESS, Name, Table, printable
-from contoursolve.output.premises import resting_texts
+from contoursolve.output.premises import premise_texts
 from contoursolve.pictures import CHAINS, DARK_COLORS, LIGHT_COLORS, Drawable, Role, Theme, draw
 
 WIDEST, LONGEST = 200, 400
@@ -156,7 +156,7 @@ def remarks(answer: Answer, control: str) -> Iterator[h.Element]:
         yield h.pre["\n".join(short(text.strip()) for text in answer.filled.blocks)]
     if answer.contour is not None:
         yield h.p[short(f"Certificate: {printed_certificate(answer.certificate)}.")]
-        yield from (h.p[short(text)] for text in resting_texts(answer.resting, control))
+        yield from (h.p[short(text)] for text in premise_texts(answer.premises, control))
 
 
 # Findings ----------------------------------------------------------------------------------------------------

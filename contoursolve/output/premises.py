@@ -7,11 +7,11 @@ from contoursolve.diagnostics import members
 from contoursolve.reading import Convention, Premises
 
 
-def resting_texts(resting: Premises, control: str) -> Iterator[str]:
+def premise_texts(premises: Premises, control: str) -> Iterator[str]:
     """Lines of the premises of contours: each setting on its own, and all assumptions together in the last one."""
-    yield from (_convention_text(each, control) for each in resting.conventions)
+    yield from (_convention_text(each, control) for each in premises.conventions)
     by_grade: dict[str, list[str]] = {}
-    for each in resting.assumptions:
+    for each in premises.assumptions:
         by_grade.setdefault(each.source.evidence.value, []).append(each.meaning)
     if by_grade:
         told = (f"{'; '.join(meanings)} ({grade})" for grade, meanings in by_grade.items())
@@ -24,11 +24,11 @@ def _convention_text(convention: Convention, control: str) -> str:
     return f"{convention.evidence.value}: {convention.meaning} (--set {name}={convention.value})"
 
 
-def resting_data(resting: Premises) -> dict[str, Any]:
+def premise_data(premises: Premises) -> dict[str, Any]:
     """The same as members of an object."""
     return {
         "conventions": [
-            {"setting": each.setting.name, **members(each, "value meaning evidence")} for each in resting.conventions
+            {"setting": each.setting.name, **members(each, "value meaning evidence")} for each in premises.conventions
         ],
-        "assumptions": [members(each, "name meaning source") for each in resting.assumptions],
+        "assumptions": [members(each, "name meaning source") for each in premises.assumptions],
     }

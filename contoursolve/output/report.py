@@ -269,8 +269,8 @@ def _sources(result: Result) -> h.Element:
         codes.setdefault((source.manual, source.place, source.evidence), set()).add(finding.code)
     for answer in result.answers:
         claim = answer.claim
-        resting = [(each.setting.name, each.setting.source) for each in claim.conventions]
-        for name, source in (*resting, *((each.name, each.source) for each in answer.assumptions)):
+        settings = [(each.setting.name, each.setting.source) for each in claim.conventions]
+        for name, source in (*settings, *((each.name, each.source) for each in answer.assumptions)):
             codes.setdefault((source.manual, source.place, source.evidence), set()).add(f"{result.control}.{name}")
     rows = [
         (manual, place, evidence.value, ", ".join(sorted(used)))

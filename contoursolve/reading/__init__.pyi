@@ -14,7 +14,7 @@ from .contour_form import (
     Sample as Sample,
     Setting as Setting,
     WordTable as WordTable,
-    all_resting as all_resting,
+    join_premises as join_premises,
     lay_out as lay_out,
     stated_sets as stated_sets,
 )

@@ -138,7 +138,7 @@ class Premises(Struct, frozen=True, eq=False):
     control: str = ""
 
 
-def all_resting(several: Iterable[Premises], control: str) -> Premises:
+def join_premises(several: Iterable[Premises], control: str) -> Premises:
     """The premises of several contours of a control, each once."""
     every = tuple(several)
     return Premises(

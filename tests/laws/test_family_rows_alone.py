@@ -236,7 +236,7 @@ def test_tolerances_are_told_of_the_end_of_a_chain_and_of_centres(point):
 def test_what_contours_rest_on_is_told_of_all_of_them():
     ready = family(HANDED_ON, vary={"2:CCA": [30, 90]}, **KLARTEXT)
     (answer,) = solve(HANDED_ON, **KLARTEXT).answers
-    assert [each.name for each in ready.resting.assumptions] == [each.name for each in answer.assumptions]
+    assert [each.name for each in ready.premises.assumptions] == [each.name for each in answer.assumptions]
     assert not ready.remark
     found = find_word(HANDED_ON, "2:CCA", "end X25", within=(10, 60), **KLARTEXT)
     assert "CCA counts from +X, counter-clockwise" in next(iter(rest_lines(found)))

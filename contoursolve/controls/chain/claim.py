@@ -56,7 +56,7 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
     form, names = compose(language, elements, modes), names_of(elements)
     first, last, builder = members[0].here, members[-1].here, ContourBuilder(modes)
     states = (before, *(each.here for each in members))
-    resting: list[set[str]] = []
+    holding: list[set[str]] = []
     for index, member in enumerate(members):
         prefix = f"{index + 1}:"
         own, givens, kept = _stated(language, member, builder, prefix)
@@ -67,13 +67,13 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
             *(name for name, (setting, value) in language.basis.where_set.items() if modes.has(setting, value)),
         }
         builder.state(prefix, own, givens, holds, kept=kept)
-        resting.append({*own, *givens, *holds, *_read_by(member, modes)})
+        holding.append({*own, *givens, *holds, *_read_by(member, modes)})
     unknown = [word for word in builder.words.values() if not _is_known(word, form, modes.lexicon)]
     unread = [word for word in unknown if modes.lexicon.bearing(word.address) in (Bearing.UNREAD, Bearing.END)]
     known = {name: word for name, word in builder.words.items() if word.address in modes.lexicon.addresses}
     conventions = (
         *language.basis.conventions(form, builder.circumstances, modes),
-        *(modes.convention(row.setting) for row in language.basis.resting if row.is_told(resting, modes)),
+        *(modes.convention(row.setting) for row in language.basis.premises if row.is_told(holding, modes)),
     )
     return replace_fields(
         builder.build(form, replace(before, plane=first.plane, unit=first.unit), last),

@@ -136,7 +136,7 @@ class Member(Struct, frozen=True):
 _CENTERS = ("I", "J", "K")
 
 
-class Resting(Struct, frozen=True):
+class Premise(Struct, frozen=True):
     """A setting on which the reading of a contour rests where a condition holds for one of its blocks: for what that
     states, its addresses, and what else holds of it.
 
@@ -341,7 +341,7 @@ class LanguageBasis:
     """The circumstances of every block where a setting has a value."""
     conventions: Callable[[ContourForm, Collection[str], Modes], Iterable[Convention]] = _no_conventions
     """(form, circumstances, modes) to the settings on which the reading rests."""
-    resting: tuple[Resting, ...] = ()
+    premises: tuple[Premise, ...] = ()
     """Further ones, with what must be there."""
 
 

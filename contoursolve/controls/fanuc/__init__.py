@@ -6,7 +6,8 @@ Their words, languages and rules come in; four controls go out. Begin with `lang
 from functools import partial
 
 from contoursolve.controls.chain import ChainFinder, Language, forms_of
-from contoursolve.controls.common import COMMON_RULES, SETTINGS_OF_ALL
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.fanuc.language import (
     FANUC_LATHE_LANGUAGE,
     FANUC_MILL_LANGUAGE,

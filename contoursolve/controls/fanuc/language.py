@@ -20,8 +20,14 @@ from contoursolve.controls.chain import (
     Member,
     reading,
 )
-from contoursolve.controls.chain.language import BESIDE_ARC, FOLLOWED, WITHOUT_POINT, Resting, sense_conventions
-from contoursolve.controls.common import angle_sense_setting, arc_chamfer_setting, number_setting, setting
+from contoursolve.controls.chain.language import BESIDE_ARC, FOLLOWED, WITHOUT_POINT, Premise, sense_conventions
+from contoursolve.controls.control_settings import (
+    angle_sense_setting,
+    arc_chamfer_setting,
+    number_setting,
+    redundant_angle_setting,
+    setting,
+)
 from contoursolve.controls.fanuc.lexicon import (
     CORNERS,
     DRAWING,
@@ -68,12 +74,7 @@ def _guard(manual: Book) -> Setting:
     )
 
 
-REDUNDANT_ANGLE = setting(
-    "redundant-angle",
-    "an angle beside both coordinates, behind a line that has an end",
-    {"check": "it may stand there if it agrees", "error": "it must not stand there"},
-    DRAWING.assumed("not described"),
-)
+REDUNDANT_ANGLE = redundant_angle_setting(DRAWING.assumed("not described"), "check")
 ARCS = setting(
     "arcs",
     "corners beside arcs",
@@ -137,10 +138,10 @@ HAAS_MILL_SETTINGS = (HAAS_NUMBER, HAAS_GUARD, _guard_corner(HAAS), ARCS)
 _CORNERED = some(",C", ",R", "corner-first", "corner-second", "corner-R", "corner-C")
 
 
-def _resting(number: Setting, guard: Setting, *more: Resting) -> tuple[Resting, ...]:
+def _premises(number: Setting, guard: Setting, *more: Premise) -> tuple[Premise, ...]:
     return (
-        Resting(number, some(WITHOUT_POINT)),
-        Resting(guard, _CORNERED | some(",A", "A"), is_told_where_set=True),
+        Premise(number, some(WITHOUT_POINT)),
+        Premise(guard, _CORNERED | some(",A", "A"), is_told_where_set=True),
         *more,
     )
 
@@ -200,13 +201,13 @@ FANUC_LATHE_LANGUAGE = Language(
         circumstances=_straight_circumstances,
         where_set={STRICT_ANGLE: (REDUNDANT_ANGLE, "error"), SUPPLEMENTARY: (ANGLE, "supplementary")},
         conventions=lambda form, _, modes: sense_conventions(SENSE, form, modes),
-        resting=_resting(
+        premises=_premises(
             LATHE_NUMBER,
             LATHE_GUARD,
-            Resting(ANGLE, some(",A")),
-            Resting(LATHE_CORNER_WORDS, some("corner-first", "corner-second", "corner-R")),
-            Resting(LATHE_CORNER_WORDS, _CORNERED | some(",A"), is_told_where_set=True),
-            Resting(
+            Premise(ANGLE, some(",A")),
+            Premise(LATHE_CORNER_WORDS, some("corner-first", "corner-second", "corner-R")),
+            Premise(LATHE_CORNER_WORDS, _CORNERED | some(",A"), is_told_where_set=True),
+            Premise(
                 REDUNDANT_ANGLE, all_of(("first", "first-step"), ("second", "second-step"), ",A") & ~some(FOLLOWED)
             ),
         ),
@@ -227,11 +228,11 @@ FANUC_MILL_LANGUAGE = Language(
     basis=LanguageBasis(
         circumstances=_circumstances,
         where_set={ALONG_ARC: (ARC_CHAMFER, "arc_length")},
-        resting=_resting(
+        premises=_premises(
             MILL_NUMBER,
             MILL_GUARD,
-            Resting(MILL_CORNER_WORDS, some("corner-first", "corner-second", "corner-C")),
-            Resting(ARC_CHAMFER, some(",C") & some(BESIDE_ARC)),
+            Premise(MILL_CORNER_WORDS, some("corner-first", "corner-second", "corner-C")),
+            Premise(ARC_CHAMFER, some(",C") & some(BESIDE_ARC)),
         ),
     ),
     corner=CornerWords(guard=_guard_sine, refuses=_refuses, signed={"I": _SETBACK, "J": _SETBACK, "K": _SETBACK}),
@@ -247,7 +248,7 @@ HAAS_LATHE_LANGUAGE = replace_fields(
         (A_LINE,): Sample(_ON_LATHE, ("G01 {X40.} {Z-17.3205} A150.",)),
         (A_LINE, A_LINE): Sample(_ON_LATHE, ("G01 {X30.} {Z-20.} {A165.96} {,C2.} ,R3.", "{X50.} {Z-21.} {A95.7}")),
     },
-    basis=replace_fields(FANUC_LATHE_LANGUAGE.basis, resting=_resting(HAAS_NUMBER, HAAS_GUARD)),
+    basis=replace_fields(FANUC_LATHE_LANGUAGE.basis, premises=_premises(HAAS_NUMBER, HAAS_GUARD)),
 )
 HAAS_MILL_LANGUAGE = replace_fields(
     FANUC_MILL_LANGUAGE,
@@ -255,7 +256,9 @@ HAAS_MILL_LANGUAGE = replace_fields(
     basis=replace_fields(
         FANUC_MILL_LANGUAGE.basis,
         where_set={STRAIGHT_ONLY: (ARCS, "off")},
-        resting=_resting(HAAS_NUMBER, HAAS_GUARD, Resting(ARCS, _CORNERED & some(BESIDE_ARC), is_told_where_set=True)),
+        premises=_premises(
+            HAAS_NUMBER, HAAS_GUARD, Premise(ARCS, _CORNERED & some(BESIDE_ARC), is_told_where_set=True)
+        ),
     ),
     corner=replace_fields(FANUC_MILL_LANGUAGE.corner, signed={}),
 )

@@ -31,7 +31,7 @@ from contoursolve.controls.fanuc.language import (
 from contoursolve.controls.fanuc.lexicon import CORNERS, DRAWING, HAAS
 from contoursolve.controls.geometry_rules import COMMA_MISSING, GEOMETRY_RULES, Otherwise, told
 from contoursolve.diagnostics import Alarm, Book, Evidence, Source
-from contoursolve.reading import AngleAlong, AnglesParallel, ReadIssue, Rule, all_of, at_least, some
+from contoursolve.reading import AngleAlong, AnglesParallel, Rule, all_of, at_least, some
 
 _ANY = (LINE, OVER_LINE, ARC)
 _CORNER = (",C", ",R")
@@ -463,12 +463,11 @@ _NO_VERTEX = Rule(
 
 def _geometry(machine: _Machine, examples: Mapping[str, tuple[str, str]]) -> tuple[Rule, ...]:
     """The rows about geometry with a control's alarm and with examples of its own, by the ends of their codes."""
-    dropped = replace(
-        next(rule for rule in GEOMETRY_RULES if rule.about is ReadIssue.CORNER_DROPPED),
-        code=f"{machine.prefix}-corner-dropped",
+    dropped = told(
+        f"{machine.prefix}-corner-dropped",
+        machine.cut,
+        (machine.turn, "Z-40. X20.2" if machine.angle else "X60. Y0.3"),
         source=machine.source("printed for a sibling", Evidence.ASSUMED),
-        accepted=(machine.cut,),
-        rejected=(machine.cut.replace(machine.turn, "Z-40. X20.2" if machine.angle else "X60. Y0.3"),),
     )
     straight = told(
         f"{machine.prefix}-corner-straight",
@@ -478,13 +477,12 @@ def _geometry(machine: _Machine, examples: Mapping[str, tuple[str, str]]) -> tup
     )
     meant = "is a rounding between two axes" if machine.start == _TURNING else "belongs to an arc"
     axes = "A and C are axes" if machine.angle.startswith(",") else "C is an axis"
-    comma = replace(
-        COMMA_MISSING,
-        code=f"{machine.prefix}-comma-missing",
+    comma = told(
+        f"{machine.prefix}-comma-missing",
+        machine.cut,
+        (",C", "C"),
         help=f"{COMMA_MISSING.help}; without a comma, {axes} and R {meant}",
         source=machine.source("the function"),
-        accepted=(machine.cut,),
-        rejected=(machine.cut.replace(",C", "C"),),
     )
     own = {
         "corner-too-large": (machine.cut, machine.cut.replace(",C5.", ",C31.")),

@@ -3,7 +3,7 @@
 Its words, elements and rules come in; a control goes out. Begin with `elements`.
 """
 
-from contoursolve.controls.common import SETTINGS_OF_ALL
+from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.heidenhain.find import find
 from contoursolve.controls.heidenhain.follow import follow
 from contoursolve.controls.heidenhain.lexicon import CODES, LEXICON, SETTINGS, SYNTAX, shown_by

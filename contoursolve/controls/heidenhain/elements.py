@@ -1,21 +1,14 @@
-"""The elements of a chain of lines and arcs, and what each word states about them: one row of facts a word."""
+"""The elements of a chain of lines and arcs, and the facts that each of their words states by itself."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import lru_cache
-from itertools import pairwise
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from operator import attrgetter
 
 from msgspec import Struct
-from msgspec.structs import replace
 
-from contoursolve.controls.chain.language import TITLES
 from contoursolve.controls.heidenhain.lexicon import (
     ABOUT_CENTER,
-    BOOK,
     CHAMFER,
     FREE,
-    LEXICON,
-    REFERRED,
     ROUNDING,
     STRAIGHT,
     TANGENT,
@@ -24,7 +17,6 @@ from contoursolve.geometry import (
     FIRST,
     SECOND,
     Arc,
-    BlockRole,
     Chord,
     Circle,
     Coordinate,
@@ -36,7 +28,6 @@ from contoursolve.geometry import (
     Level,
     Line,
     Offset,
-    ParallelLines,
     Radius,
     RadiusStep,
     Ray,
@@ -45,10 +36,8 @@ from contoursolve.geometry import (
     TurnBetween,
     direction_at,
     make_smooth,
-    put_beside,
     put_on,
 )
-from contoursolve.reading import Assumption, ContourForm, CornerRow, FactRow, FreeFactWords, Outline, WordTable, some
 
 START = "S"
 TANGENCY = "tangent"
@@ -230,7 +219,7 @@ def _touches_before(chain: Chain, place: PlacedElement, given: str) -> Iterator[
     before = chain.places[place.number - 2]
     if place.element.goes_round:
         return
-    if _is_aimed(chain, place):
+    if is_aimed(chain, place):
         yield from _goes_on(before, place)
         return
     if place.element.has_radius_of_before:
@@ -242,7 +231,7 @@ def _touches_before(chain: Chain, place: PlacedElement, given: str) -> Iterator[
     yield from make_smooth(before.shape, place.shape, place.tail, given)
 
 
-def _is_aimed(chain: Chain, place: PlacedElement) -> bool:
+def is_aimed(chain: Chain, place: PlacedElement) -> bool:
     """Whether a word states the direction in which an arc ends or begins, where it touches another element."""
     if place.number == 1 or place.element.function not in TANGENT:
         return False
@@ -263,9 +252,6 @@ def _goes_on(before: PlacedElement, place: PlacedElement) -> Iterator[Fact]:
     else:
         yield from _spokes(f"{place.prefix}AN", before, place.tail, -before.turn.sign)
 
-
-FULL = "@full-circle"
-"""An arc about CC that ends where it begins."""
 
 ALONG = "along"
 """The direction of a line that begins where CCA ends an arc: a quarter of a turn from that."""
@@ -288,221 +274,6 @@ OF_ARCS = (*OF_LINES, "CCX", "CCY", "CCPR", "CCPA", "ICCX", "ICCY", "ICCPR", "IC
 POLAR = frozenset({"PR", "PA", "IPR", "IPA", "CCPR", "CCPA", "ICCPR", "ICCPA"})
 POINTS = ("P1", "P2", "P3")
 BESIDE = "PD"
-
-
-def _point_rows(place: PlacedElement) -> Iterator[FactRow]:
-    """Points on the element, each by two words, and one beside it, by three."""
-    q = place.prefix
-    for point in (POINTS[:2] if place.element.is_line else POINTS) + (BESIDE,):
-        name, words = f"{q}{point}", [f"{q}{point}{axis}" for axis in "XY"]
-        distance = f"{q}D"
-        needs = (*words, *([distance] if point == BESIDE else []))
-        radius, side = f"{name} distance", f"{name}.side"
-        # What words state comes last: of what does not agree, it is named.
-        if point != BESIDE or "D" in place.element.touching:
-            yield FactRow(put_on(place.shape, name), needs)
-        else:
-            yield FactRow(put_beside(place.shape, name, radius, side), needs)
-        yield from (FactRow(Coordinate(word, name, axis), needs) for axis, word in enumerate(words))
-        if point == BESIDE and "D" not in place.element.touching:
-            yield FactRow(Radius(distance, radius), needs)
-
-
-def _parallel_rows(chain: Chain, place: PlacedElement) -> Iterator[FactRow]:
-    """A line parallel to another one, and at which distance."""
-    number = place.element.parallel
-    if not (number and place.element.is_line):
-        return
-    other, word, distance = chain.places[number - 1], f"{place.prefix}PAR", f"{place.prefix}DP"
-    yield FactRow(ParallelLines(other.name, place.name, word), (word,))
-    if "DP" in place.element.touching:
-        yield FactRow(put_on(place.shape, other.tail, distance), (word, distance))
-        return
-    radius, side = f"{place.prefix}DP distance", f"{place.prefix}DP.side"
-    yield FactRow(put_beside(place.shape, other.tail, radius, side), (word, distance))
-    yield FactRow(Radius(distance, radius), (word, distance))
-
-
-def _aimed_by(chain: Chain, place: PlacedElement) -> tuple[str, ...]:
-    """The words that state the direction in which an element begins."""
-    if not _is_aimed(chain, place):
-        return ()
-    before = chain.places[place.number - 2]
-    if not before.element.is_ended:
-        return (f"{place.prefix}AN",)
-    return (f"{before.prefix}CCA", *([place.prefix + ALONG] if place.element.is_line else []))
-
-
-def _rows(chain: Chain) -> Iterator[FactRow]:
-    places = chain.places
-    for pole in dict.fromkeys(place.element.pole for place in places if place.element.pole):
-        for axis, letter in enumerate("XY"):
-            yield FactRow(Coordinate(f"{pole}:{letter}", pole, axis), (f"{pole}:{letter}",))
-    for place in places:
-        own = OF_LINES if place.element.is_line else OF_ARCS
-        for word in (*own, "CLSD-", TANGENCY):
-            given = place.prefix + word
-            needs = (given, *((f"{place.element.pole}:{axis}") for axis in "XY" if word in POLAR))
-            needs += tuple(name for name in _aimed_by(chain, place) if word == TANGENCY)
-            if word not in POLAR or place.element.pole:
-                yield from (FactRow(fact, needs) for fact in WORDS[word](chain, place, given))
-        yield from _point_rows(place)
-        yield from _parallel_rows(chain, place)
-        if place.element.is_line:
-            continue
-        after = places[place.number] if place.number < len(places) else None
-        for point, is_met in ((place.tail, _is_met(chain, place, place)), (place.head, _is_met(chain, place, after))):
-            if not is_met:
-                yield FactRow(put_on(place.shape, point), ())
-
-
-def _is_met(chain: Chain, arc: PlacedElement, second: PlacedElement | None) -> bool:
-    """Whether that an arc passes its begin (`second` is itself) or its end follows from other facts: where a line
-    touches it, or where its radius has a direction. Of an arc by its centre or radius and its end, all is known."""
-    if arc.element.function not in (*FREE, *TANGENT):
-        return False
-    if arc.element.is_entered if second is arc else arc.element.is_ended:
-        return True
-    if second is None or second.number == 1 or second.element.function not in TANGENT:
-        return False
-    other = chain.places[second.number - 2] if second is arc else second
-    if other is second and arc.element.is_placed:
-        # Its end is where it is, and the line leaves it there.
-        return False
-    return other.element.is_line or _is_aimed(chain, second)
-
-
-def _heading(chain: Chain, place: PlacedElement) -> str | None:
-    """The given that states the direction of a line, if one does."""
-    if place.element.is_entered:
-        return f"{place.prefix}AN"
-    return place.prefix + ALONG if _is_aimed(chain, place) else None
-
-
-ASSUMPTIONS = tuple(
-    Assumption(name, meaning, source, roles, some(*words))
-    for name, meaning, source, roles, words in (
-        ("chord", "LEN of an arc is its chord", BOOK.assumed("LEN"), (ARC,), ("LEN",)),
-        ("end-angle", "CCA counts from +X, counter-clockwise", BOOK.assumed("CCA"), (ARC,), ("CCA",)),
-        ("turn", "IAN counts counter-clockwise", BOOK.assumed("IAN"), (LINE, ARC), ("IAN",)),
-        (
-            "tangency",
-            "FLT and FCT begin in the direction of travel of the element before",
-            BOOK.assumed("tangential connection"),
-            (LINE, ARC),
-            (TANGENCY,),
-        ),
-        ("angle", "AN counts from +X, counter-clockwise", BOOK.derived("the printed programs"), (LINE, ARC), ("AN",)),
-        ("sense", "DR+ is counter-clockwise", BOOK.derived("the printed programs"), (ARC,), ("DR",)),
-        ("centre", "ICCX and ICCY count from where the arc begins", BOOK.assumed("centres"), (ARC,), ("ICCX", "ICCY")),
-        (
-            "full-circle",
-            "C and CP that end where they begin are a full circle",
-            BOOK.assumed("path functions"),
-            (PLAIN,),
-            (FULL,),
-        ),
-        ("parallel", "PAR says nothing of the direction of travel", BOOK.derived("FKEXAMP1"), (LINE,), ("PAR",)),
-    )
-)
-"""The meanings that the control is taken to have, although no page that we have says so."""
-
-_OF_DIRECTION = ("AN", "IAN")
-
-
-def _has_direction(element: FkElement) -> bool:
-    """Whether the direction of an arc is that of the element before it, which need not be said again."""
-    return element.function in TANGENT and not element.is_line
-
-
-_USUAL = (
-    *("R", "AN", "X", "Y", "LEN", "CCX", "CCY", "PR", "PA", "CCA", "IX", "IY", "IAN"),
-    *("CCPR", "CCPA", "ICCX", "ICCY", "IPR", "IPA", "ICCPR", "ICCPA"),
-)
-"""The words that complete a chain, in the order in which drawings have them."""
-
-
-@lru_cache(maxsize=2048)
-def compose(elements: tuple[FkElement, ...], labels: tuple[str, ...]) -> ContourForm:
-    """The form of a chain: everything that its words may state; `labels` are the numbers of its blocks."""
-    points = [START, *(f"P{label}" for label in labels)]
-    named = zip(labels, elements, points, points[1:], strict=False)
-    chain = Chain(tuple(PlacedElement(n, *each) for n, each in enumerate(named, 1)))
-    places = chain.places
-    rows = tuple(_rows(chain))
-    headings = {each.name: _heading(chain, each) for each in places}
-    shapes = [each.shape for each in places]
-    path = tuple(replace(each, heading=headings[each.name]) if isinstance(each, Line) else each for each in shapes)
-    poles = tuple(dict.fromkeys(each.element.pole for each in places if each.element.pole))
-    beside = tuple(f"{each.prefix}{point}" for each in places for point in (*POINTS, BESIDE))
-    arcs = [each for each in places if not each.element.is_line]
-    radii = [name for row in rows for name in row.fact.reads() if name.endswith((" distance", " from", " to"))]
-    name = _form_name(elements)
-    return ContourForm(
-        name=name,
-        title=_TITLES[name],
-        roles=(
-            *(BlockRole(each.element.role, (each.prefix,)) for each in places),
-            *(BlockRole(POLE, (f"{pole}:",)) for pole in poles),
-        ),
-        outline=Outline(
-            start=START,
-            points=(*points[1:], *(each.center for each in arcs), *poles, *beside),
-            radii=tuple(dict.fromkeys((*(each.radius for each in arcs), *radii))),
-            facts=rows,
-            path=path,
-            corners=tuple(
-                CornerRow(
-                    f"corner {first.label}",
-                    first.head,
-                    first.name,
-                    second.name,
-                    {first.prefix + word: shape for word, shape in CORNERS.items()},
-                )
-                for first, second in pairwise(places)
-            ),
-            intersections=tuple(points[1:-1]),
-        ),
-        allowed=frozenset(LEXICON.addresses),
-        table=WordTable(
-            combinations=tuple(((),) for _ in places),
-        ),
-        assumptions=ASSUMPTIONS,
-        is_general=True,
-        free=FreeFactWords(
-            usual=tuple(
-                f"{each.prefix}{word}"
-                for word in _USUAL
-                for each in places
-                if each.element.function in FREE and not (word in _OF_DIRECTION and _has_direction(each.element))
-            ),
-            swaps={"DR+": "DR-", "DR-": "DR+", "FLT": "FL", "FCT": "FC"},
-            picking="FSELECT",
-            companions=dict(_companions(places)),
-            poles=poles,
-        ),
-    )
-
-
-_TITLES = {**TITLES, "free-contour": "free contour FK"}
-
-
-def _form_name(elements: Sequence[FkElement]) -> str:
-    """The name of the form: by its free elements, or else as other controls call conventional moves in a row."""
-    if any(each.function in FREE for each in elements):
-        return "free-contour"
-    return "tangent" if any(each.function in TANGENT for each in elements) else "corners"
-
-
-def _companions(places: tuple[PlacedElement, ...]) -> Iterator[tuple[str, str]]:
-    """Words that say from where another one counts, or that repeat what its fact says already."""
-    for place in places:
-        q = place.prefix
-        yield from ((f"{q}I{name}", f"{q}R{name}") for name in REFERRED)
-        yield from ((q + PARTNERS[name], q + name) for name in place.element.touching)
-        if place.element.closes:
-            yield f"{q}CLSD-", f"{place.element.closes}:CLSD+"
-
 
 PARTNERS = {"D": f"{BESIDE}Y", "DP": "PAR"}
 """Words that tell of what a distance of 0 is."""

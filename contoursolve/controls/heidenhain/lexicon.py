@@ -3,7 +3,7 @@
 import re
 from collections.abc import Mapping
 
-from contoursolve.controls.common import setting
+from contoursolve.controls.control_settings import setting
 from contoursolve.controls.further import rows as rows_beside
 from contoursolve.diagnostics import Book, Source
 from contoursolve.gcode import Block, Syntax, Word, words_as

@@ -8,8 +8,7 @@ from operator import or_
 
 from contoursolve.controls.common import COMMON_RULES
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told
-from contoursolve.controls.heidenhain.elements import ARC, CORNERS, LINE, PLAIN, POLAR, POLE, TANGENCY
-from contoursolve.controls.heidenhain.find import (
+from contoursolve.controls.heidenhain.circumstances import (
     APART,
     AT_ARC,
     CLOSES_NOTHING,
@@ -31,6 +30,7 @@ from contoursolve.controls.heidenhain.find import (
     TURNS_BACK,
     TWO_BLOCKS,
 )
+from contoursolve.controls.heidenhain.elements import ARC, CORNERS, LINE, PLAIN, POLAR, POLE, TANGENCY
 from contoursolve.controls.heidenhain.lexicon import BOOK, CHAMFER, REFERRED, REFERRING, REFERRING_TO_LINES, ROUNDING
 from contoursolve.controls.rule_rows import rule_row
 from contoursolve.diagnostics import Alarm, Evidence, Severity

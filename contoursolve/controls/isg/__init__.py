@@ -6,7 +6,7 @@ Its words, language and rules come in; a control goes out. Begin with `language`
 import re
 
 from contoursolve.controls.chain import ChainFinder, forms_of
-from contoursolve.controls.common import SETTINGS_OF_ALL
+from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.isg.language import LANGUAGE, SETTINGS
 from contoursolve.controls.isg.lexicon import CHAMFER, MODES, ROUNDING, SYNTAX
 from contoursolve.controls.isg.rules import RULES

@@ -17,8 +17,8 @@ from contoursolve.controls.chain import (
     Member,
     reading,
 )
-from contoursolve.controls.chain.language import Resting, sense_conventions
-from contoursolve.controls.common import angle_sense_setting, first_motion_setting, length_setting, setting
+from contoursolve.controls.chain.language import Premise, sense_conventions
+from contoursolve.controls.control_settings import angle_sense_setting, first_motion_setting, length_setting, setting
 from contoursolve.controls.isg.lexicon import BOOK, CHAMFER, MODES, ROUNDING
 from contoursolve.controls.plain import PLANES
 from contoursolve.geometry import CornerShape
@@ -83,9 +83,9 @@ LANGUAGE = Language(
     basis=LanguageBasis(
         circumstances=_circumstances,
         conventions=lambda form, _, modes: sense_conventions(PAIR_SENSE, form, modes),
-        resting=(
-            Resting(MACHINE, some("X", "Y", "Z"), is_told_where_set=True),
-            Resting(MODAL, some("#ANG"), is_told_where_set=True),
+        premises=(
+            Premise(MACHINE, some("X", "Y", "Z"), is_told_where_set=True),
+            Premise(MODAL, some("#ANG"), is_told_where_set=True),
         ),
     ),
 )

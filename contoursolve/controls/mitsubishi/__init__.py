@@ -4,7 +4,7 @@ Its words, language and rules come in; a control goes out. Begin with `language`
 """
 
 from contoursolve.controls.chain import ChainFinder, forms_of
-from contoursolve.controls.common import SETTINGS_OF_ALL
+from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.mitsubishi.language import LANGUAGE, SETTINGS
 from contoursolve.controls.mitsubishi.lexicon import MODES
 from contoursolve.controls.mitsubishi.rules import RULES

@@ -32,9 +32,9 @@ from contoursolve.controls.chain.language import (
     OPEN_ARC_END,
     OVER_CIRCLE,
     WITHOUT_POINT,
-    Resting,
+    Premise,
 )
-from contoursolve.controls.common import arc_chamfer_setting, length_setting, number_setting, setting
+from contoursolve.controls.control_settings import arc_chamfer_setting, length_setting, number_setting, setting
 from contoursolve.controls.mitsubishi.lexicon import BOOK, MODES, TURNED_PLANES, turned
 from contoursolve.reading import Assumption, ContourForm, Convention, Dialect, Modes, Sample, State, some
 
@@ -113,16 +113,16 @@ SETTINGS = (
 
 
 _CENTER = some("center-first", "center-second", "center-at-first", "center-at-second")
-_RESTING = (
-    Resting(_NUMBER, some(WITHOUT_POINT)),
-    Resting(_DIAMETER, some(IN_ZX)),
-    Resting(_DIAMETER, some("X"), is_told_where_set=True),
-    Resting(_ANGLE_WORD, some("A") & ~some(",A")),
-    Resting(_FULL_CIRCLE, some(OPEN_ARC_END) & _CENTER & ~some("H")),
-    Resting(_FIRST_CENTER, some(OPEN_ARC_END) & some("center-first", "center-second")),
-    Resting(_CORNER, some(",C", ",R") & some(BESIDE_ARC)),
-    Resting(_ARC_CHAMFER, some(",C") & some(BESIDE_ARC)),
-    Resting(_GUARD, some("A", ",A"), is_told_where_set=True),
+_PREMISES = (
+    Premise(_NUMBER, some(WITHOUT_POINT)),
+    Premise(_DIAMETER, some(IN_ZX)),
+    Premise(_DIAMETER, some("X"), is_told_where_set=True),
+    Premise(_ANGLE_WORD, some("A") & ~some(",A")),
+    Premise(_FULL_CIRCLE, some(OPEN_ARC_END) & _CENTER & ~some("H")),
+    Premise(_FIRST_CENTER, some(OPEN_ARC_END) & some("center-first", "center-second")),
+    Premise(_CORNER, some(",C", ",R") & some(BESIDE_ARC)),
+    Premise(_ARC_CHAMFER, some(",C") & some(BESIDE_ARC)),
+    Premise(_GUARD, some("A", ",A"), is_told_where_set=True),
 )
 """The angle is called A, whichever word states it."""
 
@@ -198,6 +198,6 @@ LANGUAGE = Language(
             UNGUARDED: (_GUARD, "0"),
         },
         conventions=_conventions,
-        resting=_RESTING,
+        premises=_PREMISES,
     ),
 )

@@ -1,7 +1,8 @@
 """The NCT 99M and 2000M milling controls, from chapter 16 of their Programmer's Manual."""
 
 from contoursolve.controls.chain import ChainFinder, forms_of
-from contoursolve.controls.common import COMMON_RULES, SETTINGS_OF_ALL
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.nct_99m.language import LANGUAGE, SETTINGS
 from contoursolve.controls.nct_99m.lexicon import CODES, MODES, XY, YZ, ZX
 from contoursolve.controls.nct_99m.rules import COMBINATION_RULES, GEOMETRY_RULES

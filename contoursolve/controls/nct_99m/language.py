@@ -27,7 +27,7 @@ from contoursolve.controls.chain.language import (
     LINE_LINE,
     OPEN_ARC,
 )
-from contoursolve.controls.common import length_setting, setting
+from contoursolve.controls.control_settings import length_setting, setting
 from contoursolve.controls.nct_99m.lexicon import (
     ASSUMPTIONS,
     AXES,

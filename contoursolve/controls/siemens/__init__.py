@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 
 from contoursolve.controls.chain import ChainFinder, forms_of
-from contoursolve.controls.common import SETTINGS_OF_ALL
+from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.language import LANGUAGE, SETTINGS
 from contoursolve.controls.siemens.lexicon import BOOK, MODES, SYNTAX

@@ -19,8 +19,14 @@ from contoursolve.controls.chain import (
     Member,
     reading,
 )
-from contoursolve.controls.chain.language import BESIDE_ARC, FOLLOWED, Resting, sense_conventions
-from contoursolve.controls.common import angle_sense_setting, arc_chamfer_setting, first_motion_setting, setting
+from contoursolve.controls.chain.language import BESIDE_ARC, FOLLOWED, Premise, sense_conventions
+from contoursolve.controls.control_settings import (
+    angle_sense_setting,
+    arc_chamfer_setting,
+    first_motion_setting,
+    redundant_angle_setting,
+    setting,
+)
 from contoursolve.controls.plain import PLANES
 from contoursolve.controls.siemens.lexicon import BOOK, MODES, TANGENT_ARC
 from contoursolve.geometry import CornerShape
@@ -62,12 +68,7 @@ DIAMETER = setting(
     },
 )
 SENSE = angle_sense_setting(BOOK.assumed("not described"))
-REDUNDANT = setting(
-    "redundant-angle",
-    "an angle beside both coordinates, behind a line that has an end",
-    {"error": "it must not stand there", "check": "it may stand there if it agrees"},
-    BOOK.assumed("alarm 10795"),
-)
+REDUNDANT = redundant_angle_setting(BOOK.assumed("alarm 10795"), "error")
 CLOSING = setting(
     "closing-incremental",
     "whether the second of two lines that meet may give its end by increments",
@@ -97,13 +98,13 @@ def _circumstances(member: Member, _: Sequence[State], _modes: Modes) -> Iterato
         yield "@by-plane"
 
 
-_RESTING = (
-    Resting(MACHINE, some("X"), is_told_where_set=True),
-    Resting(DIAMETER, some("X"), is_told_where_set=True),
-    Resting(REDUNDANT, all_of(("first", "first-step"), ("second", "second-step"), "ANG") & ~some(FOLLOWED)),
-    Resting(ARC_CHAMFER, some("CHR") & some(BESIDE_ARC)),
-    Resting(ANGLE_NAME, some("ANG"), is_told_where_set=True),
-    Resting(CHAMFER_NAME, some("CHR"), is_told_where_set=True),
+_PREMISES = (
+    Premise(MACHINE, some("X"), is_told_where_set=True),
+    Premise(DIAMETER, some("X"), is_told_where_set=True),
+    Premise(REDUNDANT, all_of(("first", "first-step"), ("second", "second-step"), "ANG") & ~some(FOLLOWED)),
+    Premise(ARC_CHAMFER, some("CHR") & some(BESIDE_ARC)),
+    Premise(ANGLE_NAME, some("ANG"), is_told_where_set=True),
+    Premise(CHAMFER_NAME, some("CHR"), is_told_where_set=True),
 )
 
 
@@ -151,6 +152,6 @@ LANGUAGE = Language(
             ALONG_ARC: (ARC_CHAMFER, "arc_length"),
         },
         conventions=_conventions,
-        resting=_RESTING,
+        premises=_PREMISES,
     ),
 )

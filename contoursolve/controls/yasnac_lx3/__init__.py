@@ -1,6 +1,7 @@
 """The YASNAC LX3 lathe control, from section 2.8.30 and pages 31-32 of its Instruction Manual."""
 
-from contoursolve.controls.common import COMMON_RULES, SETTINGS_OF_ALL
+from contoursolve.controls.common import COMMON_RULES
+from contoursolve.controls.control_settings import SETTINGS_OF_ALL
 from contoursolve.controls.plain import LATHE
 from contoursolve.controls.yasnac_lx3.arc import ARC_FORMS, ARC_RULES
 from contoursolve.controls.yasnac_lx3.find import find, follow

@@ -108,6 +108,37 @@ _TABLE_234 = BOOK.printed("2.8.30, Table 2.34")
 _FITS = BOOK.derived("2.8.30; the family's alarms")
 _WORDS_IN_BLOCK, _COMBINATION, _GEOMETRY = alarms(Evidence.ASSUMED)
 
+
+def rows_of_block_alone(role: str, start: str, words: str, sources: tuple[Source, Source]) -> tuple[Rule, Rule]:
+    """The rows about what stands beside the code of a role and belongs into a block of its own: M, S and T words, and
+    other G codes. `start` and such a block with its `words` are a right program; each row has its source."""
+    good = f"{start}{role} {words}"
+    return (
+        Rule(
+            code=f"{role.lower()}-m-s-t",
+            message=f"{{words:M S T}}: a {role} block takes no M, S or T word",
+            help="write it in a block of its own",
+            source=sources[0],
+            alarm=_WORDS_IN_BLOCK,
+            roles=(role,),
+            when=some("M", "S", "T"),
+            accepted=(good + " F0.2", "M08\n" + good),
+            rejected=(good + " M08", good + " S500", good + " T0101"),
+        ),
+        Rule(
+            code=f"{role.lower()}-other-g",
+            message=f"{{words:other G}} uses the axis words of the block itself, and so does {role}",
+            help=f"write it in a block of its own; {role} needs no G01",
+            source=sources[1],
+            alarm=_COMBINATION,
+            roles=(role,),
+            when=some(OTHER_G),
+            accepted=(good,),
+            rejected=tuple(f"{start}{code} {role} {words}" for code in ("G01", "G04")),
+        ),
+    )
+
+
 _COMBINATION_RULES = (
     Rule(
         code="g111-line-1",
@@ -256,27 +287,11 @@ _COMBINATION_RULES = (
         accepted=(_GOOD + " P5. Q5.", _GOOD + " P0"),
         rejected=(_GOOD + " P-5.",),
     ),
-    Rule(
-        code="g111-m-s-t",
-        message="{words:M S T}: a G111 block takes no M, S or T word",
-        help="write it in a block of its own",
-        source=BOOK.printed("2.8.30, p. 140 Note 2"),
-        alarm=_WORDS_IN_BLOCK,
-        roles=(_ROLE,),
-        when=some("M", "S", "T"),
-        accepted=(_GOOD + " F0.2", "M08\n" + _GOOD),
-        rejected=(_GOOD + " M08", _GOOD + " S500", _GOOD + " T0101"),
-    ),
-    Rule(
-        code="g111-other-g",
-        message="{words:other G} uses the axis words of the block itself, and so does G111",
-        help="write it in a block of its own; G111 needs no G01",
-        source=BOOK.assumed("2.8.30: G111 is not modal; two codes of one group"),
-        alarm=_COMBINATION,
-        roles=(_ROLE,),
-        when=some(OTHER_G),
-        accepted=(_GOOD,),
-        rejected=(_START + "G01 G111 X100. A180. K-30. B120.", _START + "G04 G111 X100. A180. K-30. B120."),
+    *rows_of_block_alone(
+        _ROLE,
+        _START,
+        "X100. A180. K-30. B120.",
+        (BOOK.printed("2.8.30, p. 140 Note 2"), BOOK.assumed("2.8.30: G111 is not modal; two codes of one group")),
     ),
 )
 

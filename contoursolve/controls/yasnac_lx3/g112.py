@@ -6,8 +6,8 @@ from decimal import Decimal
 from functools import cache
 
 from contoursolve.controls.geometry_rules import told
-from contoursolve.controls.yasnac_lx3.claim import OTHER_G, BlockReader, after_cornering, bevel_of
-from contoursolve.controls.yasnac_lx3.g111 import PASSING, REFUSED, START, V1, V2
+from contoursolve.controls.yasnac_lx3.claim import BlockReader, after_cornering, bevel_of
+from contoursolve.controls.yasnac_lx3.g111 import PASSING, REFUSED, START, V1, V2, rows_of_block_alone
 from contoursolve.controls.yasnac_lx3.lexicon import ASSUMPTIONS, BOOK, alarms
 from contoursolve.diagnostics import Evidence, Severity
 from contoursolve.gcode import Block
@@ -282,27 +282,11 @@ _COMBINATION_RULES = (
         accepted=(_GOOD,),
         rejected=(_START + "G112 U0 I10. K-50. R-30.", _START + "G112 U0 I10. K-50. R0"),
     ),
-    Rule(
-        code="g112-m-s-t",
-        message="{words:M S T}: a G112 block takes no M, S or T word",
-        help="write it in a block of its own",
-        source=_IMPOSSIBLE,
-        alarm=_WORDS_IN_BLOCK,
-        roles=(_ROLE,),
-        when=some("M", "S", "T"),
-        accepted=(_GOOD + " F0.2", "M08\n" + _GOOD),
-        rejected=(_GOOD + " M08", _GOOD + " S500", _GOOD + " T0101"),
-    ),
-    Rule(
-        code="g112-other-g",
-        message="{words:other G} uses the axis words of the block itself, and so does G112",
-        help="write it in a block of its own; G112 needs no G01",
-        source=BOOK.assumed("2.8.30: multiple cornering is not modal; two codes of one group"),
-        alarm=_COMBINATION,
-        roles=(_ROLE,),
-        when=some(OTHER_G),
-        accepted=(_GOOD,),
-        rejected=(_START + "G01 G112 U0 I10. K-50. R30.", _START + "G04 G112 U0 I10. K-50. R30."),
+    *rows_of_block_alone(
+        _ROLE,
+        _START,
+        "U0 I10. K-50. R30.",
+        (_IMPOSSIBLE, BOOK.assumed("2.8.30: multiple cornering is not modal; two codes of one group")),
     ),
 )
 

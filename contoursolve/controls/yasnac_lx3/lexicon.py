@@ -2,7 +2,7 @@
 
 from decimal import Decimal
 
-from contoursolve.controls.common import setting
+from contoursolve.controls.control_settings import setting
 from contoursolve.controls.further import LATHES, UNREAD_CALLS, known_by_name, letters
 from contoursolve.controls.plain import LATHE_CODES, code_rows, merge
 from contoursolve.diagnostics import Alarm, Book, Evidence

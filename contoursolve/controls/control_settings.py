@@ -1,0 +1,111 @@
+"""Settings of controls: how rows of them are made, and those of every control."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from decimal import Decimal
+from typing import Any
+
+from contoursolve.controls.further import WORDS
+from contoursolve.diagnostics import OWN, Evidence, Source
+from contoursolve.execution import MOST_BLOCKS, Limit
+from contoursolve.reading import Dialect, Setting, WithoutPoint
+from contoursolve.tolerance import LARGEST, TRAVEL
+
+
+def own_source(place: str) -> Source:
+    """The source of what contoursolve takes by itself."""
+    return Source(OWN, place, Evidence.ASSUMED)
+
+
+def setting(
+    name: str,
+    meaning: str,
+    values: Mapping[str, str],
+    source: Source,
+    changes: Mapping[str, Callable[[Any], Any]] | None = None,
+) -> Setting:
+    """One whose first value is in force unless told otherwise."""
+    return Setting(name, meaning, values, next(iter(values)), source, changes=changes or {})
+
+
+def number_setting(values: Mapping[str, str], source: Source) -> Setting:
+    """The setting of numbers without a point, `increment` or `calculator`; the first of them is in force."""
+    changes = {"increment": _reading(WithoutPoint.LEAST_INCREMENTS), "calculator": _reading(WithoutPoint.AS_WRITTEN)}
+    return setting("number", "what a number without a decimal point means", values, source, changes)
+
+
+def _reading(meant: WithoutPoint) -> Callable[[Dialect], Dialect]:
+    """From a control to the one for which a number without a point means this."""
+
+    def change(dialect: Dialect) -> Dialect:
+        lexicon = dialect.modes.lexicon
+        words = replace(lexicon, numbers=replace(lexicon.numbers, without_point=meant))
+        return replace(dialect, modes=replace(dialect.modes, lexicon=words))
+
+    return change
+
+
+def first_motion_setting(source: Source) -> Setting:
+    """The setting of the motion that is in force before the program states one; its samples rely on G1."""
+    return setting(
+        "first-motion",
+        "which motion is in force before the program states one",
+        {"G1": "lines by G1", "none": "none: the program must state it"},
+        source,
+        changes={"none": lambda dialect: replace(dialect, motion=None)},
+    )
+
+
+def angle_sense_setting(source: Source, name: str = "angle-sense", line: str = "a line") -> Setting:
+    """The setting that lets lines run against their angles, or not."""
+    return setting(
+        name,
+        f"whether {line} may run against its angle",
+        {
+            "line": "it may: the angle is that of the line, either way",
+            "ray": "it may not: the angle is the direction of travel",
+        },
+        source,
+    )
+
+
+def redundant_angle_setting(source: Source, default: str) -> Setting:
+    """The setting of an angle beside both coordinates, `check` or `error`; the default one is in force."""
+    values = {"check": "it may stand there if it agrees", "error": "it must not stand there"}
+    ordered = {name: values[name] for name in sorted(values, key=lambda name: name != default)}
+    meaning = "an angle beside both coordinates, behind a line that has an end"
+    return setting("redundant-angle", meaning, ordered, source)
+
+
+def arc_chamfer_setting(what: str, source: Source, corner: str = "corner") -> Setting:
+    """The setting of how the size of a chamfer is measured on an arc."""
+    values = {
+        "chord": f"straight from the {corner}",
+        "arc_length": "along the arc; contoursolve does not compute this",
+    }
+    return setting("chamfer-on-arc", f"how {what} is measured on an arc", values, source)
+
+
+def length_setting(name: str, meaning: str, default: str, source: Source, most: int = 1) -> Setting:
+    """One whose value is a number of mm, up to so many."""
+    return Setting(name, meaning, {default: "mm"}, default, source, bounds=(Decimal("0.001"), Decimal(most)))
+
+
+TRAVEL_SETTING = length_setting(
+    "travel",
+    "how far from the start point solutions are searched for that no closed form gives",
+    f"{TRAVEL:.0f}",
+    own_source("no machine is larger"),
+    most=int(LARGEST),
+)
+BLOCKS_SETTING = Setting(
+    Limit().setting,
+    "how many blocks may run again, or in another file, before a program is said to go on for ever",
+    {f"{MOST_BLOCKS}": "blocks"},
+    f"{MOST_BLOCKS}",
+    own_source("programs are shorter, and one that never ends stops soon"),
+    bounds=(Decimal(1), Decimal(100_000_000)),
+    unit="blocks",
+)
+SETTINGS_OF_ALL = (TRAVEL_SETTING, BLOCKS_SETTING, WORDS)
+"""Those of every control."""
