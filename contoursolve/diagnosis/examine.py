@@ -226,12 +226,13 @@ def examine(
     notebook.findings += (*explain_skippable(context, claim), *unmarked)
     explained = spans_of(notebook.findings)
     # What rules refuse of a chain is not solved without a word either.
-    is_refused = bool(claim.unread) or (claim.form.is_general and Status.REJECTED in notebook.statuses)
+    is_doubtful = any(claim.open_modes())
+    is_refused = bool(claim.unread) or (claim.form.is_general and (is_doubtful or Status.REJECTED in notebook.statuses))
     for word in unused_words(claim, profile) if is_whole and not is_refused else ():
         # Whatever the rules say of it: nothing is dropped without a word.
         if word.span not in explained:
             notebook.add(report(context, ReadIssue.WORD_UNUSED, Basis.RULE, [word], form=claim.form.name))
-    if is_readable:
+    if is_readable and not (claim.form.is_general and is_doubtful):
         if claim.form.is_general:
             profile = _without_cuts(context, profile, claim, analyse(assemble(profile)).free, notebook)
         profile, solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)

@@ -304,9 +304,9 @@ def explain_missing(
     absent = [name for name in dict.fromkeys(usual) if name in able and name in claim.vocabulary]
     open_count = len(assemble(profile).unknowns) - verdict.rank
     ways = [] if is_brief else list(_adding(absent, claim, profile, unable))
-    if profile.is_extended:
-        open_sizes = [question.word.text for question in profile.questions if question.fact.sizes in free]
-        ways += [f"give {' or '.join(open_sizes)} a value"] if open_sizes else []
+    open_sizes = [question.word.text for question in profile.questions if question.fact.sizes in free]
+    valued = [f"give {' or '.join(open_sizes)} a value"] if profile.is_extended and open_sizes else []
+    ways += valued
     told = open_text(shown, profile)
     if claim.form.is_general:
         from contoursolve.diagnosis.missing_words import partners_of  # noqa: PLC0415 - few blocks lack words
@@ -318,7 +318,7 @@ def explain_missing(
         drawing = None if is_brief else sample_drawing(claim, profile, absent)
         helping = [name for name in absent if drawing is None or drawing.helps(name)]
         usual_words = [claim.vocabulary[name] for name in helping[:_MOST_NAMED]]
-        ways = [_adding_by_line(usual_words, open_count, claim)] if usual_words else []
+        ways = [_adding_by_line(usual_words, open_count, claim)] if usual_words else valued
         partners, halves = partners_of(claim)
         if partners:
             asked = _adding_by_line([claim.vocabulary[name] for name in partners], 1, claim, join)
@@ -335,7 +335,11 @@ _MOST_NAMED = 8
 
 def _open_elements(free: set[str], number: int, profile: Profile) -> tuple[str, str]:
     """The number of missing words, and which elements they leave open; and the first of these."""
-    things = {name.rpartition(".")[0] or name for name in free}
+    corners = {f"{each.name}.": each.name for each in profile.figure.corners}
+    things = {
+        next((corner for begin, corner in corners.items() if name.startswith(begin)), name.rpartition(".")[0] or name)
+        for name in free
+    }
     open_ = [
         each.name
         for each in profile.figure.path

@@ -102,14 +102,17 @@ def still_able(lack: Lack, unable: Collection[str]) -> Lack | None:
 def partners_of(claim: ParsedContour) -> tuple[list[str], list[str]]:
     """Words that others need to say anything, where with them nothing is open, and these others; none where it is."""
     partners, halves = dict[str, None](), dict[str, None]()
-    needs = {row.needs for row in claim.form.outline.facts}
+    needs, poles = {row.needs for row in claim.form.outline.facts}, claim.form.free.poles
     effective = {name for each in needs if claim.givens.keys() >= {*each} for name in each}
     for names in dict.fromkeys(row.needs for row in claim.form.outline.facts):
         stated = [name for name in names if name in claim.givens]
-        # A pole says nothing without polar words, but it is no half of one.
-        if len(stated) < len(names) and not effective.intersection(names) and not {*names} & {*claim.form.free.usual}:
-            partners |= dict.fromkeys(name for name in names if stated and name not in claim.givens)
-            halves |= dict.fromkeys(stated)
+        missing = [name for name in names if name not in claim.givens]
+        # A pole says nothing without polar words, but it is no half of one; they say nothing without it.
+        is_polar = bool(stated) and all(name.rpartition(":")[0] in poles for name in missing)
+        is_half = not effective.intersection(names) and not {*names} & {*claim.form.free.usual}
+        if missing and (is_polar or is_half):
+            partners |= dict.fromkeys(missing if stated else ())
+            halves |= dict.fromkeys(name for name in stated if name.rpartition(":")[0] not in poles)
     if not partners or not partners.keys() <= claim.vocabulary.keys():
         return [], []
     is_enough = analyse(assemble(read(stating(claim, partners), frozenset()))).is_determined

@@ -59,6 +59,8 @@ class Cursor(Struct, frozen=True):
     previous: Previous | None = None
     """The last contour or block that says something, and the state before it: with a comma in the next block, it may be
     part of the contour there."""
+    told: tuple[Span, ...] = ()
+    """Words behind the contour before of which it tells itself."""
     findings: tuple[Diagnostic, ...] = ()
     """Findings since the last step, told with the next one."""
 
@@ -113,7 +115,8 @@ class Examination:
         blocks = (view[0],) if found.lines == 1 else tuple(view[: found.lines])
         marks, outside = cursor.marks.look(blocks, self._context)
         count, differences = compare_count(cursor.count, found.contour, self.asked)
-        here = Cursor(cursor.state, marks, count, cursor.previous, (*cursor.findings, *outside, *differences))
+        found_before = (*cursor.findings, *outside, *differences)
+        here = Cursor(cursor.state, marks, count, cursor.previous, cursor.told, found_before)
         if found.contour is not None and found.contour.form.is_contour:
             return self._take_contour(view, blocks, found.contour, here)
         return self._take_block(view, blocks, found.contour, here)
@@ -125,7 +128,8 @@ class Examination:
         pending = self.queue.add(contour, step, view, len(blocks), here.previous)
 
         def behind() -> Cursor:
-            return Cursor(self.queue.leave(pending), here.marks, here.count, (contour.blocks, here.state))
+            told = tuple(word.span for word in contour.unread if word.span.line > blocks[-1].line)
+            return Cursor(self.queue.leave(pending), here.marks, here.count, (contour.blocks, here.state), told)
 
         return WalkStep(pending, len(blocks), behind)
 
@@ -139,10 +143,11 @@ class Examination:
             findings = (*here.findings, *found)
         else:
             found = findings_of_block(asked, block, apply_modes(here.state, block, modes), here.previous)
-            told = [*here.findings, *found]
-            findings = untouched(with_slips(asked, view, states, here.previous, told), blocks, asked)
+            told_of = [*here.findings, *(each for each in found if each.span not in here.told)]
+            findings = untouched(with_slips(asked, view, states, here.previous, told_of), blocks, asked)
         previous = ((block,), here.state) if block.words else here.previous
-        behind = Cursor(states[1], here.marks, here.count, previous)
+        told = tuple(span for span in here.told if span.line > block.line)
+        behind = Cursor(states[1], here.marks, here.count, previous, told)
         return WalkStep(Step(blocks, here.state, findings=findings), len(blocks), lambda: behind)
 
     def pass_by(self, passage: Passage, cursor: Cursor) -> WalkStep:

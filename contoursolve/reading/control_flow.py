@@ -263,7 +263,6 @@ def _meet(one: ControlFlowPath, other: ControlFlowPath, reason: str, modes: Mode
         if modes.follow is not None:
             # What is not in force there is not known.
             memory.pop(name, None)
-            continue
         texts = (f"{word.text.strip()}{_on_line(word.span.line)}" if word else f"no {name}" for word in words)
         doubts.setdefault(name, f"{' or '.join(texts)}{why}")
     both = (ours.motion, theirs.motion)

@@ -360,7 +360,9 @@ class ChainFinder:
         """The word that shapes the next block in a way that is not read."""
         if following is None or blocks[following].macro is not None:
             return None
-        unknown = (code for code in codes_of(blocks[following], modes) if isinstance(code, Word))
+        # What is no code has no number that says what it does.
+        codes = codes_of(blocks[following], modes)
+        unknown = (replace(code, number=None) for code in codes if isinstance(code, Word))
         return modes.unread(blocks[following], apply_modes(here, blocks[following], modes)) or next(unknown, None)
 
     def _keeps_angle(self, member: Member) -> bool:

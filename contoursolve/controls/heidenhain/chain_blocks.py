@@ -104,6 +104,16 @@ class ChainBlocks:
             self.blocks.pop()
         self.poles = {name: pole for name, pole in self.poles.items() if not _is_behind(pole, self.blocks)}
 
+    def read_pole(self, block: Block) -> None:
+        """Read a pole that stands before no chain: an element of no length."""
+        self.poles["pole 1"] = 0, block
+        self._add(block, "L")
+
+    @property
+    def is_contour(self) -> bool:
+        """Whether its blocks are solved together: with a free element, a corner, or several of them."""
+        return len(self.members) > 1 or any(each.function in FREE or each.corners for each in self.members)
+
     def _last_block(self) -> Block:
         """The last block that belongs to an element."""
         last = self.members[-1]

@@ -21,5 +21,8 @@ element with a corner, of which that or the next one is an arc."""
 APART = "@apart"
 """A corner beside an approach, a departure or a call."""
 
+NO_COORDINATE = "@no-coordinate"
+"""A pole without a coordinate."""
+
 FULL = "@full-circle"
 """An arc about CC that ends where it begins."""

@@ -21,6 +21,7 @@ from contoursolve.controls.heidenhain.circumstances import (
     NO_BEFORE,
     NO_BLOCK,
     NO_CENTER,
+    NO_COORDINATE,
     NO_LINE,
     NO_POLE,
     NO_RADIUS,
@@ -41,7 +42,9 @@ from contoursolve.controls.heidenhain.elements import (
     FkElement,
 )
 from contoursolve.controls.heidenhain.follow import (
+    CENTER,
     PLANE,
+    POLE,
     TOOL_AXIS,
     full_circles,
     senses,
@@ -113,13 +116,15 @@ def claim_of(chain: ChainBlocks, before: State, modes: Modes) -> ParsedContour:
         for number, member in enumerate(members, 1)
         if member.picked is not None and member.picked.number is not None
     ]
+    stated = tuple(name for name, (_, block) in chain.poles.items() if isinstance(block, Block))
     claim = replace_fields(
-        builder.build(compose(tuple(elements), labels), before, chain.state),
+        builder.build(compose(tuple(elements), labels, stated), before, chain.state),
         unknown=tuple(word for block in chain.blocks for word in _foreign(block)),
         choices=tuple(_choices(members, elements, labels)),
         makes=tuple(_makes(chain, labels)),
         picks=tuple(_picks(picks, len(members), modes)),
         conventions=tuple(_conventions(bool(picks), modes)),
+        doubts={name: why for member in members for name, why in _doubts(member)},
     )
     if chain.is_cut and _has_free(members) and _is_open(read(claim, frozenset())):
         return replace_fields(claim, circumstances=claim.circumstances | {f"{len(members)}:{CUT}"})
@@ -160,7 +165,8 @@ def _state_pole(builder: ContourBuilder, prefix: str, pole: Pole, before: State)
     place, block = pole
     if isinstance(block, Block):
         words = {word.address: word for word in block.words if word.address in PLANE}
-        builder.state(prefix, words, builder.values(words, before))
+        circumstances = () if words else (NO_COORDINATE,)
+        builder.state(prefix, words, builder.values(words, before), circumstances)
         builder.name(prefix, int(place), ((axis, axis) for axis in PLANE))
     else:
         values = zip(PLANE, (Decimal(place), block), strict=True)
@@ -311,24 +317,41 @@ def _element(chain: ChainBlocks, number: int, before: Sequence[FkElement]) -> Fk
     return element
 
 
+def _doubts(member: ChainMember) -> Iterator[tuple[str, str]]:
+    """What a block relies on and is not known to be in force before it, as ways that meet do not agree; and why."""
+    needed: dict[str, tuple[str, ...]] = {f"a {TOOL_AXIS}": (TOOL_AXIS,)}
+    if member.own.keys() & POLAR and not member.pole and member.function in FREE:
+        needed[POLE] = tuple(f"{POLE} {axis}" for axis in PLANE)
+    if member.function in OF_CENTER and member.center_at is None:
+        needed[CENTER] = tuple(f"{CENTER} {axis}" for axis in PLANE)
+    for told, names in needed.items():
+        whys = [member.here.doubts[name] for name in names if name in member.here.doubts]
+        yield from ((told, why) for why in whys[:1])
+
+
+OF_CENTER = (*ABOUT_CENTER, "LP", "CTP")
+"""Functions that count from CC."""
+
+
 def _lacking(chain: ChainBlocks, number: int, elements: Sequence[FkElement]) -> Iterator[str]:
     """The circumstances of the last of the elements: what it lacks, and what is wrong with it."""
     member, element, before = chain.members[number - 1], elements[-1], chain.members[: number - 1]
     own, tool = member.own, member.here.memory.get(TOOL_AXIS)
     yield from (wrong + name for name, wrong in _referred(chain, number) if isinstance(wrong, str))
     is_touching, is_bent = member.function in TANGENT, member.function in TANGENT[2:]
+    is_doubtful = any(_doubts(member))
     is_turned = number > 1 and member.function == "FCT" and element.turn is not elements[-2].turn
     holds = {
         NO_SENSE: not element.is_line and not is_bent and not sign_of(member.block, "DR"),
-        NO_POLE: own.keys() & POLAR and not member.pole,
+        NO_POLE: own.keys() & POLAR and not member.pole and not is_doubtful,
         NO_BEFORE: number == 1 and (is_touching or ("IAN" in own and "RAN" not in own)),
-        NO_CENTER: member.function in (*ABOUT_CENTER, "LP", "CTP") and member.center_at is None,
+        NO_CENTER: member.function in OF_CENTER and member.center_at is None and not is_doubtful,
         FULL: member.is_full,
         NO_RADIUS: member.function == "CR" and "R" not in own,
         CLOSES_NOTHING: "CLSD-" in own and not 0 < chain.opening < number,
         CONTINUED: _CONTINUES.search(member.block.text),
         NEVER_CLOSED: number == chain.opening and not chain.is_closed,
-        TOOL: tool is not None and tool.text != "Z",
+        TOOL: tool is not None,
         # To which side CT turns is not known before what is still to be found.
         NO_TURN: is_bent and not member.sense and _has_free(before),
         TURNS_BACK: is_turned and _is_same_circle(before[-1].block, member.block),

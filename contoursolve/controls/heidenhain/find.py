@@ -52,23 +52,32 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Par
         is_begun = is_in_plane(block) and _next_function(blocks, index) in joins
     elif function == POLE:
         # A pole is read where it stands; one with a coordinate missing is none for the chain behind it.
-        is_half = (block.find("X") is None) is not (block.find("Y") is None)
-        is_begun = is_half and _next_function(blocks, index) in MOVES
+        is_begun = block.find("X") is None or block.find("Y") is None
     else:
         is_begun = function in OF_CORNERS
     if not is_begun:
         return None
     chain = ChainBlocks(state, modes)
-    chain.read(blocks, index)
-    if len(chain.members) == 1 and function in MOVES and function not in FREE and not chain.members[0].corners:
+    if function != POLE or _next_function(blocks, index) in MOVES:
+        chain.read(blocks, index)
+    if not chain.is_contour and function == POLE:
+        chain = ChainBlocks(state, modes)
+        chain.read_pole(block)
+        return _without_path(claim_of(chain, state, modes))
+    if not chain.is_contour:
         return None
     claim = claim_of(chain, state, modes)
     if function in OF_CORNERS and (_follows_elsewhere(block, state) or leads_elsewhere(blocks, index)):
-        outline = replace_fields(claim.form.outline, path=())
-        form = replace_fields(claim.form, outline=outline, is_contour=False, needs_values=False)
         circumstances = claim.circumstances - {f"1:{FIRST_CORNER}", f"1:{LAST_CORNER}"} | {f"1:{APART}"}
-        return replace_fields(claim, form=form, circumstances=circumstances)
+        return replace_fields(_without_path(claim), circumstances=circumstances)
     return claim
+
+
+def _without_path(claim: ParsedContour) -> ParsedContour:
+    """What is read as a contour is, and is none: it has no path, and needs no values."""
+    outline = replace_fields(claim.form.outline, path=())
+    form = replace_fields(claim.form, outline=outline, is_contour=False, needs_values=False)
+    return replace_fields(claim, form=form)
 
 
 def _next_function(blocks: Sequence[Block], index: int) -> str:

@@ -25,9 +25,10 @@ from contoursolve.tolerance import LENGTH
 
 PLANE = ("X", "Y")
 CENTER, POLE = "CC", "FPOL"
-"""Poles: of conventional moves and of free contours. Their coordinates stay in force under these names and an axis."""
+"""Functions of poles: of conventional moves and of free contours. Their coordinates stay in force by these names and an
+axis, such as FPOL X."""
 
-TOOL_AXIS = "tool axis"
+TOOL_AXIS = "tool axis other than Z"
 JOINT = "joint"
 """An approach, or an element that a call ran, as long as no other element stands behind it: what a corner that is the
 first of its chain may join."""
@@ -85,21 +86,22 @@ def begins_chain(function: str, block: Block) -> bool:
 def set_pole(state: State, block: Block, function: str, modes: Modes) -> State:
     """The state behind a block that sets a pole: where the tool is, if it has no coordinates."""
     moved = positions(state, axis_words(block, modes), modes, block.is_skippable)
-    memory = dict(state.memory)
+    memory, stated = dict(state.memory), list[str]()
     for axis in PLANE:
         # A centre keeps the coordinate that its block leaves out; CC alone takes the position.
         if axis in moved or (function == CENTER and not moved):
             value = (moved[axis] if axis in moved else state.axes[axis]).value
-            memory.pop(function + axis, None)
+            stated.append(f"{function} {axis}")
+            memory.pop(f"{function} {axis}", None)
             if value is not None:
                 number = value / state.unit.in_mm
-                memory[function + axis] = Word(axis, number, True, f"{axis}{number:f}", block.span)
-    return replace(state, memory=memory)
+                memory[f"{function} {axis}"] = Word(axis, number, True, f"{function} {axis}{number:f}", block.span)
+    return replace(state, memory=memory).settle(*stated)
 
 
 def pole_of(state: State, function: str) -> tuple[Decimal, Decimal] | None:
     """The coordinates of a pole, mm; None if one of them is not known."""
-    words = [state.memory.get(function + axis) for axis in PLANE]
+    words = [state.memory.get(f"{function} {axis}") for axis in PLANE]
     first, second = (word.number * state.unit.in_mm if word and word.number is not None else None for word in words)
     return None if first is None or second is None else (first, second)
 
@@ -167,8 +169,10 @@ def _statement(state: State, block: Block, modes: Modes) -> State:
         return replace(state, unit=Length.INCH if begins["unit"].upper() == "INCH" else Length.MM)
     tool = _TOOL.match(block.text)
     if tool:
-        word = Word(TOOL_AXIS, None, False, tool["axis"].upper(), block.span)
-        state = replace(state, memory={**state.memory, TOOL_AXIS: word})
+        memory = {name: word for name, word in state.memory.items() if name != TOOL_AXIS}
+        if tool["axis"].upper() != "Z":
+            memory[TOOL_AXIS] = Word(TOOL_AXIS, None, False, f"tool axis {tool['axis'].upper()}", block.span)
+        state = replace(state, memory=memory).settle(TOOL_AXIS)
     for pattern, reason in _LOSING:
         if pattern.match(block.text):
             return state.lose(modes.axes, reason, block.span)

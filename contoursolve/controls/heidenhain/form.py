@@ -181,8 +181,11 @@ _USUAL = (
 
 
 @lru_cache(maxsize=2048)
-def compose(elements: tuple[FkElement, ...], labels: tuple[str, ...]) -> ContourForm:
-    """The form of a chain: everything that its words may state; `labels` are the numbers of its blocks."""
+def compose(
+    elements: tuple[FkElement, ...], labels: tuple[str, ...], stated_poles: tuple[str, ...] = ()
+) -> ContourForm:
+    """The form of a chain: everything that its words may state; `labels` are the numbers of its blocks,
+    `stated_poles` the poles that these state, though no word may count from one."""
     points = [START, *(f"P{label}" for label in labels)]
     named = zip(labels, elements, points, points[1:], strict=False)
     chain = Chain(tuple(PlacedElement(n, *each) for n, each in enumerate(named, 1)))
@@ -201,7 +204,7 @@ def compose(elements: tuple[FkElement, ...], labels: tuple[str, ...]) -> Contour
         title=_TITLES[name],
         roles=(
             *(BlockRole(each.element.role, (each.prefix,)) for each in places),
-            *(BlockRole(POLE, (f"{pole}:",)) for pole in poles),
+            *(BlockRole(POLE, (f"{pole}:",)) for pole in dict.fromkeys((*poles, *stated_poles))),
         ),
         outline=Outline(
             start=START,

@@ -287,6 +287,7 @@ _COMBINATION_RULES = (
         _START,
         "U0 I10. K-50. R30.",
         (_IMPOSSIBLE, BOOK.assumed("2.8.30: multiple cornering is not modal; two codes of one group")),
+        (_WORDS_IN_BLOCK, _COMBINATION),
     ),
 )
 
