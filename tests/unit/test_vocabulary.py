@@ -512,3 +512,42 @@ def test_a_synchronous_action_of_sinumerik_runs_beside_the_program(action, known
 def test_what_counts_from_cc_says_so_where_there_is_none(move):
     found = findings(KLARTEXT, f"1 L X+0 Y+0 R0 F100\n2 L X+10\n3 RND R3\n4 {move}\n5 END PGM A MM")
     assert any((each.code, each.span.line) == ("heidenhain-centre-missing", 4) for each in found)
+
+
+@pytest.mark.parametrize(
+    ("pole", "code", "behind"),
+    [
+        ("FPOL X+5", "heidenhain-pole-half", "FL PR+20 PA+30\nFL X+50 Y+20"),
+        ("FPOL", "heidenhain-pole-empty", "FL PR+20 PA+30\nFL X+50 Y+20"),
+        ("FPOL", "heidenhain-pole-empty", "FL X+20 Y+0\nFL X+50 Y+20"),
+        ("FPOL Y+5", "heidenhain-pole-half", "L X+20 Y+0\nL X+50 Y+20"),
+        ("FPOL", "heidenhain-pole-empty", "CC X+1 Y+1\nL X+20 Y+0"),
+        ("FPOL X+5", "heidenhain-pole-half", "L Z+50 R0 FMAX M30"),
+        ("FPOL", "heidenhain-pole-empty", "L X+20 Y+0\nRND R5\nL X+20 Y+30"),
+    ],
+)
+@pytest.mark.parametrize("start", ["L X+0 Y+0 R0 FMAX\n", ""])
+def test_a_pole_without_both_coordinates_is_told_wherever_it_stands(start, pole, code, behind):
+    text = f"BEGIN PGM A MM\n{start}{pole}\n{behind}\nEND PGM A MM"
+    found = contoursolve.check(text, control="heidenhain")
+    told = [each for each in found if each.is_error and each.code != "position-unknown"]
+    assert [(each.code, each.span.line) for each in told] == [(code, 2 + bool(start))]
+    # What the polar words lack is the pole, and nothing else.
+    lacking = [each.message for each in found if each.code == "words-missing"]
+    stated = "add X and Y" if pole == "FPOL" else "add Y"
+    assert all(f"{stated} in program line" in each and "PR+20 and PA+30 say nothing" in each for each in lacking)
+
+
+@pytest.mark.parametrize("beside", ["", "G04 P500\n"])
+@pytest.mark.parametrize(
+    ("control", "text"),
+    [
+        ("fanuc-mill", "G17 G90 G00 X0 Y0\nG01 X30. ,C5.\n{}G310 X40. Y40."),
+        ("nct-99m", "G17 G90 G0 X0 Y0\nG1 X30. ,C10.\n{}G310 X40. Y40."),
+        ("siemens-840d", "G18 DIAMON G0 X20 Z0\nG1 X40 RND=2\n{}G310 Z-50"),
+        ("mitsubishi", "G00 X20. Z0.\nG01 Z-20. ,R3.\n{}G310 X60. ,A120."),
+    ],
+)
+def test_a_code_that_the_control_has_not_is_told_once_behind_a_corner(control, text, beside):
+    found = contoursolve.check(text.format(beside), control=control)
+    assert [each.code for each in found if "G310" in each.message] == ["code-unknown"]

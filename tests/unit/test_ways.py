@@ -409,3 +409,37 @@ def test_if_of_macro_b_behind_the_number_of_a_program_is_no_o_word():
     text = "O0100 IF[#1 EQ 0]GOTO5\nG17 G90\nN5 G0 X0. Y0.\nG17 G90 G1 X10. ,R2. F200\nY20.\nM30"
     (answer,) = solve(text, control=MILL).answers
     assert answer.status is Status.SOLVED
+
+
+KLARTEXT = "0 BEGIN PGM A MM\n1 L X+0 Y+0 R0 FMAX\n{}2 FN 9: IF +Q1 EQU +1 GOTO LBL 5\n{}\nLBL 5\n{}\n9 END PGM A MM"
+POLAR, ABOUT_CC = "FL PR+20 PA+30\nFL X+50 Y+20", "L X+40 Y+0\nRND R5\nC X+50 Y+20 DR+"
+
+
+@pytest.mark.parametrize(
+    ("before", "on_one_way", "behind", "told"),
+    [
+        ("", "FPOL X+5 Y+5", POLAR, ("whether FPOL is in force", "no FPOL X or FPOL X5 (program line 4)")),
+        ("FPOL X+1 Y+1\n", "FPOL X+5 Y+5", POLAR, ("FPOL X1 (program line 3) or FPOL X5 (program line 5)",)),
+        ("", "CC X+50 Y+10", ABOUT_CC, ("whether CC is in force", "CC X50 (program line 4)")),
+        ("", "TOOL CALL 1 X S100", "FL X+40 Y+0\nFL X+50 Y+20", ("tool axis X (program line 4)",)),
+    ],
+)
+def test_what_one_way_of_a_klartext_program_puts_in_force_is_doubtful_behind_it(before, on_one_way, behind, told):
+    (answer,) = solve(KLARTEXT.format(before, on_one_way, behind), control="heidenhain").answers
+    (error,) = (each for each in answer.diagnostics if each.is_error)
+    assert (answer.status, error.code) == (Status.UNDERDETERMINED, "mode-unknown")
+    assert all(part in error.message for part in told)
+
+
+@pytest.mark.parametrize(
+    ("before", "on_one_way", "behind"),
+    [
+        ("", "TOOL CALL 1 Z S100", "FL X+40 Y+0\nFL X+50 Y+20"),
+        ("FPOL X+5 Y+5\n", "FPOL X+5 Y+5", POLAR),
+        ("", "FPOL X+9 Y+9", f"FPOL X+5 Y+5\n{POLAR}"),
+        ("", "FPOL X+9 Y+9", "FL X+40 Y+0\nFL X+50 Y+20"),
+    ],
+)
+def test_what_all_ways_agree_on_or_no_word_needs_is_not_doubtful(before, on_one_way, behind):
+    (answer,) = solve(KLARTEXT.format(before, on_one_way, behind), control="heidenhain").answers
+    assert (answer.status, answer.diagnostics) == (Status.SOLVED, ())

@@ -318,7 +318,7 @@ def _element(chain: ChainBlocks, number: int, before: Sequence[FkElement]) -> Fk
 
 
 def _doubts(member: ChainMember) -> Iterator[tuple[str, str]]:
-    """What a block relies on and is not known to be in force before it, as ways that meet do not agree; and why."""
+    """Poles, or another tool axis, that a block needs and on which ways that meet before it do not agree; and why."""
     needed: dict[str, tuple[str, ...]] = {f"a {TOOL_AXIS}": (TOOL_AXIS,)}
     if member.own.keys() & POLAR and not member.pole and member.function in FREE:
         needed[POLE] = tuple(f"{POLE} {axis}" for axis in PLANE)

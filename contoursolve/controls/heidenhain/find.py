@@ -74,7 +74,7 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Par
 
 
 def _without_path(claim: ParsedContour) -> ParsedContour:
-    """What is read as a contour is, and is none: it has no path, and needs no values."""
+    """The same as something that is read as a contour is, and is none: it has no path, and needs no values."""
     outline = replace_fields(claim.form.outline, path=())
     form = replace_fields(claim.form, outline=outline, is_contour=False, needs_values=False)
     return replace_fields(claim, form=form)
