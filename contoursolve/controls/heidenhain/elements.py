@@ -1,4 +1,4 @@
-"""The elements of a chain of lines and arcs, and the facts that each of their words states by itself."""
+"""The elements of a chain of lines and arcs, and the facts that their words state, alone or several together."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from operator import attrgetter
@@ -28,6 +28,7 @@ from contoursolve.geometry import (
     Level,
     Line,
     Offset,
+    ParallelLines,
     Radius,
     RadiusStep,
     Ray,
@@ -36,8 +37,10 @@ from contoursolve.geometry import (
     TurnBetween,
     direction_at,
     make_smooth,
+    put_beside,
     put_on,
 )
+from contoursolve.reading import FactRow
 
 START = "S"
 TANGENCY = "tangent"
@@ -277,3 +280,36 @@ BESIDE = "PD"
 
 PARTNERS = {"D": f"{BESIDE}Y", "DP": "PAR"}
 """Words that tell of what a distance of 0 is."""
+
+
+def point_rows(place: PlacedElement) -> Iterator[FactRow]:
+    """Points on the element, each by two words, and one beside it, by three."""
+    q = place.prefix
+    for point in (POINTS[:2] if place.element.is_line else POINTS) + (BESIDE,):
+        name, words = f"{q}{point}", [f"{q}{point}{axis}" for axis in "XY"]
+        distance = f"{q}D"
+        needs = (*words, *([distance] if point == BESIDE else []))
+        radius, side = f"{name} distance", f"{name}.side"
+        # What words state comes last: of what does not agree, it is named.
+        if point != BESIDE or "D" in place.element.touching:
+            yield FactRow(put_on(place.shape, name), needs)
+        else:
+            yield FactRow(put_beside(place.shape, name, radius, side), needs)
+        yield from (FactRow(Coordinate(word, name, axis), needs) for axis, word in enumerate(words))
+        if point == BESIDE and "D" not in place.element.touching:
+            yield FactRow(Radius(distance, radius), needs)
+
+
+def parallel_rows(chain: Chain, place: PlacedElement) -> Iterator[FactRow]:
+    """A line parallel to another one, and at which distance."""
+    number = place.element.parallel
+    if not (number and place.element.is_line):
+        return
+    other, word, distance = chain.places[number - 1], f"{place.prefix}PAR", f"{place.prefix}DP"
+    yield FactRow(ParallelLines(other.name, place.name, word), (word,))
+    if "DP" in place.element.touching:
+        yield FactRow(put_on(place.shape, other.tail, distance), (word, distance))
+        return
+    radius, side = f"{place.prefix}DP distance", f"{place.prefix}DP.side"
+    yield FactRow(put_beside(place.shape, other.tail, radius, side), (word, distance))
+    yield FactRow(Radius(distance, radius), (word, distance))

@@ -28,6 +28,8 @@ from contoursolve.controls.heidenhain.elements import (
     FkElement,
     PlacedElement,
     is_aimed,
+    parallel_rows,
+    point_rows,
 )
 from contoursolve.controls.heidenhain.lexicon import (
     BOOK,
@@ -40,45 +42,9 @@ from contoursolve.geometry import (
     BlockRole,
     Coordinate,
     Line,
-    ParallelLines,
-    Radius,
-    put_beside,
     put_on,
 )
 from contoursolve.reading import Assumption, ContourForm, CornerRow, FactRow, FreeFactWords, Outline, WordTable, some
-
-
-def _point_rows(place: PlacedElement) -> Iterator[FactRow]:
-    """Points on the element, each by two words, and one beside it, by three."""
-    q = place.prefix
-    for point in (POINTS[:2] if place.element.is_line else POINTS) + (BESIDE,):
-        name, words = f"{q}{point}", [f"{q}{point}{axis}" for axis in "XY"]
-        distance = f"{q}D"
-        needs = (*words, *([distance] if point == BESIDE else []))
-        radius, side = f"{name} distance", f"{name}.side"
-        # What words state comes last: of what does not agree, it is named.
-        if point != BESIDE or "D" in place.element.touching:
-            yield FactRow(put_on(place.shape, name), needs)
-        else:
-            yield FactRow(put_beside(place.shape, name, radius, side), needs)
-        yield from (FactRow(Coordinate(word, name, axis), needs) for axis, word in enumerate(words))
-        if point == BESIDE and "D" not in place.element.touching:
-            yield FactRow(Radius(distance, radius), needs)
-
-
-def _parallel_rows(chain: Chain, place: PlacedElement) -> Iterator[FactRow]:
-    """A line parallel to another one, and at which distance."""
-    number = place.element.parallel
-    if not (number and place.element.is_line):
-        return
-    other, word, distance = chain.places[number - 1], f"{place.prefix}PAR", f"{place.prefix}DP"
-    yield FactRow(ParallelLines(other.name, place.name, word), (word,))
-    if "DP" in place.element.touching:
-        yield FactRow(put_on(place.shape, other.tail, distance), (word, distance))
-        return
-    radius, side = f"{place.prefix}DP distance", f"{place.prefix}DP.side"
-    yield FactRow(put_beside(place.shape, other.tail, radius, side), (word, distance))
-    yield FactRow(Radius(distance, radius), (word, distance))
 
 
 def _aimed_by(chain: Chain, place: PlacedElement) -> tuple[str, ...]:
@@ -104,8 +70,8 @@ def _rows(chain: Chain) -> Iterator[FactRow]:
             needs += tuple(name for name in _aimed_by(chain, place) if word == TANGENCY)
             if word not in POLAR or place.element.pole:
                 yield from (FactRow(fact, needs) for fact in WORDS[word](chain, place, given))
-        yield from _point_rows(place)
-        yield from _parallel_rows(chain, place)
+        yield from point_rows(place)
+        yield from parallel_rows(chain, place)
         if place.element.is_line:
             continue
         after = places[place.number] if place.number < len(places) else None
