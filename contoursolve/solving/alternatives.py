@@ -113,7 +113,7 @@ def _alternative(profile: Profile, system: System, prover: Prover, found: ExactS
         refusals += judge_range(path)
         if not refusals:
             refusals += judge_path(path)
-            remarks += vanishing_lines(path)
+            remarks += vanishing_lines(system.figure, measures)
     sides = sides_of(system, at, {choice.point for choice in profile.choices})
     # A circle about the middle of two of its points is an ordinary half circle.
     centers = {element.center for element in system.figure.path if isinstance(element, Arc)}

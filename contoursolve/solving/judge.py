@@ -7,7 +7,7 @@ from math import isnan, nan
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.geometry import Arc, Corner, Line, Profile
+from contoursolve.geometry import Arc, Corner, Figure, Line, Profile
 from contoursolve.solving.checks import (
     Check,
     MeasuredFigure,
@@ -57,10 +57,10 @@ def judge_path(path: MeasuredPath) -> list[Refusal]:
     return _judge(path, [*check_path(path.measured), check_residuals(worst)])
 
 
-def vanishing_lines(path: MeasuredPath) -> list[Note]:
-    """The lines of a path that have no length."""
-    lines = (each.name for each in path.measured.figure.path if isinstance(each, Line))
-    return [Note(NoteKind.LINE_VANISHES, name) for name in lines if abs(path.measured.path.lengths[name]) <= LENGTH]
+def vanishing_lines(figure: Figure, path: PathOutputs) -> list[Note]:
+    """The lines of a path in numbers that have no length."""
+    lines = (each.name for each in figure.path if isinstance(each, Line))
+    return [Note(NoteKind.LINE_VANISHES, name) for name in lines if abs(path.lengths[name]) <= LENGTH]
 
 
 def _judge(path: MeasuredPath, checks: Sequence[tuple[Check, float]]) -> list[Refusal]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import combinations, count
 from math import asin, atan2, degrees, hypot, inf, isfinite
 
@@ -129,15 +129,19 @@ class _Attempt:
         checks = compile_checks(system).outputs if is_often else None
         self.is_clear = checks is not None and self.out[checks.passed] == len(checks.checks)
         """Whether every check is known to be passed, but for those of half circles."""
-        at = Values({**self.out, **at_origin(system.figure)}, {}, {})
-        measures = self.machine.path.read(self.out.__getitem__)
-        self.measured = MeasuredFigure(system.figure, at, measures, self._increment)
+        self.path = self.machine.path.read(self.out.__getitem__)
         self.refusals: list[Refusal] = []
         self.remarks: list[Note] = []
         self.doubles: dict[int, dict[str, float]] = {}
         self.split = 0.0
         self.stuck: frozenset[Fact] = frozenset()
         """The facts of the step that is singular at these values, if one is."""
+
+    @cached_property
+    def measured(self) -> MeasuredFigure:
+        """The figure in numbers, which checks of each thing by itself measure."""
+        figure = self.system.figure
+        return MeasuredFigure(figure, Values({**self.out, **at_origin(figure)}, {}, {}), self.path, self._increment)
 
     def _increment(self, name: str) -> float:
         return self.inputs[INCREMENT_OF + name]
@@ -154,28 +158,34 @@ class _Attempt:
                 self._compare_all()
                 return self._refused()
         sizes = sizes_of(self.profile)
-        path = MeasuredPath(self.profile, self.measured, sizes, self._resize)
-        self.refusals += [] if self.is_clear else judge_range(path)
-        if self.refusals or self.is_clear:
+        if self.is_clear:
             self._compare_all()
         else:
-            self._check_equations()
-        if not self.refusals:
-            self.refusals += [] if self.is_clear else judge_path(path)
-            self.remarks += vanishing_lines(path)
+            self._judge(MeasuredPath(self.profile, self.measured, sizes, self._resize))
         if self.refusals:
             return self._refused()
+        self.remarks += vanishing_lines(self.system.figure, self.path)
         bound = self._error_bound()
         if not bound - self.split <= ERROR_BOUND_WARNING:
             self.remarks.append(Note(NoteKind.SENSITIVE, "", (), {"limit": ERROR_BOUND_WARNING, "actual": bound}))
         agrees = any(remark.kind is NoteKind.WORDS_AGREE for remark in self.remarks)
         return replace(
-            solution_at(self.system, self.profile.start, sizes, self.out, self.measured.path.corners),
+            solution_at(self.system, self.profile.start, sizes, self.out, self.path.corners),
             status=Status.OVERDETERMINED if agrees else Status.SOLVED,
             remarks=tuple(self.remarks),
             error_bound=bound,
             certificate=self._certificate(bound) if is_proven else None,
         )
+
+    def _judge(self, path: MeasuredPath) -> None:
+        """The refusals of a path whose steps have solutions."""
+        self.refusals += judge_range(path)
+        if self.refusals:
+            self._compare_all()
+            return
+        self._check_equations()
+        if not self.refusals:
+            self.refusals += judge_path(path)
 
     def _certificate(self, bound: float) -> Certificate:
         """The proof of the points and the corners, as they are printed."""
