@@ -300,7 +300,10 @@ def decide(alternatives: Alternatives, profile: Profile) -> Solution:
     Several contours, between which nothing chooses, are ambiguous.
     """
     eligible = choose(alternatives, profile.choices)
-    paths, events = pick([item for item in eligible if item.is_path], profile)
+    paths, events = [item for item in eligible if item.is_path], list[Refusal | Note]()
+    if profile.picks:
+        # They are put in order to be counted.
+        paths, events = pick(paths, profile)
     refusals = tuple(event for event in events if isinstance(event, Refusal))
     if refusals:
         return Solution(Status.NO_SOLUTION, refusals=refusals)
