@@ -99,9 +99,14 @@ def set_pole(state: State, block: Block, function: str, modes: Modes) -> State:
     return replace(state, memory=memory).settle(*stated)
 
 
+def pole_words(state: State, function: str) -> list[Word | None]:
+    """The words of a pole that are in force, by the axes of the plane."""
+    return [state.memory.get(f"{function} {axis}") for axis in PLANE]
+
+
 def pole_of(state: State, function: str) -> tuple[Decimal, Decimal] | None:
     """The coordinates of a pole, mm; None if one of them is not known."""
-    words = [state.memory.get(f"{function} {axis}") for axis in PLANE]
+    words = pole_words(state, function)
     first, second = (word.number * state.unit.in_mm if word and word.number is not None else None for word in words)
     return None if first is None or second is None else (first, second)
 

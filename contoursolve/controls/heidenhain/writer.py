@@ -6,7 +6,7 @@ from math import atan2, degrees, dist
 
 from msgspec.structs import replace
 
-from contoursolve.controls.heidenhain.follow import CENTER, PLANE, begins_chain, follow, pole_of
+from contoursolve.controls.heidenhain.follow import CENTER, PLANE, begins_chain, follow, pole_of, pole_words
 from contoursolve.controls.heidenhain.lexicon import BLOCK_NUMBER, CODES, LEXICON, MOVES, SYNTAX, function_of
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Turn
@@ -100,7 +100,7 @@ class _Own:
 
     def close(self, after: State) -> list[list[str]]:
         """The pole in force before the arcs, and the feed before a corner."""
-        words = [after.memory.get(CENTER + axis) for axis in PLANE]
+        words = pole_words(after, CENTER)
         stated = [
             f"{word.address}{_signed(f'{word.number.normalize():f}')}"
             for word in words
