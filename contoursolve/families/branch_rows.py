@@ -180,7 +180,12 @@ class BranchRows:
         for kind in range(kinds.max(initial=-1) + 1):
             alike = rest[kinds == kind]
             middle = {word: float(each[alike[alike.size // 2]]) for word, each in values.items()}
-            self._settle(self.case.solve(middle), alike, settled)
+            solution = self.case.solve(middle)
+            if solution.scalars:
+                # Other facts were taken for those that are singular, or disagree: each row has points of its own.
+                settled.again[alike] = True
+            else:
+                self._settle(solution, alike, settled)
 
         def joined(columns: Iterable[Array]) -> Array:
             return numpy.concatenate(list(columns))

@@ -202,7 +202,10 @@ class CaseClass(Struct, frozen=True, eq=False):
 
         profile = self.at(values)
         if not self.is_closed:
-            settlement = settle(profile, enumeration=enumeration)
+            # After a search the reason is the same, whichever facts are to blame.
+            is_lost = enumeration is not None and enumeration.within is not None and enumeration.is_complete
+            is_blaming = not is_lost or bool(enumeration and enumeration.found)
+            settlement = settle(profile, is_blaming=is_blaming, enumeration=enumeration)
             placed, cuts = place_cuts(profile, settlement.loose) if settlement.loose else (profile, ())
             return settle(placed).solution if cuts else settlement.solution
         solution = solve(profile, is_proven=False)
