@@ -36,7 +36,9 @@ def compare_reference(
         place = None if reason else _place(answer, block)
         if place is None:
             reason = reason or "the contour is not solved"
-            yield report(context, ReadIssue.REFERENCE_UNUSED, Basis.RULE, marked, named=word.text, reason=reason)
+            yield report(
+                context, ReadIssue.REFERENCE_UNUSED, Basis.RULE, marked, named=word.text.strip(), reason=reason
+            )
             continue
         name, point = place
         axis = answer.plane.axes.index(answer.claim.lexicon.addresses[word.address].axis)
@@ -51,7 +53,7 @@ def compare_reference(
             Basis.NUMERICAL,
             marked,
             {"expected": stated, "actual": actual, "off_by_mm": off / width},
-            named=word.text,
+            named=word.text.strip(),
             off=length_text(off, answer.unit),
             where=name,
             there=f"{answer.plane.axes[axis]}{length_text(actual, answer.unit)}",
@@ -59,13 +61,13 @@ def compare_reference(
 
 
 def _why_not(answer: Answer, word: Word) -> str:
-    """The reason why a word cannot be compared; empty if it can."""
+    """The reason why a word cannot be compared; empty if it can. It is a coordinate whatever G90 and G91 say."""
     claim = answer.claim
     row = claim.lexicon.addresses.get(word.address)
     axes = " and ".join(answer.plane.axes)
     if row is None or row.axis not in answer.plane.axes:
         return f"it is no coordinate along {axes}"
-    if row.is_step(is_incremental=claim.after.is_incremental):
+    if row.is_increment:
         return "it is an increment; name the coordinate of the end"
     return "" if word.number is not None and not word.is_asked else "it has no number"
 

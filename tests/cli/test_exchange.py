@@ -103,6 +103,15 @@ def test_sarif_fixes_applied_to_the_file_remove_their_finding(save):
         assert len(found) == 1
 
 
+def test_a_fix_that_drops_a_line_takes_its_end_out_too(save):
+    lines = ["1 L X+0 Y+0 R0 F500", "2 FL X+30 AN+0", "3 RND R60", "4 FL X+50 Y+30", "5 L X+60", ""]
+    (found,) = sarif(save("\n".join(lines), "part.h"))["results"]
+    (fix,) = [each for each in found["fixes"] if each["description"]["text"].startswith("delete RND")]
+    (replacement,) = fix["artifactChanges"][0]["replacements"]
+    assert replacement["deletedRegion"] == {"startLine": 3, "startColumn": 1, "endLine": 4, "endColumn": 1}
+    assert replacement["insertedContent"]["text"] == ""
+
+
 @pytest.mark.parametrize("name", ["a b.nc", "a%20b.nc", "a#1.nc", "Welle-\u00d8.nc", "a[1].nc"])
 def test_sarif_uri_is_a_uri_of_the_file(name, save):
     (result, *_) = sarif(save(BROKEN, name))["results"]

@@ -208,6 +208,19 @@ def test_the_broken_shaft_is_mended_fix_by_fix(served):
     served(use)
 
 
+def test_a_fix_that_drops_a_line_leaves_no_empty_one(served):
+    lines = ["1 L X+0 Y+0 R0 F500", "2 FL X+30 AN+0", "3 RND R60", "4 FL X+50 Y+30", "5 L X+60", ""]
+
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, "\r\n".join(lines))
+        (found,) = await editor.findings(SHAFT)
+        (fix,) = [each for each in await actions(editor, SHAFT, found.range) if each.title.startswith("delete RND")]
+        editor.edit(SHAFT, *edits_of(fix))
+        assert editor.texts[SHAFT] == "\r\n".join(lines[:2] + lines[3:])
+
+    served(use)
+
+
 IGNORED, COOLANT, TOO_LARGE = (
     "G00 X40. Z0.\r\nG111 A135. I10. K-12. B180. Z-40.\r\n",
     "G00 X40. Z0.\nG111 X100. A180. K-30. B120. M08\n",

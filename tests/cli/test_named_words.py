@@ -175,6 +175,14 @@ def test_a_reference_for_the_program_is_compared_with_the_end_of_its_only_contou
     )
 
 
+def test_a_reference_is_a_coordinate_where_increments_are_in_force():
+    text = (
+        "G17 G90 G00 X10. Y5.\nG91 G01 X40. ,C5. (contoursolve reference: X50.)\nY20. (contoursolve reference: Y25.)\n"
+    )
+    found = solve(text, control="fanuc-mill").diagnostics
+    assert [each.code for each in found] == ["reference-met"] * 2
+
+
 def test_a_reference_to_what_is_not_solved_or_no_contour_is_not_compared():
     unsolved = solve(START + "G111 A180. B120. X100. (contoursolve reference: X100.)").diagnostics
     assert "X100. was not compared: the contour is not solved" in [each.message for each in unsolved]
