@@ -160,6 +160,9 @@ class _Hiding:
         self._named: dict[Path, Baseline] = {}
         if self._new is not None:
             check_target(self._new.file, None, is_forced=True)
+            if self._new.file.exists():
+                # A program that was named by mistake stays.
+                read_baseline(self._new.file)
 
     def hide(self, run: Run | Collected) -> Run | Collected:
         """The part of a program's findings that is to be told."""

@@ -101,13 +101,13 @@ def read_baseline(file: Path) -> Baseline:
     try:
         document = json.loads(data)
         if not isinstance(document, dict) or document.get("schema") != SCHEMA:
-            raise BaselineError(f'{file} is no baseline: its "schema" is not "{SCHEMA}"; --write-baseline makes one')
+            raise BaselineError(f'{file} is no baseline: its "schema" is not "{SCHEMA}"; name another file')
         for path, rows in document["programs"].items():
             found.known[path] = Counter(dict(map(_read_row, rows)))
     except (ValueError, RecursionError) as error:
         if isinstance(error, BaselineError):
             raise
-        raise BaselineError(f"{file} is no baseline: it is not JSON text; --write-baseline makes one") from None
+        raise BaselineError(f"{file} is no baseline: it is not JSON text; name another file") from None
     except (AttributeError, KeyError, TypeError):
         raise BaselineError(f"{file} is no baseline: a finding lacks its code, block or count") from None
     return found

@@ -300,6 +300,9 @@ def test_a_bad_baseline_is_one_sentence(content):
     done = check(name, "--baseline", "known.json", status=2)
     assert len(done.output.splitlines()) == 1
     assert "known.json" in done.output
+    if content is not None:
+        assert check(name, "--write-baseline", "known.json", status=2).output == done.output
+        assert Path("known.json").read_text(encoding="latin-1") == content
 
 
 def test_the_project_file_names_a_baseline_for_its_folder():
