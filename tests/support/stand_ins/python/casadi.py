@@ -328,6 +328,10 @@ class SX:
         """An operation on two scalars."""
         return _column([_two(operation, _node(first), _node(second))])
 
+    def is_scalar(self) -> bool:
+        """Whether it has one row and one column."""
+        return self.rows == self.columns == 1
+
     def is_constant(self) -> bool:
         """Whether all entries are numbers."""
         return all(node.operation == OP_CONST for node in self.entries.values())
