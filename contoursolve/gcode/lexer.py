@@ -96,6 +96,11 @@ def parse_block(text: str, line: int, syntax: Syntax = ISO) -> Block:
         kind = Macro.FLOW if macro["flow"] else Macro.ASSIGNMENT
         is_skippable = syntax.skip.match(text) is not None
         return Block(line, text, (), macro=kind, is_skippable=is_skippable, syntax=syntax)
+    return _read_tokens(text, line, syntax)
+
+
+def _read_tokens(text: str, line: int, syntax: Syntax) -> Block:
+    """Read one line that is no statement into words, faults and what comments say."""
     words: list[Word] = []
     faults: list[Fault] = []
     looks = text.translate(_READ_AS)
@@ -183,8 +188,8 @@ def read_directive(text: str, line: int, column: int = 1) -> Directive:
 def read_named(role: NamedAs, text: str, syntax: Syntax, line: int = 0, column: int = 1) -> Named:
     """Words that are named on a line, from a column on, as a syntax spells them, with signs between them or none; no
     words where anything else is there."""
-    block = parse_block(" " * (column - 1) + _BETWEEN_WORDS.sub(" ", text), line, syntax)
-    words = () if block.faults or block.macro else block.words
+    block = _read_tokens(" " * (column - 1) + _BETWEEN_WORDS.sub(" ", text), line, syntax)
+    words = () if block.faults else block.words
     return Named(role, text.strip(), words, read_directive(text, line, column).span)
 
 
