@@ -76,7 +76,7 @@ _NOTHING = "nothing"
     "their block. Without it, contoursolve.toml may name one.",
 )
 @explain_option("every reason and every fix")
-@click.option("--strict", "is_strict", is_flag=True, help="Also report what no contour depends on, in every line.")
+@click.option("--strict", "is_strict", is_flag=True, help="Also report faults outside contours that change no contour.")
 @click.option("--all", "shows_all", is_flag=True, help=f"Show more than {MOST_ALIKE} findings of a kind in a program.")
 @click.pass_context
 def check(
@@ -97,9 +97,9 @@ def check(
 ) -> None:
     """Report the findings about each PROGRAM (files, or - for standard input), without the contours.
 
-    Outside contours, check reports what a contour depends on: the position, the plane, the units, the mode, the value
-    of a word. --strict reports on every line. Each finding has two reasons and two fixes at most; --explain shows all.
-    Several programs end with a table, the worst first. A name may have wildcards: * ? [ ].
+    Outside contours, check reports only faults that can change a contour: in its start point, plane, unit or mode, or
+    in the value of a word. --strict also reports those that change none. Each finding shows at most two reasons and two
+    fixes; --explain shows all. Several programs end with a table, the worst first. A name may have wildcards: * ? [ ].
 
     --fix writes the fixes that keep the contour into the programs, and reports what is left. --diff only shows them.
     For standard input and --block, the fixed program goes to standard output, the findings to standard error.

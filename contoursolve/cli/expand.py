@@ -145,7 +145,7 @@ def expand(
 
     Everything else stays as it is, byte for byte. Each original block stays as a comment above what replaces it.
     Rounding moves the end points first, then the centre of each arc; the largest deviation is printed. expand
-    translates contours alone. It names every word of the rest that the target does not know. It writes nothing where a
+    rewrites only contours. It names every word of the rest that the target does not know. It writes nothing where a
     contour fails, or where the target would run another path: a turning cycle as a rapid, for example.
 
     Of a Klartext program, free contours and corners become L, CC and C. For another target, such as --post linuxcnc,

@@ -123,7 +123,7 @@ units_option = click.option(
     type=click.Choice([unit.value for unit in Length]),
     default="mm",
     show_default=True,
-    help="Unit of the program's numbers where no G20, G21, MM or INCH says it.",
+    help="Unit of the program's numbers where the program does not say it, as by G20, G21, MM or INCH.",
 )
 
 

@@ -45,8 +45,8 @@ from contoursolve.output import (
     "--within",
     multiple=True,
     metavar="LOW:HIGH",
-    help="The range to search, for each word in turn, as it stands; without it, one turn for an angle, 1 m to either "
-    "side for a length.",
+    help="The range to search, for each word in turn, in mm, inches or degrees; X is a diameter where that of the "
+    "block is; without it, one turn for an angle, 1 m to either side for a length.",
 )
 @fact_option
 @click.pass_context
@@ -64,8 +64,8 @@ def range_(
     range finds every range: it divides the values until each part is proven to have the contour or to have none. It
     solves the block on both sides of each end. For two words it samples the region: it solves values all over it, more
     where the outcome changes, and says how finely. It names what fails beyond each line; --format json has their
-    points. With facts or ? it follows all solutions: the contour exists where
-    one alone can be made. Where these leave no closed form, sweep solves the block value by value.
+    points. With facts or ? it follows all solutions: the contour exists where exactly one can be made. Where they leave
+    no formula, use sweep, which solves the block value by value.
 
     Exit status: 0 the contour exists for some value, 1 for none, 2 could not run.
 
@@ -111,7 +111,8 @@ def range_(
 @click.option(
     "--within",
     metavar="LOW:HIGH",
-    help="The range to search, as it stands; without it, one turn for an angle, 1 m to either side for a length.",
+    help="The range to search, in mm, inches or degrees; X is a diameter where that of the block is; without it, "
+    "one turn for an angle, 1 m to either side for a length.",
 )
 @fact_option
 @click.pass_context
@@ -156,8 +157,8 @@ def find(
     "allowed",
     multiple=True,
     metavar="WORD=VALUE",
-    help="By how much a word may be off to either side, as the number stands; may be repeated. A fact goes by what it "
-    "gives the value of.",
+    help="By how much a word may be off to either side, in mm, inches or degrees; X is a diameter where that of the "
+    "block is; may be repeated. A fact goes by what it gives the value of.",
 )
 @fact_option
 def sensitivity(allowed: tuple[str, ...], point: str, facts: tuple[str, ...], format_: str, **options: Any) -> None:

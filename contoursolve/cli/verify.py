@@ -40,8 +40,8 @@ def verify(
     """Check RESULT.json against the words of PROGRAM (one of them may be -), without the solver.
 
     RESULT.json is what solve printed with --format json. verify measures the value of each word at the points and
-    elements of the result: joints, tangency, senses, sizes, planes, and each answer to a ?. How many numbers the
-    equations fix there tells the status. verify solves nothing. It shares with solve which contours a program has and
+    elements of the result: joints, tangency, senses, sizes, planes, and each answer to a ?. The status follows from how
+    many unknowns the equations fix there. verify solves nothing. It shares with solve which contours a program has and
     what their words state. It also names what it did not check. It reads the program with the settings that RESULT.json
     names. Give --block, --start, --fact, --let and --path as you gave them to solve.
 

@@ -1,4 +1,5 @@
-"""The common ground of all controls: the rows of the catalogue that each of them has."""
+"""The rows that all controls have in common: here those about contours, facts and references; those about blocks stand
+in `block_rules`."""
 
 from contoursolve.controls.block_rules import GRAMMAR_RULES, READING_RULES
 from contoursolve.controls.control_settings import own_source

@@ -7,8 +7,9 @@ from functools import cache
 
 from contoursolve.controls.geometry_rules import told
 from contoursolve.controls.yasnac_lx3.claim import BlockReader, after_cornering, bevel_of
-from contoursolve.controls.yasnac_lx3.g111 import PASSING, REFUSED, START, V1, V2, rows_of_block_alone
+from contoursolve.controls.yasnac_lx3.g111 import PASSING, REFUSED, START, V1, V2
 from contoursolve.controls.yasnac_lx3.lexicon import ASSUMPTIONS, BOOK, alarms
+from contoursolve.controls.yasnac_lx3.shared_rules import rows_of_block_alone
 from contoursolve.diagnostics import Evidence, Severity
 from contoursolve.gcode import Block
 from contoursolve.geometry import (
