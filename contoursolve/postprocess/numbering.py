@@ -9,7 +9,7 @@ from math import hypot, sqrt
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length
 from contoursolve.postprocess.block_numbers import LONG, PROFILE_CYCLES, SHORT
-from contoursolve.reading import Code, Dialect, Effect, Modes, State, apply_modes, codes_of
+from contoursolve.reading import Dialect, Effect, Modes, State, apply_modes, codes_of, rows_of
 from contoursolve.tolerance import ARC_START
 
 _NUMBER = re.compile(r"(?:[NPQ]|GOTO)[ \t]*([0-9]{1,5})(?![0-9])", re.IGNORECASE)
@@ -58,7 +58,7 @@ class Numberer:
 
     def look(self, block: Block) -> str:
         """Keep in mind with which block a profile ends; the reason if that is one that has become several."""
-        codes = [code for code in codes_of(block, self._modes) if isinstance(code, Code)]
+        codes = rows_of(block, self._modes)
         word = block.find("Q")
         is_call = any(code.effect is Effect.SINGLE and code.number in PROFILE_CYCLES for code in codes)
         if not is_call or word is None or word.number is None:

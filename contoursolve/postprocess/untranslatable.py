@@ -12,7 +12,7 @@ from contoursolve.diagnosis import join
 from contoursolve.gcode import Block, Macro, Word, spell
 from contoursolve.geometry import Length
 from contoursolve.postprocess.post_processors import Other, Post, Risk, SupportedCodes
-from contoursolve.reading import Code, Dialect, Effect, State, WithoutPoint, codes_of
+from contoursolve.reading import Dialect, Effect, State, WithoutPoint, rows_of
 
 _NO_COMPENSATION = 40
 
@@ -209,7 +209,7 @@ class Watch:
 
     def _stops(self, block: Block, words: Sequence[Word], reading: SupportedCodes) -> bool:
         """Whether the words of a block make no path there: a dwell, data, or a code at which the target stops."""
-        codes = [code for code in codes_of(block, self.modes) if isinstance(code, Code)]
+        codes = rows_of(block, self.modes)
         if any(code.effect is Effect.NO_MOTION for code in codes):
             return True
         return any(word.address == "G" and self._judge(word, reading) is _NOT_KNOWN for word in words)

@@ -75,7 +75,8 @@ class View(Sequence[Block]):
     def __getitem__(self, index: int | slice) -> Block | list[Block]:
         last = (len(self) if index.stop is None else index.stop) if isinstance(index, slice) else index + 1
         self.reach = max(self.reach, last)
-        self.blocks += islice(self.rest, max(0, last - len(self.blocks)))
+        if last > len(self.blocks):
+            self.blocks += islice(self.rest, last - len(self.blocks))
         return self.blocks[index]
 
     def holds(self, count: int) -> bool:

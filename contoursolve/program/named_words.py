@@ -34,6 +34,11 @@ def is_named_for_all(block: Block) -> bool:
     return bool(block.named) and not says_something(block)
 
 
+def _named_beside(blocks: Iterable[Block]) -> list[tuple[Block, Named]]:
+    """The words that comments beside blocks name, each with its block."""
+    return [(block, each) for block in blocks if block.named and says_something(block) for each in block.named]
+
+
 def with_named(asked: Request, dialect: Dialect, program: Program) -> tuple[Request, tuple[Diagnostic, ...]]:
     """The request with the words that lines of their own name for the whole program, and the findings about them.
     Raises NamedWordError for those that are named apart from the program."""
@@ -104,7 +109,7 @@ def _key(word: Word) -> object:
 def mark_trusted(found: ParsedContour, asked: Request) -> ParsedContour:
     """A contour with the places of its words that are right: those that comments beside its blocks name, and those of
     the whole program."""
-    beside = [each for block in found.blocks if says_something(block) for each in block.named]
+    beside = [each for _, each in _named_beside(found.blocks)]
     if not beside and not asked.named:
         return found
     texts = {_key(word) for each in (*beside, *asked.named) if each.role is NamedAs.TRUST for word in each.words}
@@ -117,13 +122,13 @@ def mark_trusted(found: ParsedContour, asked: Request) -> ParsedContour:
 def with_named_words(answer: Answer, asked: Request) -> Answer:
     """An answer with the findings about the words that are named for it, and without fixes that change trusted ones."""
     claim = answer.claim
-    beside = [(block, each) for block in claim.blocks if says_something(block) for each in block.named]
+    beside = _named_beside(claim.blocks)
+    if not beside and not asked.named:
+        return answer
     references: list[tuple[Block | None, Named]] = [
         (None, each) for each in asked.named if each.role is NamedAs.REFERENCE
     ]
     references += [(block, each) for block, each in beside if each.role is NamedAs.REFERENCE]
-    if not beside and not asked.named:
-        return answer
     findings = [*untouched(answer.diagnostics, claim.blocks, asked)]
     words = [word for block in claim.blocks for word in block.words]
     for _, each in beside:
@@ -141,7 +146,7 @@ def with_named_words(answer: Answer, asked: Request) -> Answer:
 
 def named_outside(asked: Request, block: Block) -> Iterator[Diagnostic]:
     """The findings about words that a comment names beside a block that is no contour."""
-    for each in block.named if says_something(block) else ():
+    for _, each in _named_beside([block]):
         about, reason = ReadIssue.REFERENCE_UNUSED, "there is no contour in this line"
         if each.role is NamedAs.TRUST:
             about, reason = ReadIssue.TRUSTED_ABSENT, _absent(each, block.words, "the line")
@@ -156,6 +161,8 @@ def named_outside(asked: Request, block: Block) -> Iterator[Diagnostic]:
 def untouched(findings: Iterable[Diagnostic], blocks: Sequence[Block], asked: Request) -> tuple[Diagnostic, ...]:
     """Findings about some blocks, without the fixes that change words which are right."""
     named = [*asked.named, *(each for block in blocks for each in block.named)]
+    if not named:
+        return tuple(findings)
     trusted = {_key(word) for each in named if each.role is NamedAs.TRUST for word in each.words}
     if not trusted:
         return tuple(findings)

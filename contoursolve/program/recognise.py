@@ -263,6 +263,9 @@ _CYCLES = frozenset({*range(32, 36), *range(65, 68), *range(70, 95)})
 
 def begun_by(block: Block) -> Dialect | None:
     """The control whose programs alone begin with such a line."""
+    # Nearly no line has the word that all of these have, and need be shown to every control.
+    if _BEGIN not in block.text.upper():
+        return None
     return next((each for each in DIALECTS.values() if _begins(each.signs(block))), None)
 
 

@@ -157,10 +157,11 @@ def takes(keywords: type[ReadingKeywords]) -> Callable[[Callable[P, T]], Callabl
     def with_keywords(function: Callable[P, T]) -> Callable[P, T]:
         own = [each for each in signature(function).parameters.values() if each.kind is not Parameter.VAR_KEYWORD]
         whole = signature(function).replace(parameters=[*own, *shown])
+        known = {*whole.parameters}
 
         @wraps(function)
         def checked(*arguments: P.args, **options: P.kwargs) -> T:
-            unknown = next((name for name in options if name not in whole.parameters), None)
+            unknown = next((name for name in options if name not in known), None)
             if unknown is not None:
                 raise TypeError(f"{function.__name__}() got an unexpected keyword argument {unknown!r}")
             return function(*arguments, **options)

@@ -76,6 +76,7 @@ from .modal_state import (
     not_read as not_read,
     plain_lines as plain_lines,
     positions as positions,
+    rows_of as rows_of,
     unread_state as unread_state,
     words_of as words_of,
 )
@@ -98,6 +99,7 @@ from .rules import (
     Count as Count,
     Offence as Offence,
     Rule as Rule,
+    Stated as Stated,
     Value as Value,
     all_of as all_of,
     at_least as at_least,

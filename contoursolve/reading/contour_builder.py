@@ -1,6 +1,7 @@
 """The builder of a parsed contour: what its blocks state, under the names of what that means."""
 
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -72,22 +73,21 @@ class ContourBuilder:
         self.circumstances |= {prefix + name for name in circumstances}
         self.lasting |= {prefix + name for name in lasting}
 
-    def build(self, form: ContourForm, before: State, after: State) -> ParsedContour:
-        """The contour of a form, between two states; what the control chooses or rests on is not in it yet."""
-        return ParsedContour(
-            form=form,
-            lexicon=self.modes.words(after),
-            blocks=tuple(self.blocks),
-            before=before,
-            after=after,
-            words=self.words,
-            givens=self.givens,
-            vocabulary=self.vocabulary,
-            repeated=tuple(self.repeated),
-            circumstances=frozenset(self.circumstances),
-            kept=self.kept,
-            lasting=frozenset(self.lasting),
-        )
+    def build(self, form: ContourForm, before: State, after: State, **chosen: Any) -> ParsedContour:
+        """The contour of a form, between two states; `chosen` are further fields of it, and those that the control sees
+        otherwise."""
+        fields: dict[str, Any] = {
+            "lexicon": self.modes.words(after),
+            "blocks": tuple(self.blocks),
+            "words": self.words,
+            "givens": self.givens,
+            "vocabulary": self.vocabulary,
+            "repeated": tuple(self.repeated),
+            "circumstances": frozenset(self.circumstances),
+            "kept": self.kept,
+            "lasting": frozenset(self.lasting),
+        }
+        return ParsedContour(form=form, before=before, after=after, **(fields | chosen))
 
 
 def _called(given: Given, name: str) -> Given:

@@ -324,9 +324,18 @@ def codes_of(block: Block, modes: Modes) -> list[Code | Word]:
     return found
 
 
+def rows_of(block: Block, modes: Modes) -> list[Code]:
+    """The rows of a block's G codes, of those that have one."""
+    return [
+        row
+        for word in block.words
+        if word.address == "G" and word.number is not None and (row := modes.codes.get(word.number)) is not None  # type: ignore[call-overload]
+    ]
+
+
 def apply_modes(state: State, block: Block, modes: Modes) -> State:
     """The state with the block's G codes in force, before its motion."""
-    codes = [code for code in codes_of(block, modes) if isinstance(code, Code)]
+    codes = rows_of(block, modes)
     for code in codes:
         match code.effect:
             case Effect.MOTION | Effect.CYCLE:

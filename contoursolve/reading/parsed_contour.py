@@ -149,6 +149,8 @@ class ParsedContour:
 
     def open_modes(self) -> Iterator[tuple[str, str]]:
         """The modes that are not known to be in force although they matter, in words, and why."""
+        if not self.doubts:
+            return
         rows = (self.lexicon.addresses.get(word.address) for word in self.words.values())
         minds = {
             Mode.MOVE: False,

@@ -133,7 +133,8 @@ class Count(Condition):
     most: int = 1_000
 
     def holds(self, stated: Stated) -> bool:
-        return self.least <= sum(any(name in stated for name in slot) for slot in self.slots) <= self.most
+        names = stated.keys()
+        return self.least <= sum(not names.isdisjoint(slot) for slot in self.slots) <= self.most
 
     def offenders(self, stated: Stated) -> tuple[str, ...]:
         return tuple(name for slot in self.slots for name in slot if name in stated)

@@ -1,8 +1,8 @@
 """The statements of the blocks of a contour, with what the control supplies, and what their signs choose."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace as replace_fields
 from decimal import Decimal
+from functools import lru_cache
 from itertools import pairwise
 
 from msgspec.structs import replace
@@ -46,7 +46,7 @@ from contoursolve.controls.chain.language import (
     pair_role,
 )
 from contoursolve.gcode import Block, Word, number_of, spell
-from contoursolve.geometry import Choice, Given, Side, Turn, Unit
+from contoursolve.geometry import Choice, Given, Plane, Side, Turn, Unit
 from contoursolve.reading import Bearing, ContourBuilder, ContourForm, Lexicon, Modes, ParsedContour, Selector, State
 
 
@@ -56,7 +56,7 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
     form, names = compose(language, elements, modes), names_of(elements)
     first, last, builder = members[0].here, members[-1].here, ContourBuilder(modes)
     states = (before, *(each.here for each in members))
-    holding: list[set[str]] = []
+    holding: list[dict[str, None]] = []
     for index, member in enumerate(members):
         prefix = f"{index + 1}:"
         own, givens, kept = _stated(language, member, builder, prefix)
@@ -67,7 +67,7 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
             *(name for name, (setting, value) in language.basis.where_set.items() if modes.has(setting, value)),
         }
         builder.state(prefix, own, givens, holds, kept=kept)
-        holding.append({*own, *givens, *holds, *_read_by(member, modes)})
+        holding.append(dict.fromkeys((*own, *givens, *holds, *_read_by(member, modes))))
     unknown = [word for word in builder.words.values() if not _is_known(word, form, modes.lexicon)]
     unread = [word for word in unknown if modes.lexicon.bearing(word.address) in (Bearing.UNREAD, Bearing.END)]
     known = {name: word for name, word in builder.words.items() if word.address in modes.lexicon.addresses}
@@ -75,8 +75,10 @@ def claim_of(language: Language, members: Sequence[Member], before: State, modes
         *language.basis.conventions(form, builder.circumstances, modes),
         *(modes.convention(row.setting) for row in language.basis.premises if row.is_told(holding, modes)),
     )
-    return replace_fields(
-        builder.build(form, replace(before, plane=first.plane, unit=first.unit), last),
+    return builder.build(
+        form,
+        replace(before, plane=first.plane, unit=first.unit),
+        last,
         words=known,
         unknown=tuple(word for word in unknown if word not in unread),
         unread=tuple(dict.fromkeys((*unread, *filter(None, (member.unread for member in members))))),
@@ -110,7 +112,7 @@ def _stated(
     )
     sized, in_force = _kept_corner(language, own, member, modes)
     angled, turned = _kept_angle(language, own, member, modes)
-    givens = _givens(language, own, member, modes) | sized | angled
+    givens = _givens(language, own, member, builder) | sized | angled
     if member.corner is not None:
         sized, corner, in_force = _corner_of(language, member.corner, member.here, modes)
         builder.name(prefix, builder.add(member.corner), ((name, language.corner.size) for name in corner))
@@ -121,10 +123,12 @@ def _stated(
 def _read_by(member: Member, modes: Modes) -> Iterator[str]:
     """The addresses of a block, and what else a setting may decide about it."""
     here, element = member.here, member.element
-    yield from (word.address for word in member.block.words)
-    rows = modes.lexicon.addresses
-    read = (word for word in member.block.words if word.address in rows and rows[word.address].unit in _MEASURED)
-    if any(word.number and "." not in word.text for word in read):
+    rows, whole = modes.lexicon.addresses, list[str]()
+    for word in member.block.words:
+        yield word.address
+        if word.number and "." not in word.text:
+            whole.append(word.address)
+    if any(address in rows and rows[address].unit in _MEASURED for address in whole):
         yield WITHOUT_POINT
     if element.turn is not None and element.is_followed:
         yield OPEN_ARC_END
@@ -137,8 +141,10 @@ _MEASURED = (Unit.MM, Unit.DEGREE)
 
 def _is_known(word: Word, form: ContourForm, lexicon: Lexicon) -> bool:
     """Whether a word may stand in a block of a contour."""
+    if word.address in form.allowed:
+        return True
     bears_nothing = lexicon.bearing(word.address) in (Bearing.NONE, Bearing.AXIS)
-    return word.address in form.allowed or (bears_nothing and f",{word.address}" not in lexicon.addresses)
+    return bears_nothing and f",{word.address}" not in lexicon.addresses
 
 
 def _makes(form: ContourForm, members: Sequence[Member]) -> tuple[tuple[str, ...], ...]:
@@ -211,55 +217,65 @@ def _kept_angle(
 ) -> tuple[dict[str, Given], dict[str, Word]]:
     """The angle that stays in force, of a line with one coordinate and no angle; and its word."""
     word = member.here.memory.get(language.angle.address) if language.angle.stays else None
+    if word is None:
+        return {}, {}
     stated = {name.removesuffix("-step") for name in own} & {*_ORDERS}
-    if word is None or language.angle.address in own or member.element.turn is not None or len(stated) != 1:
+    if language.angle.address in own or member.element.turn is not None or len(stated) != 1:
         return {}, {}
     here = _put(word, member.block)
     given = modes.words(member.here).given(language.angle.address, here, member.here.unit)
     return ({language.angle.address: given} if given else {}), {language.angle.address: here}
 
 
-def _calls(language: Language, member: Member) -> dict[str, str]:
+def _calls(language: Language, member: Member) -> Mapping[str, str]:
     """The names of what a block's addresses state, without the number of the block."""
-    plane, addresses = member.here.plane, language.lexicon.addresses
     is_absolute = member.element.is_over and language.meeting.joining is not Joining.OPEN
+    angles = [address for address in language.angle.synonyms if member.block.find(address)] or language.angle.synonyms[
+        :1
+    ]
+    return _calls_in(
+        language,
+        member.here.plane,
+        angles[-1] if angles else "",
+        is_arc=member.element.turn is not None,
+        is_signed=member.is_signed,
+        is_incremental=member.here.is_incremental and not is_absolute,
+    )
+
+
+@lru_cache(maxsize=256)
+def _calls_in(
+    language: Language, plane: Plane, angle: str, *, is_arc: bool, is_signed: bool, is_incremental: bool
+) -> Mapping[str, str]:
+    """The same of all blocks alike; `angle` is the address that states the angle, of several."""
+    addresses = language.lexicon.addresses
     called = {address: address for address, row in addresses.items() if not row.axis}
     centers = {center: f"center-{order}" for center, order in zip(plane.centers, _ORDERS, strict=True)}
     called |= {address: centers.get(address, "wrong-center") for address in ("I", "J", "K") if address in addresses}
     called |= {address: f"beside-{address}" for address, row in addresses.items() if row.axis not in ("", *plane.axes)}
-    called |= language.names_in(is_arc=member.element.turn is not None)
-    if member.element.turn is not None:
+    called |= language.names_in(is_arc=is_arc)
+    if is_arc:
         called |= language.arc.centers_at(plane)
-    if member.is_signed:
+    if is_signed:
         signed = {address: language.corner.signed_name(address, plane) for address in language.corner.signed}
         called |= {address: name for address, name in signed.items() if name}
-    angles = [address for address in language.angle.synonyms if member.block.find(address)] or language.angle.synonyms[
-        :1
-    ]
     if language.angle.synonyms:
         called |= {address: f"beside-{address}" for address in (language.angle.address, *language.angle.synonyms)}
-    called |= dict.fromkeys(angles[-1:], language.angle.address)
+        called[angle] = language.angle.address
     for axis, order in zip(plane.axes, _ORDERS, strict=True):
         for address, row in addresses.items():
             if row.axis == axis:
-                is_step = row.is_step(is_incremental=member.here.is_incremental and not is_absolute)
-                called[address] = order + ("-step" if is_step else "")
+                called[address] = order + ("-step" if row.is_step(is_incremental=is_incremental) else "")
     return called
 
 
 _ORDERS = ("first", "second")
 
 
-def _givens(language: Language, words: Mapping[str, Word], member: Member, modes: Modes) -> dict[str, Given]:
+def _givens(language: Language, words: Mapping[str, Word], member: Member, builder: ContourBuilder) -> dict[str, Given]:
     """The values of a block's words, with those that the control supplies. R counts by its size: its sign picks the
     centre of an ordinary arc, and means nothing in an over-defined circle (assumed)."""
-    stated = {
-        name: given
-        for name, word in words.items()
-        if word.address in modes.lexicon.addresses
-        for given in (modes.words(member.here).given(name, word, member.here.unit),)
-        if given is not None
-    }
+    stated = builder.values(words, member.here)
     sizes = {name: given for name, given in stated.items() if name == "R" or name.startswith(SIGNED)}
     stated |= {name: replace(given, value=abs(given.value)) for name, given in sizes.items()}
     asked = {name.removesuffix("-step") for name, word in words.items() if word.is_asked}
@@ -277,7 +293,7 @@ def _givens(language: Language, words: Mapping[str, Word], member: Member, modes
         return stated
     ends = {name.removesuffix("-step") for name in stated} & {*_ORDERS}
     is_partial = element.turn is None and (
-        language.angle.address in words or bool(_kept_angle(language, words, member, modes)[0])
+        language.angle.address in words or bool(_kept_angle(language, words, member, builder.modes)[0])
     )
     if not is_partial and (ends or not element.is_followed):
         stated |= _supplied("", "-step", stated, asked, is_always=not element.is_followed)

@@ -52,7 +52,8 @@ class ChainFinder:
     def __init__(self, language: Language) -> None:
         self.language = language
         self._cornered = frozenset(language.corner.words)
-        self._moving = frozenset({*language.axes, *language.angle.addresses, *language.corner.words})
+        self._angles = frozenset(language.angle.addresses)
+        self._moving = frozenset({*language.axes, *self._angles, *language.corner.words})
         arcs = (language.arc.tangent,) if language.arc.tangent is not None else ()
         self._cutting = frozenset({1, *_TURNS, *arcs})
 
@@ -123,13 +124,13 @@ class ChainFinder:
     def _aimed(self, last: Member, following: Member) -> tuple[Member, Member]:
         """Two blocks with a corner between them; the second with which way it must run, where a sign tells that."""
         words, axes = self._signed_words(last.block, last.here), [*last.here.plane.axes]
+        if not words:
+            return last, following
         moved = [self._programmed(each.block, each.here) for each in (last, following)]
-        is_drawn = any(
-            self._stated(each.block, each.here) & {*self.language.angle.addresses} for each in (last, following)
-        )
+        is_drawn = any(self._stated(each.block, each.here) & self._angles for each in (last, following))
         is_square = [len(each) for each in moved] == [1, 1] and moved[0] != moved[1] and not is_drawn
         is_square = is_square and following.here.motion == 1 and following.here.plane == last.here.plane
-        if not words or (self.language.corner.is_signed_by_shape and not is_square):
+        if self.language.corner.is_signed_by_shape and not is_square:
             return last, following
         last = replace(last, is_signed=True)
         if len(moved[0]) == 1:
@@ -264,7 +265,7 @@ class ChainFinder:
         here = apply_modes(state, block, modes)
         if here.motion in self.language.order.threads:
             # Other threads are no part of a contour; what would make these one is refused.
-            words = {*self.language.angle.addresses, *self._cornered}
+            words = {*self._angles, *self._cornered}
             return any(word.startswith(",") for word in self._stated(block, here) & words)
         return here.motion in (0, *self._cutting) and self._moves(block, here)
 
@@ -284,9 +285,12 @@ class ChainFinder:
         """The names of the addresses of a block; a word that cannot be read still shows what the block was meant to
         be."""
         addresses = {word.address for word in block.words}
+        if block.faults:
+            addresses |= {fault.address for fault in block.faults}
+        if not self.language.names:
+            return addresses
         names = self.language.names_in(is_arc=here.motion in _TURNS)
-        addresses |= {fault.address for fault in block.faults}
-        return {names.get(address, address) for address in addresses} if names else addresses
+        return {names.get(address, address) for address in addresses}
 
     def _programmed(self, block: Block, here: State) -> set[str]:
         """The axes of the plane that a block programs."""
@@ -322,7 +326,7 @@ class ChainFinder:
     def _is_open(self, last: Member) -> bool:
         """Whether a line has an angle, and no end; of blocks in pairs, whether an arc has none."""
         is_arc = last.element.turn is not None and self.language.meeting.joining is Joining.PAIRED
-        is_drawn = is_arc or bool(self._stated(last.block, last.here) & {*self.language.angle.addresses})
+        is_drawn = is_arc or bool(self._stated(last.block, last.here) & self._angles)
         return is_drawn and not self._programmed(last.block, last.here)
 
     def _is_paired(self, last: Member, following: Block, here: State) -> bool:
@@ -333,7 +337,7 @@ class ChainFinder:
             return last.here.motion != 0
         if self.language.arc.closes or not first & {*last.here.plane.centers} or not second >= {*here.plane.axes}:
             return False
-        drawing = {*here.plane.centers, "R"} if here.motion in _TURNS else {*self.language.angle.addresses}
+        drawing = {*here.plane.centers, "R"} if here.motion in _TURNS else self._angles
         return here.motion != 0 and bool(second & drawing)
 
     def _touches(self, first: Member, second: Member) -> bool:
@@ -390,7 +394,7 @@ class ChainFinder:
         is_open = is_centered and not stated & {"I", "J", "K", "R"}
         if self._has_corner(member) or member.element.is_smooth or is_open:
             return True
-        if stated & {*self.language.angle.addresses, self.language.meeting.selector} or self._keeps_angle(member):
+        if stated & {*self._angles, self.language.meeting.selector} or self._keeps_angle(member):
             return True
         is_variable = any(word.number is None and not word.is_asked for word in block.words)
         if not self.language.arc.is_checked or here.motion not in _TURNS or is_variable:

@@ -8,7 +8,18 @@ from msgspec import Struct
 
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import CornerShape, Plane, Side, Turn
-from contoursolve.reading import Assumption, Condition, ContourForm, Convention, Lexicon, Modes, Sample, Setting, State
+from contoursolve.reading import (
+    Assumption,
+    Condition,
+    ContourForm,
+    Convention,
+    Lexicon,
+    Modes,
+    Sample,
+    Setting,
+    State,
+    Stated,
+)
 
 LINE, ARC = "line", "arc"
 OVER_LINE, OVER_CIRCLE = "over-defined line", "over-defined circle"
@@ -147,11 +158,11 @@ class Premise(Struct, frozen=True):
     when: Condition
     is_told_where_set: bool = False
 
-    def is_told(self, blocks: Iterable[Collection[str]], modes: Modes) -> bool:
+    def is_told(self, blocks: Iterable[Stated], modes: Modes) -> bool:
         """Whether it is told of a contour of blocks of which this holds."""
         if self.is_told_where_set and modes.has(self.setting, self.setting.default):
             return False
-        return any(self.when.holds(dict.fromkeys(block)) for block in blocks)
+        return any(map(self.when.holds, blocks))
 
 
 WITHOUT_POINT = "@without-point"

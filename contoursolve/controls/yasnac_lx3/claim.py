@@ -1,7 +1,6 @@
 """YASNAC LX3: a block as a contour of some form, with every word by the name of the given that it states."""
 
 from collections.abc import Collection, Iterable
-from dataclasses import replace as replace_fields
 from decimal import Decimal
 from functools import lru_cache
 
@@ -18,7 +17,6 @@ from contoursolve.controls.yasnac_lx3.lexicon import (
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import CornerShape, Given
 from contoursolve.reading import (
-    Code,
     ContourBuilder,
     ContourForm,
     Effect,
@@ -27,7 +25,7 @@ from contoursolve.reading import (
     ParsedContour,
     State,
     apply_modes,
-    codes_of,
+    rows_of,
 )
 
 OTHER_G = "other G"
@@ -63,7 +61,7 @@ class BlockReader:
 
     def __init__(self, block: Block, own: int | None, before: State, after: State, modes: Modes) -> None:
         self.before, self.after = before, after
-        codes = [code for code in codes_of(block, modes) if isinstance(code, Code)]
+        codes = rows_of(block, modes)
         self.is_own = any(code.number == own for code in codes)
         others = [code.number for code in codes if code.number != own and code.effect in AXIS_EFFECTS]
         self.builder = ContourBuilder(modes)
@@ -93,8 +91,10 @@ class BlockReader:
         builder.state("", {**stated, **beside}, {**givens, **{each.name: each for each in supplied}})
         builder.name("", 0, ((name, name) for name in rows))
         before = self.before if self.before.unit is after.unit else replace(self.before, unit=after.unit)
-        return replace_fields(
-            builder.build(form, before, after),
+        return builder.build(
+            form,
+            before,
+            after,
             unknown=tuple(unknown),
             # Multiple cornering, and a motion that the block states itself, take no part in the one in force.
             doubts=(after.settle(Mode.MOTION, Mode.MOVE) if self.is_own else after).doubts,
