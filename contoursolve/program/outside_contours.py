@@ -78,7 +78,7 @@ def findings_of_block(
     dialect = asked.dialect
     if dialect and _is_clean(block, dialect, here):
         return ()
-    context = Context(asked.rules, asked.unit, place=block.span)
+    context = _context_of(asked, block)
     found = [*_of_characters(context, block), *_of_facts(asked, block)]
     if dialect is None:
         return found
@@ -94,6 +94,11 @@ def findings_of_block(
     if found and has_corners(block, here, dialect.modes):
         return [*explain_corners(context, block.text, found, lexicon, _corner_words())]
     return found
+
+
+def _context_of(asked: Request, block: Block) -> Context:
+    """The context of findings about a block."""
+    return Context(asked.rules, asked.unit, place=block.span)
 
 
 def _is_clean(block: Block, dialect: Dialect, here: State | None) -> bool:
@@ -199,15 +204,15 @@ def with_slips(
     block, dialect = blocks[0], asked.dialect
     if dialect is None or asked.depth is Depth.VERDICT:
         return found
-    modes, context = dialect.modes, Context(asked.rules, asked.unit, place=block.span)
+    modes = dialect.modes
     if any(f",{word.address}" in modes.lexicon.addresses for word in block.words):
         from contoursolve.diagnosis import explain_commas  # noqa: PLC0415 - few programs need it
 
-        found = [*found, *explain_commas(context, dialect, blocks[:NEAR], states, previous)]
+        found = [*found, *explain_commas(_context_of(asked, block), dialect, blocks[:NEAR], states, previous)]
     if any(word.address == "G" and word.number is not None and word.number not in modes.codes for word in block.words):
         from contoursolve.diagnosis import explain_codes  # noqa: PLC0415 - few programs need it
 
-        found = [*explain_codes(context, dialect, blocks[:NEAR], states[0], found)]
+        found = [*explain_codes(_context_of(asked, block), dialect, blocks[:NEAR], states[0], found)]
     return with_letters(asked, dialect, blocks[:NEAR], states[0], found) if has_lookalike_code(block) else found
 
 
@@ -221,8 +226,7 @@ def with_letters(
     block = blocks[0]
     own = [each for each in found if each.span.line == block.line]
     others = [each for each in found if each.span.line != block.line]
-    context = Context(asked.rules, asked.unit, place=block.span)
-    return [*others, *explain_letters(context, dialect, blocks, before, own)]
+    return [*others, *explain_letters(_context_of(asked, block), dialect, blocks, before, own)]
 
 
 # Arcs ------------------------------------------------------------------------------------------------------------

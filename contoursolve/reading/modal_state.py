@@ -418,9 +418,9 @@ def _follow_codes(state: State, block: Block, modes: Modes) -> State:
 
 def _lose_ends(state: State, block: Block, modes: Modes) -> State:
     """The state where the axes of the plane are not known whose end words state that are not read."""
-    stated = {_axis(each, modes) for each in block.words}
     for word in block.words:
         if modes.lexicon.bearing(word.address) is Bearing.END:
+            stated = {_axis(each, modes) for each in block.words}
             left = tuple(axis for axis in state.plane.axes if axis not in stated)
             state = state.lose(left, not_read(word.text), word.span)
     return state

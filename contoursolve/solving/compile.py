@@ -252,7 +252,7 @@ def compile_branches(system: System) -> Construction:
 
 class _BranchBuilder(_PathBuilder):
     def construct(self) -> Construction:
-        system, steps = self.system, tuple(steps_of(self.system))
+        system, steps = self.system, steps_of(self.system)
         for step in steps:
             self.run(step)
         self._check_senses()

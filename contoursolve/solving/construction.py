@@ -179,12 +179,12 @@ class Construction(Struct, frozen=True, eq=False):
     the side where that is positive."""
 
 
-def steps_of(system: System) -> Iterator[ConstructionStep]:
+@lru_cache(maxsize=8192)
+def steps_of(system: System) -> tuple[ConstructionStep, ...]:
     """The steps of a determined system in their order."""
     groups, counted = _starts_first(groups_of(system), system)
-    for group in groups:
-        kind = StepKind.GENERAL if group in counted else _kind(group, system)
-        yield ConstructionStep(kind, group.facts, group.unknowns)
+    kinds = (StepKind.GENERAL if group in counted else _kind(group, system) for group in groups)
+    return tuple(ConstructionStep(kind, *group) for kind, group in zip(kinds, groups, strict=True))
 
 
 @lru_cache(maxsize=8192)
@@ -201,7 +201,7 @@ def named_steps(system: System) -> tuple[ConstructionStep, ...]:
     verdict = analyse(system)
     if not verdict.is_determined:
         raise ValueError(f"not determined: {', '.join(verdict.free)}")
-    steps = tuple(steps_of(system))
+    steps = steps_of(system)
     for step in () if is_closed(system) else steps:
         if step.kind is StepKind.GENERAL:
             raise NoClosedFormError("its signs have no names", step.facts, step.unknowns)

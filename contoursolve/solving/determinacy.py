@@ -109,6 +109,7 @@ def spare_of(system: System) -> tuple[Fact, ...]:
     return tuple(fact for index, fact in enumerate(system.facts) if index not in basis)
 
 
+@lru_cache(maxsize=256)
 def groups_of(system: System) -> tuple[Group, ...]:
     """The groups of the basis of a determined system, in the order in which they are solved."""
     return order(system, basis_of(system))
