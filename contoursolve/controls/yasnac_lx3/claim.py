@@ -79,7 +79,7 @@ class BlockReader:
         """The block as a contour of a form. `refused` are addresses that a rule refuses; `supplied` are givens that the
         control derives from the words."""
         builder, modes, after = self.builder, self.builder.modes, self.after
-        rows = [name for name in modes.lexicon.addresses if name in form.allowed]
+        rows = dict.fromkeys(name for name in modes.lexicon.addresses if name in form.allowed)
         stated = {name: word for name, word in self.words.items() if name in rows}
         beside = {name: word for name, word in self.words.items() if name == OTHER_G or name in refused}
         unknown = (
@@ -89,7 +89,7 @@ class BlockReader:
         )
         givens = {name: self.values[name] for name in stated if name in self.values}
         builder.state("", {**stated, **beside}, {**givens, **{each.name: each for each in supplied}})
-        builder.name("", 0, ((name, name) for name in rows))
+        builder.name("", 0, zip(rows, rows, strict=True))
         before = self.before if self.before.unit is after.unit else replace(self.before, unit=after.unit)
         return builder.build(
             form,
