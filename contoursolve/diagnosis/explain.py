@@ -429,7 +429,7 @@ def explain_result(
         fields["off"] = _off(event, turned, context.unit, profile, is_diameter=is_word and givens[0].is_diameter)
     if is_word and "expected" in values:
         fields["meant"] = statement_text(givens[0], values["expected"], profile)
-    fields |= {**_counted(event), **_outside(event, context.unit, profile)}
+    fields |= {**_counted(event, alternatives), **_outside(event, context.unit, profile)}
     notes: tuple[str, ...] = ()
     if event.kind in SAID_AGAIN:
         fields |= _others(event, profile)
@@ -503,10 +503,11 @@ def _outside(event: Refusal | Note, unit: Length, profile: Profile) -> dict[str,
     return {"off": off, "axis": f"{axis} (diameter)" if is_diameter else axis}
 
 
-def _counted(event: Refusal | Note) -> dict[str, str]:
+def _counted(event: Refusal | Note, alternatives: Alternatives | None) -> dict[str, str]:
     """The number of contours, or of solutions at an element."""
     if event.kind is NoteKind.SEVERAL:
-        return {"count": f"{event.values['actual']:.0f}"}
+        is_open = alternatives is not None and not alternatives.is_complete
+        return {"count": f"{'at least ' if is_open else ''}{event.values['actual']:.0f}"}
     if event.kind.event.topic is Topic.PICK:
         count = int(event.values["limit"])
         numbers = "1" if count == 1 else f"a number from 1 to {count}"

@@ -251,11 +251,18 @@ class _Search:
             return []
 
     def _search(self, group: Group, kernel: Kernel, cases: Sequence[ExactSolution]) -> _Steps[list[list[Root]]]:
-        """All solutions of a step without a closed form, for each case; all cases are searched together. First what is
-        nearby is searched, and where that could be decided, all that the control can reach."""
+        """All solutions of a step without a closed form, for each case; all cases are searched together, and those that
+        differ elsewhere alone are one. First what is nearby is searched, and where that could be decided, all that the
+        control can reach."""
         conditions = conditions_of(self.system, group)
-        names = {*conditions.narrowed_by, *conditions.arguments} - {*kernel.unknowns}
-        inputs = [{name: self.ground.number(name, case.scalars, case.signs) for name in names} for case in cases]
+        names = sorted({*conditions.narrowed_by, *conditions.arguments} - {*kernel.unknowns})
+        # What stands in neither scalars nor signs has the same value in all cases.
+        keys = [
+            tuple(id(case.scalars[name]) if name in case.scalars else witness_of(name, case.signs) for name in names)
+            for case in cases
+        ]
+        apart = dict(zip(keys, cases, strict=True)).values()
+        inputs = [{name: self.ground.number(name, case.scalars, case.signs) for name in names} for case in apart]
         searched, inner = list[list[Division]](), None
         for far in dict.fromkeys((self.near, self.far)):
             reach, budget = self.ground.reach(self.system, far), max(self.left, self.effort.least)
@@ -270,7 +277,9 @@ class _Search:
                 break
             inner = reach
         self.within = min(far, self.within or far)
-        return [settle(kernel, each, at) for each, at in zip(zip(*searched, strict=True), inputs, strict=True)]
+        roots = [settle(kernel, each, at) for each, at in zip(zip(*searched, strict=True), inputs, strict=True)]
+        found = dict(zip(dict.fromkeys(keys), roots, strict=True))
+        return [found[key] for key in keys]
 
     def _is_possible(self, state: ExactSolution, kernel: Kernel, senses: Sequence[Sense]) -> bool:
         """Whether radii are positive and everything runs in its stated sense; what cannot be decided is a doubt."""

@@ -513,3 +513,26 @@ def test_an_end_that_no_direction_puts_on_its_circle_conflicts():
         (answer,) = contoursolve.solve(text.format(end), control="heidenhain").answers
         assert answer.status.value == status
         assert answer.contour is None or answer.contour.end == pytest.approx((-27, -8), abs=1e-9)
+
+
+def test_a_search_that_an_earlier_choice_does_not_touch_gives_each_choice_the_same_and_says_that_it_is_open(monkeypatch):
+    """P2 stands in two places; what follows counts from P3, and knows nothing of P2."""
+    monkeypatch.setattr(enumerate_module, "DRAWING", enumerate_module.Effort(20_000, 2_000, is_guessing=True))
+    program = chain(
+        "FC X+14.771601 CCX+9.998735 LEN24.390705 DR-",
+        "FL",
+        "FL AN+138.449694 IY+29.489106 RY 3 PDX+39.32547 PDY+49.560417 D3.254282",
+        "FL IY+39.1449 RY 3 LEN23.552269",
+        "FL P1X+64.958969 P1Y+42.777649 IX+16.763865 PR+75.212128",
+        before="L X-4.7698947 Y+3.977564\nFPOL X+7 Y-3",
+    )
+    answer = solved(program)
+    after = {}
+    for each in list_solutions(answer).solutions:
+        points = {name: (round(x, 4), round(y, 4)) for name, (x, y) in each.contour.points.items()}
+        after.setdefault(points.pop("P2"), set()).add(tuple(points.values()))
+    first, second = after.values()
+    assert first == second
+    assert not list_solutions(answer).is_complete
+    (finding,) = answer.diagnostics
+    assert finding.message.startswith(f"at least {2 * len(first)} contours fit")
