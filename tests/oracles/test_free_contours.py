@@ -515,7 +515,9 @@ def test_an_end_that_no_direction_puts_on_its_circle_conflicts():
         assert answer.contour is None or answer.contour.end == pytest.approx((-27, -8), abs=1e-9)
 
 
-def test_a_search_that_an_earlier_choice_does_not_touch_gives_each_choice_the_same_and_says_that_it_is_open(monkeypatch):
+def test_a_search_that_an_earlier_choice_does_not_touch_gives_each_choice_the_same_and_says_that_it_is_open(
+    monkeypatch,
+):
     """P2 stands in two places; what follows counts from P3, and knows nothing of P2."""
     monkeypatch.setattr(enumerate_module, "DRAWING", enumerate_module.Effort(20_000, 2_000, is_guessing=True))
     program = chain(
