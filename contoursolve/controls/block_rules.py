@@ -248,6 +248,17 @@ READING_RULES = (
         rejected=("G00 X40 Z0\nG111 A180. K-30. B120. X100.", "G00 X40 Z2\nG111 A180 K-30 B120 X100"),
     ),
     Rule(
+        code="move-in-increments",
+        message="{words} {have} no decimal point and {are} read as {actual}; {meant} would be {expected}",
+        help="write {meant} if that is meant; else {same}, which says the same",
+        source=_READING,
+        about=ReadIssue.MOVE_IN_INCREMENTS,
+        severity=Severity.WARNING,
+        note="told by check --strict, of blocks outside contours",
+        accepted=(_GOOD,),
+        rejected=(),
+    ),
+    Rule(
         code="position-unknown",
         message="the start point is not known in {axes}: {reason}",
         help="position {axes} with an absolute word before this block, or state where the tool is with --start",

@@ -35,6 +35,7 @@ from .explain import (
     Context as Context,
     context_of as context_of,
     report as report,
+    spans_of as spans_of,
 )
 from .fill import (
     FARTHEST as FARTHEST,
@@ -59,6 +60,7 @@ from .solutions import (
 )
 from .spelling import (
     Meanings as Meanings,
+    are_points_usual as are_points_usual,
     counts_few as counts_few,
     explain_asked_outside as explain_asked_outside,
     explain_faults as explain_faults,
@@ -67,6 +69,7 @@ from .spelling import (
     explain_unmarked as explain_unmarked,
     explain_words as explain_words,
     is_counted_start as is_counted_start,
+    move_without_point as move_without_point,
     readings as readings,
     without_point as without_point,
 )

@@ -362,11 +362,22 @@ def without_point(context: Context, claim: ParsedContour, findings: Iterable[Dia
     counted = _counted(context, claim)
     words = list(counted)
     about = ReadIssue.POINT_MISSING
-    if any(given.word and given.word.number and given.word.has_point for given in claim.givens.values()):
+    others = [given.word for given in claim.givens.values() if given.word and given.word.number]
+    if any(word.has_point for word in others):
         for word, value in counted.items():
-            yield report(context, about, Basis.RULE, [word], actual=value)
+            finding = report(context, about, Basis.RULE, [word], actual=value)
+            yield replace(finding, severity=Severity.WARNING) if _is_lone(claim, word, others) else finding
     elif words and _is_slip(claim, words, has_error=any(each.is_error for each in findings)):
         yield report(context, about, Basis.RULE, words, actual=join(list(counted.values())))
+
+
+def _is_lone(claim: ParsedContour, word: Word, others: Iterable[Word]) -> bool:
+    """Whether a word lacks the point that others of its kind have, lengths or angles, and may be meant as it stands."""
+    rows = claim.lexicon.addresses
+    unit = rows[word.address].unit
+    most = _FULL_TURN if unit is Unit.DEGREE else _MANY_INCREMENTS
+    is_usual = any(each.has_point and rows[each.address].unit is unit for each in others if each.address in rows)
+    return is_usual and word.number is not None and abs(word.number) <= most
 
 
 def start_without_point(context: Context, claim: ParsedContour, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
@@ -376,14 +387,37 @@ def start_without_point(context: Context, claim: ParsedContour, findings: Iterab
     words = {each.word.span: each.word for each in places if each.word and is_counted_start(each, claim.lexicon)}
     if not words or any(each.value is None for each in places):
         return
+    if are_points_usual(claim, findings):
+        counted = [words[span] for span in sorted(words)]
+        yield _counted_in_increments(
+            context, ReadIssue.START_IN_INCREMENTS, counted, claim.lexicon, claim.before.unit
+        )
+
+
+def are_points_usual(claim: ParsedContour, findings: Iterable[Diagnostic]) -> bool:
+    """Whether a program shows by a contour that it writes lengths with a decimal point: other words of the contour or
+    of its start have one, or those of the contour are hardly meant without."""
+    places = [claim.before.axes[axis] for axis in claim.before.plane.axes]
     stated = (*(given.word for given in claim.givens.values()), *(each.word for each in places))
     is_suspected = any(each.about is ReadIssue.POINT_MISSING for each in findings)
-    if is_suspected or any(word.has_point for word in stated if word):
-        counted = [words[span] for span in sorted(words)]
-        read = [readings(word, claim.lexicon, claim.before.unit) for word in counted]
-        actual, expected, same = (join(texts) for texts in zip(*read, strict=True))
-        meant, about = join([f"{word.text.strip()}." for word in counted]), ReadIssue.START_IN_INCREMENTS
-        yield report(context, about, Basis.RULE, counted, actual=actual, expected=expected, meant=meant, same=same)
+    return is_suspected or any(word.has_point for word in stated if word)
+
+
+def move_without_point(context: Context, words: Sequence[Word], lexicon: Lexicon, unit: Length) -> Iterator[Diagnostic]:
+    """Coordinates of a block outside contours that are less than 1 mm because they have no decimal point."""
+    counted = [word for word in words if counts_few(word, lexicon)]
+    if counted:
+        yield _counted_in_increments(context, ReadIssue.MOVE_IN_INCREMENTS, counted, lexicon, unit)
+
+
+def _counted_in_increments(
+    context: Context, about: ReadIssue, counted: Sequence[Word], lexicon: Lexicon, unit: Length
+) -> Diagnostic:
+    """That lengths count least increments, and what they would be with a decimal point."""
+    read = [readings(word, lexicon, unit) for word in counted]
+    actual, expected, same = (join(texts) for texts in zip(*read, strict=True))
+    meant = join([f"{word.text.strip()}." for word in counted])
+    return report(context, about, Basis.RULE, counted, actual=actual, expected=expected, meant=meant, same=same)
 
 
 def is_counted_start(position: Position, lexicon: Lexicon) -> bool:

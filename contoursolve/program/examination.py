@@ -34,6 +34,7 @@ from contoursolve.reading import (
     ReadIssue,
     State,
     Ways,
+    WithoutPoint,
     advance,
     advance_plainly,
     apply_modes,
@@ -98,6 +99,9 @@ class Examination:
         self.answers = (AnswersInPasses if is_run else Answers)(asked, dialect)
         self.queue = Queue(dialect, together, self.answers.find, goes_on=goes_on)
         self._context = Context(asked.rules, asked.unit)
+        meant = dialect.modes.lexicon.numbers.without_point
+        self._is_every_word_read = asked.is_strict and meant is WithoutPoint.LEAST_INCREMENTS
+        """Whether each number may lack its point."""
         state, found = state_before(asked, dialect)
         # A program that runs is not read in its order, in which a % stands.
         self.begin = Cursor(state, Marks(is_done=is_run), start_count(asked, state), findings=found)
@@ -202,7 +206,7 @@ class Examination:
 
     def _next(self, ahead: Lookahead, cursor: Cursor) -> WalkStep | None:
         """The step at the next line; None where it depends on lines that are not read yet."""
-        if isinstance(ahead.line, Passage):
+        if isinstance(ahead.line, Passage) and not self._is_every_word_read:
             passage = ahead.plain(moves=is_plain(cursor.state), joins=self.dialect.has_runs)
             if passage is not None:
                 return self.pass_by(passage, cursor)
@@ -226,6 +230,7 @@ class Examination:
             self.queue.settle()
             yield from tell(window, outside)
             size = min(2 * size, most)
+        yield from tell_rest(outside)
 
     def resume(self, blocks: Sequence[Block], index: int, cursor: Cursor) -> Iterator[tuple[Step, int, Cursor]]:
         """The steps of a program that is at hand from a block on, one by one, each with the number of lines from its
@@ -261,3 +266,10 @@ def tell(steps: Iterable[Step | Pending], outside: Outside) -> Iterator[Step]:
         line, blocks = held[0].line if held else 0, partial(each_block, held, 0)
         told = tuple(outside.take(step.findings, line, blocks, step.answer, step.before))
         yield step if told == step.findings else replace(step, findings=told)
+
+
+def tell_rest(outside: Outside) -> Iterator[Step]:
+    """The last step, with what waited for the end of the program."""
+    rest, before = outside.rest()
+    if rest and before is not None:
+        yield Step((), before, findings=rest)

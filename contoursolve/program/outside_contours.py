@@ -22,6 +22,7 @@ from contoursolve.diagnosis import (
     has_corners,
     is_known,
     like_corners,
+    move_without_point,
     moves,
     name_of,
     not_read_yet,
@@ -57,6 +58,9 @@ _ARCS = (2, 3)
 _OF_ARCS = "IJK"
 """Words that most arcs have."""
 
+_OTHERWISE = (Effect.SINGLE, Effect.NO_MOTION)
+"""Effects of codes beside which words of axes are no places: a time, or the sizes of a cycle."""
+
 _ABOUT_VALUES = (ReadIssue.VARIABLE, ReadIssue.POSITION_UNKNOWN)
 """Findings that matter to calculated values alone."""
 
@@ -76,10 +80,13 @@ def findings_of_block(
     """Findings about a block that is no contour; `here` is the state with its codes in force, `previous` the last block
     that says something."""
     dialect = asked.dialect
+    points: Sequence[Diagnostic] = ()
+    if asked.is_strict and dialect is not None and here is not None:
+        points = tuple(_of_points(_context_of(asked, block), block, here, dialect))
     if dialect and _is_clean(block, dialect, here):
-        return ()
+        return points
     context = _context_of(asked, block)
-    found = [*_of_characters(context, block), *_of_facts(asked, block)]
+    found = [*_of_characters(context, block), *_of_facts(asked, block), *points]
     if dialect is None:
         return found
     lexicon = dialect.modes.lexicon
@@ -134,6 +141,18 @@ def _of_facts(asked: Request, block: Block) -> Iterator[Diagnostic]:
         place = Context(asked.rules, asked.unit, place=directive.span)
         yield report(place, place.row(ReadIssue.FACT_NOWHERE), Basis.RULE, [])
     yield from named_outside(asked, block)
+
+
+def _of_points(context: Context, block: Block, here: State, dialect: Dialect) -> Iterator[Diagnostic]:
+    """Coordinates without a decimal point that count least increments, in a block that moves by them."""
+    modes, rows = dialect.modes, dialect.modes.lexicon.addresses
+    if COMMENTED in here.memory or block.macro is not None or any(modes.is_call(word) for word in block.words):
+        return
+    if any(isinstance(code, Word) or code.effect in _OTHERWISE for code in codes_of(block, modes)):
+        return
+    own = {*_OF_ARCS, modes.radius} if here.motion in _ARCS else set[str]()
+    words = [each for each in block.words if (row := rows.get(each.address)) and (row.axis or each.address in own)]
+    yield from move_without_point(context, words, modes.lexicon, here.unit)
 
 
 def _of_vocabulary(

@@ -1,6 +1,7 @@
 """The walk over a program that calls or computes: as it runs, on each of its ways."""
 
 from collections.abc import Callable, Iterator, Sequence
+from itertools import chain
 
 from msgspec.structs import replace
 
@@ -10,7 +11,7 @@ from contoursolve.execution import EventKind, Machine, ProgramEvent
 from contoursolve.gcode import Block
 from contoursolve.program.calls import in_text_order
 from contoursolve.program.cycle_profiles import CycleProfile
-from contoursolve.program.examination import Examination, tell
+from contoursolve.program.examination import Examination, tell, tell_rest
 from contoursolve.program.lookahead import Line, View
 from contoursolve.program.solve_queue import Pending, Step
 from contoursolve.program.tape_markers import Marks
@@ -40,7 +41,7 @@ def steps_as_run(
     examination.queue.settle()
     yield from in_text_order(
         blocks,
-        tell(steps, outside),
+        chain(tell(steps, outside), tell_rest(outside)),
         machine.passed_over,
         asked.rules,
         told,

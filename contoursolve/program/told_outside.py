@@ -20,7 +20,7 @@ What waits in vain is passed over; `check --strict` tells all.
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
 
-from contoursolve.diagnosis import Answer, corner_words, moves
+from contoursolve.diagnosis import Answer, are_points_usual, corner_words, moves, spans_of
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import Block, FaultKind, Word, spell
 from contoursolve.reading import Dialect, ReadIssue, State, apply_modes, words_of
@@ -50,6 +50,10 @@ class Outside:
         self._contour = 0
         """The first line of the last contour; 0 if there is none yet."""
         self._is_behind = False
+        self._uncertain: list[Diagnostic] = []
+        """Moves in increments, which are told once a contour shows that the program writes points."""
+        self._is_pointed = False
+        self._before: State | None = None
         self._torn: set[Span] = set()
         """Where something cannot be read in a block that moves an axis of the plane."""
 
@@ -64,7 +68,11 @@ class Outside:
         """The findings to be told once the next lines are known, from line `line` on. They are blocks outside contours,
         or a contour with its answer; `before` is the state before them."""
         if self.is_strict:
-            yield from findings
+            self._before = before
+            self._uncertain += [each for each in findings if each.about is ReadIssue.MOVE_IN_INCREMENTS]
+            yield from (each for each in findings if each.about is not ReadIssue.MOVE_IN_INCREMENTS)
+            if answer is not None:
+                yield from self._settle_points(answer)
             return
         shown = {block.line - line for block in blocks() if self._shows(block)} if findings else set[int]()
         is_torn = any(isinstance(each.about, FaultKind) for each in findings)
@@ -83,6 +91,20 @@ class Outside:
         self._is_behind = answer is not None or (
             self._is_behind and not any(words_of(block.text) for block in blocks())
         )
+
+    def _settle_points(self, answer: Answer) -> Iterator[Diagnostic]:
+        """Of the moves in increments those before a contour, but for the ones that the contour tells of, where the
+        program is known to write points."""
+        self._is_pointed = self._is_pointed or are_points_usual(answer.claim, answer.diagnostics)
+        own = spans_of(answer.diagnostics, ReadIssue.START_IN_INCREMENTS)
+        self._uncertain = [each for each in self._uncertain if each.span not in own]
+        if self._is_pointed:
+            yield from self._uncertain
+            self._uncertain = []
+
+    def rest(self) -> tuple[tuple[Diagnostic, ...], State | None]:
+        """What waited for the end of the program, with the last state."""
+        return (tuple(self._uncertain) if self._is_pointed else ()), self._before
 
     def _shows(self, block: Block) -> bool:
         """Whether a block has a word by which contours are known, or one of a corner or an angle."""

@@ -26,6 +26,7 @@ class ReadIssue(Enum):
     WORD_IGNORED = "word-ignored"
     POINT_MISSING = "point-missing"
     START_IN_INCREMENTS = "start-in-increments"
+    MOVE_IN_INCREMENTS = "move-in-increments"
     COMMA_MISSING = "comma-missing"
     COMMA_WORD_UNKNOWN = "comma-word-unknown"
     WORD_MISTYPED = "word-mistyped"
