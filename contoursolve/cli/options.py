@@ -353,10 +353,10 @@ def naming(program: str = "", options: str = "") -> Iterator[None]:
     try:
         yield
     except ProgramError as error:
-        way = ""
+        told = str(error)
         if isinstance(error, UnknownControlError):
-            way = f"; say which with {options or '--control ' + '|'.join(error.choices)}"
-        raise UserError(f"{program and program + ': '}{error}{way}") from None
+            told = error.text(f"; say which with {options or '--control ' + '|'.join(error.choices)}")
+        raise UserError(f"{program and program + ': '}{told}") from None
 
 
 def settings_of(program: Program | OpenFile, assignments: Sequence[str]) -> dict[str, str]:

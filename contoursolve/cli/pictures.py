@@ -18,7 +18,7 @@ from contoursolve.cli.options import (
     print_findings,
 )
 from contoursolve.cli.printing import say
-from contoursolve.diagnosis import Answer, count
+from contoursolve.diagnosis import Answer, count, status_text
 from contoursolve.diagnostics import importing
 from contoursolve.gcode import check_target, write_whole
 from contoursolve.output import summary_line
@@ -174,7 +174,7 @@ def _pictures(
 
 
 def _about(answer: Answer) -> str:
-    return f"program line {answer.lines[0]}, {answer.status.value}"
+    return f"program line {answer.lines[0]}, {status_text(answer.status)}"
 
 
 def _at(answers: Sequence[Answer], line: int) -> Answer:

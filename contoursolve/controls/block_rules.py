@@ -164,6 +164,15 @@ READING_RULES = (
         rejected=("G17 G90 G0 X0 Y0\nG1 X30 CR=5\nY40 RND=3\nX9",),
     ),
     Rule(
+        code="word-beside-code",
+        message="{words}: a block with {name} ({meaning}) is no line or arc of a contour",
+        help="write {words} and its motion in a block without {name}",
+        source=_READING,
+        about=ReadIssue.WORD_BESIDE_CODE,
+        accepted=(_GOOD,),
+        rejected=("G17 G90 G0 X0 Y0\nG1 X20 G310 #RND=5\nX40 Y60",),
+    ),
+    Rule(
         code="code-unknown",
         message="{name} is no code of this control that contoursolve knows; where the tool is behind it is not known",
         help="{advice}",

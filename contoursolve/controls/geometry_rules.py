@@ -40,6 +40,18 @@ COMMA_MISSING = _row(
     _CUT.replace(",C", "C") + " ,R5\nX80",
     Severity.WARNING,
 )
+PLANE_CHANGES = ("the plane changes inside the contour", "select the plane before its first block")
+"""Message and help of a row about a plane that is selected in a contour."""
+
+ANGLE_RANGE = (
+    "{words} is more than a turn; it is taken as {within}, the same direction",
+    "write {within} if that is meant",
+)
+"""The same of an angle of more than a turn."""
+
+ANGLE_RAPID = "{words}: the control works out a line by its angle in G01, not in G00"
+"""Message of a row about an angle in rapid traverse."""
+
 GEOMETRY_RULES = (
     about_event("lines-parallel", _SOURCE, (_LINES,), (_LINES.replace(",A225", ",A150"),)),
     about_event("not-fixed", _SOURCE, (_MILL + "G1 X30 ,A45",), (_MILL + "G1 X0 ,A90",)),

@@ -61,6 +61,7 @@ from .solutions import (
 from .spelling import (
     Meanings as Meanings,
     are_points_usual as are_points_usual,
+    counted_text as counted_text,
     counts_few as counts_few,
     explain_asked_outside as explain_asked_outside,
     explain_faults as explain_faults,
@@ -109,6 +110,7 @@ from .wording import (
     limit_text as limit_text,
     measured as measured,
     short_name as short_name,
+    status_text as status_text,
     statuses_text as statuses_text,
     unknowns_text as unknowns_text,
     value_text as value_text,

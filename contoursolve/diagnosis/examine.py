@@ -42,7 +42,7 @@ from contoursolve.diagnosis.spelling import (
     without_point,
 )
 from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, Severity, Shown, Span
-from contoursolve.geometry import Length, Line, Plane, Profile, Question, Side, Start, System, assemble
+from contoursolve.geometry import Length, Line, Plane, Profile, Question, Side, Start, System, Unit, assemble
 from contoursolve.reading import (
     AT_ITS_LIMIT,
     Assumption,
@@ -220,7 +220,9 @@ def examine(
     is_readable = is_readable and is_stated
     for finding in explain_modes(context, claim):
         notebook.add(finding, Status.UNDERDETERMINED)
-    if not profile.start.is_known:
+    # What rules refuse because nothing of it moves begins nowhere.
+    is_still = Status.REJECTED in notebook.statuses and not _says_where(claim)
+    if not profile.start.is_known and not is_still:
         notebook.add(explain_start(context, claim), Status.UNDERDETERMINED)
     unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))
     notebook.findings += (*explain_skippable(context, claim), *unmarked)
@@ -228,7 +230,7 @@ def examine(
     # What rules refuse of a chain is not solved without a word either.
     is_doubtful = any(claim.open_modes())
     is_refused = bool(claim.unread) or (claim.form.is_general and (is_doubtful or Status.REJECTED in notebook.statuses))
-    for word in unused_words(claim, profile) if is_whole and not is_refused else ():
+    for word in unused_words(claim, profile) if is_whole and not (is_refused or is_still) else ():
         # Whatever the rules say of it: nothing is dropped without a word.
         if word.span not in explained:
             notebook.add(report(context, ReadIssue.WORD_UNUSED, Basis.RULE, [word], form=claim.form.name))
@@ -374,6 +376,12 @@ _NAMED = re.compile(
 """The name of a variable in a word: a function has an argument behind it."""
 
 
+def _says_where(claim: ParsedContour) -> bool:
+    """Whether any word of a contour is a coordinate or an angle."""
+    rows = (claim.lexicon.addresses.get(word.address) for word in claim.words.values())
+    return any(row is not None and (row.axis or row.unit is Unit.DEGREE) for row in rows)
+
+
 def _examine_geometry(
     context: Context, claim: ParsedContour, profile: Profile, notebook: _Notebook, depth: Depth
 ) -> tuple[Profile, Solution, Alternatives | None]:
@@ -394,7 +402,12 @@ def _examine_geometry(
             against += [finding] if isinstance(event, Refusal) else []
             notebook.add(finding)
             notebook.statuses.add(event.kind.status if isinstance(event, Refusal) else Status.OVERDETERMINED)
+    said = [spans_of([each]) for each in notebook.findings if each.is_error]
     for status, finding in structure:
+        if is_refused and finding.about is ReadIssue.CORNER_TWICE and spans_of([finding]) in said:
+            # A rule has refused these very words because they are two.
+            notebook.statuses.add(status)
+            continue
         told = _behind(finding, against, claim)
         # What the equations say of a block that a rule has refused already explains, and counts once.
         notebook.add(replace(told, severity=Severity.INFO) if is_refused else told, status)
@@ -521,7 +534,7 @@ def _examine_system(
             yield Status.UNDERDETERMINED, finding
     for name, sizes in by_name.items():
         if len(sizes) > 1:
-            words = map(context.words.get, sizes)
+            words = [word for size in sizes if (word := context.words.get(size))]
             yield Status.CONFLICTING, report(context, ReadIssue.CORNER_TWICE, Basis.STRUCTURAL, words, subject=name)
 
 

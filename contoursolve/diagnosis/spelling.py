@@ -137,7 +137,7 @@ def _explain_fault(context: Context, fault: Fault, meant: Lookalike | None) -> D
     if meant is None:
         return finding
     advice = f"write {meant.new} for {meant.old} if that is meant; else {finding.help}"
-    return replace(finding, message=_ask(meant), help=advice)
+    return replace(finding, message=_ask(context, meant), help=advice)
 
 
 def _explain_character(finding: Diagnostic, character: str, like: str) -> Diagnostic:
@@ -215,10 +215,11 @@ def _comma_behind(number: Word | None, word: Word) -> Lookalike | None:
     return Lookalike(span, old, mended(old))
 
 
-def _ask(meant: Lookalike) -> str:
+def _ask(context: Context, meant: Lookalike) -> str:
     """Findings about text that is almost a word."""
     if not meant.has_letters:
-        return f"{meant.old} is not a number that a control reads: did you mean {meant.new}?"
+        malformed = context.row(FaultKind.NUMBER_MALFORMED).message.format(words=meant.old)
+        return f"{malformed}: did you mean {meant.new}?"
     pairs = dict(pair for pair in zip(meant.old, meant.new, strict=True) if pair[0] != pair[1])
     plural = "s" if len(pairs) > 1 else ""
     letters, digits = join(list(pairs)), join(list(pairs.values()))
@@ -276,7 +277,7 @@ def _explain_unknown(context: Context, claim: ParsedContour) -> Iterator[Diagnos
             finding = replace(finding, message=f"{word.text.strip()}: {name} has no R; {told}")
         if other and len(word.address) > 1:
             finding = replace(finding, notes=(*finding.notes, f"{other} is probably meant"))
-        yield replace(finding, message=_ask(meant)) if meant else finding
+        yield replace(finding, message=_ask(context, meant)) if meant else finding
 
 
 def _radius(word: Word, claim: ParsedContour) -> str:
@@ -389,9 +390,7 @@ def start_without_point(context: Context, claim: ParsedContour, findings: Iterab
         return
     if are_points_usual(claim, findings):
         counted = [words[span] for span in sorted(words)]
-        yield _counted_in_increments(
-            context, ReadIssue.START_IN_INCREMENTS, counted, claim.lexicon, claim.before.unit
-        )
+        yield _counted_in_increments(context, ReadIssue.START_IN_INCREMENTS, counted, claim.lexicon, claim.before.unit)
 
 
 def are_points_usual(claim: ParsedContour, findings: Iterable[Diagnostic]) -> bool:
@@ -468,11 +467,17 @@ def _counted(context: Context, claim: ParsedContour) -> Mapping[Word, str]:
         word = given.word
         if word is None or not word.number or given.unit is Unit.SIGN or lookalike_at(torn, word.span):
             continue
-        typed = given.value * 2 if given.is_diameter else given.value
-        if abs(typed) < abs(word.number):
-            is_length = given.unit is Unit.MM
-            counted[word] = length_text(float(typed), context.unit) if is_length else angle_text(float(typed))
+        if value := counted_text(given, context.unit):
+            counted[word] = value
     return counted
+
+
+def counted_text(given: Given, unit: Length) -> str:
+    """The value of a word that counts least increments because it has no decimal point; empty for another one."""
+    word, typed = given.word, given.value * 2 if given.is_diameter else given.value
+    if word is None or word.has_point or not word.number or abs(typed) >= abs(word.number):
+        return ""
+    return length_text(float(typed), unit) if given.unit is Unit.MM else angle_text(float(typed))
 
 
 def _place(given: Given) -> Span:

@@ -242,10 +242,17 @@ def count(number: int, noun: str, several: str = "") -> str:
 
 def statuses_text(statuses: Mapping[Status, int]) -> str:
     """The number of contours with each status, the best first."""
-    return ", ".join(
-        f"{statuses[each]} {_STATUSES.get(each, each.value)}" for each in reversed(Status) if statuses.get(each)
-    )
+    return ", ".join(f"{statuses[each]} {status_text(each)}" for each in reversed(Status) if statuses.get(each))
 
 
-_STATUSES = {Status.NO_SOLUTION: "without a solution"}
-"""In a sentence, where that is another word."""
+def status_text(status: Status) -> str:
+    """A status as a reader sees it: behind "contour", or behind a colon."""
+    return _STATUSES.get(status, status.value)
+
+
+_STATUSES = {
+    Status.NO_SOLUTION: "without a solution",
+    Status.UNDERDETERMINED: "incomplete",
+    Status.OVERDETERMINED: "with too many words",
+}
+"""Words for a status that are not those of the records."""

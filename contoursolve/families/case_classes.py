@@ -13,7 +13,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from contoursolve.diagnosis import MOST_CHOICES, Answer, count_choices, join
+from contoursolve.diagnosis import MOST_CHOICES, Answer, count_choices, counted_text, join
 from contoursolve.diagnostics import Basis
 from contoursolve.families.block_template import Template, called, errors_of
 from contoursolve.families.errors import ByRowError, FamilyError
@@ -222,7 +222,8 @@ class CaseClass(Struct, frozen=True, eq=False):
             if name in self.free:
                 texts.append(called(self.free[name].word))
             elif given is not None and given.word is not None:
-                texts.append(given.word.text)
+                value = counted_text(given, self.profile.unit) if given.unit is not Unit.SIGN else ""
+                texts.append(given.word.text + f" (read as {value})" * bool(value))
         return join(list(dict.fromkeys(texts)))
 
     def is_like(self, other: "CaseClass") -> bool:
@@ -278,7 +279,7 @@ def _linear(value: Affine) -> Linear:
     return Linear(word, factor, value.constant)
 
 
-INSTEAD = "solve it value by value with `family` (`contoursolve sweep`)"
+INSTEAD = "solve it value by value with `contoursolve sweep`"
 """The remedy where no range can be told."""
 
 

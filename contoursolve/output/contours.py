@@ -19,6 +19,7 @@ from contoursolve.diagnosis import (
     list_solutions,
     printed_certificate,
     short_name,
+    status_text,
     word_keys,
 )
 from contoursolve.diagnostics import Diagnosis, Verdict
@@ -49,7 +50,7 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
         # Found here once, for the construction and for the list.
         answer = replace(answer, alternatives=alternatives)
     place = f"{printable(result.program.name)}:{answer.lines[0]}"
-    lines = [f"{place}: {form_text(answer)}{_called(answer)}: {answer.status.value}"]
+    lines = [f"{place}: {form_text(answer)}{_called(answer)}: {status_text(answer.status)}"]
     lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]
     lines += ["", *columns(given_table(answer).rows, left=(0, 3))]
     if is_explained:

@@ -282,6 +282,8 @@ class Expander:
         """The reason why the target would mistake X for a diameter or for a radius; empty if it reads X alike."""
         modes, diameter, counts = self.options.post.modes, answer.claim.before.diameter, any(answer.plane.diameters)
         if modes is None or diameter is None:
+            if counts and modes is not None:
+                self.watch.note_diameter(answer.lines[0])
             return ""
         what = "a diameter" if counts else "a radius"
         if not any(code.diameter for code in modes.codes.values()):

@@ -256,7 +256,13 @@ _SINUMERIK_LATHE = {
 }
 """Substitutes that SINUMERIK has for codes of the G-code system A."""
 
-_INSTEAD = {name: {MachineKind.LATHE: _SINUMERIK_LATHE} for name in ("siemens-840d", "siemens-808d")}
+_NAMED_BY_FILE = {"O": Other("is no program number: the program has the name of its file")}
+"""Word of controls that number their programs, on those that name them."""
+
+_INSTEAD = {
+    name: {MachineKind.LATHE: _SINUMERIK_LATHE | _NAMED_BY_FILE, MachineKind.MILL: _NAMED_BY_FILE}
+    for name in ("siemens-840d", "siemens-808d")
+} | {"isg": dict.fromkeys(MachineKind, _NAMED_BY_FILE)}
 
 
 def post_of(target: Dialect) -> Post:

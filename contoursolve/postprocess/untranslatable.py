@@ -12,7 +12,7 @@ from contoursolve.diagnosis import join
 from contoursolve.gcode import Block, Macro, Word, spell
 from contoursolve.geometry import Length
 from contoursolve.postprocess.post_processors import Other, Post, Risk, SupportedCodes
-from contoursolve.reading import Dialect, Effect, State, WithoutPoint, rows_of
+from contoursolve.reading import Dialect, Diameter, Effect, State, WithoutPoint, rows_of
 
 _NO_COMPENSATION = 40
 
@@ -235,6 +235,15 @@ class Watch:
         advice = "; write " + spell(word.address, f"{here.normalize():f}" + "." * (here == here.to_integral_value()))
         found = Unfamiliar(text, problem, block.line, Risk.PATH, meant, advice=advice)
         self._note(_PATH_WITHOUT_POINT, found)
+
+    def note_diameter(self, line: int) -> None:
+        """Note that X is a diameter in a contour, and that the target is told so by a code or by its setting."""
+        target = self.post.target
+        codes = target.modes.codes.values() if target is not None and target.diameter is not None else ()
+        code = next((each for each in codes if each.diameter is Diameter.ON), None)
+        if code is not None:
+            problem = "is a diameter by the machine's setting alone"
+            self._note(code.text, Unfamiliar("X", problem, line, advice=f"; write {code.text} before the first block"))
 
     def _note(self, name: str, found: Unfamiliar) -> None:
         if name not in self._places:

@@ -8,7 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace as replace_fields
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, Depth, coordinates, either, join
+from contoursolve.diagnosis import Answer, Depth, coordinates, join
 from contoursolve.gcode import Block, Program
 from contoursolve.program.called_files import blocks_of_called_files
 from contoursolve.program.pipeline import Run
@@ -84,7 +84,8 @@ def choose_alike(
     first, *others = readers
     for contour in zip_longest(*(readings[name].outcomes for name in readers)):
         if not _is_alike(contour):
-            raise UnknownControlError(_differences(dict(zip(readers, contour, strict=True)), several), readers)
+            said, made = _differences(dict(zip(readers, contour, strict=True)))
+            raise UnknownControlError(said, readers, made)
     own_dialect = configure(DIALECTS[first], own)
     if not others:
         return own_dialect
@@ -142,7 +143,7 @@ def _is_alike(contour: Sequence[_Outcome | None]) -> bool:
     return first is not None and all(first.agrees(each) for each in others)
 
 
-def _differences(contour: Mapping[str, _Outcome | None], several: UnknownControlError | None) -> str:
+def _differences(contour: Mapping[str, _Outcome | None]) -> tuple[str, list[str]]:
     """That controls read a contour differently, and what each makes of it."""
     groups: list[tuple[_Outcome | None, list[str]]] = []
     for name, each in contour.items():
@@ -154,10 +155,9 @@ def _differences(contour: Mapping[str, _Outcome | None], several: UnknownControl
     file, lines = (f" of {first[0]}", first[1:]) if isinstance(first[0], str) else ("", first)
     where = f"program line {lines[0]}" if len(lines) == 1 else f"program lines {lines[0]} to {lines[-1]}"
     where += file
-    shown = "does not show its control" if several is None else f"fits {either([*contour])}"
     made = _told_apart([each for each, _ in groups])
-    told = "; ".join(f"{join(names)}: {text}" for text, (_, names) in zip(made, groups, strict=True))
-    return f"the program {shown}, and {where} would not be the same ({told})"
+    told = [f"{join(names)}: {text}" for text, (_, names) in zip(made, groups, strict=True)]
+    return f"the controls read {where} differently", told
 
 
 def _told_apart(made: Sequence[_Outcome | None]) -> list[str]:

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, Context, context_of, join, measured, report
+from contoursolve.diagnosis import Answer, Context, context_of, join, measured, report, status_text
 from contoursolve.diagnostics import Basis, Diagnostic, Fix, Label, Severity, Span
 from contoursolve.execution import ARGUMENT, MACHINES, Limit, Machine, Surroundings, machine_of
 from contoursolve.gcode import Block, Caller, Program, Substitution
@@ -213,7 +213,7 @@ def _results(answers: Sequence[Answer]) -> str:
             if answer.calls
             else f"pass {len(told) + 1}"
         )
-        told.append(f"{called}: from {place} {errors[0] if errors else answer.status.value}")
+        told.append(f"{called}: from {place} {errors[0] if errors else status_text(answer.status)}")
     more = len(answers) - MOST_TOLD
     return "; ".join(told) + (f"; and {more} more" if more > 0 else "")
 

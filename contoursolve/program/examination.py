@@ -8,7 +8,7 @@ from itertools import islice
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Context, explain_call, report
+from contoursolve.diagnosis import Context, explain_call, explain_codes_by_name, report
 from contoursolve.diagnostics import Basis, Diagnostic, Span
 from contoursolve.execution import EventKind, ProgramEvent
 from contoursolve.gcode import Block, Passage
@@ -128,7 +128,8 @@ class Examination:
     def _take_contour(self, view: View, blocks: tuple[Block, ...], contour: ParsedContour, here: Cursor) -> WalkStep:
         """The step that takes a contour, which is solved now or later."""
         arc = findings_of_arc_before(self.asked, self.dialect, view, here.previous, self.answers.examine)
-        step = Step(blocks, here.state, findings=(*here.findings, *arc))
+        strange = [each for block in blocks for each in self._codes_beside(block, contour)]
+        step = Step(blocks, here.state, findings=(*here.findings, *arc, *strange))
         pending = self.queue.add(contour, step, view, len(blocks), here.previous)
 
         def behind() -> Cursor:
@@ -136,6 +137,14 @@ class Examination:
             return Cursor(self.queue.leave(pending), here.marks, here.count, (contour.blocks, here.state), told)
 
         return WalkStep(pending, len(blocks), behind)
+
+    def _codes_beside(self, block: Block, contour: ParsedContour) -> Iterator[Diagnostic]:
+        """The codes in a block of a contour that the control has not, but for those of which the contour tells."""
+        told = {word.span for word in contour.unread}
+        context = Context(self.asked.rules, self.asked.unit, place=block.span)
+        for each in explain_codes_by_name(context, block, self.dialect.modes):
+            if each.span not in told and each.about is ReadIssue.CODE_UNKNOWN:
+                yield each
 
     def _take_block(self, view: View, blocks: tuple[Block, ...], arc: ParsedContour | None, here: Cursor) -> WalkStep:
         """The step that takes a block that is no contour, or an arc that is read as a contour is."""

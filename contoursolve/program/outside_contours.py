@@ -67,6 +67,9 @@ _ABOUT_VALUES = (ReadIssue.VARIABLE, ReadIssue.POSITION_UNKNOWN)
 _USUAL = 10_000
 """A number that is no value too large, in inches neither."""
 
+_OWN_USE = (*_OTHERWISE, Effect.PRESET, Effect.CYCLE, Effect.FRAME)
+"""Effects of codes beside which no block is a line or an arc of a contour."""
+
 Examine = Callable[[ParsedContour, Pending], Answer]
 """A function that gives the answer to a contour."""
 
@@ -163,6 +166,7 @@ def _of_vocabulary(
     for each in explain_codes_by_name(context, block, modes):
         # The contour of this block is lost with it.
         yield replace(each, severity=Severity.ERROR) if signs else each
+    yield from _of_words_beside(context, block, dialect)
     if not (
         moves(block, here, modes, signs)
         or has_corners(block, here, modes)
@@ -174,6 +178,17 @@ def _of_vocabulary(
     for each in explain_vocabulary(context, block, here, modes, _comma_words()):
         if not is_said or each.about is not ReadIssue.WORD_IDLE:
             yield each
+
+
+def _of_words_beside(context: Context, block: Block, dialect: Dialect) -> Iterator[Diagnostic]:
+    """Words of corners and angles beside a code that uses the words of its block in its own way."""
+    corners = {each for each in corner_words(dialect.modes.lexicon) if len(each) > 1}
+    codes = codes_of(block, dialect.modes) if any(word.address in corners for word in block.words) else ()
+    own = next((each for each in codes if not isinstance(each, Word) and each.effect in _OWN_USE), None)
+    if own is not None:
+        words = [word for word in block.words if word.address in corners]
+        row = context.row(ReadIssue.WORD_BESIDE_CODE)
+        yield report(context, row, Basis.RULE, words, name=own.text, meaning=own.meaning)
 
 
 def _is_of_contour(previous: Previous | None, modes: Modes) -> bool:

@@ -14,11 +14,18 @@ from contoursolve.reading import Dialect, ReadIssue, Taken, plain_lines, words_o
 
 
 class UnknownControlError(ProgramError, ValueError):
-    """The program does not tell which control it is for; the message lists the choices, and so does `choices`."""
+    """The program does not tell which control it is for; the message lists the choices, and so does `choices`.
 
-    def __init__(self, message: str, choices: Iterable[str] = DIALECTS) -> None:
-        super().__init__(message)
-        self.choices = tuple(choices)
+    `said` is the message alone; `readings` are what the choices read differently, a line for each, which end the text.
+    """
+
+    def __init__(self, said: str, choices: Iterable[str] = DIALECTS, readings: Iterable[str] = ()) -> None:
+        self.said, self.choices, self.readings = said, tuple(choices), tuple(readings)
+        super().__init__(self.text())
+
+    def text(self, way: str = "") -> str:
+        """The message, with what to do behind it."""
+        return "\n".join((self.said + way, *(f"  {each}" for each in self.readings)))
 
 
 class SeveralControlsError(UnknownControlError):

@@ -93,8 +93,8 @@ class Outside:
         )
 
     def _settle_points(self, answer: Answer) -> Iterator[Diagnostic]:
-        """Of the moves in increments those before a contour, but for the ones that the contour tells of, where the
-        program is known to write points."""
+        """Moves in increments before a contour, but for those of which it tells, where the program is known to write
+        points."""
         self._is_pointed = self._is_pointed or are_points_usual(answer.claim, answer.diagnostics)
         own = spans_of(answer.diagnostics, ReadIssue.START_IN_INCREMENTS)
         self._uncertain = [each for each in self._uncertain if each.span not in own]
@@ -103,7 +103,7 @@ class Outside:
             self._uncertain = []
 
     def rest(self) -> tuple[tuple[Diagnostic, ...], State | None]:
-        """What waited for the end of the program, with the last state."""
+        """Findings that waited for the end of the program, with the last state."""
         return (tuple(self._uncertain) if self._is_pointed else ()), self._before
 
     def _shows(self, block: Block) -> bool:

@@ -33,6 +33,7 @@ class ReadIssue(Enum):
     LETTER_FOR_DIGIT = "letter-for-digit"
     WORD_UNKNOWN = "word-unknown"
     WORD_IDLE = "word-idle"
+    WORD_BESIDE_CODE = "word-beside-code"
     CODE_UNKNOWN = "code-unknown"
     NOT_READ = "not-read"
     CODE_MISTYPED = "code-mistyped"

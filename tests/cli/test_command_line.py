@@ -910,3 +910,65 @@ def test_the_command_that_a_finding_names_shows_all_of_its_fixes(command, save, 
     shown = run(*shlex.split(told.removesuffix(" lists all"))[1:])[1]
     assert shown.count("= fix [") > 2
     assert "more fix" not in shown
+
+
+_POINTED = "G0 X20. Z2.\nG1 Z0. F0.2\nG1 Z-20. ,R3.\nX40.\n"
+_MILLED = "G17 G90 G0 X0 Y0\nG1 X30. ,C3. F100.\nY20.\n"
+
+
+@pytest.mark.parametrize(
+    ("control", "program", "said"),
+    [
+        (
+            "fanuc-lathe",
+            _POINTED + "Z-60\nX80",
+            ["-0.060 mm; Z-60. would be -60.000", "0.080 mm; X80. would be 80.000"],
+        ),
+        ("haas-lathe", "G0 X80\n" + _POINTED + "G90 X30 Z-5", ["0.080 mm; X80.", "0.030 mm and -0.005 mm; X30. and"]),
+        ("haas-mill", _MILLED + "G0 Z-60\nG81 Z-20 R2. F100", ["-0.060 mm; Z-60.", "-0.020 mm; Z-20."]),
+        ("yasnac-lx3", "G00 X40. Z0.\nG111 A180. K-30. B120. X100.\nG01 U5", ["0.005 mm; U5. would be 5.000 mm"]),
+        ("fanuc-mill", _MILLED + "G2 X40. Y30. R10\nM30", ["0.010 mm; R10. would be 10.000 mm"]),
+        # Times, other uses of axis words, and zeros; small increments where no word has a point; as it is written.
+        ("fanuc-mill", _MILLED + "G4 X500\nG28 Z0\nX0 Y0\nX80000", []),
+        ("fanuc-lathe", "G0 X20000 Z2000\nG1 Z-20000 ,R3000 F200\nX40000\nX800", []),
+        ("fanuc-lathe", "G0 X80\nZ-60", []),
+        ("siemens-840d", "G17 G90 G0 X0 Y0\nG1 X30 RND=3\nY20\nX80", []),
+    ],
+)
+def test_strict_names_each_move_whose_missing_point_makes_it_small(control, program, said, save):
+    findings = json.loads(run("check", "--strict", "--control", control, "--format", "json", save(program))[1])
+    told = [each["message"] for each in findings["diagnostics"] if each["code"] == "move-in-increments"]
+    assert len(told) == len(said), told
+    assert all(text in each for each, text in zip(told, said, strict=True)), told
+    assert "move-in-increments" not in run("check", "--control", control, save(program))[1]
+
+
+def test_strict_tells_a_word_once_where_the_start_of_a_contour_lacks_its_point(save):
+    output = run("check", "--strict", "--control", "fanuc-lathe", save("G0 X80 Z2.\nG1 Z-20. ,R3.\nX120."))[1]
+    assert output.count("X80 ") == 1 + output.count("4 | ") + output.count("| G0 X80 ")
+    assert "start-in-increments" in output
+
+
+@pytest.mark.parametrize(("corner", "severity"), [(",R3", "warning"), (",R3000", "info"), (",R3.", None)])
+def test_a_word_without_its_point_among_others_with_one_is_a_warning(corner, severity, save):
+    program = save(f"G0 X20. Z2.\nG1 Z-20. {corner} F0.2\nX40.")
+    found = json.loads(run("check", "--control", "fanuc-lathe", "--format", "json", program)[1])
+    told = [each["severity"] for each in found["diagnostics"] if each["code"] == "point-missing"]
+    assert told == ([severity] if severity else [])
+
+
+def test_a_command_with_a_slip_is_answered_with_the_one_that_is_meant():
+    status, _, errors = run("solv", "x.nc")
+    assert (status, "No such command 'solv'. Did you mean 'solve'?" in errors) == (2, True)
+    assert "mean" not in run("zzz")[2]
+
+
+def test_range_tells_how_an_angle_without_its_point_is_read():
+    block = ("--block", "G111 X100. A180 K-30. B120.", "--start", "X40. Z0.")
+    assert "A180 (read as 0.180 deg) points away from the end of line 1" in run("range", *block, "--word", "K")[1]
+
+
+def test_a_summary_says_the_status_in_plain_words(save):
+    output = run("check", "--control", "mitsubishi", save("G17 G90\nG0 X0 Y0\nG1 X0 A90. F100.\nM30"))[1]
+    assert "determined" not in output
+    assert "1 contour" in output

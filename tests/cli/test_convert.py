@@ -143,3 +143,15 @@ def test_nothing_is_written_where_it_could_be_wrong(arguments, status, said):
     found, output, told = run("convert", *arguments)
     assert (found, output) == (status, "")
     assert said in told
+
+
+def test_what_sinumerik_does_not_know_or_reads_by_a_setting_is_named(tmp_path):
+    lathe, mill = tmp_path / "lathe.nc", tmp_path / "mill.nc"
+    lathe.write_text("O300\nG18 G21\nG0 X20. Z2.\nG1 Z-20. ,R3. F0.2\nX40.\nM30\n")
+    mill.write_text("O1\nG17 G90 G0 X0 Y0\nG1 X30. ,C3. F100.\nY20.\nM30\n")
+    status, _, told = run("convert", "--control", "haas-lathe", "--to", "siemens-840d", lathe)
+    assert status == 0
+    assert "program line 1: on SINUMERIK 840D sl, 828D and ONE, O300 is no program number" in told
+    assert "X is a diameter by the machine's setting alone; write DIAMON before the first block" in told
+    status, _, told = run("convert", "--control", "haas-mill", "--to", "siemens-840d", mill)
+    assert (status, "O1 is no program number" in told, "DIAMON" in told) == (0, True, False)

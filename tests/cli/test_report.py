@@ -174,7 +174,7 @@ def test_the_command_writes_one_page_and_tells_by_its_status_whether_there_are_e
     target = tmp_path / "page.html"
     code, output = run(BROKEN, "-o", target)
     assert (code, output.splitlines()[-1]) == (1, f"{target} written")
-    assert "5 errors, 2 warnings" in output
+    assert "5 errors, 3 warnings" in output
     code, output = run(BROKEN, "-o", target)
     assert (code, "give --force to replace it" in output) == (2, True)
     code, _ = run(PROGRAMS[0], "-o", target, "--force")

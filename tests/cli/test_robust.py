@@ -340,4 +340,4 @@ def test_a_rule_about_a_value_that_nobody_knows_is_answered(folder, command):
     """The first fix turns a sign or a value round: of a variable there is none to turn."""
     Path("v.nc").write_text("G0 X0 Z0\nG1 X#100 ,A30\n")
     name, *rest = command
-    run(name, "v.nc", "--control", "fanuc-lathe", *rest, status=1, says="underdetermined" if rest else "#100")
+    run(name, "v.nc", "--control", "fanuc-lathe", *rest, status=1, says="incomplete" if rest else "#100")

@@ -491,7 +491,7 @@ def test_a_cut_through_a_region_with_facts_is_what_a_fine_family_shows(name, wor
         (
             "G111 X100. A? K-30. B?",
             ["length of line 1 = 35", "angle from line 1 to line 2 = -50"],
-            "length of line 1 = 35 and K with A. and B.: they have no closed form together; .* with `family`",
+            "length of line 1 = 35 and K with A. and B.: they have no closed form together; .* `contoursolve sweep`",
         ),
         (BLOCK, ["lenght of line 1 = 30"], "lenght"),
     ],

@@ -374,3 +374,24 @@ def test_what_is_written_out_goes_the_same_way(name, arcs, tmp_path):
     place = list(re.finditer(r"[XYZ](-?[1-9]\d*\.?\d*)(?= |$)", code, re.MULTILINE))[-1]
     new.write_text(f"{code[: place.start(1)]}{float(place[1]) + 0.01}{code[place.end(1) :]}")
     assert CliRunner().invoke(main, ["diff", str(old), str(new), "--control", ISG]).exit_code == 1
+
+
+@pytest.mark.parametrize(
+    ("program", "codes"),
+    [
+        ("G1 X20 G310 #RND=5\nX40 Y60", ["word-beside-code"]),
+        ("G1 X10 #ANG=30 G310\nX40 Y40", ["word-beside-code"]),
+        ("G1 X10\nG310 X20 Y20\nG302 I5\nX40", ["isg-corner-alone"]),
+        ("G310 X10\nG1 X40 #RND=5\nY40", ["position-unknown"]),
+        ("G1 X30 #CHF=4 #CHR=2\nX40 Y40", ["isg-two-corners"]),
+        ("G1 X30 #RND=4 #CHR=2\nX40 Y40", ["isg-two-corners"]),
+    ],
+)
+def test_one_slip_beside_a_measuring_move_or_in_a_corner_is_one_finding(program, codes):
+    assert [each.code for each in check(MILL + program, control=ISG)] == codes
+
+
+@pytest.mark.parametrize("code", ["G999", "G310"])
+def test_a_code_that_a_lathe_has_not_is_named_in_the_block_of_a_contour(code):
+    found = check(f"G00 X40. Z0.\n{code} G111 X100. A180. K-30. B120. C5.", control="yasnac-lx3")
+    assert [(each.code, each.message.partition(" ")[0]) for each in found] == [("code-unknown", code)]

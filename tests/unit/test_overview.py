@@ -89,7 +89,7 @@ def test_a_contour_without_a_path_has_its_message():
     picture = draw_result(contoursolve.solve_file(BROKEN))
     shown = "\n".join(texts(picture))
     assert (
-        "3, program line 21, no-solution: corner 1 does not fit: P4. is 4.000 mm, at most 2.500 mm fits on line 2"
+        "3, program line 21, without a solution: corner 1 does not fit: P4. is 4.000 mm, at most 2.500 mm fits on"
         in shown
     )
     assert "at most 2.500 mm fits on line 2" in picture.description

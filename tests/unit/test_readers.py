@@ -48,15 +48,15 @@ def test_what_each_control_makes_of_a_program_that_they_read_differently_is_told
     with pytest.raises(UnknownControlError) as caught:
         check("G00 X50. Y0\nG02 X80. Y30. R10. F200 ,R3.\nG01 Y60.\nX0\nM30")
     told = str(caught.value)
-    assert (
-        "and program lines 2 to 3 would not be the same (nct-99m, fanuc-mill and mitsubishi: R10.: the radius" in told
-    )
-    assert "; haas-mill: X80., Y30., R10. and ,R3.: this control makes corners between lines alone" in told
+    first, others, haas = told.splitlines()
+    assert first == "the controls read program lines 2 to 3 differently"
+    assert others.startswith("  nct-99m, fanuc-mill and mitsubishi: R10.: the radius")
+    assert haas.startswith("  haas-mill: X80., Y30., R10. and ,R3.: this control makes corners between lines alone")
     assert caught.value.choices == ("nct-99m", "fanuc-mill", "haas-mill", "mitsubishi")
 
 
 def test_an_axis_that_another_control_reads_as_an_angle_is_asked_about():
-    with pytest.raises(UnknownControlError, match="would not be the same"):
+    with pytest.raises(UnknownControlError, match=r"the controls read program lines? .* differently"):
         check("G17 G90 G00 X0 Y0\nG01 X50. A30.\nX80. ,R2.\nY60.\nM30")
 
 
@@ -84,7 +84,7 @@ def test_an_edit_may_make_controls_read_differently():
     assert opened.dialect.name == "nct-99m"
     opened.replace(MILLED.replace("G01 X80. ,C8. F200\n", "G02 X80. Y9. R60. ,R3.\nG01 "))
     assert opened.dialect is None
-    assert "would not be the same" in opened.trouble
+    assert "differently" in opened.trouble
     opened.replace(MILLED)
     assert [each.code for each in findings_of(opened)] == ["control-alike"]
 
@@ -142,6 +142,6 @@ def test_an_edit_may_make_a_lathe_a_mill():
 def test_where_readers_end_at_the_same_place_the_message_names_a_point_in_which_they_differ():
     with pytest.raises(UnknownControlError) as told:
         solve("G99 G18\nT0101\nG0 X40. Z0.\nG1 Z-40. ,R5. F.2\nX80. ,C1.\nZ-60.\nM30")
-    assert "mitsubishi: passes Z-40.0000 X45.0000; fanuc-lathe and haas-lathe: passes Z-40.0000 X50.0000" in str(
-        told.value
-    )
+    _, mills, lathes = str(told.value).splitlines()
+    assert mills.endswith("mitsubishi: passes Z-40.0000 X45.0000")
+    assert lathes.endswith("fanuc-lathe and haas-lathe: passes Z-40.0000 X50.0000")

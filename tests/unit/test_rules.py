@@ -9,6 +9,7 @@ from contoursolve.controls import DIALECTS
 from contoursolve.controls.geometry_rules import GEOMETRY_RULES
 
 WITHOUT_REJECTED_EXAMPLE = {
+    "move-in-increments": "check --strict alone tells it; test_command_line.py asks for it",
     "subprogram-refused": "it is about another file; test_subprograms.py writes one",
     "subprogram-solved": "it is about another file; test_subprograms.py writes one",
     "control-called": "it is about another file; test_subprograms.py writes one",

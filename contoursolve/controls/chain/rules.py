@@ -20,7 +20,7 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
 )
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told
+from contoursolve.controls.geometry_rules import ANGLE_RANGE, GEOMETRY_RULES, PLANE_CHANGES, told
 from contoursolve.controls.rule_rows import rule_row
 from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
 from contoursolve.gcode import FaultKind
@@ -191,8 +191,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
     )
     yield row(
         "plane-changes",
-        "the plane changes inside the contour",
-        "select the plane before its first block",
+        *PLANE_CHANGES,
         some(OTHER_PLANE),
         ANY,
         cut,
@@ -275,8 +274,7 @@ def chain_rules(manual: Manual) -> Iterator[Rule]:
     )
     yield row(
         "angle-range",
-        "{words} is more than a turn; it is taken as {within}, the same direction",
-        "write {within} if that is meant",
+        *ANGLE_RANGE,
         Value((angle,), least=Decimal(-360), most=Decimal(360)),
         LINES,
         angled,

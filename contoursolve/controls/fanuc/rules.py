@@ -29,7 +29,7 @@ from contoursolve.controls.fanuc.language import (
     WRONG_PLANE,
 )
 from contoursolve.controls.fanuc.lexicon import CORNERS, DRAWING, HAAS
-from contoursolve.controls.geometry_rules import COMMA_MISSING, GEOMETRY_RULES, Otherwise, told
+from contoursolve.controls.geometry_rules import ANGLE_RAPID, COMMA_MISSING, GEOMETRY_RULES, Otherwise, told
 from contoursolve.diagnostics import Alarm, Book, Evidence, Source
 from contoursolve.reading import AngleAlong, AnglesParallel, Rule, all_of, at_least, some
 
@@ -344,7 +344,7 @@ def _angle_rules(machine: _Machine) -> tuple[Rule, ...]:
         ),
         Rule(
             code=f"{machine.prefix}-angle-rapid",
-            message="{words}: the control works out a line by its angle in G01, not in G00",
+            message=ANGLE_RAPID,
             help="write G01",
             source=machine.source("block patterns", Evidence.DERIVED),
             roles=(LINE, OVER_LINE),

@@ -21,7 +21,7 @@ from contoursolve.controls.chain.language import (
     STATED_POINT,
 )
 from contoursolve.controls.common import COMMON_RULES
-from contoursolve.controls.geometry_rules import GEOMETRY_RULES, told
+from contoursolve.controls.geometry_rules import ANGLE_RANGE, ANGLE_RAPID, GEOMETRY_RULES, PLANE_CHANGES, told
 from contoursolve.controls.mitsubishi.language import (
     ALONG_ARC,
     FROM_END,
@@ -87,7 +87,7 @@ _ROWS = (
          "delete it, or move that axis in a block of its own",
          BOOK.printed("p. 375: in the selected plane"), some(*_BESIDE, "wrong-center"), _ANY,
          _CUT, ("X40. Y40.", "G02 X40. Y10. K10."), ("X30.", "X30. Z-5.")),
-    _row("plane-changes", "the plane changes inside the contour", "select the plane before its first block",
+    _row("plane-changes", *PLANE_CHANGES,
          BOOK.assumed("one plane"), some(OTHER_PLANE), _ANY, _CUT, ("X40. Y40.", "G18 X40. Z40."),
          alarm=_alarm("P396 (plane changed)")),
     _row("center-on-line", "{words}: a line has no centre and no radius", "delete it; a rounding is ,R",
@@ -96,7 +96,7 @@ _ROWS = (
          "delete {words}, or delete the coordinate that is to be computed",
          _BOOK, all_of(_FIRST, _SECOND, "A"), (LINE,), _ANGLED, ("A30.", "Y20. A30."),
          ignores="A", severity=Severity.WARNING),
-    _row("angle-rapid", "{words}: the control works out a line by its angle in G01, not in G00",
+    _row("angle-rapid", ANGLE_RAPID,
          "write G01; where A is an axis, set angle-word=,A", _BOOK, some("A") & some(RAPID), (LINE,),
          _ANGLED, ("G01 ", "")),
     _row("angle-on-arc", "{words}: the control works out angles in G01, not in G02 and G03",
@@ -104,8 +104,7 @@ _ROWS = (
     _row("high-speed", "{words}: in high-speed machining the control takes no angle",
          "end that mode before, with G05 P0", BOOK.printed("p. 375"), some(HIGH_SPEED) & some("A"), _LINES,
          _ANGLED, ("G01", "G05 P2\nG01"), alarm=_alarm("P33 (angle in high-speed machining)")),
-    _row("angle-range", "{words} is more than a turn; it is taken as {within}, the same direction",
-         "write {within} if that is meant", _BOOK, Value(("A",), least=Decimal(-360), most=Decimal(360)), _LINES,
+    _row("angle-range", *ANGLE_RANGE, _BOOK, Value(("A",), least=Decimal(-360), most=Decimal(360)), _LINES,
          _ANGLED, ("A30.", "A390."), severity=Severity.WARNING),
     _row("end-missing", "{words} alone does not say where the line ends",
          "add a coordinate; or let a block follow that tells where it goes",

@@ -22,7 +22,7 @@ from contoursolve.controls.chain.language import (
     STATED_CENTER,
     STATED_POINT,
 )
-from contoursolve.controls.geometry_rules import COMMA_MISSING, told
+from contoursolve.controls.geometry_rules import ANGLE_RANGE, COMMA_MISSING, PLANE_CHANGES, told
 from contoursolve.controls.nct_99m.lexicon import BESIDE, BOOK, SINGLE_BLOCK, UNCOMPENSATED
 from contoursolve.diagnostics import Alarm, Evidence, Severity, Source
 from contoursolve.reading import Rule, Value, all_of, at_most, some
@@ -231,8 +231,8 @@ COMBINATION_RULES = (
     ),
     Rule(
         code="nct-angle-range",
-        message="{words} is more than a turn; {within} is the same direction",
-        help="write {within} if that is meant",
+        message=ANGLE_RANGE[0],
+        help=ANGLE_RANGE[1],
         source=BOOK.assumed("16.2, 16.3: the range of ,A is not on the pages that we have"),
         severity=Severity.WARNING,
         roles=(LINE, OVER_LINE),
@@ -331,8 +331,8 @@ COMBINATION_RULES = (
     ),
     Rule(
         code="nct-plane-changes",
-        message="the plane changes inside the contour",
-        help="select the plane before its first block",
+        message=PLANE_CHANGES[0],
+        help=PLANE_CHANGES[1],
         source=BOOK.derived("16.3: in one plane"),
         roles=_ANY,
         when=some(OTHER_PLANE),
