@@ -140,6 +140,9 @@ class Examination:
 
     def _codes_beside(self, block: Block, contour: ParsedContour) -> Iterator[Diagnostic]:
         """The codes in a block of a contour that the control has not, but for those of which the contour tells."""
+        rows = self.dialect.modes.codes
+        if all(word.address != "G" or (word.number is not None and word.number in rows) for word in block.words):
+            return
         told = {word.span for word in contour.unread}
         context = Context(self.asked.rules, self.asked.unit, place=block.span)
         for each in explain_codes_by_name(context, block, self.dialect.modes):
