@@ -237,7 +237,7 @@ def _reason(
 
 def refused(code: str, event: Enum | None, values: str) -> str:
     """That a rule refuses some values, or that something else is found for them."""
-    return f"contoursolve reports {code} for {values}" if event else f"the control refuses {values} ({code})"
+    return f"{'contoursolve' if event else 'the control'} refuses {values}; `contoursolve explain {code}` says why"
 
 
 def phrase(check: Check, kind: RefusalKind, case: CaseClass) -> str:

@@ -87,7 +87,7 @@ def test_a_line_meets_a_circle_up_to_its_tangent():
             "P",
             None,
             [
-                "the control refuses P below 0.000 mm (g111-corner-sign)",
+                "the control refuses P below 0.000 mm; `contoursolve explain g111-corner-sign` says why",
                 "P is too large for line 1: P at most 51.961 mm",
             ],
         ),
@@ -246,7 +246,7 @@ def test_rules_bound_a_region_too():
     assert texts == [
         "P is too large for line 1",
         "P is too large for line 2",
-        "the control refuses such values of P (g111-corner-sign)",
+        "the control refuses such values of P; `contoursolve explain g111-corner-sign` says why",
         "A points away from the end of line 1",
     ]
 
