@@ -249,7 +249,10 @@ def examine(case: Case, path: ClaimedPath, ledger: Ledger, *, is_chosen: bool) -
     for number, move in enumerate(moves, 1):
         ledger.measure(f"element {number} begins where the one before it ends", (), abs(move.start - here), limit)
         is_long = abs(move.end - move.start) >= LENGTH - 2 * PRINTED or move.turn != 0
-        ledger.require(f"element {number} has a length", (), is_long, "it has none")
+        # Equations have the square of a radius.
+        is_turned_out = move.turn != 0 and move.radius <= 0.0
+        remark = f"its radius is {move.radius:g} mm" if is_turned_out else "it has none"
+        ledger.require(f"element {number} has a length", (), is_long and not is_turned_out, remark)
         here = move.end
     if ledger.require("the result says where the contour ends", (), path.end is not None, "end is null") and path.end:
         ledger.measure("the contour ends with its last element", (), abs(place(path.end) - here), limit)

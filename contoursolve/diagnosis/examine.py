@@ -221,7 +221,7 @@ def examine(
     for finding in explain_modes(context, claim):
         notebook.add(finding, Status.UNDERDETERMINED)
     # What rules refuse because nothing of it moves begins nowhere.
-    is_still = Status.REJECTED in notebook.statuses and not _says_where(claim)
+    is_still = is_whole and Status.REJECTED in notebook.statuses and not _says_where(claim)
     if not profile.start.is_known and not is_still:
         notebook.add(explain_start(context, claim), Status.UNDERDETERMINED)
     unmarked = (finding for block in claim.blocks for finding in explain_unmarked(context, block))
@@ -402,12 +402,7 @@ def _examine_geometry(
             against += [finding] if isinstance(event, Refusal) else []
             notebook.add(finding)
             notebook.statuses.add(event.kind.status if isinstance(event, Refusal) else Status.OVERDETERMINED)
-    said = [spans_of([each]) for each in notebook.findings if each.is_error]
     for status, finding in structure:
-        if is_refused and finding.about is ReadIssue.CORNER_TWICE and spans_of([finding]) in said:
-            # A rule has refused these very words because they are two.
-            notebook.statuses.add(status)
-            continue
         told = _behind(finding, against, claim)
         # What the equations say of a block that a rule has refused already explains, and counts once.
         notebook.add(replace(told, severity=Severity.INFO) if is_refused else told, status)
