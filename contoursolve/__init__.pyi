@@ -11,6 +11,7 @@ from .api import (
     solve as solve,
     solve_file as solve_file,
     solve_program as solve_program,
+    system as system,
 )
 from .controls import (
     DIALECTS as DIALECTS,
@@ -19,6 +20,7 @@ from .diagnosis import (
     Addition as Addition,
     Answer as Answer,
     Depth as Depth,
+    EquationSystem as EquationSystem,
     LegalBlock as LegalBlock,
     Listing as Listing,
     Policy as Policy,

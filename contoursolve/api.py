@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Unpack
 from msgspec.structs import replace
 
 from contoursolve import gcode
-from contoursolve.diagnosis import Depth
+from contoursolve.diagnosis import Depth, EquationSystem
 from contoursolve.diagnostics import Diagnostic, choice_of
 from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, UnreadableProgramError, decode, file_in_memory
 from contoursolve.program import (
@@ -54,6 +54,7 @@ __all__ = [
     "solve",
     "solve_file",
     "solve_program",
+    "system",
 ]
 
 
@@ -118,6 +119,33 @@ def solve(
     '8.038'
     """
     return _follow(_read(text, name), SolveOptions(**options)).collect()
+
+
+@takes(SolveKeywords)
+def system(text: str, *, name: str = "<program>", **options: Unpack[SolveKeywords]) -> EquationSystem:
+    """The system of equations of a block, or of a program with one contour.
+
+    Arguments and errors as for `solve`; raises ValueError where there is no contour, or more than one.
+
+    Returns:
+        Its `unknowns`, `words` and `equations` with their meaning, as sympy has them; `jacobian`, `rank`, `free` and
+        `ties`; the `condition` on which it is determined; `corners`; and the `steps` in which it is solved.
+
+    >>> shaft = system("G111 X100. A180. K-30. B120. P5.", start="X40. Z0.")
+    >>> shaft.rank, shaft.free, shaft.condition
+    (4, (), sin(B)*cos(A))
+    >>> shaft.equations[0], round(shaft.margin, 6)
+    (Eq(Z_V1, K + Z_S), -0.866025)
+    >>> [each.symbol for each in shaft.free("B").unknowns], shaft.free("B").free
+    ([Z_V1, X_V1, Z_V2, X_V2], (Z_V2,))
+    >>> shaft.subs(B=150.).solve().items[0].solution.points["V2"]
+    (-81.96152422706632, 50.0)
+    """
+    options.setdefault("depth", "verdict")
+    answers = _follow(_read(text, name), SolveOptions(**options)).collect().answers
+    if len(answers) != 1:
+        raise ValueError(f"a system is that of one contour; the program has {len(answers)}")
+    return answers[0].system
 
 
 def _read(text: str, name: str) -> Program:

@@ -14,7 +14,6 @@ from contoursolve.solving import (
     Determinacy,
     circuits_for_all_values,
     derive,
-    derive_circle_identity,
     derive_identity,
     is_affine,
 )
@@ -72,7 +71,7 @@ def _identities(form: ContourForm) -> Iterator[tuple[tuple[Fact, ...], str]]:
         system = build_system(layout.figure, layout.facts)
         verdict = _verdict(system)
         tied = tuple(layout.facts[index] for index in verdict.tied)
-        formula = derive_circle_identity(system, tied)
+        formula = derive_identity(system, tied)
         if formula and len(layout.facts) == len(system.unknowns) + 1:
             yield tied, formula
 

@@ -19,6 +19,16 @@ from .edits import (
     edited as edited,
     write_word as write_word,
 )
+from .equation_system import (
+    Condition as Condition,
+    CornerSystem as CornerSystem,
+    Equation as Equation,
+    EquationSystem as EquationSystem,
+    SystemStep as SystemStep,
+    TiedWords as TiedWords,
+    Unknown as Unknown,
+    Value as Value,
+)
 from .examine import (
     MOST_CHOICES as MOST_CHOICES,
     Answer as Answer,
@@ -36,6 +46,10 @@ from .explain import (
     context_of as context_of,
     report as report,
     spans_of as spans_of,
+)
+from .fact_words import (
+    condition_text as condition_text,
+    fact_text as fact_text,
 )
 from .fill import (
     FARTHEST as FARTHEST,

@@ -75,6 +75,7 @@ from contoursolve.solving import (
 from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
+    from contoursolve.diagnosis.equation_system import EquationSystem
     from contoursolve.solving import Alternatives
 
 
@@ -147,6 +148,13 @@ class Answer(Shown, Struct, frozen=True):
     """The block with them filled in, where it then stands alone."""
     calls: tuple[int, ...] = ()
     """The lines of the blocks that call it, if it belongs to a subprogram."""
+
+    @property
+    def system(self) -> EquationSystem:
+        """Its equations, what they leave open, and on which condition they determine it; by sympy, when it is asked."""
+        from contoursolve.diagnosis.equation_system import EquationSystem  # noqa: PLC0415 - few ask for it
+
+        return EquationSystem(self.claim, self.profile)
 
     @property
     def assumptions(self) -> tuple[Assumption, ...]:

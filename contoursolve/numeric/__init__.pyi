@@ -27,6 +27,7 @@ from .expressions import (
     angle as angle,
     at_most as at_most,
     below as below,
+    cosine as cosine,
     inverse_norm as inverse_norm,
     inverse_norms as inverse_norms,
     is_affine as is_affine,
@@ -38,6 +39,7 @@ from .expressions import (
     magnitude as magnitude,
     quadratic_parts as quadratic_parts,
     sign as sign,
+    sine as sine,
     sqrt as sqrt,
     symbol as symbol,
     true as true,
@@ -88,6 +90,11 @@ from .modular_rank import (
     Row as Row,
     draw as draw,
     draw_direction as draw_direction,
+)
+from .named_function import (
+    closed_function as closed_function,
+    implicit_function as implicit_function,
+    put_in as put_in,
 )
 from .newton import (
     Finder as Finder,

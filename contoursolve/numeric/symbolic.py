@@ -1,13 +1,15 @@
 """Sympy: the exact, generic properties of a system's equations."""
 
 import random
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from decimal import Decimal
 from typing import Any
 
 import sympy
 from sympy.polys.domains import QQ
 from sympy.polys.matrices import DomainMatrix
 
+from contoursolve.numeric import expressions
 from contoursolve.numeric.functions import Functions
 from contoursolve.numeric.modular_rank import ExactRank
 
@@ -15,20 +17,46 @@ FUNCTIONS = Functions(sympy.sqrt, sympy.cos, sympy.sin)
 
 
 class Symbols:
-    """Sympy symbols for every scalar, amount, direction and side, created when a formula asks for them."""
+    """Sympy symbols for every scalar, amount, direction and side, created when a formula asks for them; `call` gives
+    the name of a symbol."""
 
-    def __init__(self) -> None:
+    def __init__(self, call: Callable[[str], str] = str) -> None:
+        self._call = call
         self._symbols: dict[str, Any] = {}
         self._angles: dict[str, Any] = {}
 
     def scalar(self, name: str) -> Any:
         """The symbol of a coordinate, a radius, an amount, or a part of a line."""
-        return self._symbols.setdefault(name, sympy.Symbol(name, real=True))
+        if name not in self._symbols:
+            self._symbols[name] = sympy.Symbol(self._call(name), real=True)
+        return self._symbols[name]
+
+    def angle(self, given: str) -> Any:
+        """The symbol of an angle."""
+        if given not in self._angles:
+            self._angles[given] = sympy.Symbol(self._call(given), real=True)
+        return self._angles[given]
 
     def direction(self, given: str) -> tuple[Any, Any]:
         """Cosine and sine of a given angle's symbol."""
-        angle = self._angles.setdefault(given, sympy.Symbol(given, real=True))
+        angle = self.angle(given)
         return sympy.cos(angle), sympy.sin(angle)
+
+    def turned(self) -> dict[Any, Any]:
+        """The cosine and the sine of each line whose direction is unknown, as those of an angle by the line's name: so
+        sympy knows that the sum of their squares is 1."""
+        lines = [name.removesuffix(".cos") for name in self._symbols if name.endswith(".cos")]
+        found = dict[Any, Any]()
+        for line in lines:
+            angle = sympy.Symbol(self._call(line), real=True)
+            found |= {self.scalar(f"{line}.cos"): sympy.cos(angle), self.scalar(f"{line}.sin"): sympy.sin(angle)}
+        return found
+
+    def points(self) -> list[tuple[Any, Any]]:
+        """The coordinates of each point of which a formula asked for both."""
+        names = [name.removesuffix(".0") for name in self._symbols if name.endswith(".0")]
+        pairs = ((f"{name}.0", f"{name}.1") for name in names)
+        return [(self._symbols[one], self._symbols[two]) for one, two in pairs if two in self._symbols]
 
     def random_point(self, seed: int) -> dict[Any, Any]:
         """A rational value for every symbol; angles and directions of lines get rational cosines and sines."""
@@ -50,6 +78,31 @@ class Symbols:
             else:
                 point[symbol] = sympy.Rational(draw.randint(1, 99_999), draw.randint(1, 999))
         return point
+
+
+def exact(value: Decimal, *, is_angle: bool = False) -> Any:
+    """A decimal number without rounding; of an angle in degrees, its radians."""
+    number = sympy.Rational(str(value))
+    return number * sympy.pi / 180 if is_angle else number
+
+
+def equation(left: Any, right: Any) -> Any:
+    """That two expressions are equal."""
+    return sympy.Eq(left, right, evaluate=False)
+
+
+def value_at(expression: Any, values: Mapping[Any, Any]) -> float | None:
+    """The number that an expression has at values of its symbols; None where one of these is not known."""
+    known = {symbol: sympy.sympify(value) for symbol, value in values.items()}
+    found = sympy.sympify(expression).xreplace(known)
+    return float(found) if found.is_number else None
+
+
+def casadi_of(expression: Any, values: Mapping[Any, Any]) -> Any:
+    """An expression as one of CasADi, of values of its symbols that are such."""
+    names = sorted(sympy.sympify(expression).free_symbols, key=str)
+    own = {"sin": expressions.sine, "cos": expressions.cosine, "sqrt": expressions.sqrt}
+    return sympy.lambdify(names, expression, modules=[own, "math"])(*(values[name] for name in names))
 
 
 def jacobian(residuals: Sequence[Any], unknowns: Sequence[Any]) -> Any:
@@ -77,26 +130,76 @@ def exact_rank(matrix: Any, point: dict[Any, Any]) -> ExactRank:
     )
 
 
-def determinants(matrices: Sequence[Any]) -> str:
-    """The distinct factors of the determinants of square matrices, whose zeros are their zeros, as text."""
-    factors: dict[Any, None] = {}
-    for matrix in matrices:
-        numerator, _ = sympy.fraction(sympy.factor(sympy.trigsimp(matrix.det(method="berkowitz"))))
-        factors |= dict.fromkeys(sympy.trigsimp(base) for base, _ in sympy.factor_list(numerator)[1])
-    return str(sympy.Mul(*factors))
+def determinant(matrix: Any, symbols: Symbols, known: Mapping[Any, Any]) -> tuple[Any, ...]:
+    """The distinct factors of the determinant of a square matrix, whose zeros are its zeros; none if it is a number.
+
+    They are written so that they can be read: directions of lines as angles, cosine and sine of one angle in their
+    lowest powers, points by their distances from another one, and `known` unknowns as the words that state them.
+    """
+    found = _reduced(matrix.det(method="berkowitz").xreplace(symbols.turned()))
+    return tuple(dict.fromkeys(_readable(base, symbols, known) for base, _ in sympy.factor_list(found)[1]))
 
 
-def eliminate(residuals: Sequence[Any], unknowns: Sequence[Any], wanted: Any) -> str:
-    """`wanted` as a formula from residuals that are affine in it and in the unknowns, as text; empty if none."""
+def _reduced(expression: Any) -> Any:
+    """An expression with sines and cosines of single angles, in which their squares are told to add up to 1."""
+    found = sympy.expand(sympy.expand_trig(expression))
+    for angle in sorted({each.args[0] for each in found.atoms(sympy.sin, sympy.cos)}, key=str):
+        pair = sympy.sin(angle), sympy.cos(angle)
+        rests = (sympy.expand(sympy.rem(found, pair[0] ** 2 + pair[1] ** 2 - 1, each)) for each in pair)
+        found = min(found, *rests, key=sympy.count_ops)
+    return found
+
+
+def _readable(factor: Any, symbols: Symbols, known: Mapping[Any, Any]) -> Any:
+    """A factor of a condition: of directions alone as the sine or cosine of a difference; else by the distances of
+    points from that point for which it is shortest."""
+    turned = factor.atoms(sympy.sin, sympy.cos)
+    if turned and factor.free_symbols <= {symbol for each in turned for symbol in each.free_symbols}:
+        found = sympy.trigsimp(factor)
+        return -found if found.could_extract_minus_sign() else found
+    places = [pair for pair in symbols.points() if factor.free_symbols & {*pair}]
+    forms = [factor, *(_from(place, factor, places, turned) for place in places)]
+    shortest = min((form.xreplace(known) for form in forms if form is not None), key=sympy.count_ops)
+    return -shortest if shortest.could_extract_minus_sign() else shortest
+
+
+def _from(place: tuple[Any, Any], factor: Any, places: Sequence[tuple[Any, Any]], turned: Iterable[Any]) -> Any:
+    """A factor by the distances of other points from a place; None if it depends on where that lies."""
+    moved = factor.xreplace(dict.fromkeys(place, sympy.Integer(0)))
+    back = {each: each - own for pair in places if pair != place for each, own in zip(pair, place, strict=True)}
+    if sympy.expand(moved.xreplace(back) - factor) != 0:
+        return None
+    groups = [*(pair for pair in places if pair != place), tuple(sorted(turned, key=str))]
+    collected = (sympy.collect(sympy.expand(moved), group) for group in groups if group)
+    return min((each.xreplace(back) for each in collected), key=sympy.count_ops)
+
+
+def factors_of(expression: Any) -> tuple[Any, ...]:
+    """The factors of a product."""
+    return tuple(sympy.Mul.make_args(expression))
+
+
+def symbol(name: str) -> Any:
+    """The symbol of a real number."""
+    return sympy.Symbol(name, real=True)
+
+
+def product(factors: Iterable[Any]) -> Any:
+    """The product of distinct factors."""
+    return sympy.Mul(*dict.fromkeys(factors))
+
+
+def eliminate(residuals: Sequence[Any], unknowns: Sequence[Any], wanted: Any) -> Any:
+    """`wanted` as a formula from residuals that are affine in it and in the unknowns; None if there is none."""
     used = [unknown for unknown in unknowns if any(residual.has(unknown) for residual in residuals)]
     for solution in sympy.solve(residuals, [*used, wanted], dict=True):
         if wanted in solution and not any(solution[wanted].has(unknown) for unknown in used):
-            return str(sympy.trigsimp(sympy.simplify(solution[wanted])))
-    return ""
+            return sympy.trigsimp(sympy.simplify(solution[wanted]))
+    return None
 
 
-def substitute_solution(expression: Any, residuals: Sequence[Any], unknowns: Sequence[Any]) -> str:
-    """An expression with the unknowns replaced by what affine residuals make of them, as text `... = 0`."""
+def substitute_solution(expression: Any, residuals: Sequence[Any], unknowns: Sequence[Any]) -> Any:
+    """An expression with the unknowns replaced by what affine residuals make of them; None if they make nothing."""
     used = [unknown for unknown in unknowns if any(residual.has(unknown) for residual in residuals)]
     solution = sympy.solve(residuals, used, dict=True)
-    return f"{sympy.simplify(sympy.expand(expression.subs(solution[0])))} = 0" if solution else ""
+    return sympy.simplify(sympy.expand(expression.subs(solution[0]))) if solution else None

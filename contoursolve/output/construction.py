@@ -2,14 +2,8 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from contoursolve.diagnosis import Answer, angle_text, join, length_text, list_alternatives, unknowns_text
-from contoursolve.gcode import FACT
-from contoursolve.geometry import (
-    Fact,
-    Profile,
-    System,
-    assemble,
-)
+from contoursolve.diagnosis import Answer, fact_text, join, length_text, list_alternatives, unknowns_text
+from contoursolve.geometry import Profile, System, assemble
 from contoursolve.output.plain_text import printable
 from contoursolve.solving import (
     ARCS,
@@ -51,7 +45,13 @@ def construction_lines(answer: Answer) -> list[str]:
     scalars, sides = _found(answer)
     lines = ["  construction:"]
     for number, group in enumerate(_joined(steps_of(system)), 1):
-        facts = join(list(dict.fromkeys(filter(None, (_phrase(fact, group, profile) for fact in group.facts)))))
+        facts = join(
+            list(
+                dict.fromkeys(
+                    filter(None, (printable(fact_text(fact, group.unknowns, profile)) for fact in group.facts))
+                )
+            )
+        )
         how = _choice(group, system, sides)
         place = _place(group, profile, scalars)
         lines.append(f"    {number}. {_things(group, profile)}: {facts}{how}")
@@ -104,28 +104,6 @@ def _things(group: Group, profile: Profile) -> str:
     shown = unknowns_text(group.unknowns, profile)
     axes = f" ({join(profile.plane.axes)})"
     return shown.replace(axes, "")
-
-
-def _phrase(fact: Fact, group: Group, profile: Profile) -> str:
-    """One fact as a condition on what is to be found; empty for what goes without saying."""
-    given = profile.givens.get(fact.given or getattr(fact, "part_of", ""))
-    word = f" ({printable(given.word.text)})" if given is not None and given.word is not None else ""
-    if given is not None and given.word is not None and given.word.address == FACT:
-        return printable(given.word.text)
-    unit, axes = profile.unit, profile.plane.axes
-    if given is not None and fact.placed is not None and fact.placed.is_stepped:
-        point, axis, origin, _ = fact.placed
-        if origin:
-            return f"{length_text(float(given.value), unit)} from {origin} along {axes[axis]}{word}"
-        factor = 2 if profile.plane.diameters[axis] else 1
-        return f"{point} at {axes[axis]}{length_text(float(given.value) * factor, unit)}{word}"
-    if given is not None and fact.heading is not None:
-        tail, head = fact.heading
-        other = tail if f"{head}.0" in group.unknowns or f"{head}.1" in group.unknowns else head
-        return f"on the line through {other} at {angle_text(float(given.value))}{word}"
-    if given is not None and fact.sizes:
-        return f"radius {length_text(float(given.value), unit)}{word}"
-    return fact.phrase(axes, group.unknowns)
 
 
 def _choice(group: Group, system: System, sides: Mapping[str, str]) -> str:

@@ -74,12 +74,24 @@ from .contour import (
     dropped_corners as dropped_corners,
     trace as trace,
 )
+from .contour_function import (
+    Typed as Typed,
+    build_function as build_function,
+    rows_of as rows_of,
+)
+from .corner_definition import corner_equations as corner_equations
 from .determinacy import (
     Determinacy as Determinacy,
+    StepCondition as StepCondition,
     analyse as analyse,
     basis_of as basis_of,
+    circuits_of as circuits_of,
+    conditions_of as conditions_of,
     derive as derive,
     groups_of as groups_of,
+    is_known as is_known,
+    jacobian_of as jacobian_of,
+    rank_of as rank_of,
     spare_of as spare_of,
     survey as survey,
 )
@@ -113,11 +125,14 @@ from .free_cuts import (
     place_cuts as place_cuts,
 )
 from .identities import (
-    derive_circle_identity as derive_circle_identity,
     derive_identity as derive_identity,
     is_affine as is_affine,
+    tie_of as tie_of,
 )
-from .inputs import input_values as input_values
+from .inputs import (
+    input_values as input_values,
+    symbolic_values as symbolic_values,
+)
 from .numbers import (
     axes_of as axes_of,
     corner_of as corner_of,

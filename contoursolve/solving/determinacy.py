@@ -8,8 +8,9 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 from msgspec import Struct
+from msgspec.structs import replace
 
-from contoursolve.geometry import Fact, System
+from contoursolve.geometry import Fact, System, scalar
 from contoursolve.numeric import (
     COSINE,
     RESIDUES,
@@ -98,6 +99,11 @@ def analyse(system: System) -> Determinacy:
     return _from_json(known) if known else survey(system)
 
 
+def is_known(system: System) -> bool:
+    """Whether the table that ships has the verdict on a system."""
+    return system.equations_key in _shipped()
+
+
 def basis_of(system: System) -> tuple[Fact, ...]:
     """The first facts that determine as much as all facts of a system do."""
     return tuple(system.facts[index] for index in analyse(system).basis)
@@ -132,48 +138,86 @@ def survey(system: System) -> Determinacy:
 
 
 def derive(system: System) -> Determinacy:
-    """The verdict on a system, by sympy: exact rank of the Jacobian at random rational points."""
+    """The verdict on a system, by sympy: exact rank of the Jacobian at random rational points, and the condition."""
     from contoursolve.numeric import symbolic  # noqa: PLC0415 - 200 ms, see analyse
 
     symbols = symbolic.Symbols()
+    matrix = jacobian_of(system, symbols)
+    found = rank_of(system, symbols, matrix)
+    if found.free or not found.basis:
+        return found
+    return replace(found, condition=_condition(system, symbols, matrix, found.basis))
+
+
+def jacobian_of(system: System, symbols: Any) -> Any:
+    """The derivatives of a system's equations by its unknowns, as a matrix of sympy."""
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - see analyse
+
     at = symbolic_values(symbols, symbolic.FUNCTIONS, system.headed)
     residuals = [fact.equation(at) for fact in system.facts]
-    unknowns = [symbols.scalar(name) for name in system.unknowns]
-    if not residuals:
+    return symbolic.jacobian(residuals, [symbols.scalar(name) for name in system.unknowns])
+
+
+def rank_of(system: System, symbols: Any, matrix: Any) -> Determinacy:
+    """The verdict on a system by the exact rank of its Jacobian, without the condition."""
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - see analyse
+
+    if not system.facts:
         return Determinacy(0, (), (), system.unknowns, "")
-    matrix = symbolic.jacobian(residuals, unknowns)
     ranks = [symbolic.exact_rank(matrix, symbols.random_point(seed)) for seed in SEEDS]
     best = max(ranks, key=lambda each: each.rank)
-    is_determined = not best.free_columns
-    basis = best.independent_rows
-    return Determinacy(
-        rank=best.rank,
-        basis=basis,
-        tied=best.dependent_rows,
-        free=tuple(system.unknowns[column] for column in best.free_columns),
-        condition=_condition(system, matrix, basis) if is_determined else "",
-    )
+    free = tuple(system.unknowns[column] for column in best.free_columns)
+    return Determinacy(best.rank, best.independent_rows, best.dependent_rows, free, "")
+
+
+def _condition(system: System, symbols: Any, matrix: Any, basis: Sequence[int]) -> str:
+    """The value that must not be zero: the product of the conditions of the groups."""
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - see analyse
+
+    found = conditions_of(system, symbols, matrix, basis)
+    return str(symbolic.product(factor for each in found for factor in each.factors))
 
 
 LARGEST_DETERMINANT = 5
 """The determinant of a larger group has hundreds of terms and tells nobody anything."""
 
 
-def _condition(system: System, matrix: Any, basis: Sequence[int]) -> str:
-    """The value that must not be zero: the product of the determinants of the groups that are solved one after the
-    other."""
+class StepCondition(Struct, frozen=True):
+    """A group of facts that determines its unknowns unless one of `factors` (expressions of sympy) is zero. None of
+    them where it always does, or where the group has more than `LARGEST_DETERMINANT` unknowns (`is_large`)."""
+
+    group: Group
+    factors: tuple[Any, ...]
+    is_large: bool = False
+
+
+def conditions_of(system: System, symbols: Any, matrix: Any, basis: Sequence[int]) -> list[StepCondition]:
+    """The conditions on which the basis of a determined system determines it, group by group in the order in which they
+    are solved, in the `symbols` of `matrix`, its Jacobian."""
     from contoursolve.numeric import symbolic  # noqa: PLC0415 - see analyse
 
     groups = order(system, [system.facts[index] for index in basis])
     row_of = {system.facts[index]: index for index in basis}
     column_of = {name: index for index, name in enumerate(system.unknowns)}
-    small = [group for group in groups if len(group.unknowns) <= LARGEST_DETERMINANT]
-    return symbolic.determinants(
-        [
-            matrix.extract([row_of[fact] for fact in group.facts], [column_of[name] for name in group.unknowns])
-            for group in small
-        ]
-    )
+    known, found = dict[Any, Any](), list[StepCondition]()
+    for group in groups:
+        if len(group.unknowns) > LARGEST_DETERMINANT:
+            found.append(StepCondition(group, (), is_large=True))
+            continue
+        part = matrix.extract([row_of[fact] for fact in group.facts], [column_of[name] for name in group.unknowns])
+        found.append(StepCondition(group, symbolic.determinant(part, symbols, known)))
+        known |= _stated(group, symbols, known)
+    return found
+
+
+def _stated(group: Group, symbols: Any, known: Mapping[Any, Any]) -> dict[Any, Any]:
+    """The coordinate that a word states, as that word, so that conditions on later groups tell of words."""
+    placed = group.facts[0].placed
+    if len(group.facts) > 1 or placed is None:
+        return {}
+    origin = symbols.scalar(scalar(placed.origin, placed.axis)) if placed.origin else 0
+    step = symbols.scalar(group.facts[0].given) if placed.is_stepped else 0
+    return {symbols.scalar(group.unknowns[0]): known.get(origin, origin) + step}
 
 
 @lru_cache(maxsize=1)

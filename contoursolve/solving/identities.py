@@ -1,42 +1,54 @@
 """Identities: how words that say the same depend on one another, for all values, by sympy."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from contoursolve.geometry import Fact, System
 from contoursolve.solving.inputs import symbolic_values
 
 
-def derive_identity(system: System, facts: Sequence[Fact]) -> str:
-    """The last length among the facts as a formula of the other words, such as `K = I/tan(A)`.
+def tie_of(system: System, facts: Sequence[Fact], symbols: Any) -> Any:
+    """The equation that facts which say the same make their words satisfy, in the `symbols` of sympy: the last length
+    as a formula of the other words, or what two points of one circle have in common. None where neither is the case.
 
-    All facts must be affine in the unknowns. Lengths are radius values; S.0 and S.1 are the start
-    point's coordinates.
+    Lengths are radius values; S.0 and S.1 are the start point's coordinates.
     """
+    return _of_lengths(system, facts, symbols) if is_affine(facts) else _of_circle(system, facts, symbols)
+
+
+def _of_lengths(system: System, facts: Sequence[Fact], symbols: Any) -> Any:
     from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see analyse
 
     lengths = [fact for fact in facts if fact.placed and fact.given]
-    symbols = symbolic.Symbols()
     at = symbolic_values(symbols, symbolic.FUNCTIONS, system.headed)
     unknowns = [symbols.scalar(name) for name in system.unknowns]
     if not lengths:
-        return ""
-    solved = symbolic.eliminate([fact.residual(at) for fact in facts], unknowns, symbols.scalar(lengths[-1].given))
-    return f"{lengths[-1].given} = {solved}" if solved else ""
+        return None
+    last = symbols.scalar(lengths[-1].given)
+    solved = symbolic.eliminate([fact.residual(at) for fact in facts], unknowns, last)
+    return symbolic.equation(last, solved) if solved is not None else None
 
 
-def derive_circle_identity(system: System, facts: Sequence[Fact]) -> str:
-    """The equation that two points of one circle make their words satisfy, a formula that is zero; empty if the tie is
-    another one. S.0 and S.1 are the start point's coordinates."""
+def _of_circle(system: System, facts: Sequence[Fact], symbols: Any) -> Any:
     from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see analyse
 
     circles = [fact for fact in facts if fact.circle]
     if len(circles) != 2 or len({fact.circle[1:3] for fact in circles if fact.circle}) != 1:  # noqa: PLR2004
-        return ""
-    symbols = symbolic.Symbols()
+        return None
     at = symbolic_values(symbols, symbolic.FUNCTIONS, system.headed)
     first, second = (fact.equation(at) for fact in circles)
     affine = [fact.residual(at) for fact in facts if not fact.circle]
-    return symbolic.substitute_solution(first - second, affine, [symbols.scalar(name) for name in system.unknowns])
+    unknowns = [symbols.scalar(name) for name in system.unknowns]
+    found = symbolic.substitute_solution(first - second, affine, unknowns)
+    return symbolic.equation(found, 0) if found is not None else None
+
+
+def derive_identity(system: System, facts: Sequence[Fact]) -> str:
+    """The same as text, such as `K = I/tan(A)`; empty if there is none."""
+    from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import, see analyse
+
+    found = tie_of(system, facts, symbolic.Symbols())
+    return f"{found.lhs} = {found.rhs}" if found is not None else ""
 
 
 def is_affine(facts: Sequence[Fact]) -> bool:

@@ -1,0 +1,544 @@
+"""The system of equations of one contour, by sympy: what it leaves open, on which condition it is determined."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace as replace_fields
+from decimal import Decimal, InvalidOperation
+from functools import cached_property
+from math import atan2
+from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from contoursolve.diagnosis.fact_words import condition_text, fact_text
+from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
+from contoursolve.diagnosis.wording import join, unknowns_text, word_keys
+from contoursolve.diagnostics import Shown
+from contoursolve.geometry import (
+    Corner,
+    CornerShape,
+    Fact,
+    Given,
+    Profile,
+    System,
+    Unit,
+    apply_statements,
+    assemble,
+    both,
+    line_scalars,
+    scalar,
+)
+from contoursolve.numeric import COSINE, SINE, Expression, angle, symbol
+from contoursolve.reading import ParsedContour, read
+from contoursolve.solving import (
+    Alternatives,
+    ConstructionStep,
+    Determinacy,
+    Group,
+    Solution,
+    StepKind,
+    Typed,
+    analyse,
+    build_function,
+    choose,
+    circuits_of,
+    conditions_of,
+    corner_equations,
+    find_alternatives,
+    is_closed,
+    is_known,
+    is_searched,
+    jacobian_of,
+    pick,
+    rank_of,
+    rows_of,
+    scalars_of,
+    solve,
+    steps_of,
+    symbolic_values,
+    tie_of,
+)
+
+
+def symbolic() -> Any:
+    """The module that has sympy, imported where it is asked for: it takes longer than solving a program."""
+    from contoursolve.numeric import symbolic as module  # noqa: PLC0415
+
+    return module
+
+
+_MEANINGS = {"cos": "cosine of the direction of {}", "sin": "sine of the direction of {}", "off": "place of {}"}
+_PLACES = {
+    "begin": "{0} where {1} begins",
+    "end": "{0} where {1} ends",
+    "center": "{0} of the centre of {1}",
+}
+_HOW = {
+    StepKind.AFFINE: "linear equations",
+    StepKind.RADIUS: "the distance of two points",
+    StepKind.LINE_CIRCLE: "a line meets a circle, in two places",
+    StepKind.TWO_CIRCLES: "two circles meet, in two places",
+    StepKind.GENERAL: "a closed form with several solutions",
+}
+
+
+class Unknown(Struct, frozen=True):
+    """An unknown of a system: its symbol (of sympy), what it is, and its unit.
+
+    `value` is what it has in the contour that was solved (mm, X of a lathe as radius); None without one.
+    """
+
+    symbol: Any
+    meaning: str
+    unit: str
+    value: float | None
+    name: str
+
+
+class Value(Struct, frozen=True):
+    """A value that a word, or the start point, states: its symbol, what it is, as it is typed, and its number.
+
+    `number` is that of the equations: mm, X of a lathe as radius, or an angle in radians, exact, of sympy. None where
+    it is not known.
+    """
+
+    symbol: Any
+    meaning: str
+    text: str
+    unit: str
+    number: Any
+    name: str
+
+
+class Equation(Struct, frozen=True):
+    """One equation: of sympy, the word that states it (empty for what the form itself states), and what it says."""
+
+    equation: Any
+    word: str
+    meaning: str
+    line: int = 0
+    """Program line of the word; 0 without one."""
+
+
+class Condition(Struct, frozen=True):
+    """A condition on which one step of a system is determined: an expression of sympy that must not be zero, its value
+    at the contour that was solved (None without one), in words what it means, and the symbols that it determines."""
+
+    expression: Any
+    value: float | None
+    meaning: str
+    determines: tuple[Any, ...]
+
+
+class SystemStep(Struct, frozen=True):
+    """A step in which a system is solved: the unknowns that it finds, from which equations, and how."""
+
+    unknowns: tuple[Any, ...]
+    equations: tuple[Equation, ...]
+    how: str
+    is_closed: bool
+
+
+class CornerSystem(Struct, frozen=True):
+    """A corner: its name, the unknowns of where it begins, ends and has its centre, and the equations between them."""
+
+    name: str
+    unknowns: tuple[Unknown, ...]
+    equations: tuple[Equation, ...]
+
+
+class TiedWords(Struct, frozen=True):
+    """Words that say the same, and the equation of sympy that ties them; None where it has no formula."""
+
+    words: tuple[str, ...]
+    identity: Any
+
+
+class Free(tuple[Any, ...]):
+    """The unknowns that no equation determines, as symbols. A call gives the system without the equations of words."""
+
+    _without: Any
+
+    @classmethod
+    def of(cls, symbols: Iterable[Any], without: Any) -> "Free":
+        """Symbols, and what a call does."""
+        found = cls(symbols)
+        found._without = without
+        return found
+
+    def __call__(self, *words: str) -> "EquationSystem":
+        """The system in which the values of these words (`"K"`, or `"2:K"` with its line) are free."""
+        result: EquationSystem = self._without(words)
+        return result
+
+
+class EquationSystem(Shown):
+    """The system of equations of one contour, as `contoursolve.system` gives it.
+
+    Nothing is derived before it is asked for; then sympy is imported. Lengths are mm, X of a lathe counts as radius,
+    angles are radians. `profile` is the drawing, `claim` the blocks with their words.
+    """
+
+    def __init__(self, claim: ParsedContour, profile: Profile) -> None:
+        self.claim, self.profile = claim, profile
+        self._system: System = assemble(profile)
+
+    # What it consists of -----------------------------------------------------------------------------------------
+
+    @cached_property
+    def unknowns(self) -> tuple[Unknown, ...]:
+        """What the equations determine: coordinates of points, radii, directions of lines; in the order of `jacobian`'s
+        columns."""
+        return tuple(map(self._unknown, self._system.unknowns))
+
+    @cached_property
+    def words(self) -> tuple[Value, ...]:
+        """The values that words state, and the start point: each with its symbol, meaning and number."""
+        return (*self._start(), *map(self._value, self._stated()))
+
+    @property
+    def values(self) -> dict[Any, Any]:
+        """The numbers of the words and of the start point by their symbols, exact, in mm and radians."""
+        return {each.symbol: each.number for each in self.words if each.number is not None}
+
+    @property
+    def solution(self) -> dict[Any, float]:
+        """The values of the unknowns in the contour that was solved, by their symbols; empty without one."""
+        return {each.symbol: each.value for each in self.unknowns if each.value is not None}
+
+    @cached_property
+    def statements(self) -> tuple[Equation, ...]:
+        """Each equation with the word that states it and what it says; in the order of `jacobian`'s rows."""
+        return tuple(map(self._equation, self._system.facts))
+
+    @property
+    def equations(self) -> tuple[Any, ...]:
+        """The equations, of sympy: one for each word that states one, then those of the form itself."""
+        return tuple(each.equation for each in self.statements)
+
+    @cached_property
+    def corners(self) -> tuple[CornerSystem, ...]:
+        """The corners with the places where they begin and end, their centres, and the equations of these."""
+        return tuple(map(self._corner, self._system.figure.corners))
+
+    # What sympy says of it ---------------------------------------------------------------------------------------
+
+    @cached_property
+    def jacobian(self) -> Any:
+        """The derivatives of the equations by the unknowns, a Matrix of sympy: a row for each equation, a column for
+        each unknown."""
+        return jacobian_of(self._system, self._symbols)
+
+    @property
+    def rank(self) -> int:
+        """The rank of the Jacobian, exact, for all values but those on which the condition is zero."""
+        return self._verdict.rank
+
+    @property
+    def is_determined(self) -> bool:
+        """Whether the equations determine every unknown."""
+        return self._verdict.is_determined
+
+    @property
+    def free(self) -> Free:
+        """The unknowns that nothing determines, as symbols. `free("K")` is the system without the value of a word."""
+        return Free.of(map(self._symbols.scalar, self._verdict.free), self._without)
+
+    @cached_property
+    def ties(self) -> tuple[TiedWords, ...]:
+        """Each smallest set of words that say the same, with the equation that ties them, if it has a formula."""
+        system, names = self._system, dict(zip(self._system.facts, self.statements, strict=True))
+        found = []
+        for last, others in circuits_of(system).items():
+            facts = (*others, last)
+            words = tuple(names[fact].word for fact in facts if names[fact].word)
+            found.append(TiedWords(words, tie_of(system, facts, self._symbols)))
+        return tuple(found)
+
+    @cached_property
+    def conditions(self) -> tuple[Condition, ...]:
+        """The condition of each step that has one, in the order in which the steps are solved; none where something is
+        free."""
+        if not self.is_determined:
+            return ()
+        numbers, found = self.values | self.solution | self._turned(), list[Condition]()
+        for each in conditions_of(self._system, self._symbols, self.jacobian, self._verdict.basis):
+            expression = symbolic().product(each.factors)
+            if each.factors:
+                determines = tuple(map(self._symbols.scalar, each.group.unknowns))
+                value = symbolic().value_at(expression, numbers)
+                meaning = condition_text(each.group, self._system, self.profile)
+                found.append(Condition(expression, value, meaning, determines))
+        return tuple(found)
+
+    @property
+    def condition(self) -> Any:
+        """The expression that must not be zero for the equations to determine the unknowns: 1 if they always do, None
+        if they never do."""
+        if not self.is_determined:
+            return None
+        factors = (factor for each in self.conditions for factor in symbolic().factors_of(each.expression))
+        return symbolic().product(factors)
+
+    @property
+    def margin(self) -> float | None:
+        """The value of the condition at the contour that was solved; None without one."""
+        numbers = self.values | self.solution | self._turned()
+        return symbolic().value_at(self.condition, numbers) if self.is_determined else None
+
+    @cached_property
+    def steps(self) -> tuple[SystemStep, ...]:
+        """The steps in which the unknowns are found, one after the other; none where something is free."""
+        return tuple(map(self._step, steps_of(self._system))) if self.is_determined else ()
+
+    # What can be done with it ------------------------------------------------------------------------------------
+
+    def solve(self) -> Alternatives:
+        """Every solution of the equations, certified: `items`, and whether these are proven to be all.
+
+        Raises ValueError where something is free, or the start point is not known.
+        """
+        if not self.is_determined:
+            raise ValueError(f"still open: {unknowns_text(self._verdict.free, self.profile)}")
+        if not self.profile.start.is_known:
+            raise ValueError("the start point is not known")
+        return find_alternatives(self.profile)
+
+    def subs(self, values: Mapping[str, float] | None = None, /, **words: float) -> "EquationSystem":
+        """The system with other values of words, as they are typed: `subs(A=120)`, `subs({"2:X": 80})`, or by a symbol,
+        `subs(X_2=80)`. Raises ValueError for what is no word with a value."""
+        givens = dict(self.profile.givens)
+        for key, typed in {**(values or {}), **words}.items():
+            for given in self._named(key):
+                moved = self._typed(given, typed) - given.value
+                for name, other in givens.items():
+                    if name == given.name or other.follows == given.name:
+                        givens[name] = replace(other, value=other.value + moved)
+        stated = {name: givens[name] for name in self.claim.givens}
+        claim = replace_fields(self.claim, givens=stated)
+        return EquationSystem(claim, replace(self.profile, givens=givens))
+
+    def function(self, name: str = "contour") -> Any:
+        """The contour as a function of CasADi, for `map`, `jacobian`, `nlpsol` and whatever else that has.
+
+        Inputs are the start point and the words with a value, a scalar each, by the names of their symbols and as they
+        are typed with a decimal point: X of a lathe as a diameter, inches in an inch program, degrees.
+
+        Outputs, mm and X as radius, are matrices; `rows` has the names of their rows:
+
+        * `points` (n, 2), `radii` (n, 1): the points of the drawing and the radii of its arcs;
+        * `elements` (n, 4): where each element begins and ends, corners among them, in the order of travel;
+        * `centers` (n, 2): those of the roundings;
+        * `room` (n, 1): what the corners leave of each element, negative where they do not fit;
+        * `conditions` (n, 1): the values of `conditions`, zero where a step is not determined;
+        * `residuals` (n, 1): by how much each equation is missed.
+
+        It follows the solution that the control takes at the values of the words, in closed form where there is one,
+        else by Newton's method from there on. It checks nothing: a contour is right where `room` is not negative,
+        `residuals` are zero and no line runs backwards. Raises ValueError where there is no contour to follow.
+        """
+        if self._solved is None:
+            raise ValueError("there is no contour at the values of the words that a function could follow")
+        inputs, typed = self._inputs()
+        scalars, _ = self._solved
+        return build_function(self.profile, name, inputs, typed, self._conditions_of, scalars)
+
+    @property
+    def rows(self) -> dict[str, tuple[str, ...]]:
+        """The names of the rows of each output of `function`."""
+        told = tuple(each.word or each.meaning for each in self.statements)
+        return rows_of(self._system) | {"conditions": tuple(each.meaning for each in self.conditions), "residuals": told}
+
+    def _inputs(self) -> tuple[dict[str, Expression], Typed]:
+        """The inputs of the function, and the values of the contour as expressions of them."""
+        profile, inputs = self.profile, dict[str, Expression]()
+        scales = [profile.unit.in_mm / (2 if is_half else 1) for is_half in profile.plane.diameters]
+        start = []
+        for axis, scale in enumerate(scales):
+            name = self._names[scalar(self._system.figure.start, axis)]
+            inputs[name] = symbol(name)
+            start.append(inputs[name] * float(scale))
+        givens: dict[str, Any] = {}
+        for given in self._stated():
+            if given.word is None or given.word.number is None:
+                continue
+            name, value = self._names[given.name], self.claim.lexicon.value(given.word, profile.unit)
+            inputs[name] = symbol(name)
+            scale = self._scale_of(given)
+            # A word may count from another one that stays.
+            rest = float(given.value - value) if value is not None else 0.0
+            givens[given.name] = inputs[name] * float(scale) + rest if rest else inputs[name] * float(scale)
+        for given in profile.givens.values():
+            if given.follows in givens:
+                moved = float(given.value - profile.givens[given.follows].value)
+                givens[given.name] = givens[given.follows] + moved
+        return inputs, Typed((start[0], start[1]), givens)
+
+    def _conditions_of(self, at: Mapping[str, Any]) -> list[Any]:
+        """The conditions as expressions of CasADi, of the values by name."""
+        symbols, system = self._symbols, self._system
+        values = {symbols.scalar(name): at[name] for name in (*system.unknowns, *both(system.figure.start))}
+        for given in self._stated():
+            if given.unit is Unit.DEGREE:
+                values[symbols.angle(given.name)] = angle(at[given.name + SINE], at[given.name + COSINE])
+            else:
+                values[symbols.scalar(given.name)] = at[given.name]
+        for line in system.figure.carriers:
+            cosine, sine, _ = line_scalars(line)
+            values[symbolic().symbol(self._names[line])] = angle(at[sine], at[cosine])
+        return [symbolic().casadi_of(each.expression, values) for each in self.conditions]
+
+    def _without(self, words: Iterable[str]) -> "EquationSystem":
+        names = frozenset(given.name for key in words for given in self._named(key))
+        profile, faults = apply_statements(read(self.claim, names), self.claim.directives, lambda: None)
+        if faults:
+            raise ValueError(faults[0].message)
+        return EquationSystem(self.claim, replace(profile, ignored=()))
+
+    # -------------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _names(self) -> Mapping[str, str]:
+        return symbol_names(self.claim, self.profile, self._system)
+
+    @cached_property
+    def _symbols(self) -> Any:
+        return symbolic().Symbols(lambda name: self._names.get(name, name))
+
+    @cached_property
+    def _verdict(self) -> Determinacy:
+        system = self._system
+        return analyse(system) if is_known(system) else rank_of(system, self._symbols, self.jacobian)
+
+    @cached_property
+    def _solved(self) -> tuple[Mapping[str, float], Solution] | None:
+        """The values of all unknowns, mm, and the solution, that the control takes."""
+        profile = self.profile
+        if not profile.start.is_known or not self.is_determined:
+            return None
+        if is_closed(self._system):
+            found = solve(profile)
+            scalars = {**scalars_of(found.points), **found.radii, **found.scalars}
+            return (scalars, found) if found.points else None
+        paths = [item for item in choose(find_alternatives(profile), profile.choices) if item.is_path]
+        meant = pick(paths, profile)[0] if profile.picks else paths
+        return (meant[0].scalars, meant[0].solution) if len(meant) == 1 else None
+
+    def _unknown(self, name: str) -> Unknown:
+        thing, _, part = name.rpartition(".")
+        meaning = f"{self.profile.plane.axes[int(part)]} of {thing}" if part.isdigit() else _MEANINGS.get(part, "")
+        meaning = meaning.format(thing) or unknowns_text([name], self.profile)
+        unit = "" if part in ("cos", "sin") else "mm"
+        value = self._solved[0].get(name) if self._solved else None
+        return Unknown(self._symbols.scalar(name), meaning, unit, value, self._names[name])
+
+    def _stated(self) -> list[Given]:
+        used = {name for fact in self._system.facts for name in (fact.given, *map(str, fact.reads()))}
+        used |= {corner.size for corner in self._system.figure.corners}
+        used |= {heading for heading, _ in self._system.headed.values()}
+        return [given for given in self.profile.givens.values() if given.name in used and given.unit is not Unit.SIGN]
+
+    def _start(self) -> list[Value]:
+        profile, figure = self.profile, self._system.figure
+        found = []
+        for axis, value in enumerate(profile.start.values):
+            name = scalar(figure.start, axis)
+            number = symbolic().exact(value) if value is not None else None
+            meaning = f"{profile.plane.axes[axis]} of the start point"
+            found.append(Value(self._symbols.scalar(name), meaning, "", "mm", number, self._names[name]))
+        return found
+
+    def _value(self, given: Given) -> Value:
+        is_angle = given.unit is Unit.DEGREE
+        symbol = self._symbols.angle(given.name) if is_angle else self._symbols.scalar(given.name)
+        number = symbolic().exact(given.value, is_angle=is_angle)
+        row = self.claim.lexicon.addresses.get(given.word.address) if given.word else None
+        meaning = self.claim.form.meanings.get(given.name) or (row.meaning if row else "")
+        text = given.word.text.strip() if given.word else ""
+        return Value(symbol, meaning, text, "rad" if is_angle else "mm", number, self._names[given.name])
+
+    def _equation(self, fact: Fact) -> Equation:
+        numeric, symbols = symbolic(), self._symbols
+        at = symbolic_values(symbols, numeric.FUNCTIONS, self._system.headed)
+        given = self.profile.givens.get(fact.given) if fact.given else None
+        word = given.word if given is not None else None
+        if fact.placed is not None:
+            point, axis, origin, is_stepped = fact.placed
+            right = at.coordinate(origin, axis) if origin else 0
+            right += at.amount(fact.given) if is_stepped else 0
+            found = numeric.equation(at.coordinate(point, axis), right)
+        elif fact.sizes and fact.given:
+            found = numeric.equation(symbols.scalar(fact.sizes), at.amount(fact.given))
+        else:
+            found = numeric.equation(fact.equation(at), 0)
+        meaning = fact_text(fact, self._system.unknowns, self.profile)
+        return Equation(found, word.text.strip() if word else "", meaning, word.span.line if word else 0)
+
+    def _corner(self, corner: Corner) -> CornerSystem:
+        numeric, taken = symbolic(), self._names.values()
+        names = corner_names(corner.name, self.profile, taken)
+        pairs = {place: tuple(map(numeric.symbol, names[place])) for place in CORNER_PLACES}
+        at = symbolic_values(self._symbols, numeric.FUNCTIONS, self._system.headed)
+        size = f"{corner.name}.radius" if f"{corner.name}.radius" in self._system.unknowns else corner.size
+        told = corner_equations(
+            corner, self._system.figure, at, self._symbols.scalar(size), *(pairs[place] for place in CORNER_PLACES)
+        )
+        solved = self._solved[1].corners.get(corner.name) if self._solved else None
+        shown = CORNER_PLACES if corner.shape is CornerShape.FILLET else CORNER_PLACES[:2]
+        unknowns = []
+        for place in shown:
+            point = getattr(solved, place) if solved else None
+            for axis, (own, name) in enumerate(zip(pairs[place], names[place], strict=True)):
+                meaning = _PLACES[place].format(self.profile.plane.axes[axis], corner.name)
+                unknowns.append(Unknown(own, meaning, "mm", point[axis] if point else None, name))
+        given = self.profile.givens.get(corner.size)
+        word = given.word.text.strip() if given and given.word else ""
+        equations = tuple(Equation(numeric.equation(zero, 0), word, meaning) for meaning, zero in told)
+        return CornerSystem(corner.name, tuple(unknowns), equations)
+
+    def _step(self, step: ConstructionStep) -> SystemStep:
+        rows = dict(zip(self._system.facts, self.statements, strict=True))
+        is_searched_for = len(step.unknowns) > 1 and is_searched(self._system, Group(step.facts, step.unknowns))
+        how = "no closed form: searched, and proven" if is_searched_for else _HOW[step.kind]
+        symbols = tuple(map(self._symbols.scalar, step.unknowns))
+        return SystemStep(symbols, tuple(rows[fact] for fact in step.facts), how, not is_searched_for)
+
+    def _turned(self) -> dict[Any, Any]:
+        """The angles of lines whose direction is an unknown, by their symbols."""
+        solved = self._solved
+        if solved is None:
+            return {}
+        lines = self._system.figure.carriers
+        return {
+            symbolic().symbol(self._names[line]): atan2(solved[0][f"{line}.sin"], solved[0][f"{line}.cos"])
+            for line in lines
+        }
+
+    def _named(self, key: str) -> list[Given]:
+        """The values that a word states, by its key or its symbol. Raises ValueError."""
+        keys = word_keys(self.claim.words.values())
+        found = [
+            given
+            for given in self.profile.givens.values()
+            if given.word is not None and key in (keys.get(given.word.span), self._names.get(given.name))
+        ]
+        if not found:
+            known = dict.fromkeys(keys.values())
+            raise ValueError(f"{key} is no word of the contour; its words are {join(list(known))}")
+        if any(given.unit is Unit.SIGN for given in found):
+            raise ValueError(f"{key} chooses between two solutions: its value is in no equation")
+        return found
+
+    def _typed(self, given: Given, typed: float) -> Decimal:
+        """The value of a word that is typed with a decimal point, mm or degrees, counted as the word now counts."""
+        try:
+            number = Decimal(repr(typed) if isinstance(typed, float) else str(typed))
+        except InvalidOperation:
+            raise ValueError(f"{typed!r} is no number") from None
+        scale = self._scale_of(given)
+        now = self.claim.lexicon.value(given.word, self.profile.unit) if given.word else None
+        return number * scale + (given.value - now if now is not None else 0)
+
+    def _scale_of(self, given: Given) -> Decimal:
+        """The mm (radius) or degrees of one unit of a word with a decimal point."""
+        return self.profile.unit.in_mm / (2 if given.is_diameter else 1) if given.unit is Unit.MM else Decimal(1)
