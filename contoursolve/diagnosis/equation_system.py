@@ -347,7 +347,10 @@ class EquationSystem(Shown):
     def rows(self) -> dict[str, tuple[str, ...]]:
         """The names of the rows of each output of `function`."""
         told = tuple(each.word or each.meaning for each in self.statements)
-        return rows_of(self._system) | {"conditions": tuple(each.meaning for each in self.conditions), "residuals": told}
+        return rows_of(self._system) | {
+            "conditions": tuple(each.meaning for each in self.conditions),
+            "residuals": told,
+        }
 
     def _inputs(self) -> tuple[dict[str, Expression], Typed]:
         """The inputs of the function, and the values of the contour as expressions of them."""
@@ -470,7 +473,7 @@ class EquationSystem(Shown):
         elif fact.sizes and fact.given:
             found = numeric.equation(symbols.scalar(fact.sizes), at.amount(fact.given))
         else:
-            found = numeric.equation(fact.equation(at), 0)
+            found = numeric.balanced(fact.equation(at))
         meaning = fact_text(fact, self._system.unknowns, self.profile)
         return Equation(found, word.text.strip() if word else "", meaning, word.span.line if word else 0)
 
@@ -493,7 +496,7 @@ class EquationSystem(Shown):
                 unknowns.append(Unknown(own, meaning, "mm", point[axis] if point else None, name))
         given = self.profile.givens.get(corner.size)
         word = given.word.text.strip() if given and given.word else ""
-        equations = tuple(Equation(numeric.equation(zero, 0), word, meaning) for meaning, zero in told)
+        equations = tuple(Equation(numeric.balanced(zero), word, meaning) for meaning, zero in told)
         return CornerSystem(corner.name, tuple(unknowns), equations)
 
     def _step(self, step: ConstructionStep) -> SystemStep:

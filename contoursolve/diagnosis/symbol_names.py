@@ -36,7 +36,8 @@ def symbol_names(claim: ParsedContour, profile: Profile, system: System) -> Mapp
 
 def corner_names(corner: str, profile: Profile, taken: Iterable[str]) -> Mapping[str, tuple[str, str]]:
     """The names of the coordinates of the places of a corner: where it begins, where it ends, and its centre."""
-    places = {place: [f"{axis}_{place}_{corner}" for axis in profile.plane.axes] for place in CORNER_PLACES}
+    own = corner.rpartition(" ")[2]
+    places = {place: [f"{axis}_{place}_{own}" for axis in profile.plane.axes] for place in CORNER_PLACES}
     every = _each_once({name: name for names in places.values() for name in names}, taken)
     return {place: (every[one], every[two]) for place, (one, two) in places.items()}
 

@@ -8,6 +8,7 @@ from typing import Any
 import sympy
 from sympy.polys.domains import QQ
 from sympy.polys.matrices import DomainMatrix
+from sympy.printing.str import StrPrinter
 
 from contoursolve.numeric import expressions
 from contoursolve.numeric.functions import Functions
@@ -96,6 +97,40 @@ def value_at(expression: Any, values: Mapping[Any, Any]) -> float | None:
     known = {symbol: sympy.sympify(value) for symbol, value in values.items()}
     found = sympy.sympify(expression).xreplace(known)
     return float(found) if found.is_number else None
+
+
+def balanced(expression: Any) -> Any:
+    """The equation that an expression is zero, with what is taken away on the other side."""
+    terms = sympy.Add.make_args(expression)
+    less = [term for term in terms if term.as_coeff_Mul()[0] < 0]
+    if len(less) in (0, len(terms)):
+        return equation(expression, 0)
+    return equation(sympy.Add(*(term for term in terms if term not in less)), -sympy.Add(*less))
+
+
+class _Text(StrPrinter):  # type: ignore[misc]
+    """Text in which a sum begins with what is added."""
+
+    def _as_ordered_terms(self, expr: Any, order: Any = None) -> Any:
+        terms = super()._as_ordered_terms(expr, order)
+        return sorted(terms, key=lambda term: bool(term.as_coeff_Mul()[0].is_negative))
+
+
+def text(expression: Any) -> str:
+    """An expression, or an equation, in one line."""
+    if isinstance(expression, sympy.Eq):
+        return f"{text(expression.lhs)} = {text(expression.rhs)}"
+    return str(_Text().doprint(expression)).replace("**", "^")
+
+
+def latex(expression: Any) -> str:
+    """The same for LaTeX."""
+    return str(sympy.latex(expression))
+
+
+def mathml(expression: Any) -> str:
+    """The same as presentation MathML, which browsers draw and screen readers read."""
+    return str(sympy.mathml(expression, printer="presentation"))
 
 
 def casadi_of(expression: Any, values: Mapping[Any, Any]) -> Any:

@@ -55,8 +55,9 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
     lines += ["", *columns(given_table(answer).rows, left=(0, 3))]
     if is_explained:
         from contoursolve.output.construction import construction_lines  # noqa: PLC0415 - only on demand
+        from contoursolve.output.equations import equation_lines  # noqa: PLC0415 - sympy is slow to import
 
-        lines += ["", *construction_lines(answer)]
+        lines += ["", *equation_lines(answer.system), "", *construction_lines(answer)]
         if answer.contour and answer.profile.figure.corners and answer.claim.form.corner_note:
             lines.append(f"    {answer.claim.form.corner_note}")
     if answer.contour:
