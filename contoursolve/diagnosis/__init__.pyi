@@ -19,16 +19,16 @@ from .edits import (
     edited as edited,
     write_word as write_word,
 )
-from .equation_system import (
+from .equation_records import (
     Condition as Condition,
     CornerSystem as CornerSystem,
     Equation as Equation,
-    EquationSystem as EquationSystem,
     SystemStep as SystemStep,
     TiedWords as TiedWords,
     Unknown as Unknown,
     Value as Value,
 )
+from .equation_system import EquationSystem as EquationSystem
 from .examine import (
     MOST_CHOICES as MOST_CHOICES,
     Answer as Answer,

@@ -4,16 +4,25 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace as replace_fields
 from decimal import Decimal, InvalidOperation
 from functools import cached_property
-from math import atan2
+from math import atan2, nan
 from typing import Any
 
-from msgspec import Struct
 from msgspec.structs import replace
 
+from contoursolve.diagnosis.equation_records import (
+    Condition,
+    CornerSystem,
+    Equation,
+    SystemStep,
+    TiedWords,
+    Unknown,
+    Value,
+)
 from contoursolve.diagnosis.fact_words import condition_text, fact_text
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
 from contoursolve.diagnosis.wording import join, unknowns_text, word_keys
 from contoursolve.diagnostics import Shown
+from contoursolve.gcode import FACT
 from contoursolve.geometry import (
     Corner,
     CornerShape,
@@ -80,78 +89,6 @@ _HOW = {
     StepKind.TWO_CIRCLES: "two circles meet, in two places",
     StepKind.GENERAL: "a closed form with several solutions",
 }
-
-
-class Unknown(Struct, frozen=True):
-    """An unknown of a system: its symbol (of sympy), what it is, and its unit.
-
-    `value` is what it has in the contour that was solved (mm, X of a lathe as radius); None without one.
-    """
-
-    symbol: Any
-    meaning: str
-    unit: str
-    value: float | None
-    name: str
-
-
-class Value(Struct, frozen=True):
-    """A value that a word, or the start point, states: its symbol, what it is, as it is typed, and its number.
-
-    `number` is that of the equations: mm, X of a lathe as radius, or an angle in radians, exact, of sympy. None where
-    it is not known.
-    """
-
-    symbol: Any
-    meaning: str
-    text: str
-    unit: str
-    number: Any
-    name: str
-
-
-class Equation(Struct, frozen=True):
-    """One equation: of sympy, the word that states it (empty for what the form itself states), and what it says."""
-
-    equation: Any
-    word: str
-    meaning: str
-    line: int = 0
-    """Program line of the word; 0 without one."""
-
-
-class Condition(Struct, frozen=True):
-    """A condition on which one step of a system is determined: an expression of sympy that must not be zero, its value
-    at the contour that was solved (None without one), in words what it means, and the symbols that it determines."""
-
-    expression: Any
-    value: float | None
-    meaning: str
-    determines: tuple[Any, ...]
-
-
-class SystemStep(Struct, frozen=True):
-    """A step in which a system is solved: the unknowns that it finds, from which equations, and how."""
-
-    unknowns: tuple[Any, ...]
-    equations: tuple[Equation, ...]
-    how: str
-    is_closed: bool
-
-
-class CornerSystem(Struct, frozen=True):
-    """A corner: its name, the unknowns of where it begins, ends and has its centre, and the equations between them."""
-
-    name: str
-    unknowns: tuple[Unknown, ...]
-    equations: tuple[Equation, ...]
-
-
-class TiedWords(Struct, frozen=True):
-    """Words that say the same, and the equation of sympy that ties them; None where it has no formula."""
-
-    words: tuple[str, ...]
-    identity: Any
 
 
 class Free(tuple[Any, ...]):
@@ -344,6 +281,17 @@ class EquationSystem(Shown):
         return build_function(self.profile, name, inputs, typed, self._conditions_of, scalars)
 
     @property
+    def inputs(self) -> dict[str, float]:
+        """The inputs of `function` as they are typed, by their names: `system.function()(**system.inputs)`."""
+        profile, found = self.profile, dict[str, float]()
+        for axis, value in enumerate(profile.start.values):
+            scale = profile.unit.in_mm / (2 if profile.plane.diameters[axis] else 1)
+            found[self._names[scalar(self._system.figure.start, axis)]] = nan if value is None else float(value / scale)
+        for given in self._typed_words():
+            found[self._names[given.name]] = float(self._read(given) / self._scale_of(given))
+        return found
+
+    @property
     def rows(self) -> dict[str, tuple[str, ...]]:
         """The names of the rows of each output of `function`."""
         told = tuple(each.word or each.meaning for each in self.statements)
@@ -362,14 +310,12 @@ class EquationSystem(Shown):
             inputs[name] = symbol(name)
             start.append(inputs[name] * float(scale))
         givens: dict[str, Any] = {}
-        for given in self._stated():
-            if given.word is None or given.word.number is None:
-                continue
-            name, value = self._names[given.name], self.claim.lexicon.value(given.word, profile.unit)
+        for given in self._typed_words():
+            name = self._names[given.name]
             inputs[name] = symbol(name)
             scale = self._scale_of(given)
             # A word may count from another one that stays.
-            rest = float(given.value - value) if value is not None else 0.0
+            rest = float(given.value - self._read(given))
             givens[given.name] = inputs[name] * float(scale) + rest if rest else inputs[name] * float(scale)
         for given in profile.givens.values():
             if given.follows in givens:
@@ -440,6 +386,19 @@ class EquationSystem(Shown):
         used |= {corner.size for corner in self._system.figure.corners}
         used |= {heading for heading, _ in self._system.headed.values()}
         return [given for given in self.profile.givens.values() if given.name in used and given.unit is not Unit.SIGN]
+
+    def _typed_words(self) -> list[Given]:
+        """The values that a word with a number states."""
+        words = ((given, given.word) for given in self._stated())
+        return [
+            given for given, word in words if word is not None and (word.number is not None or word.address == FACT)
+        ]
+
+    def _read(self, given: Given) -> Decimal:
+        """The value of a word by itself, mm or degrees; it may count from another one."""
+        word = given.word
+        value = self.claim.lexicon.value(word, self.profile.unit) if word and word.address != FACT else None
+        return given.value if value is None else value
 
     def _start(self) -> list[Value]:
         profile, figure = self.profile, self._system.figure
@@ -539,8 +498,7 @@ class EquationSystem(Shown):
         except InvalidOperation:
             raise ValueError(f"{typed!r} is no number") from None
         scale = self._scale_of(given)
-        now = self.claim.lexicon.value(given.word, self.profile.unit) if given.word else None
-        return number * scale + (given.value - now if now is not None else 0)
+        return number * scale + given.value - self._read(given)
 
     def _scale_of(self, given: Given) -> Decimal:
         """The mm (radius) or degrees of one unit of a word with a decimal point."""

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from contoursolve.diagnosis import Answer
+from contoursolve.diagnosis import Answer, EquationSystem
 from contoursolve.diagnostics import Shown
 from contoursolve.families import Family, Feasible, Region
 from contoursolve.notebook.records import bounded, text_of
@@ -28,6 +28,8 @@ def bundle(record: Shown) -> dict[str, str]:
         return shown
     if isinstance(record, _DRAWN) and (not isinstance(record, Result) or record.answers):
         shown["image/svg+xml"] = _made(_svg, record)
+    if isinstance(record, EquationSystem):
+        shown["text/latex"] = _made(_latex, record)
     shown["text/html"] = _made(_html, record)
     return {kind: text for kind, text in shown.items() if kind == "text/plain" or 0 < len(text) <= MOST_CHARACTERS}
 
@@ -50,6 +52,12 @@ def _html(record: Shown) -> str:
     from contoursolve.notebook.records_html import html_of  # noqa: PLC0415 - needs an extra
 
     return html_of(record)
+
+
+def _latex(record: EquationSystem) -> str:
+    from contoursolve.output import system_latex  # noqa: PLC0415 - sympy is slow to import
+
+    return f"$\\displaystyle {system_latex(record)}$"
 
 
 def _is_terminal() -> bool:

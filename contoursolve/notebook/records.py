@@ -6,7 +6,7 @@ from math import isnan
 from typing import Any
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, axis_labels, count
+from contoursolve.diagnosis import Answer, EquationSystem, axis_labels, count
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown, Tie
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
 from contoursolve.gcode import Block, Program, Word
@@ -200,6 +200,12 @@ def _sketch(sketch: Sketch) -> Iterator[str]:
         yield str(error)
 
 
+def _system(system: EquationSystem) -> Iterator[str]:
+    from contoursolve.output import system_lines  # noqa: PLC0415 - sympy is slow to import
+
+    yield from system_lines(system)
+
+
 _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Result: _result,
     Answer: _answer,
@@ -216,4 +222,5 @@ _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Tolerances: tolerances_lines,
     Sensitivity: _sensitivity,
     Sketch: _sketch,
+    EquationSystem: _system,
 }

@@ -7,7 +7,7 @@ import htpy as h
 from markupsafe import Markup
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, count
+from contoursolve.diagnosis import Answer, EquationSystem, count
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
 from contoursolve.gcode import Block
@@ -47,6 +47,7 @@ from contoursolve.output import (
     sources_of,
     spread_lines,
     summary_line,
+    system_element,
     table,
     table_of,
     tolerances_title,
@@ -217,4 +218,5 @@ _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Sketch: _sketch,
     Drawings: _sketch,
     Drawn: _sketch,
+    EquationSystem: system_element,
 }

@@ -8,6 +8,8 @@ from typing import Any
 import sympy
 from sympy.polys.domains import QQ
 from sympy.polys.matrices import DomainMatrix
+from sympy.printing.latex import LatexPrinter
+from sympy.printing.mathml import MathMLPresentationPrinter
 from sympy.printing.str import StrPrinter
 
 from contoursolve.numeric import expressions
@@ -108,12 +110,24 @@ def balanced(expression: Any) -> Any:
     return equation(sympy.Add(*(term for term in terms if term not in less)), -sympy.Add(*less))
 
 
-class _Text(StrPrinter):  # type: ignore[misc]
-    """Text in which a sum begins with what is added."""
+class _Positive:
+    """A printer of sums that begin with what is added."""
 
     def _as_ordered_terms(self, expr: Any, order: Any = None) -> Any:
-        terms = super()._as_ordered_terms(expr, order)
+        terms = super()._as_ordered_terms(expr, order)  # type: ignore[misc]
         return sorted(terms, key=lambda term: bool(term.as_coeff_Mul()[0].is_negative))
+
+
+class _Text(_Positive, StrPrinter):  # type: ignore[misc]
+    """Text."""
+
+
+class _Latex(_Positive, LatexPrinter):  # type: ignore[misc]
+    """LaTeX."""
+
+
+class _MathML(_Positive, MathMLPresentationPrinter):  # type: ignore[misc]
+    """Presentation MathML."""
 
 
 def text(expression: Any) -> str:
@@ -125,12 +139,12 @@ def text(expression: Any) -> str:
 
 def latex(expression: Any) -> str:
     """The same for LaTeX."""
-    return str(sympy.latex(expression))
+    return str(_Latex().doprint(expression))
 
 
 def mathml(expression: Any) -> str:
     """The same as presentation MathML, which browsers draw and screen readers read."""
-    return str(sympy.mathml(expression, printer="presentation"))
+    return str(_MathML().doprint(expression))
 
 
 def casadi_of(expression: Any, values: Mapping[Any, Any]) -> Any:

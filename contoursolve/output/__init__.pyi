@@ -26,6 +26,12 @@ from .document import (
 from .dxf import (
     to_dxf as to_dxf,
 )
+from .equations import (
+    equation_lines as equation_lines,
+    system_element as system_element,
+    system_latex as system_latex,
+    system_lines as system_lines,
+)
 from .exchange import (
     to_github as to_github,
     to_sarif as to_sarif,

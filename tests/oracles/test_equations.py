@@ -1,0 +1,210 @@
+"""The system on the table: its equations, conditions and functions, against contours, ranks and families."""
+
+import json
+from math import pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy
+
+import contoursolve
+from contoursolve.controls import DIALECTS, write_tables
+from contoursolve.numeric import symbolic
+from contoursolve.solving import conditions_of, jacobian_of, rank_of
+
+RIGHT = json.loads((Path(__file__).parents[1] / "slips" / "right.json").read_text())
+SHAFT, START = "G111 X100. A180. K-30. B120. P5.", "X40. Z0."
+
+
+def contours(programs):
+    for each in programs:
+        settings = dict(setting.split("=") for setting in each.get("settings") or ())
+        text = "\n".join(each["lines"])
+        result = contoursolve.solve(text, control=each["control"], settings=settings, depth="verdict")
+        yield from ((each["id"], answer) for answer in result.answers if answer.contour)
+
+
+def off(equation, values):
+    """By how much an equation of sympy is missed at values of all its symbols."""
+    rest = sympy.sympify(equation.lhs - equation.rhs).xreplace({key: sympy.sympify(at) for key, at in values.items()})
+    return abs(float(rest))
+
+
+@pytest.mark.parametrize(
+    "programs", [pytest.param(RIGHT[::30], id="some"), pytest.param(RIGHT, id="all", marks=pytest.mark.slow)]
+)
+def test_contours_satisfy_their_equations_and_are_what_their_function_gives(programs):
+    for name, answer in contours(programs):
+        system = answer.system
+        values = system.values | system.solution
+        assert all(off(each.equation, values) < 1e-9 for each in system.statements), name
+        assert system.rank == len(system.unknowns), name
+        assert (system.free, system.margin is None) == ((), False), name
+        for corner in system.corners:
+            known = values | {each.symbol: each.value for each in corner.unknowns}
+            assert all(off(each.equation, known) < 1e-6 for each in corner.equations), (name, corner.name)
+        found = {key: np.array(value) for key, value in system.function()(**system.inputs).items()}
+        rows = system.rows
+        assert all(len(rows[key]) == len(value) for key, value in found.items()), name
+        elements = dict(zip(rows["elements"], found["elements"], strict=True))
+        for element in answer.contour.elements:
+            assert elements[element.name] == pytest.approx([*element.start, *element.end], abs=1e-9), name
+        assert abs(found["residuals"]).max(initial=0.0) < 1e-9, name
+        assert found["conditions"].ravel() == pytest.approx([each.value for each in system.conditions], rel=1e-6), name
+
+
+def drawn(rng, factor, matrix):
+    """Values of all symbols: angles, and numbers about ten."""
+    turned = {symbol for each in (factor, matrix) for one in each.atoms(sympy.sin, sympy.cos) for symbol in one.free_symbols}
+    symbols = sorted(factor.free_symbols | matrix.free_symbols, key=str)
+    return {each: rng.uniform(0.2, 1.3) if each in turned else rng.uniform(-10, 10) for each in symbols}
+
+
+def zero_of(factor, values, rng):
+    """The values with one of them changed so that a factor is zero there; None if none was found."""
+    for symbol in sorted(factor.free_symbols, key=str):
+        function = sympy.lambdify(symbol, factor.xreplace({key: at for key, at in values.items() if key != symbol}))
+        at = np.linspace(-4, 4, 81) if abs(values[symbol]) < 2 else np.linspace(-40, 40, 401)
+        found = [function(each) for each in at]
+        for low, high, one, two in zip(at, at[1:], found, found[1:], strict=False):
+            if one * two < 0:
+                for _ in range(60):
+                    middle = (low + high) / 2
+                    low, high = (middle, high) if function(middle) * one > 0 else (low, middle)
+                return {**values, symbol: low}
+    return None
+
+
+SYSTEMS = sorted(write_tables.systems().items())
+
+
+@pytest.mark.parametrize(
+    "systems", [pytest.param(SYSTEMS[::60], id="some"), pytest.param(SYSTEMS, id="all", marks=pytest.mark.slow)]
+)
+def test_conditions_of_all_forms_are_zero_exactly_where_the_rank_falls(systems):
+    """At values that nothing but the words for coordinates ties: the rank of each step's own matrix, by numpy."""
+    rng, count = np.random.default_rng(39), 0
+    for key, system in systems:
+        symbols = symbolic.Symbols()
+        matrix = jacobian_of(system, symbols)
+        verdict = rank_of(system, symbols, matrix)
+        if verdict.free or not system.facts:
+            continue
+        place = {name: number for number, name in enumerate(system.unknowns)}
+        row = {fact: number for number, fact in enumerate(system.facts)}
+        known = {}
+        for step in conditions_of(system, symbols, matrix, verdict.basis):
+            part = matrix.extract([row[fact] for fact in step.group.facts], [place[name] for name in step.group.unknowns])
+            part = part.xreplace(symbols.turned()).xreplace(known)
+            placed = step.group.facts[0].placed
+            if len(step.group.facts) == 1 and placed is not None:
+                origin = symbols.scalar(f"{placed.origin}.{placed.axis}") if placed.origin else sympy.Integer(0)
+                own = symbols.scalar(step.group.facts[0].given) if placed.is_stepped else 0
+                known[symbols.scalar(step.group.unknowns[0])] = known.get(origin, origin) + own
+            for factor in step.factors:
+                values = drawn(rng, factor, part)
+                least = np.linalg.svd(np.array(part.xreplace(values), float), compute_uv=False)[-1]
+                assert (least > 1e-9) and abs(factor.xreplace(values)) > 1e-9, key
+                at = zero_of(factor, values, rng)
+                if at is not None:
+                    singular = np.linalg.svd(np.array(part.xreplace(at), float), compute_uv=False)
+                    assert singular[-1] < 1e-7 * max(singular[0], 1), (key, factor)
+                    count += 1
+    assert count > len(systems) / 4
+
+
+def test_a_system_says_what_each_word_states_and_on_which_condition_it_is_determined():
+    system = contoursolve.system(SHAFT, start=START)
+    assert [str(each.symbol) for each in system.unknowns] == ["Z_V1", "X_V1", "Z_V2", "X_V2"]
+    assert [each.word for each in system.statements] == ["K-30.", "A180.", "X100.", "B120."]
+    assert str(system.condition) == "sin(B)*cos(A)"
+    assert system.margin == pytest.approx(-(3**0.5) / 2)
+    assert [each.meaning for each in system.conditions] == [
+        "the line at A180. must not be parallel to X",
+        "the line at B120. must not be parallel to Z",
+    ]
+    assert {str(symbol): number for symbol, number in system.values.items()}["A"] == sympy.pi
+    assert sympy.Matrix([each.lhs - each.rhs for each in system.equations]).rank() >= 1
+    assert system.jacobian.shape == (4, 4)
+    (corner,) = system.corners
+    assert (len(corner.unknowns), len(corner.equations)) == (6, 6)
+
+
+def test_other_values_and_fewer_words_give_other_systems():
+    system = contoursolve.system(SHAFT, start=START)
+    assert system.subs(A=90.0).margin == pytest.approx(0, abs=1e-12)
+    assert system.subs(K=-20).solve().items[0].solution.points["V1"] == (-20, 20)
+    less = system.free("K")
+    assert ([str(each) for each in less.free], less.rank, less.condition) == (["Z_V1", "X_V1", "Z_V2"], 3, None)
+    with pytest.raises(ValueError, match="still open: V1"):
+        less.solve()
+    with pytest.raises(ValueError, match="Q is no word of the contour; its words are X, A, K, B and P"):
+        system.subs(Q=1)
+    tied = contoursolve.system("G111 A135. I10. K-10. B180. Z-40.", start=START, rules="off")
+    assert [(each.words, str(each.identity)) for each in tied.ties] == [
+        (("I10.", "K-10.", "A135."), "Eq(K, I/tan(A))")
+    ]
+    with pytest.raises(ValueError, match="one contour; the program has 0"):
+        contoursolve.system("G00 X1.", control="yasnac-lx3")
+
+
+def test_a_system_with_facts_or_free_contours_has_a_condition_and_the_rank_of_residues():
+    """Where the table that ships has no row, sympy derives it; the rank modulo a prime says the same."""
+    from contoursolve.solving import survey  # noqa: PLC0415
+
+    facts = contoursolve.system("G111 X100. A180. B120.", start=START, facts=["length of line 1 = 30."], rules="warn")
+    assert (facts.rank, str(facts.condition)) == (4, "sin(B)")
+    programs = [each for each in RIGHT if each["control"] == "heidenhain"]
+    for name, answer in contours(programs[:12]):
+        system = answer.system
+        quick = survey(system._system)
+        assert (quick.rank, len(quick.free)) == (system.rank, len(system.free)), name
+
+
+FAMILIES = [
+    ("G111 X100. A180. K-30. B120. P5.", "X40. Z0.", "yasnac-lx3", {"A": "A", "B": "B", "P": "P"}),
+    ("G1 ,A60\nX70 Y50 ,A-20", "X0 Y0", "nct-99m", {"1:,A": "A_1", "X": "X"}),
+    ("G01 Z-20. ,C2.\nX60. Z-40. ,R1.\nZ-60.", "X40. Z0.", "haas-lathe", {",C": "C", "X": "X", ",R": "R"}),
+    ("G1 ANG=30 RND=2\nX60 Y40 ANG=90", "X0 Y0", "siemens-840d", {"1:ANG": "ANG_1", "RND": "RND"}),
+    ("FL X+10 Y+0\nFCT DR+ R5\nFLT X+30 Y+20", "X0 Y0", "heidenhain", {"R": "R", "3:X": "X_3"}),
+]
+
+
+@pytest.mark.parametrize(("block", "start", "control", "vary"), FAMILIES, ids=[each[2] for each in FAMILIES])
+@pytest.mark.parametrize("rows", [60, pytest.param(10_000, marks=pytest.mark.slow)])
+def test_the_function_gives_what_a_sweep_gives(block, start, control, vary, rows):
+    """Random rows near the block, each as a family solves it: the points of what is solved."""
+    rng = np.random.default_rng(rows)
+    system = contoursolve.system(block, start=start, control=control)
+    values = {key: system.inputs[name] * rng.uniform(0.97, 1.03, rows) for key, name in vary.items()}
+    family = contoursolve.family(block, start=start, control=control, vary=values, paired=True, rules="off")
+    function, inputs = system.function(), {**system.inputs, **{name: values[key] for key, name in vary.items()}}
+    order = [np.broadcast_to(inputs[name], rows).reshape(1, -1) for name in function.name_in()]
+    found = dict(zip(function.name_out(), function.map(rows).call(order), strict=True))
+    points = np.array(found["points"]).reshape(-1, rows, 2)
+    solved = family["status"] == 0
+    assert solved.sum() > rows / 4
+    for number, name in enumerate(system.rows["points"]):
+        for axis, letter in enumerate(system.profile.plane.axes):
+            column = f"{name}.{letter}"
+            if column in family.names:
+                assert abs(points[number, solved, axis] - family[column][solved]).max() < 1e-9, column
+
+
+def test_a_function_is_differentiated_and_optimised_by_casadi():
+    """The derivative of a point by a word is what `sensitivity` says; and the largest radius that leaves room."""
+    import casadi  # noqa: PLC0415
+
+    system = contoursolve.system(SHAFT, start=START)
+    function = system.function()
+    inputs = {name: casadi.MX.sym(name) for name in function.name_in()}
+    points = function(**inputs)["points"]
+    slope = casadi.Function("slope", [*inputs.values()], [casadi.jacobian(points[0, 0], inputs["K"])])
+    assert float(slope(*system.inputs.values())) == 1
+    known = {**system.inputs, "P": inputs["P"]}
+    problem = {"x": inputs["P"], "f": -inputs["P"], "g": function(**known)["room"]}
+    solver = casadi.nlpsol("largest", "ipopt", problem, {"print_time": False, "ipopt.print_level": 0})
+    largest = float(solver(x0=5, lbg=0)["x"])
+    # The tangent of half the turn of 60 degrees, on the shorter line of 30 mm.
+    assert largest == pytest.approx(min(30, 40 / 3**0.5 * 1.5) / np.tan(pi / 6), rel=1e-5)
