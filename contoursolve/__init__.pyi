@@ -64,6 +64,7 @@ from .output import (
     StatedWord as StatedWord,
     construction_lines as construction_lines,
     end_text as end_text,
+    equations_of as equations_of,
     form_text as form_text,
     path_table as path_table,
     report_page as report_page,

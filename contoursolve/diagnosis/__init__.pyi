@@ -20,13 +20,13 @@ from .edits import (
     write_word as write_word,
 )
 from .equation_records import (
-    Condition as Condition,
     CornerSystem as CornerSystem,
     Equation as Equation,
+    SystemCondition as SystemCondition,
     SystemStep as SystemStep,
+    SystemUnknown as SystemUnknown,
+    SystemValue as SystemValue,
     TiedWords as TiedWords,
-    Unknown as Unknown,
-    Value as Value,
 )
 from .equation_system import EquationSystem as EquationSystem
 from .examine import (

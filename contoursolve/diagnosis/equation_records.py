@@ -4,8 +4,10 @@ from typing import Any
 
 from msgspec import Struct
 
+from contoursolve.gcode import Word
 
-class Unknown(Struct, frozen=True):
+
+class SystemUnknown(Struct, frozen=True):
     """An unknown of a system: its symbol (of sympy), what it is, and its unit.
 
     `value` is what it has in the contour that was solved (mm, X of a lathe as radius); None without one.
@@ -18,32 +20,41 @@ class Unknown(Struct, frozen=True):
     name: str
 
 
-class Value(Struct, frozen=True):
-    """A value that a word, or the start point, states: its symbol, what it is, as it is typed, and its number.
+class SystemValue(Struct, frozen=True):
+    """A value that a word, or the start point, states: its symbol, what it is, its unit, and its number.
 
     `number` is that of the equations: mm, X of a lathe as radius, or an angle in radians, exact, of sympy. None where
-    it is not known.
+    it is not known. `source` is the word; None for the start point and for what the control supplies by itself.
     """
 
     symbol: Any
     meaning: str
-    text: str
     unit: str
     number: Any
     name: str
+    source: Word | None = None
+
+    @property
+    def text(self) -> str:
+        """The word as it is typed; empty without one."""
+        return self.source.text.strip() if self.source else ""
 
 
 class Equation(Struct, frozen=True):
-    """One equation: of sympy, the word that states it (empty for what the form itself states), and what it says."""
+    """One equation, of sympy, and what it says. `source` is the word that states it; None for what the form itself
+    states."""
 
     equation: Any
-    word: str
     meaning: str
-    line: int = 0
-    """Program line of the word; 0 without one."""
+    source: Word | None = None
+
+    @property
+    def word(self) -> str:
+        """The word as it is typed; empty without one."""
+        return self.source.text.strip() if self.source else ""
 
 
-class Condition(Struct, frozen=True):
+class SystemCondition(Struct, frozen=True):
     """A condition on which one step of a system is determined: an expression of sympy that must not be zero, its value
     at the contour that was solved (None without one), in words what it means, and the symbols that it determines."""
 
@@ -66,7 +77,7 @@ class CornerSystem(Struct, frozen=True):
     """A corner: its name, the unknowns of where it begins, ends and has its centre, and the equations between them."""
 
     name: str
-    unknowns: tuple[Unknown, ...]
+    unknowns: tuple[SystemUnknown, ...]
     equations: tuple[Equation, ...]
 
 

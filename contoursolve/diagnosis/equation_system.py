@@ -10,13 +10,13 @@ from typing import Any
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.equation_records import (
-    Condition,
     CornerSystem,
     Equation,
+    SystemCondition,
     SystemStep,
+    SystemUnknown,
+    SystemValue,
     TiedWords,
-    Unknown,
-    Value,
 )
 from contoursolve.diagnosis.fact_words import condition_text, fact_text
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
@@ -46,7 +46,7 @@ from contoursolve.solving import (
     Group,
     Solution,
     StepKind,
-    Typed,
+    TypedValues,
     analyse,
     build_function,
     choose,
@@ -91,13 +91,13 @@ _HOW = {
 }
 
 
-class Free(tuple[Any, ...]):
+class FreeUnknowns(tuple[Any, ...]):
     """The unknowns that no equation determines, as symbols. A call gives the system without the equations of words."""
 
     _without: Any
 
     @classmethod
-    def of(cls, symbols: Iterable[Any], without: Any) -> "Free":
+    def of(cls, symbols: Iterable[Any], without: Any) -> "FreeUnknowns":
         """Symbols, and what a call does."""
         found = cls(symbols)
         found._without = without
@@ -123,13 +123,12 @@ class EquationSystem(Shown):
     # What it consists of -----------------------------------------------------------------------------------------
 
     @cached_property
-    def unknowns(self) -> tuple[Unknown, ...]:
-        """What the equations determine: coordinates of points, radii, directions of lines; in the order of `jacobian`'s
-        columns."""
+    def unknowns(self) -> tuple[SystemUnknown, ...]:
+        """The unknowns: coordinates of points, radii, directions of lines; in the order of `jacobian`'s columns."""
         return tuple(map(self._unknown, self._system.unknowns))
 
     @cached_property
-    def words(self) -> tuple[Value, ...]:
+    def words(self) -> tuple[SystemValue, ...]:
         """The values that words state, and the start point: each with its symbol, meaning and number."""
         return (*self._start(), *map(self._value, self._stated()))
 
@@ -177,9 +176,9 @@ class EquationSystem(Shown):
         return self._verdict.is_determined
 
     @property
-    def free(self) -> Free:
+    def free(self) -> FreeUnknowns:
         """The unknowns that nothing determines, as symbols. `free("K")` is the system without the value of a word."""
-        return Free.of(map(self._symbols.scalar, self._verdict.free), self._without)
+        return FreeUnknowns.of(map(self._symbols.scalar, self._verdict.free), self._without)
 
     @cached_property
     def ties(self) -> tuple[TiedWords, ...]:
@@ -193,19 +192,19 @@ class EquationSystem(Shown):
         return tuple(found)
 
     @cached_property
-    def conditions(self) -> tuple[Condition, ...]:
+    def conditions(self) -> tuple[SystemCondition, ...]:
         """The condition of each step that has one, in the order in which the steps are solved; none where something is
         free."""
         if not self.is_determined:
             return ()
-        numbers, found = self.values | self.solution | self._turned(), list[Condition]()
+        numbers, found = self.values | self.solution | self._turned(), list[SystemCondition]()
         for each in conditions_of(self._system, self._symbols, self.jacobian, self._verdict.basis):
             expression = symbolic().product(each.factors)
             if each.factors:
                 determines = tuple(map(self._symbols.scalar, each.group.unknowns))
                 value = symbolic().value_at(expression, numbers)
                 meaning = condition_text(each.group, self._system, self.profile)
-                found.append(Condition(expression, value, meaning, determines))
+                found.append(SystemCondition(expression, value, meaning, determines))
         return tuple(found)
 
     @property
@@ -300,7 +299,7 @@ class EquationSystem(Shown):
             "residuals": told,
         }
 
-    def _inputs(self) -> tuple[dict[str, Expression], Typed]:
+    def _inputs(self) -> tuple[dict[str, Expression], TypedValues]:
         """The inputs of the function, and the values of the contour as expressions of them."""
         profile, inputs = self.profile, dict[str, Expression]()
         scales = [profile.unit.in_mm / (2 if is_half else 1) for is_half in profile.plane.diameters]
@@ -321,7 +320,7 @@ class EquationSystem(Shown):
             if given.follows in givens:
                 moved = float(given.value - profile.givens[given.follows].value)
                 givens[given.name] = givens[given.follows] + moved
-        return inputs, Typed((start[0], start[1]), givens)
+        return inputs, TypedValues((start[0], start[1]), givens)
 
     def _conditions_of(self, at: Mapping[str, Any]) -> list[Any]:
         """The conditions as expressions of CasADi, of the values by name."""
@@ -373,13 +372,13 @@ class EquationSystem(Shown):
         meant = pick(paths, profile)[0] if profile.picks else paths
         return (meant[0].scalars, meant[0].solution) if len(meant) == 1 else None
 
-    def _unknown(self, name: str) -> Unknown:
+    def _unknown(self, name: str) -> SystemUnknown:
         thing, _, part = name.rpartition(".")
         meaning = f"{self.profile.plane.axes[int(part)]} of {thing}" if part.isdigit() else _MEANINGS.get(part, "")
         meaning = meaning.format(thing) or unknowns_text([name], self.profile)
         unit = "" if part in ("cos", "sin") else "mm"
         value = self._solved[0].get(name) if self._solved else None
-        return Unknown(self._symbols.scalar(name), meaning, unit, value, self._names[name])
+        return SystemUnknown(self._symbols.scalar(name), meaning, unit, value, self._names[name])
 
     def _stated(self) -> list[Given]:
         used = {name for fact in self._system.facts for name in (fact.given, *map(str, fact.reads()))}
@@ -400,24 +399,23 @@ class EquationSystem(Shown):
         value = self.claim.lexicon.value(word, self.profile.unit) if word and word.address != FACT else None
         return given.value if value is None else value
 
-    def _start(self) -> list[Value]:
+    def _start(self) -> list[SystemValue]:
         profile, figure = self.profile, self._system.figure
         found = []
         for axis, value in enumerate(profile.start.values):
             name = scalar(figure.start, axis)
             number = symbolic().exact(value) if value is not None else None
             meaning = f"{profile.plane.axes[axis]} of the start point"
-            found.append(Value(self._symbols.scalar(name), meaning, "", "mm", number, self._names[name]))
+            found.append(SystemValue(self._symbols.scalar(name), meaning, "mm", number, self._names[name]))
         return found
 
-    def _value(self, given: Given) -> Value:
+    def _value(self, given: Given) -> SystemValue:
         is_angle = given.unit is Unit.DEGREE
         symbol = self._symbols.angle(given.name) if is_angle else self._symbols.scalar(given.name)
         number = symbolic().exact(given.value, is_angle=is_angle)
         row = self.claim.lexicon.addresses.get(given.word.address) if given.word else None
         meaning = self.claim.form.meanings.get(given.name) or (row.meaning if row else "")
-        text = given.word.text.strip() if given.word else ""
-        return Value(symbol, meaning, text, "rad" if is_angle else "mm", number, self._names[given.name])
+        return SystemValue(symbol, meaning, "rad" if is_angle else "mm", number, self._names[given.name], given.word)
 
     def _equation(self, fact: Fact) -> Equation:
         numeric, symbols = symbolic(), self._symbols
@@ -434,7 +432,7 @@ class EquationSystem(Shown):
         else:
             found = numeric.balanced(fact.equation(at))
         meaning = fact_text(fact, self._system.unknowns, self.profile)
-        return Equation(found, word.text.strip() if word else "", meaning, word.span.line if word else 0)
+        return Equation(found, "" if word is not None and word.address == FACT else meaning, word)
 
     def _corner(self, corner: Corner) -> CornerSystem:
         numeric, taken = symbolic(), self._names.values()
@@ -452,10 +450,10 @@ class EquationSystem(Shown):
             point = getattr(solved, place) if solved else None
             for axis, (own, name) in enumerate(zip(pairs[place], names[place], strict=True)):
                 meaning = _PLACES[place].format(self.profile.plane.axes[axis], corner.name)
-                unknowns.append(Unknown(own, meaning, "mm", point[axis] if point else None, name))
+                unknowns.append(SystemUnknown(own, meaning, "mm", point[axis] if point else None, name))
         given = self.profile.givens.get(corner.size)
-        word = given.word.text.strip() if given and given.word else ""
-        equations = tuple(Equation(numeric.balanced(zero), word, meaning) for meaning, zero in told)
+        word = given.word if given else None
+        equations = tuple(Equation(numeric.balanced(zero), meaning, word) for meaning, zero in told)
         return CornerSystem(corner.name, tuple(unknowns), equations)
 
     def _step(self, step: ConstructionStep) -> SystemStep:

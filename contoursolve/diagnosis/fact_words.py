@@ -31,7 +31,7 @@ def fact_text(fact: Fact, sought: Collection[str], profile: Profile) -> str:
 
 
 def condition_text(group: Group, system: System, profile: Profile) -> str:
-    """What must not be for the facts of a group to determine its unknowns."""
+    """The condition in words on which the facts of a group determine its unknowns."""
     circles = [fact for fact in group.facts if fact.circle]
     headings = [fact for fact in group.facts if fact.heading]
     placed = [fact.placed for fact in group.facts if fact.placed]

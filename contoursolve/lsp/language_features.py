@@ -16,6 +16,7 @@ from contoursolve import (
     Status,
     Word,
     end_text,
+    equations_of,
     form_text,
     legal_blocks,
     path_table,
@@ -79,6 +80,9 @@ def _about_word(stated: StatedWord, answer: Answer) -> str:
         lines.append("The control ignores it here.")
     if stated.fixes:
         lines.append(f"fixes {', '.join(_with_place(name, answer) for name in stated.fixes)}")
+    equations, conditions = equations_of(answer, stated.word)
+    lines += [f"`{each}`" for each in equations]
+    lines += [f"{_plain(text)}: `{formula}` {here}" for text, formula, here in conditions]
     return "\n\n".join(lines)
 
 

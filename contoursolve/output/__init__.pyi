@@ -28,9 +28,12 @@ from .dxf import (
 )
 from .equations import (
     equation_lines as equation_lines,
+    equations_of as equations_of,
+    system_lines as system_lines,
+)
+from .equations_html import (
     system_element as system_element,
     system_latex as system_latex,
-    system_lines as system_lines,
 )
 from .exchange import (
     to_github as to_github,

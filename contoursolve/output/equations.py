@@ -1,18 +1,14 @@
 """The system of equations of a contour as text: what each word says first, the formula behind it."""
 
 from collections.abc import Iterator
-from typing import Any
 
-import htpy as h
-from markupsafe import Markup
-
-from contoursolve.diagnosis import Condition, Equation, EquationSystem, TiedWords, count, join
+from contoursolve.diagnosis import Answer, Equation, EquationSystem, SystemCondition, TiedWords, count, join
+from contoursolve.gcode import Word
 from contoursolve.numeric import symbolic
-from contoursolve.output.html import table, table_of
 from contoursolve.output.plain_text import Table, printable
 
 NOBODY = "the form"
-"""What states an equation that no word states."""
+"""The origin of an equation that no word states."""
 
 
 def system_lines(system: EquationSystem) -> Iterator[str]:
@@ -39,6 +35,27 @@ def equation_lines(system: EquationSystem) -> list[str]:
     return lines
 
 
+def equations_of(answer: Answer, word: Word) -> tuple[list[str], list[tuple[str, str, str]]]:
+    """The equations that a word states, and the conditions in which it plays a part: in words, as an expression, and
+    the value of that.
+
+    Args:
+        answer: one of `Result.answers`.
+        word: a word of its blocks.
+
+    >>> import contoursolve
+    >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120.", start="X40. Z0.").answers[0]
+    >>> equations_of(answer, answer.claim.words["B"])[0]
+    ['(Z_V2 - Z_V1)*sin(B) = (X_V2 - X_V1)*cos(B)']
+    """
+    system = answer.system
+    symbols = {each.symbol for each in system.words if each.source and each.source.span == word.span}
+    stated = (each for each in system.statements if each.source and each.source.span == word.span)
+    equations = [symbolic.text(each.equation) for each in stated]
+    own = [each for each in system.conditions if symbols & each.expression.free_symbols]
+    return equations, [(printable(each.meaning), symbolic.text(each.expression), _here(each)) for each in own]
+
+
 def size_text(system: EquationSystem) -> str:
     """The number of equations and of unknowns, and the rank."""
     many = count(len(system.statements), "equation")
@@ -47,7 +64,7 @@ def size_text(system: EquationSystem) -> str:
 
 
 def open_line(system: EquationSystem) -> str:
-    """What nothing determines, and how many equations are missing."""
+    """The unknowns that nothing determines, and the number of equations that are missing."""
     meanings = [each.meaning for each in system.unknowns if each.symbol in system.free]
     missing = len(system.unknowns) - system.rank
     return f"still open: {join(meanings)}; {count(missing, 'equation')} {'is' if missing == 1 else 'are'} missing"
@@ -79,11 +96,12 @@ def value_table(system: EquationSystem) -> Table:
 
 def equation_table(system: EquationSystem) -> Table:
     """The equations, each with its word and what that says."""
-    rows = [(*_stated(each), symbolic.text(each.equation)) for each in system.statements]
+    rows = [(*stated_pair(each), symbolic.text(each.equation)) for each in system.statements]
     return Table("Equations", ("word", "what it says", "equation"), rows, left=(0, 1, 2))
 
 
-def _stated(each: Equation) -> tuple[str, str]:
+def stated_pair(each: Equation) -> tuple[str, str]:
+    """The word of an equation, and its meaning without that."""
     word = printable(each.word)
     return word or NOBODY, printable(each.meaning.removesuffix(f" ({each.word})"))
 
@@ -94,7 +112,7 @@ def condition_table(system: EquationSystem) -> Table:
     return Table("Conditions", ("what must hold", "must not be 0", "here"), rows, left=(0, 1, 2))
 
 
-def _here(each: Condition) -> str:
+def _here(each: SystemCondition) -> str:
     return "must not be 0" if each.value is None else f"is {each.value:.4g}, must not be 0"
 
 
@@ -119,44 +137,3 @@ def corner_tables(system: EquationSystem) -> list[Table]:
         )
         for corner in system.corners
     ]
-
-
-# As maths -----------------------------------------------------------------------------------------------------
-
-
-def system_element(system: EquationSystem) -> Iterator[h.Node]:
-    """The same as HTML: each formula as MathML, which browsers draw and screen readers read out."""
-    yield h.p[f"{size_text(system)}."]
-    equations = [(*_stated(each), _math(each.equation)) for each in system.statements]
-    yield table("Equations", ("word", "what it says", "equation"), equations)
-    if system.free:
-        yield h.p[f"{open_line(system).capitalize()}."]
-    if system.conditions:
-        rows = [(printable(each.meaning), _math(each.expression), _value(each)) for each in system.conditions]
-        yield table("Conditions", ("what must hold", "must not be 0", "value here"), rows, numbers=(2,))
-    if system.ties:
-        ties = [(" ".join(each.words), "" if each.identity is None else _math(each.identity)) for each in system.ties]
-        yield table("What says the same", ("words", "formula"), ties)
-    yield h.details[h.summary["Unknowns and values"], table_of(unknown_table(system)), table_of(value_table(system))]
-    for corner in system.corners:
-        told = [(each.meaning, _math(each.equation)) for each in corner.equations]
-        own = table(f"Equations of {corner.name}", ("what it says", "equation"), told)
-        yield h.details[h.summary[corner.name.capitalize()], own]
-
-
-def _math(expression: Any) -> h.Node:
-    # Made by sympy of our own symbols: no text of a program.
-    alternative = symbolic.text(expression)
-    return h.math(xmlns="http://www.w3.org/1998/Math/MathML", alttext=alternative)[Markup(symbolic.mathml(expression))]
-
-
-def _value(each: Condition) -> str:
-    return "" if each.value is None else f"{each.value:.4g}"
-
-
-def system_latex(system: EquationSystem) -> str:
-    """The equations, and the condition, as LaTeX."""
-    lines = [symbolic.latex(each.equation).replace("=", "&=", 1) for each in system.statements]
-    lines += [f"{symbolic.latex(system.condition)} &\\neq 0"] if system.conditions else []
-    rows = " \\\\\n".join(lines)
-    return f"\\begin{{aligned}}\n{rows}\n\\end{{aligned}}"

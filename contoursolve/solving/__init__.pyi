@@ -75,7 +75,7 @@ from .contour import (
     trace as trace,
 )
 from .contour_function import (
-    Typed as Typed,
+    TypedValues as TypedValues,
     build_function as build_function,
     rows_of as rows_of,
 )

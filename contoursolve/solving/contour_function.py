@@ -41,7 +41,7 @@ RADIANS = 0.017453292519943295
 """Of one degree."""
 
 
-class Typed(Struct, frozen=True):
+class TypedValues(Struct, frozen=True):
     """The values of a contour as expressions of what is typed: `start` (mm), `givens` by name (mm or degrees)."""
 
     start: Pair
@@ -52,7 +52,7 @@ def build_function(
     profile: Profile,
     name: str,
     inputs: Mapping[str, Expression],
-    typed: Typed,
+    typed: TypedValues,
     conditions: Callable[[Mapping[str, Any]], list[Any]],
     guess: Mapping[str, float],
 ) -> Any:
@@ -73,7 +73,7 @@ def build_function(
 def _stated(
     system: System, values: Mapping[str, Any], evaluate: Callable[[Fact, Values], Any], facts: Sequence[Fact]
 ) -> list[Any]:
-    """What facts evaluate to at values."""
+    """Facts evaluated at values."""
     tape = Tape()
     at = input_values(system, tape, {})
     for number, fact in enumerate(facts):
@@ -81,7 +81,7 @@ def _stated(
     return [*put_in(tape, [*tape.outputs], values).values()] if facts else []
 
 
-def _values(profile: Profile, system: System, typed: Typed, start: Pair) -> dict[str, Any]:
+def _values(profile: Profile, system: System, typed: TypedValues, start: Pair) -> dict[str, Any]:
     """All inputs of the functions of a system: what is typed, and what nobody types, with coordinates as they are, and
     where the contour starts."""
     found: dict[str, Any] = dict(inputs_of(profile, system))
@@ -94,7 +94,7 @@ def _values(profile: Profile, system: System, typed: Typed, start: Pair) -> dict
     return found | dict(zip(both(system.figure.start), start, strict=True))
 
 
-def _closed(profile: Profile, system: System, typed: Typed) -> dict[str, Any]:
+def _closed(profile: Profile, system: System, typed: TypedValues) -> dict[str, Any]:
     """The unknowns in closed form, which counts from the start point."""
     values = _values(profile, system, typed, (0.0, 0.0))
     for name, axis in axes_of(system).items():
@@ -109,7 +109,7 @@ def _closed(profile: Profile, system: System, typed: Typed) -> dict[str, Any]:
 def _outputs(
     profile: Profile,
     system: System,
-    typed: Typed,
+    typed: TypedValues,
     unknowns: Mapping[str, Any],
     conditions: Callable[[Mapping[str, Any]], list[Any]],
 ) -> dict[str, list[list[Any]]]:
@@ -162,7 +162,7 @@ def _order(system: System) -> list[tuple[str, bool]]:
 def _elements(
     system: System, corners: Mapping[str, CornerPath], point: Callable[[str], list[Any]]
 ) -> list[tuple[list[Any], list[Any]]]:
-    """Where each element begins and ends, corners among them."""
+    """The begin and the end of each element, corners among them."""
     path = {element.name: element for element in system.figure.path}
     before = {corner.before: corners[corner.name] for corner in system.figure.corners}
     after = {corner.after: corners[corner.name] for corner in system.figure.corners if corner.after}

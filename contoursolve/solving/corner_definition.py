@@ -11,8 +11,8 @@ Pair = tuple[Any, Any]
 def corner_equations(
     corner: Corner, figure: Figure, at: Lookup, size: Any, begin: Pair, end: Pair, center: Pair
 ) -> Iterator[tuple[str, Any]]:
-    """What each equation of a corner says, and an expression that is zero, polynomial in the places `begin`, `end` and
-    `center`, in points and directions.
+    """The equations of a corner: in words, and as an expression that is zero, polynomial in the places `begin`, `end`
+    and `center`, in points and directions.
 
     A fillet has six of them for three places, any other shape four for two. `size` is that of the corner, mm.
     """
@@ -65,7 +65,7 @@ class _Edge:
 
 
 def _after(corner: Corner, figure: Figure, vertex: Pair, at: Lookup) -> _Edge:
-    """What follows a corner: an element of the path, a line beside it, or one that is parallel to an axis."""
+    """The edge behind a corner: an element of the path, a line beside it, or one that is parallel to an axis."""
     if corner.after is not None:
         return _Edge(next(each for each in figure.path if each.name == corner.after), vertex, at)
     if corner.lands_on is not None:

@@ -1,0 +1,51 @@
+"""The system of equations of a contour as maths: MathML on a page, and LaTeX."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import htpy as h
+from markupsafe import Markup
+
+from contoursolve.diagnosis import EquationSystem, SystemCondition
+from contoursolve.numeric import symbolic
+from contoursolve.output.equations import open_line, size_text, stated_pair, unknown_table, value_table
+from contoursolve.output.html import table, table_of
+from contoursolve.output.plain_text import printable
+
+
+def system_element(system: EquationSystem) -> Iterator[h.Node]:
+    """The same as HTML: each formula as MathML, which browsers draw and screen readers read out."""
+    yield h.p[f"{size_text(system)}."]
+    equations = [(*stated_pair(each), _math(each.equation)) for each in system.statements]
+    yield table("Equations", ("word", "what it says", "equation"), equations)
+    if system.free:
+        yield h.p[f"{open_line(system).capitalize()}."]
+    if system.conditions:
+        rows = [(printable(each.meaning), _math(each.expression), _value(each)) for each in system.conditions]
+        yield table("Conditions", ("what must hold", "must not be 0", "value here"), rows, numbers=(2,))
+    if system.ties:
+        ties = [(" ".join(each.words), "" if each.identity is None else _math(each.identity)) for each in system.ties]
+        yield table("What says the same", ("words", "formula"), ties)
+    yield h.details[h.summary["Unknowns and values"], table_of(unknown_table(system)), table_of(value_table(system))]
+    for corner in system.corners:
+        told = [(each.meaning, _math(each.equation)) for each in corner.equations]
+        own = table(f"Equations of {corner.name}", ("what it says", "equation"), told)
+        yield h.details[h.summary[corner.name.capitalize()], own]
+
+
+def _math(expression: Any) -> h.Node:
+    # Made by sympy of our own symbols: no text of a program.
+    alternative = symbolic.text(expression)
+    return h.math(xmlns="http://www.w3.org/1998/Math/MathML", alttext=alternative)[Markup(symbolic.mathml(expression))]
+
+
+def _value(each: SystemCondition) -> str:
+    return "" if each.value is None else f"{each.value:.4g}"
+
+
+def system_latex(system: EquationSystem) -> str:
+    """The equations, and the condition, as LaTeX."""
+    lines = [symbolic.latex(each.equation).replace("=", "&=", 1) for each in system.statements]
+    lines += [f"{symbolic.latex(system.condition)} &\\neq 0"] if system.conditions else []
+    rows = " \\\\\n".join(lines)
+    return f"\\begin{{aligned}}\n{rows}\n\\end{{aligned}}"
