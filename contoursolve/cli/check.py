@@ -75,7 +75,7 @@ _NOTHING = "nothing"
     help="Hide the findings that --write-baseline has written into FILE. They are known by their code and the text of "
     "their block. Without it, contoursolve.toml may name one.",
 )
-@explain_option("every reason and every fix")
+@explain_option("every reason, every fix, and the equations of each contour")
 @click.option("--strict", "is_strict", is_flag=True, help="Also report faults outside contours that change no contour.")
 @click.option("--all", "shows_all", is_flag=True, help=f"Show more than {MOST_ALIKE} findings of a kind in a program.")
 @click.pass_context

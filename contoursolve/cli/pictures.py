@@ -13,6 +13,7 @@ from contoursolve.cli.options import (
     CouldNotRunError,
     common_options,
     examine,
+    explain_option,
     load,
     named_after,
     print_findings,
@@ -210,6 +211,7 @@ def _drawings_for_cad(result: Result, target: Path) -> list[Written]:
 @click.option(
     "--force", "is_forced", is_flag=True, help="Replace the page if it exists; without -o, its own is replaced anyway."
 )
+@explain_option("the equations and the construction of each contour")
 @common_options
 @click.pass_context
 def report(
@@ -218,6 +220,7 @@ def report(
     program: str | None,
     output: Path | None,
     is_forced: bool,
+    is_explained: bool,
     blocks: tuple[str, ...],
     start: str | None,
     assignments: tuple[str, ...],
@@ -249,7 +252,7 @@ def report(
     with click.progressbar(
         length=len(result.answers), label="drawing", file=sys.stderr, hidden=not sys.stderr.isatty()
     ) as bar:
-        pieces = report_page(result, __version__, lambda: bar.update(1))
+        pieces = report_page(result, __version__, lambda: bar.update(1), is_explained=is_explained)
         write_whole(target, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)
     say(summary_line(result, is_explained=True))
     say(f"{target} written")

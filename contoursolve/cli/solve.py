@@ -29,7 +29,7 @@ from contoursolve.output import Totals, closing_lines, stream_json, stream_listi
     show_default=True,
     help="What to print; json is in mm, with X as radius.",
 )
-@explain_option("the construction, the checks, every reason and every fix")
+@explain_option("the equations, the construction, the checks, every reason and every fix")
 @click.pass_context
 def solve(
     context: click.Context,

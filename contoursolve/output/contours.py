@@ -43,23 +43,34 @@ def _called(answer: Answer) -> str:
     return f", called in program line{'s' * (len(lines) > 1)} {join(lines)}" if lines else ""
 
 
+def title_line(answer: Answer, name: str) -> str:
+    """The place, the form and the status of a contour of a program."""
+    place = f"{printable(name)}:{answer.lines[0]}"
+    return f"{place}: {form_text(answer)}{_called(answer)}: {status_text(answer.status)}"
+
+
+def explaining_lines(answer: Answer) -> list[str]:
+    """The equations of a contour, the conditions on which they determine it, and the construction."""
+    from contoursolve.output.construction import construction_lines  # noqa: PLC0415 - only on demand
+    from contoursolve.output.equations import equation_lines  # noqa: PLC0415 - sympy is slow to import
+
+    lines = [*equation_lines(answer.system), "", *construction_lines(answer)]
+    if answer.contour and answer.profile.figure.corners and answer.claim.form.corner_note:
+        lines.append(f"    {answer.claim.form.corner_note}")
+    return lines
+
+
 def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False) -> list[str]:
     """The listing of one contour, in the unit and the axes of its program; explained with its construction."""
     alternatives = list_alternatives(answer)
     if alternatives is not answer.alternatives:
         # Found here once, for the construction and for the list.
         answer = replace(answer, alternatives=alternatives)
-    place = f"{printable(result.program.name)}:{answer.lines[0]}"
-    lines = [f"{place}: {form_text(answer)}{_called(answer)}: {status_text(answer.status)}"]
+    lines = [title_line(answer, result.program.name)]
     lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]
     lines += ["", *columns(given_table(answer).rows, left=(0, 3))]
     if is_explained:
-        from contoursolve.output.construction import construction_lines  # noqa: PLC0415 - only on demand
-        from contoursolve.output.equations import equation_lines  # noqa: PLC0415 - sympy is slow to import
-
-        lines += ["", *equation_lines(answer.system), "", *construction_lines(answer)]
-        if answer.contour and answer.profile.figure.corners and answer.claim.form.corner_note:
-            lines.append(f"    {answer.claim.form.corner_note}")
+        lines += ["", *explaining_lines(answer)]
     if answer.contour:
         path = path_table(answer.contour, answer.unit)
         lines += ["", *columns([("", "", *path.header[2:]), *path.rows], path.left)]

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, count, rank, statuses_text
 from contoursolve.diagnostics import Diagnostic, Fix, Severity
-from contoursolve.output.contours import contour_lines
+from contoursolve.output.contours import contour_lines, explaining_lines, title_line
 from contoursolve.output.findings import EXPLAINING, Style, finding_lines
 from contoursolve.output.plain_text import columns, printable
 from contoursolve.program import ELSEWHERE, Result, Run, what_shows
@@ -77,9 +77,10 @@ def stream_findings(
     is_short = not (run.is_strict or is_explained)
     alike = Counter[tuple[Severity, str]]()
 
+    answers = list[Answer]()
+
     def items() -> Iterator[tuple[Any, Diagnostic]]:
-        for item in run:
-            tally.count(item, is_explained=is_explained)
+        for item in _counted(run, tally, answers, is_explained=is_explained):
             for finding in findings_of(item, is_explained=is_explained):
                 if finding.about is ReadIssue.CONTOUR_WAITS and not is_explained:
                     # They are counted in one line.
@@ -100,6 +101,19 @@ def stream_findings(
             role = severity.value
             yield f"{style(f'{role}[{code}]', role)}: and {number - most:,} more like it; --all shows them"
             yield ""
+    for answer in answers:
+        yield from (title_line(answer, run.frame.program.name), *explaining_lines(answer), "")
+
+
+def _counted(
+    run: Run | Collected, tally: "Totals", answers: list[Answer], *, is_explained: bool
+) -> Iterator[Answer | Diagnostic]:
+    """The items of a run, each of which is counted; those to be explained are kept."""
+    for item in run:
+        tally.count(item, is_explained=is_explained)
+        if is_explained and isinstance(item, Answer):
+            answers.append(item)
+        yield item
 
 
 def nothing_line(result: Result, finding: Diagnostic, style: Style) -> str:

@@ -13,6 +13,7 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, Policy, coordinates, count, status_text
 from contoursolve.diagnostics import Diagnostic, Evidence, Label, Severity, Span
 from contoursolve.gcode import Block
+from contoursolve.output.construction import construction_lines
 from contoursolve.output.contours import given_table, path_table
 from contoursolve.output.html import (
     checks_table,
@@ -89,13 +90,15 @@ def _find_places(result: Result) -> PageAnchors:
     )
 
 
-def report_page(result: Result, version: str, progress: Progress = lambda: None) -> Iterator[str]:
-    """The page in pieces; `progress` is called after each contour."""
-    yield from _page(result, version, progress).iter_chunks()
+def report_page(
+    result: Result, version: str, progress: Progress = lambda: None, *, is_explained: bool = False
+) -> Iterator[str]:
+    """The page in pieces, explained with equations; `progress` is called after each contour."""
+    yield from _page(result, version, progress, is_explained=is_explained).iter_chunks()
     yield "\n"
 
 
-def _page(result: Result, version: str, progress: Progress) -> h.Element:
+def _page(result: Result, version: str, progress: Progress, *, is_explained: bool) -> h.Element:
     places = _find_places(result)
     lighting = _lighting(result)
     has_chains = any(answer.claim.form.is_general for answer in result.answers)
@@ -119,7 +122,7 @@ def _page(result: Result, version: str, progress: Progress) -> h.Element:
                 h.a(href="#sources")["Sources"],
             ],
             h.main[
-                _contours(result, places, progress, is_lit=bool(lighting)),
+                _contours(result, places, progress, is_lit=bool(lighting), is_explained=is_explained),
                 _others(result, places),
                 _program(result, places),
                 _sources(result),
@@ -159,7 +162,9 @@ def _conditions(result: Result) -> h.Element:
     return h.dl[([h.dt[name], h.dd[short(value)]] for name, value in rows)]
 
 
-def _contours(result: Result, places: PageAnchors, progress: Progress, *, is_lit: bool) -> h.Element | None:
+def _contours(
+    result: Result, places: PageAnchors, progress: Progress, *, is_lit: bool, is_explained: bool
+) -> h.Element | None:
     if not result.answers:
         return h.section(id="contours")[h.h2["Contours"], h.p["The program has no contour."]]
     header = ("contour", "line", "form", "status", "ends at", "findings")
@@ -180,11 +185,16 @@ def _contours(result: Result, places: PageAnchors, progress: Progress, *, is_lit
         table("Every contour, with what became of it", header, rows),
         figure(result, is_inline=True) if len(result.answers) > 1 else None,
         h.p(".hint")[_HINT] if is_lit else None,
-        (_contour(answer, number, result, places, progress) for number, answer in enumerate(result.answers, 1)),
+        (
+            _contour(answer, number, result, places, progress, is_explained=is_explained)
+            for number, answer in enumerate(result.answers, 1)
+        ),
     ]
 
 
-def _contour(answer: Answer, number: int, result: Result, places: PageAnchors, progress: Progress) -> h.Element:
+def _contour(
+    answer: Answer, number: int, result: Result, places: PageAnchors, progress: Progress, *, is_explained: bool
+) -> h.Element:
     keys = named_words(answer)
     found = [
         _finding(each, result, places, names=[("finding", str(place)), *_words_of(each, keys)])
@@ -205,9 +215,22 @@ def _contour(answer: Answer, number: int, result: Result, places: PageAnchors, p
         solutions_table(answer),
         words if path else None,
         checks_table(answer),
+        _explained(answer) if is_explained else None,
     ]
     progress()
     return element
+
+
+def _explained(answer: Answer) -> h.Element:
+    """The equations of a contour as maths, and its construction."""
+    from contoursolve.output.equations_html import system_element  # noqa: PLC0415 - sympy is slow to import
+
+    return h.section(".equations")[
+        h.h4["Equations"],
+        *system_element(answer.system),
+        h.h4["Construction"],
+        h.pre["\n".join(line[2:] for line in construction_lines(answer)[1:])],
+    ]
 
 
 def _words_of(finding: Diagnostic, named: Mapping[Span, About]) -> Iterator[Name]:
