@@ -55,6 +55,11 @@ from .fill import (
     FARTHEST as FARTHEST,
     fill_in as fill_in,
 )
+from .hand_calculation import (
+    Calculation as Calculation,
+    CalculationLine as CalculationLine,
+    Derivation as Derivation,
+)
 from .legality_table import (
     tabulate as tabulate,
 )

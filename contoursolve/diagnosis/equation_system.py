@@ -19,6 +19,7 @@ from contoursolve.diagnosis.equation_records import (
     TiedWords,
 )
 from contoursolve.diagnosis.fact_words import condition_text, fact_text
+from contoursolve.diagnosis.hand_calculation import Derivation, HandCalculation
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
 from contoursolve.diagnosis.wording import join, unknowns_text, word_keys
 from contoursolve.diagnostics import Shown
@@ -226,6 +227,19 @@ class EquationSystem(Shown):
     def steps(self) -> tuple[SystemStep, ...]:
         """The steps in which the unknowns are found, one after the other; none where something is free."""
         return tuple(map(self._step, steps_of(self._system))) if self.is_determined else ()
+
+    @cached_property
+    def derivation(self) -> Derivation:
+        """The calculation by hand of the contour that was solved, as its construction has it, then of its corners.
+
+        Raises ValueError without a contour.
+        """
+        if self._solved is None:
+            raise ValueError("there is no contour at the values of the words that could be calculated")
+        scalars, solution = self._solved
+        profile, system, symbols = self.profile, self._system, self._symbols
+        hand = HandCalculation(profile, system, symbols, self.values, scalars, solution.corners)
+        return Derivation(tuple(hand.steps()))
 
     # What can be done with it ------------------------------------------------------------------------------------
 

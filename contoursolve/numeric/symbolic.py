@@ -16,6 +16,7 @@ from contoursolve.numeric import expressions
 from contoursolve.numeric.functions import Functions
 from contoursolve.numeric.modular_rank import ExactRank
 
+PI = sympy.pi
 FUNCTIONS = Functions(sympy.sqrt, sympy.cos, sympy.sin)
 
 
@@ -110,7 +111,7 @@ def balanced(expression: Any) -> Any:
     return equation(sympy.Add(*(term for term in terms if term not in less)), -sympy.Add(*less))
 
 
-class _Positive:
+class PositiveFirst:
     """A printer of sums that begin with what is added."""
 
     def _as_ordered_terms(self, expr: Any, order: Any = None) -> Any:
@@ -118,15 +119,15 @@ class _Positive:
         return sorted(terms, key=lambda term: bool(term.as_coeff_Mul()[0].is_negative))
 
 
-class _Text(_Positive, StrPrinter):  # type: ignore[misc]
+class _Text(PositiveFirst, StrPrinter):  # type: ignore[misc]
     """Text."""
 
 
-class _Latex(_Positive, LatexPrinter):  # type: ignore[misc]
+class _Latex(PositiveFirst, LatexPrinter):  # type: ignore[misc]
     """LaTeX."""
 
 
-class _MathML(_Positive, MathMLPresentationPrinter):  # type: ignore[misc]
+class _MathML(PositiveFirst, MathMLPresentationPrinter):  # type: ignore[misc]
     """Presentation MathML."""
 
 
