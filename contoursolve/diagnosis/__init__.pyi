@@ -55,7 +55,7 @@ from .fill import (
     FARTHEST as FARTHEST,
     fill_in as fill_in,
 )
-from .hand_calculation import (
+from .hand_sheet import (
     Calculation as Calculation,
     CalculationLine as CalculationLine,
     Derivation as Derivation,

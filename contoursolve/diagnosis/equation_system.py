@@ -19,7 +19,8 @@ from contoursolve.diagnosis.equation_records import (
     TiedWords,
 )
 from contoursolve.diagnosis.fact_words import condition_text, fact_text
-from contoursolve.diagnosis.hand_calculation import Derivation, HandCalculation
+from contoursolve.diagnosis.hand_calculation import HandCalculation
+from contoursolve.diagnosis.hand_sheet import Derivation
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
 from contoursolve.diagnosis.wording import join, unknowns_text, word_keys
 from contoursolve.diagnostics import Shown

@@ -1,75 +1,21 @@
 """The calculation of a contour by hand, step by step as its construction has it: triangles, formulas, numbers."""
 
-from collections.abc import Iterator, Mapping
-from math import hypot
+from collections.abc import Iterator
+from math import atan2, hypot
 from typing import Any
 
-from msgspec import Struct
-
-from contoursolve.diagnostics import Shown
-from contoursolve.geometry import FIRST, SECOND, Arc, Corner, CornerShape, Fact, Line, Profile, System, scalar
-from contoursolve.solving import ConstructionStep, CornerSolution, StepKind, steps_of, symbolic_values
-
-Pair = tuple[Any, Any]
-
-
-Triangle = tuple[tuple[str, tuple[float, float]], ...]
-"""The corners of a triangle by their names, mm."""
+from contoursolve.diagnosis.hand_corners import HandCorners
+from contoursolve.diagnosis.hand_sheet import Calculation, CalculationLine, Pair
+from contoursolve.geometry import (
+    FIRST,
+    Fact,
+    line_scalars,
+)
+from contoursolve.solving import ConstructionStep, StepKind, steps_of
 
 
-class CalculationLine(Struct, frozen=True):
-    """One line: the symbol that it finds, the formula (of sympy), the same with numbers, and the value: mm, X of a
-    lathe as radius, or degrees."""
-
-    symbol: Any
-    formula: Any
-    numbers: str
-    value: float
-    unit: str
-    meaning: str = ""
-
-
-class Calculation(Struct, frozen=True):
-    """The lines that find one point, radius or corner: what is found, why so, and the corners of the triangle in which
-    it is calculated (mm); none where there is no triangle. `is_searched` tells that nobody can calculate it by hand."""
-
-    title: str
-    lines: tuple[CalculationLine, ...]
-    triangle: Triangle = ()
-    is_searched: bool = False
-
-
-class Derivation(Shown, Struct, frozen=True):
-    """The calculation of a contour by hand: `steps` find its points one after the other, then its corners."""
-
-    steps: tuple[Calculation, ...]
-
-
-class HandCalculation:
-    """The calculations of one contour, made of the symbols of its system and the values of the solution."""
-
-    def __init__(
-        self,
-        profile: Profile,
-        system: System,
-        symbols: Any,
-        values: Mapping[Any, Any],
-        scalars: Mapping[str, float],
-        corners: Mapping[str, CornerSolution],
-    ) -> None:
-        from contoursolve.numeric import hand, symbolic  # noqa: PLC0415 - sympy is slow to import
-
-        self._hand = hand
-        self._profile, self._system, self._symbols = profile, system, symbols
-        self._scalars, self._corners = scalars, corners
-        self._sheet = hand.Sheet(values)
-        self._sheet.angles |= {
-            symbols.angle(given.name) for given in profile.givens.values() if given.unit.value == "deg"
-        }
-        self._at = symbolic_values(symbols, symbolic.FUNCTIONS, system.headed)
-        self._number = 0
-        self._lines: list[CalculationLine] = []
-        self._triangle: Triangle = ()
+class HandCalculation(HandCorners):
+    """The steps of a construction, each by hand, then the corners."""
 
     def steps(self) -> Iterator[Calculation]:
         """The calculations in the order of the construction, then those of the corners."""
@@ -85,36 +31,6 @@ class HandCalculation:
             if corner.name in self._corners:
                 yield self._corner(corner)
 
-    # One line ------------------------------------------------------------------------------------------------------
-
-    def _put(self, name: str | Any, formula: Any, unit: str = "mm", meaning: str = "") -> Any:
-        """A line of the calculation; its symbol."""
-        is_angle = unit == "deg"
-        own = f"{name}_{self._number}" if isinstance(name, str) else name
-        numbers = self._sheet.numbers(formula)
-        symbol, value = self._sheet.put(own, formula, is_angle=is_angle)
-        shown = value * 57.29577951308232 if is_angle else value
-        self._lines.append(CalculationLine(symbol, formula, numbers, shown, unit, meaning))
-        return symbol
-
-    def _done(self, title: str, *, is_searched: bool = False) -> Calculation:
-        found = Calculation(title, tuple(self._lines), self._triangle, is_searched)
-        self._lines, self._triangle = [], ()
-        return found
-
-    def _point(self, name: str) -> Pair:
-        return self._at.coordinate(name, FIRST), self._at.coordinate(name, SECOND)
-
-    def _place(self, pair: Pair) -> tuple[float, float]:
-        return self._sheet.value(pair[0]), self._sheet.value(pair[1])
-
-    def _right(self, one: str, first: Pair, other: str, second: Pair) -> Triangle:
-        """The right triangle between two points, with its legs along the axes."""
-        (a, b), (x, y) = self._place(first), self._place(second)
-        return (one, (a, b)), ("", (x, b)), (other, (x, y))
-
-    # Steps ---------------------------------------------------------------------------------------------------------
-
     def _found(self, steps: list[ConstructionStep]) -> Calculation:
         self._number += 1
         step = steps[0]
@@ -124,36 +40,111 @@ class HandCalculation:
         if len(steps) > 1 or _is_placed(step):
             for each in steps:
                 self._placed(each)
-            return self._done(f"{title}: its coordinates are stated")
-        if step.kind is StepKind.RADIUS:
-            circle = step.circles[0]
-            (x, y), (a, b) = self._point(circle.point), self._point(circle.center)
-            self._put(self._symbols.scalar(step.unknowns[0]), self._hand.root((x - a) ** 2 + (y - b) ** 2))
-            self._triangle = self._right(circle.center, (a, b), circle.point, (x, y))
-            return self._done(f"{title}: the distance from {circle.center} to {circle.point}")
-        if step.kind is StepKind.LINE_CIRCLE:
-            return self._line_circle(step)
-        if step.kind is StepKind.TWO_CIRCLES:
-            return self._two_circles(step)
-        if step.kind is StepKind.AFFINE:
-            lines = [self._line_of(fact, step) for fact in step.facts]
-            if len(step.unknowns) == 1 and lines[0] is not None:
-                return self._leg(step, lines[0])
-            if len(lines) == 2 and lines[0] is not None and lines[1] is not None:  # noqa: PLR2004 - two lines
-                return self._two_lines(step, lines[0], lines[1])
-            found = self._hand.solve_linear(
-                [fact.equation(self._at) for fact in step.facts], [self._symbols.scalar(name) for name in step.unknowns]
-            )
-            if found is not None:
-                for name, formula in zip(step.unknowns, found, strict=True):
-                    self._put(self._symbols.scalar(name), formula, "" if name.endswith((".cos", ".sin")) else "mm")
-                return self._done(f"{title}: from linear equations")
+            return self._done(f"{title}: its size is stated" if step.facts[0].sizes else f"{title}: words state it")
+        return self._by_hand(step) or self._together(step, title)
+
+    def _by_hand(self, step: ConstructionStep) -> Calculation | None:
+        """The calculation of a step that is no word's own; None where nobody can make it by hand."""
+        is_direction = any(name.endswith(".cos") for name in step.unknowns)
+        is_polar = len(step.facts) == 2 and step.facts[0].span is not None and step.facts[1].heading is not None  # noqa: PLR2004
+        match step.kind:
+            case StepKind.RADIUS:
+                return self._radius(step)
+            case StepKind.LINE_CIRCLE:
+                return self._line_circle(step)
+            case StepKind.TWO_CIRCLES:
+                return self._two_circles(step)
+            case StepKind.AFFINE if not is_direction:
+                return self._linear(step)
+        return self._polar(step) if is_polar else self._direction(step) if is_direction else None
+
+    def _radius(self, step: ConstructionStep) -> Calculation:
+        """A radius, the long side of a right triangle."""
+        (circle,) = step.circles
+        (x, y), (a, b) = self._point(circle.point), self._point(circle.center)
+        self._put(self._symbols.scalar(step.unknowns[0]), self._hand.root((x - a) ** 2 + (y - b) ** 2))
+        self._triangle = self._right(circle.center, (a, b), circle.point, (x, y))
+        return self._done(f"{step.unknowns[0]}: the distance from {circle.center} to {circle.point}")
+
+    def _linear(self, step: ConstructionStep) -> Calculation | None:
+        """A point on one or two lines, or what other linear equations tell."""
+        lines = [self._line_of(fact, step) for fact in step.facts]
+        if len(step.unknowns) == 1 and lines[0] is not None:
+            return self._leg(step, lines[0])
+        if len(lines) == 2 and lines[0] is not None and lines[1] is not None:  # noqa: PLR2004 - two lines
+            return self._two_lines(step, lines[0], lines[1])
+        turned = self._symbols.turned()
+        formulas = self._hand.solve_linear(
+            [fact.equation(self._at).xreplace(turned) for fact in step.facts],
+            [self._symbols.scalar(name) for name in step.unknowns],
+        )
+        for name, formula in zip(step.unknowns, formulas or (), strict=bool(formulas)):
+            self._put(self._symbols.scalar(name), formula)
+        return self._done(f"{step.point}: from linear equations") if formulas is not None else None
+
+    def _together(self, step: ConstructionStep, title: str) -> Calculation:
+        """What several equations give together, as the solution has it."""
         for name in step.unknowns:
             unit = "" if name.endswith((".cos", ".sin")) else "mm"
             symbol, value = self._symbols.scalar(name), self._scalars[name]
             self._sheet.put(symbol, value)
             self._lines.append(CalculationLine(symbol, symbol, "", value, unit))
+            if name.endswith(".cos"):
+                line = name.removesuffix(".cos")
+                self._sheet.put(
+                    self._symbols.turned_angle(line),
+                    atan2(self._scalars[f"{line}.sin"], value),
+                    is_angle=True,
+                )
         return self._done(f"{title}: no calculation by hand, several equations are solved together", is_searched=True)
+
+    def _polar(self, step: ConstructionStep) -> Calculation:
+        """A point by its distance and its direction from another one."""
+        length, ray = step.facts
+        tail, head = ray.heading or ("", "")
+        (a, b), (x, y) = self._point(tail), self._point(head)
+        angle, far = self._symbols.angle(ray.given), self._at.amount(length.given)
+        self._put(x, a + far * self._hand.cosine(angle))
+        self._put(y, b + far * self._hand.sine(angle))
+        self._triangle = self._right(tail, (a, b), head, (x, y))
+        return self._done(f"{step.point}: right triangle from {tail}, the long side and the angle are known")
+
+    def _direction(self, step: ConstructionStep) -> Calculation | None:
+        """The direction of a line that passes known points, or touches known circles; None for another one."""
+        line = step.unknowns[0].rpartition(".")[0]
+        cosine, sine, offset = line_scalars(line)
+        through = [fact.passes[1] for fact in step.facts if fact.passes]
+        circles = [(fact.beside.center, fact.beside.radius) for fact in step.facts if fact.beside and fact.beside.line]
+        if len(through) + len(circles) != 2 or len(step.facts) != 3:  # noqa: PLR2004 - two of three equations
+            return None
+        names = [*through, *(center for center, _ in circles)]
+        (a, b), (c, d) = map(self._point, names)
+        meant = self._scalars[cosine], self._scalars[sine]
+        way = self._put("w", self._hand.heading(d - b, c - a), "deg", f"angle from {names[0]} to {names[1]}")
+        turns: list[Any] = [0]
+        if circles:
+            far = self._put("c", self._hand.root((c - a) ** 2 + (d - b) ** 2), meaning="between them")
+            radii = [self._at.radius(radius) for _, radius in circles]
+            reaches = [radii[0]] if len(radii) == 1 else [radii[0] + radii[1], radii[0] - radii[1]]
+            turns = [sign * self._hand.arcsine(reach / far) for reach in reaches for sign in (1, -1)]
+        options = [way + turn + back for turn in turns for back in (0, self._hand.PI)]
+        angle = min(options, key=lambda each: self._off(each, meant))
+        named = self._symbols.turned_angle(line)
+        self._put(named, angle, "deg", f"angle of {line}")
+        for name, part in ((cosine, self._hand.cosine(named)), (sine, self._hand.sine(named))):
+            self._sheet.put(self._symbols.scalar(name), part)
+        place = b * self._hand.cosine(named) - a * self._hand.sine(named)
+        if not through:
+            side = 1 if self._sheet.value(place) > self._scalars[offset] else -1
+            place = place - side * self._at.radius(circles[0][1])
+        self._put(self._symbols.scalar(offset), place, meaning="of the line from zero")
+        told = "touches" if circles else "leads through"
+        return self._done(f"{line}: {told} {' and '.join(names[len(through) :] or names)}")
+
+    def _off(self, angle: Any, meant: tuple[float, float]) -> float:
+        """By how much a direction differs from one that is meant."""
+        parts = self._sheet.value(self._hand.cosine(angle)), self._sheet.value(self._hand.sine(angle))
+        return hypot(parts[0] - meant[0], parts[1] - meant[1])
 
     def _placed(self, step: ConstructionStep) -> None:
         (fact,) = step.facts
@@ -225,29 +216,6 @@ class HandCalculation:
         self._put(y, b + way * self._hand.sine(angle))
         return self._done(f"{step.point}: the line meets the circle about {step.centers[0]}; half the chord is a leg")
 
-    def _meant(self, point: str) -> tuple[float, float]:
-        return self._scalars[scalar(point, FIRST)], self._scalars[scalar(point, SECOND)]
-
-    def _crossing(self, tail: Pair, angle: Any, center: Pair, radius: Any, meant: tuple[float, float]) -> Any:
-        """The way along a line to a circle, on that side on which a point is meant."""
-        sine, cosine = self._hand.sine(angle), self._hand.cosine(angle)
-        east, north = center[0] - tail[0], center[1] - tail[1]
-        d = self._put("d", north * cosine - east * sine, meaning="from the line to the centre")
-        f = self._put("f", east * cosine + north * sine, meaning="along the line to the foot of that")
-        h = self._put("h", self._hand.root(radius**2 - d**2), meaning="half the chord")
-        way = f + h
-        for sign in (1, -1):
-            s = self._sheet.value(f + sign * h)
-            place = (
-                self._sheet.value(tail[0]) + s * self._sheet.value(cosine),
-                self._sheet.value(tail[1]) + s * self._sheet.value(sine),
-            )
-            if hypot(place[0] - meant[0], place[1] - meant[1]) <= _SAME:
-                way = f + sign * h
-        foot = tail[0] + f * cosine, tail[1] + f * sine
-        self._triangle = ("centre", self._place(center)), ("foot", self._place(foot)), ("", meant)
-        return way
-
     def _two_circles(self, step: ConstructionStep) -> Calculation:
         first, second = map(self._point, step.centers)
         one, other = (self._at.radius(circle.radius) for circle in step.circles)
@@ -257,207 +225,6 @@ class HandCalculation:
         self._put(y, formulas[1])
         names = " and ".join(step.centers)
         return self._done(f"{step.point}: triangle with {names}, all three sides are known")
-
-    def _meeting(self, first: Pair, second: Pair, one: Any, other: Any, meant: tuple[float, float]) -> tuple[Any, Any]:
-        """The formulas of a point at distances from two others, on that side on which it is meant."""
-        root = self._hand.root
-        c = self._put("c", root((second[0] - first[0]) ** 2 + (second[1] - first[1]) ** 2), meaning="between them")
-        w = self._put(
-            "w", self._hand.heading(second[1] - first[1], second[0] - first[0]), "deg", "from one to the other"
-        )
-        a = self._put("a", (c**2 + one**2 - other**2) / (2 * c), meaning="along that")
-        h = self._put("h", root(one**2 - a**2), meaning="across it")
-        sine, cosine = self._hand.sine(w), self._hand.cosine(w)
-        self._triangle = ("1", self._place(first)), ("", meant), ("2", self._place(second))
-        found = first[0] + a * cosine - h * sine, first[1] + a * sine + h * cosine
-        mirrored = first[0] + a * cosine + h * sine, first[1] + a * sine - h * cosine
-        here = self._place(found)
-        return found if hypot(here[0] - meant[0], here[1] - meant[1]) <= _SAME else mirrored
-
-    # Corners -------------------------------------------------------------------------------------------------------
-
-    def _corner(self, corner: Corner) -> Calculation:
-        self._number += 1
-        solved, vertex = self._corners[corner.name], self._point(corner.at)
-        elements = {each.name: each for each in self._system.figure.path}
-        before = elements[corner.before]
-        after = elements[corner.after] if corner.after else None
-        name = f"{corner.name.replace(' ', '')}"
-        size = self._size(corner)
-        if isinstance(before, Line) and not isinstance(after, Arc):
-            one, other = self._angle_of(before), self._angle_after(corner, after)
-            if other is not None:
-                return self._between_lines(corner, solved, vertex, one, other, size)
-        if after is not None and corner.shape is CornerShape.FILLET:
-            return self._fillet_of_arcs(corner, solved, before, after, size)
-        if after is not None and corner.shape is CornerShape.CHAMFER_SETBACK:
-            return self._setbacks(corner, solved, before, after, size)
-        if after is not None and corner.shape.share:
-            return self._bevel_of_arc(corner, solved, before, after, size)
-        for part, point in (("begin", solved.begin), ("end", solved.end), ("center", solved.center)):
-            for axis, value in enumerate(point or ()):
-                symbol, found = self._sheet.put(f"{self._profile.plane.axes[axis]}_{part}_{name}", value)
-                self._lines.append(CalculationLine(symbol, symbol, "", found, "mm"))
-        return self._done(f"{corner.name}: beside an arc; its equations are solved together", is_searched=True)
-
-    def _size(self, corner: Corner) -> Any:
-        name = f"{corner.name}.radius"
-        return self._symbols.scalar(name if name in self._system.unknowns else corner.size)
-
-    def _angle_of(self, line: Line) -> Any:
-        if line.heading is not None:
-            return self._symbols.angle(line.heading)
-        (a, b), (c, d) = self._point(line.tail), self._point(line.toward or line.head)
-        return self._put(
-            f"w{line.name.replace(' ', '')}", self._hand.heading(d - b, c - a), "deg", f"angle of {line.name}"
-        )
-
-    def _angle_after(self, corner: Corner, after: Line | None) -> Any:
-        if after is not None:
-            return self._angle_of(after)
-        if corner.lands_on is not None:
-            return self._angle_of(self._system.figure.line(corner.lands_on))
-        return None
-
-    def _between_lines(
-        self, corner: Corner, solved: CornerSolution, vertex: Pair, one: Any, other: Any, size: Any
-    ) -> Calculation:
-        """A corner between two lines, by the right triangle of half the turn."""
-        sine, cosine = self._hand.sine, self._hand.cosine
-        turn = self._put("u", self._turn(one, other), "deg", "the turn from one line to the next")
-        back = ahead = size
-        why = "as far from the intersection on both lines"
-        if corner.shape is CornerShape.FILLET:
-            back = ahead = self._put("t", abs(size * self._hand.tangent(turn / 2)), meaning="from the intersection")
-            why = "right triangle of the radius and half the turn"
-        elif corner.shape is CornerShape.CHAMFER_FACE:
-            back = ahead = self._put("t", size / (2 * cosine(turn / 2)), meaning="from the intersection")
-            why = "right triangle of half the face and half the turn"
-        elif corner.shape.share:
-            share = self._hand.root(2) / 2 if corner.shape is CornerShape.CHAMFER_LENGTH_45 else 1
-            step = [size * share * (1 if solved.end[axis] > solved.begin[axis] else -1) for axis in (FIRST, SECOND)]
-            back = self._put(
-                "t", (step[0] * sine(other) - step[1] * cosine(other)) / sine(turn), meaning="on the first line"
-            )
-            ahead = self._put(
-                "v", (step[1] * cosine(one) - step[0] * sine(one)) / sine(turn), meaning="on the second line"
-            )
-            why = "triangle with two angles of 45 degrees to the axes"
-        own = corner.name.rpartition(" ")[2]
-        axes = self._profile.plane.axes
-        begin = vertex[0] - back * cosine(one), vertex[1] - back * sine(one)
-        end = vertex[0] + ahead * cosine(other), vertex[1] + ahead * sine(other)
-        starts = [self._put(self._named(axes[axis], "begin", own), begin[axis]) for axis in (FIRST, SECOND)]
-        for axis in (FIRST, SECOND):
-            self._put(self._named(axes[axis], "end", own), end[axis])
-        third = ("centre", solved.center) if solved.center else ("end", solved.end)
-        self._triangle = ("begin", solved.begin), (corner.at, self._place(vertex)), third
-        if corner.shape is CornerShape.FILLET:
-            side = 1 if solved.turn > 0 else -1
-            self._put(self._named(axes[0], "center", own), starts[0] - side * size * sine(one))
-            self._put(self._named(axes[1], "center", own), starts[1] + side * size * cosine(one))
-        return self._done(f"{corner.name}: {why}")
-
-    def _fillet_of_arcs(
-        self, corner: Corner, solved: CornerSolution, before: Line | Arc, after: Line | Arc, size: Any
-    ) -> Calculation:
-        """A rounding beside an arc: its centre lies on a line or a circle beside each of the two."""
-        if solved.center is None:
-            raise ValueError("a rounding has a centre")
-        side = 1 if solved.turn > 0 else -1
-        vertex, edges = self._point(corner.at), (before, after)
-        reaches = [self._reach(each, side, size) if isinstance(each, Arc) else None for each in edges]
-        if isinstance(before, Arc) and isinstance(after, Arc):
-            center = self._meeting(
-                self._point(before.center), self._point(after.center), reaches[0], reaches[1], solved.center
-            )
-        else:
-            line, arc = (before, after) if isinstance(before, Line) else (after, before)
-            if not isinstance(line, Line) or not isinstance(arc, Arc):
-                raise ValueError("one of two is a line, the other one an arc")
-            angle, reach = self._angle_of(line), reaches[edges.index(arc)]
-            sine, cosine = self._hand.sine(angle), self._hand.cosine(angle)
-            beside = vertex[0] - side * size * sine, vertex[1] + side * size * cosine
-            way = self._crossing(beside, angle, self._point(arc.center), reach, solved.center)
-            center = beside[0] + way * cosine, beside[1] + way * sine
-        own, axes = corner.name.rpartition(" ")[2], self._profile.plane.axes
-        m = [self._put(self._named(axes[axis], "center", own), center[axis]) for axis in (FIRST, SECOND)]
-        for place, edge, reach in zip(("begin", "end"), edges, reaches, strict=True):
-            if isinstance(edge, Arc):
-                middle, radius = self._point(edge.center), self._at.radius(edge.radius)
-                found = [middle[axis] + (m[axis] - middle[axis]) * radius / reach for axis in (FIRST, SECOND)]
-            else:
-                angle = self._angle_of(edge)
-                found = [m[0] + side * size * self._hand.sine(angle), m[1] - side * size * self._hand.cosine(angle)]
-            for axis in (FIRST, SECOND):
-                self._put(self._named(axes[axis], place, own), found[axis])
-        return self._done(f"{corner.name}: its centre is as far from both elements as its radius")
-
-    def _setbacks(
-        self, corner: Corner, solved: CornerSolution, before: Line | Arc, after: Line | Arc, size: Any
-    ) -> Calculation:
-        """A chamfer beside an arc whose ends are so far from the intersection, on an arc along the chord."""
-        vertex = self._point(corner.at)
-        own, axes = corner.name.rpartition(" ")[2], self._profile.plane.axes
-        for place, edge, way, meant in (("begin", before, -1, solved.begin), ("end", after, 1, solved.end)):
-            if isinstance(edge, Arc):
-                found = self._meeting(self._point(edge.center), vertex, self._at.radius(edge.radius), size, meant)
-            else:
-                angle = self._angle_of(edge)
-                found = (
-                    vertex[0] + way * size * self._hand.cosine(angle),
-                    vertex[1] + way * size * self._hand.sine(angle),
-                )
-            for axis in (FIRST, SECOND):
-                self._put(self._named(axes[axis], place, own), found[axis])
-        return self._done(f"{corner.name}: each end is so far from the intersection, on an arc along the chord")
-
-    def _bevel_of_arc(
-        self, corner: Corner, solved: CornerSolution, before: Line | Arc, after: Line | Arc, size: Any
-    ) -> Calculation:
-        """A chamfer at 45 degrees to the axes, whose one end is on a line and the other one on an arc."""
-        line, arc = (before, after) if isinstance(before, Line) else (after, before)
-        if not isinstance(line, Line) or not isinstance(arc, Arc):
-            raise ValueError("no control makes a 45 degree chamfer between two arcs")
-        vertex, center = self._point(corner.at), self._point(arc.center)
-        share = self._hand.root(2) / 2 if corner.shape is CornerShape.CHAMFER_LENGTH_45 else 1
-        steps = [size * share * (1 if solved.end[axis] > solved.begin[axis] else -1) for axis in (FIRST, SECOND)]
-        way = 1 if line is before else -1
-        moved = center[0] - way * steps[0], center[1] - way * steps[1]
-        angle, meant = self._angle_of(line), solved.begin if line is before else solved.end
-        along = self._crossing(vertex, angle, moved, self._at.radius(arc.radius), meant)
-        own, axes = corner.name.rpartition(" ")[2], self._profile.plane.axes
-        places = ("begin", "end") if line is before else ("end", "begin")
-        on_line = vertex[0] + along * self._hand.cosine(angle), vertex[1] + along * self._hand.sine(angle)
-        for axis in (FIRST, SECOND):
-            first = self._put(self._named(axes[axis], places[0], own), on_line[axis])
-            self._put(self._named(axes[axis], places[1], own), first + way * steps[axis])
-        return self._done(f"{corner.name}: the circle, moved by the chamfer, meets the line")
-
-    def _reach(self, arc: Arc, side: int, size: Any) -> Any:
-        """The distance of the centre of a rounding from that of an arc beside it."""
-        outward = self._at.radius(arc.radius) - arc.turn.sign * side * size
-        return self._put(f"q{arc.name.rpartition(' ')[2]}", outward, meaning=f"from {arc.center} to the centre")
-
-    def _named(self, axis: str, place: str, own: str) -> Any:
-        from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import
-
-        return symbolic.symbol(f"{axis}_{place}_{own}")
-
-    def _turn(self, one: Any, other: Any) -> Any:
-        """The turn between two angles, by whole turns between half of one to either side."""
-        degrees = (self._sheet.value(other) - self._sheet.value(one)) * 57.29577951308232
-        turns = round(degrees / 360)
-        return other - one - (2 * turns * self._pi() if turns else 0)
-
-    def _pi(self) -> Any:
-        from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import
-
-        return symbolic.PI
-
-
-_SAME = 1e-6
-"""mm by which two places of a step may differ and still be the same."""
 
 
 def _is_placed(step: ConstructionStep) -> bool:

@@ -70,6 +70,14 @@ def cosine(angle: Any) -> Any:
     return sympy.cos(angle)
 
 
+def arcsine(value: Any) -> Any:
+    """The angle whose sine is a value."""
+    return sympy.asin(value)
+
+
+PI = sympy.pi
+
+
 def root(value: Any) -> Any:
     """The square root."""
     return sympy.sqrt(value)

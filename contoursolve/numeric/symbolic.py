@@ -52,9 +52,13 @@ class Symbols:
         lines = [name.removesuffix(".cos") for name in self._symbols if name.endswith(".cos")]
         found = dict[Any, Any]()
         for line in lines:
-            angle = sympy.Symbol(self._call(line), real=True)
+            angle = self.turned_angle(line)
             found |= {self.scalar(f"{line}.cos"): sympy.cos(angle), self.scalar(f"{line}.sin"): sympy.sin(angle)}
         return found
+
+    def turned_angle(self, line: str) -> Any:
+        """The angle of a line whose direction is unknown."""
+        return sympy.Symbol(self._call(line), real=True)
 
     def points(self) -> list[tuple[Any, Any]]:
         """The coordinates of each point of which a formula asked for both."""

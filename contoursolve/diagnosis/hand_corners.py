@@ -1,0 +1,197 @@
+"""The calculation of corners by hand: the right triangle of half the turn, or circles beside arcs."""
+
+from typing import Any
+
+from contoursolve.diagnosis.hand_sheet import Calculation, CalculationLine, HandSheet, Pair
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Arc,
+    Corner,
+    CornerShape,
+    Line,
+)
+from contoursolve.solving import CornerSolution
+
+
+class HandCorners(HandSheet):
+    """The corners of a contour whose points are found."""
+
+    def _corner(self, corner: Corner) -> Calculation:
+        self._number += 1
+        solved, vertex = self._corners[corner.name], self._point(corner.at)
+        elements = {each.name: each for each in self._system.figure.path}
+        before = elements[corner.before]
+        after = elements[corner.after] if corner.after else None
+        name = f"{corner.name.replace(' ', '')}"
+        size = self._size(corner)
+        if isinstance(before, Line) and not isinstance(after, Arc):
+            one, other = self._angle_of(before), self._angle_after(corner, after)
+            if other is not None:
+                return self._between_lines(corner, solved, vertex, one, other, size)
+        if after is not None and corner.shape is CornerShape.FILLET:
+            return self._fillet_of_arcs(corner, solved, before, after, size)
+        if after is not None and corner.shape is CornerShape.CHAMFER_SETBACK:
+            return self._setbacks(corner, solved, before, after, size)
+        if after is not None and corner.shape.share:
+            return self._bevel_of_arc(corner, solved, before, after, size)
+        for part, point in (("begin", solved.begin), ("end", solved.end), ("center", solved.center)):
+            for axis, value in enumerate(point or ()):
+                symbol, found = self._sheet.put(f"{self._profile.plane.axes[axis]}_{part}_{name}", value)
+                self._lines.append(CalculationLine(symbol, symbol, "", found, "mm"))
+        return self._done(f"{corner.name}: beside an arc; its equations are solved together", is_searched=True)
+
+    def _size(self, corner: Corner) -> Any:
+        name = f"{corner.name}.radius"
+        return self._symbols.scalar(name if name in self._system.unknowns else corner.size)
+
+    def _angle_of(self, line: Line) -> Any:
+        if line.heading is not None:
+            return self._symbols.angle(line.heading)
+        (a, b), (c, d) = self._point(line.tail), self._point(line.toward or line.head)
+        return self._put(
+            f"w{line.name.replace(' ', '')}", self._hand.heading(d - b, c - a), "deg", f"angle of {line.name}"
+        )
+
+    def _angle_after(self, corner: Corner, after: Line | None) -> Any:
+        if after is not None:
+            return self._angle_of(after)
+        if corner.lands_on is not None:
+            return self._angle_of(self._system.figure.line(corner.lands_on))
+        return None
+
+    def _between_lines(
+        self, corner: Corner, solved: CornerSolution, vertex: Pair, one: Any, other: Any, size: Any
+    ) -> Calculation:
+        """A corner between two lines, by the right triangle of half the turn."""
+        sine, cosine = self._hand.sine, self._hand.cosine
+        turn = self._put("u", self._turn(one, other), "deg", "the turn from one line to the next")
+        back = ahead = size
+        why = "as far from the intersection on both lines"
+        if corner.shape is CornerShape.FILLET:
+            back = ahead = self._put("t", abs(size * self._hand.tangent(turn / 2)), meaning="from the intersection")
+            why = "right triangle of the radius and half the turn"
+        elif corner.shape is CornerShape.CHAMFER_FACE:
+            back = ahead = self._put("t", size / (2 * cosine(turn / 2)), meaning="from the intersection")
+            why = "right triangle of half the face and half the turn"
+        elif corner.shape.share:
+            share = self._hand.root(2) / 2 if corner.shape is CornerShape.CHAMFER_LENGTH_45 else 1
+            step = [size * share * (1 if solved.end[axis] > solved.begin[axis] else -1) for axis in (FIRST, SECOND)]
+            back = self._put(
+                "t", (step[0] * sine(other) - step[1] * cosine(other)) / sine(turn), meaning="on the first line"
+            )
+            ahead = self._put(
+                "v", (step[1] * cosine(one) - step[0] * sine(one)) / sine(turn), meaning="on the second line"
+            )
+            why = "triangle with two angles of 45 degrees to the axes"
+        own = corner.name.rpartition(" ")[2]
+        axes = self._profile.plane.axes
+        begin = vertex[0] - back * cosine(one), vertex[1] - back * sine(one)
+        end = vertex[0] + ahead * cosine(other), vertex[1] + ahead * sine(other)
+        starts = [self._put(self._named(axes[axis], "begin", own), begin[axis]) for axis in (FIRST, SECOND)]
+        for axis in (FIRST, SECOND):
+            self._put(self._named(axes[axis], "end", own), end[axis])
+        third = ("centre", solved.center) if solved.center else ("end", solved.end)
+        self._triangle = ("begin", solved.begin), (corner.at, self._place(vertex)), third
+        if corner.shape is CornerShape.FILLET:
+            side = 1 if solved.turn > 0 else -1
+            self._put(self._named(axes[0], "center", own), starts[0] - side * size * sine(one))
+            self._put(self._named(axes[1], "center", own), starts[1] + side * size * cosine(one))
+        return self._done(f"{corner.name}: {why}")
+
+    def _fillet_of_arcs(
+        self, corner: Corner, solved: CornerSolution, before: Line | Arc, after: Line | Arc, size: Any
+    ) -> Calculation:
+        """A rounding beside an arc: its centre lies on a line or a circle beside each of the two."""
+        if solved.center is None:
+            raise ValueError("a rounding has a centre")
+        side = 1 if solved.turn > 0 else -1
+        vertex, edges = self._point(corner.at), (before, after)
+        reaches = [self._reach(each, side, size) if isinstance(each, Arc) else None for each in edges]
+        if isinstance(before, Arc) and isinstance(after, Arc):
+            center = self._meeting(
+                self._point(before.center), self._point(after.center), reaches[0], reaches[1], solved.center
+            )
+        else:
+            line, arc = (before, after) if isinstance(before, Line) else (after, before)
+            if not isinstance(line, Line) or not isinstance(arc, Arc):
+                raise ValueError("one of two is a line, the other one an arc")
+            angle, reach = self._angle_of(line), reaches[edges.index(arc)]
+            sine, cosine = self._hand.sine(angle), self._hand.cosine(angle)
+            beside = vertex[0] - side * size * sine, vertex[1] + side * size * cosine
+            way = self._crossing(beside, angle, self._point(arc.center), reach, solved.center)
+            center = beside[0] + way * cosine, beside[1] + way * sine
+        own, axes = corner.name.rpartition(" ")[2], self._profile.plane.axes
+        m = [self._put(self._named(axes[axis], "center", own), center[axis]) for axis in (FIRST, SECOND)]
+        for place, edge, reach in zip(("begin", "end"), edges, reaches, strict=True):
+            if isinstance(edge, Arc):
+                middle, radius = self._point(edge.center), self._at.radius(edge.radius)
+                found = [middle[axis] + (m[axis] - middle[axis]) * radius / reach for axis in (FIRST, SECOND)]
+            else:
+                angle = self._angle_of(edge)
+                found = [m[0] + side * size * self._hand.sine(angle), m[1] - side * size * self._hand.cosine(angle)]
+            for axis in (FIRST, SECOND):
+                self._put(self._named(axes[axis], place, own), found[axis])
+        return self._done(f"{corner.name}: its centre is as far from both elements as its radius")
+
+    def _setbacks(
+        self, corner: Corner, solved: CornerSolution, before: Line | Arc, after: Line | Arc, size: Any
+    ) -> Calculation:
+        """A chamfer beside an arc whose ends are so far from the intersection, on an arc along the chord."""
+        vertex = self._point(corner.at)
+        own, axes = corner.name.rpartition(" ")[2], self._profile.plane.axes
+        for place, edge, way, meant in (("begin", before, -1, solved.begin), ("end", after, 1, solved.end)):
+            if isinstance(edge, Arc):
+                found = self._meeting(self._point(edge.center), vertex, self._at.radius(edge.radius), size, meant)
+            else:
+                angle = self._angle_of(edge)
+                found = (
+                    vertex[0] + way * size * self._hand.cosine(angle),
+                    vertex[1] + way * size * self._hand.sine(angle),
+                )
+            for axis in (FIRST, SECOND):
+                self._put(self._named(axes[axis], place, own), found[axis])
+        return self._done(f"{corner.name}: each end is so far from the intersection, on an arc along the chord")
+
+    def _bevel_of_arc(
+        self, corner: Corner, solved: CornerSolution, before: Line | Arc, after: Line | Arc, size: Any
+    ) -> Calculation:
+        """A chamfer at 45 degrees to the axes, whose one end is on a line and the other one on an arc."""
+        line, arc = (before, after) if isinstance(before, Line) else (after, before)
+        if not isinstance(line, Line) or not isinstance(arc, Arc):
+            raise ValueError("no control makes a 45 degree chamfer between two arcs")
+        vertex, center = self._point(corner.at), self._point(arc.center)
+        share = self._hand.root(2) / 2 if corner.shape is CornerShape.CHAMFER_LENGTH_45 else 1
+        steps = [size * share * (1 if solved.end[axis] > solved.begin[axis] else -1) for axis in (FIRST, SECOND)]
+        way = 1 if line is before else -1
+        moved = center[0] - way * steps[0], center[1] - way * steps[1]
+        angle, meant = self._angle_of(line), solved.begin if line is before else solved.end
+        along = self._crossing(vertex, angle, moved, self._at.radius(arc.radius), meant)
+        own, axes = corner.name.rpartition(" ")[2], self._profile.plane.axes
+        places = ("begin", "end") if line is before else ("end", "begin")
+        on_line = vertex[0] + along * self._hand.cosine(angle), vertex[1] + along * self._hand.sine(angle)
+        for axis in (FIRST, SECOND):
+            first = self._put(self._named(axes[axis], places[0], own), on_line[axis])
+            self._put(self._named(axes[axis], places[1], own), first + way * steps[axis])
+        return self._done(f"{corner.name}: the circle, moved by the chamfer, meets the line")
+
+    def _reach(self, arc: Arc, side: int, size: Any) -> Any:
+        """The distance of the centre of a rounding from that of an arc beside it."""
+        outward = self._at.radius(arc.radius) - arc.turn.sign * side * size
+        return self._put(f"q{arc.name.rpartition(' ')[2]}", outward, meaning=f"from {arc.center} to the centre")
+
+    def _named(self, axis: str, place: str, own: str) -> Any:
+        from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import
+
+        return symbolic.symbol(f"{axis}_{place}_{own}")
+
+    def _turn(self, one: Any, other: Any) -> Any:
+        """The turn between two angles, by whole turns between half of one to either side."""
+        degrees = (self._sheet.value(other) - self._sheet.value(one)) * 57.29577951308232
+        turns = round(degrees / 360)
+        return other - one - (2 * turns * self._pi() if turns else 0)
+
+    def _pi(self) -> Any:
+        from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import
+
+        return symbolic.PI

@@ -1,0 +1,147 @@
+"""The sheet of a calculation by hand: its lines, with the triangles of which several steps are made."""
+
+from collections.abc import Mapping
+from math import hypot
+from typing import Any
+
+from msgspec import Struct
+
+from contoursolve.diagnostics import Shown
+from contoursolve.geometry import (
+    FIRST,
+    SECOND,
+    Profile,
+    System,
+    scalar,
+)
+from contoursolve.solving import CornerSolution, symbolic_values
+
+Pair = tuple[Any, Any]
+
+
+Triangle = tuple[tuple[str, tuple[float, float]], ...]
+"""The corners of a triangle by their names, mm."""
+
+
+class CalculationLine(Struct, frozen=True):
+    """One line: the symbol that it finds, the formula (of sympy), the same with numbers, and the value: mm, X of a
+    lathe as radius, or degrees."""
+
+    symbol: Any
+    formula: Any
+    numbers: str
+    value: float
+    unit: str
+    meaning: str = ""
+
+
+class Calculation(Struct, frozen=True):
+    """The lines that find one point, radius or corner: what is found, why so, and the corners of the triangle in which
+    it is calculated (mm); none where there is no triangle. `is_searched` tells that nobody can calculate it by hand."""
+
+    title: str
+    lines: tuple[CalculationLine, ...]
+    triangle: Triangle = ()
+    is_searched: bool = False
+
+
+class Derivation(Shown, Struct, frozen=True):
+    """The calculation of a contour by hand: `steps` find its points one after the other, then its corners."""
+
+    steps: tuple[Calculation, ...]
+
+
+class HandSheet:
+    """The lines of the calculation of one contour, in the symbols of its system, with the values so far."""
+
+    def __init__(
+        self,
+        profile: Profile,
+        system: System,
+        symbols: Any,
+        values: Mapping[Any, Any],
+        scalars: Mapping[str, float],
+        corners: Mapping[str, CornerSolution],
+    ) -> None:
+        from contoursolve.numeric import hand, symbolic  # noqa: PLC0415 - sympy is slow to import
+
+        self._hand = hand
+        self._profile, self._system, self._symbols = profile, system, symbols
+        self._scalars, self._corners = scalars, corners
+        self._sheet = hand.Sheet(values)
+        self._sheet.angles |= {
+            symbols.angle(given.name) for given in profile.givens.values() if given.unit.value == "deg"
+        }
+        self._at = symbolic_values(symbols, symbolic.FUNCTIONS, system.headed)
+        self._number = 0
+        self._lines: list[CalculationLine] = []
+        self._triangle: Triangle = ()
+
+    def _put(self, name: str | Any, formula: Any, unit: str = "mm", meaning: str = "") -> Any:
+        """A line of the calculation; its symbol."""
+        is_angle = unit == "deg"
+        own = f"{name}_{self._number}" if isinstance(name, str) else name
+        numbers = self._sheet.numbers(formula)
+        symbol, value = self._sheet.put(own, formula, is_angle=is_angle)
+        shown = value * 57.29577951308232 if is_angle else value
+        self._lines.append(CalculationLine(symbol, formula, numbers, shown, unit, meaning))
+        return symbol
+
+    def _done(self, title: str, *, is_searched: bool = False) -> Calculation:
+        found = Calculation(title, tuple(self._lines), self._triangle, is_searched)
+        self._lines, self._triangle = [], ()
+        return found
+
+    def _point(self, name: str) -> Pair:
+        return self._at.coordinate(name, FIRST), self._at.coordinate(name, SECOND)
+
+    def _place(self, pair: Pair) -> tuple[float, float]:
+        return self._sheet.value(pair[0]), self._sheet.value(pair[1])
+
+    def _right(self, one: str, first: Pair, other: str, second: Pair) -> Triangle:
+        """The right triangle between two points, with its legs along the axes."""
+        (a, b), (x, y) = self._place(first), self._place(second)
+        return (one, (a, b)), ("", (x, b)), (other, (x, y))
+
+    def _meant(self, point: str) -> tuple[float, float]:
+        return self._scalars[scalar(point, FIRST)], self._scalars[scalar(point, SECOND)]
+
+    def _crossing(self, tail: Pair, angle: Any, center: Pair, radius: Any, meant: tuple[float, float]) -> Any:
+        """The way along a line to a circle, on that side on which a point is meant."""
+        sine, cosine = self._hand.sine(angle), self._hand.cosine(angle)
+        east, north = center[0] - tail[0], center[1] - tail[1]
+        d = self._put("d", north * cosine - east * sine, meaning="from the line to the centre")
+        f = self._put("f", east * cosine + north * sine, meaning="along the line to the foot of that")
+        h = self._put("h", self._hand.root(radius**2 - d**2), meaning="half the chord")
+        way = f + h
+        for sign in (1, -1):
+            s = self._sheet.value(f + sign * h)
+            place = (
+                self._sheet.value(tail[0]) + s * self._sheet.value(cosine),
+                self._sheet.value(tail[1]) + s * self._sheet.value(sine),
+            )
+            if hypot(place[0] - meant[0], place[1] - meant[1]) <= SAME:
+                way = f + sign * h
+        foot = tail[0] + f * cosine, tail[1] + f * sine
+        self._triangle = ("centre", self._place(center)), ("foot", self._place(foot)), ("", meant)
+        return way
+
+    def _meeting(self, first: Pair, second: Pair, one: Any, other: Any, meant: tuple[float, float]) -> tuple[Any, Any]:
+        """The formulas of a point at distances from two others, on that side on which it is meant."""
+        root = self._hand.root
+        c = self._put("c", root((second[0] - first[0]) ** 2 + (second[1] - first[1]) ** 2), meaning="between them")
+        w = self._put(
+            "w", self._hand.heading(second[1] - first[1], second[0] - first[0]), "deg", "from one to the other"
+        )
+        a = self._put("a", (c**2 + one**2 - other**2) / (2 * c), meaning="along that")
+        h = self._put("h", root(one**2 - a**2), meaning="across it")
+        sine, cosine = self._hand.sine(w), self._hand.cosine(w)
+        self._triangle = ("1", self._place(first)), ("", meant), ("2", self._place(second))
+        found = first[0] + a * cosine - h * sine, first[1] + a * sine + h * cosine
+        mirrored = first[0] + a * cosine + h * sine, first[1] + a * sine - h * cosine
+        here = self._place(found)
+        return found if hypot(here[0] - meant[0], here[1] - meant[1]) <= SAME else mirrored
+
+
+SAME = 1e-6
+"""mm by which two places of a step may differ and still be the same."""
