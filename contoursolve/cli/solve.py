@@ -29,6 +29,7 @@ from contoursolve.output import Totals, closing_lines, stream_json, stream_listi
     show_default=True,
     help="What to print; json is in mm, with X as radius.",
 )
+@click.option("--derivation", "is_derived", is_flag=True, help="Also print the calculation by hand.")
 @explain_option("the equations, the construction, the checks, every reason and every fix")
 @click.pass_context
 def solve(
@@ -38,6 +39,7 @@ def solve(
     blocks: tuple[str, ...],
     start: str | None,
     format_: str,
+    is_derived: bool,
     is_explained: bool,
     assignments: tuple[str, ...],
     **options: Any,
@@ -60,7 +62,7 @@ def solve(
     if format_ == "json":
         print_pieces(stream_json(run, tally))
     else:
-        print_lines(stream_listing(run, tally, style_of_output(), is_explained=is_explained))
+        print_lines(stream_listing(run, tally, style_of_output(), is_explained=is_explained, is_derived=is_derived))
         if run.is_strict or is_explained or tally.has_something:
             print_lines(closing_lines(run.frame, tally))
     context.exit(status_of(tally, tally.severities[Severity.ERROR]))

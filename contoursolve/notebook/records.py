@@ -6,7 +6,7 @@ from math import isnan
 from typing import Any
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, EquationSystem, axis_labels, count
+from contoursolve.diagnosis import Answer, Derivation, EquationSystem, axis_labels, count
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown, Tie
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
 from contoursolve.gcode import Block, Program, Word
@@ -206,6 +206,12 @@ def _system(system: EquationSystem) -> Iterator[str]:
     yield from system_lines(system)
 
 
+def _derivation(derivation: Derivation) -> Iterator[str]:
+    from contoursolve.output import derivation_lines  # noqa: PLC0415 - sympy is slow to import
+
+    yield from derivation_lines(derivation)
+
+
 _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Result: _result,
     Answer: _answer,
@@ -223,4 +229,5 @@ _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Sensitivity: _sensitivity,
     Sketch: _sketch,
     EquationSystem: _system,
+    Derivation: _derivation,
 }

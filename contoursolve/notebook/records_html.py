@@ -7,7 +7,7 @@ import htpy as h
 from markupsafe import Markup
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, EquationSystem, count
+from contoursolve.diagnosis import Answer, Derivation, EquationSystem, count
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
 from contoursolve.gcode import Block
@@ -25,6 +25,7 @@ from contoursolve.output import (
     check_table,
     checks_table,
     contribution_table,
+    derivation_element,
     figure,
     finding_element,
     form_text,
@@ -219,4 +220,5 @@ _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Drawings: _sketch,
     Drawn: _sketch,
     EquationSystem: system_element,
+    Derivation: derivation_element,
 }

@@ -18,6 +18,8 @@ from .contours import (
     path_table as path_table,
     solution_rows as solution_rows,
 )
+from .derivation import derivation_lines as derivation_lines
+from .derivation_html import derivation_element as derivation_element
 from .document import (
     Findings as Findings,
     Shelf as Shelf,

@@ -60,8 +60,9 @@ def explaining_lines(answer: Answer) -> list[str]:
     return lines
 
 
-def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False) -> list[str]:
-    """The listing of one contour, in the unit and the axes of its program; explained with its construction."""
+def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False, is_derived: bool = False) -> list[str]:
+    """The listing of one contour, in the unit and the axes of its program; explained with its equations and its
+    construction, derived with the calculation by hand."""
     alternatives = list_alternatives(answer)
     if alternatives is not answer.alternatives:
         # Found here once, for the construction and for the list.
@@ -71,6 +72,10 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False)
     lines += ["", *columns(given_table(answer).rows, left=(0, 3))]
     if is_explained:
         lines += ["", *explaining_lines(answer)]
+    if is_derived and answer.contour:
+        from contoursolve.output.derivation import derivation_lines  # noqa: PLC0415 - sympy is slow to import
+
+        lines += ["", *derivation_lines(answer.system.derivation)]
     if answer.contour:
         path = path_table(answer.contour, answer.unit)
         lines += ["", *columns([("", "", *path.header[2:]), *path.rows], path.left)]

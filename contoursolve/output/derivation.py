@@ -21,11 +21,14 @@ def _cells(line: CalculationLine, step: Calculation) -> tuple[str, str, str, str
     if step.is_searched:
         return symbolic.text(line.symbol), f"= {result}", "", ""
     formula = symbolic.text(line.formula)
-    numbers = line.numbers.removeprefix("(").removesuffix(")") if line.formula.is_Symbol else line.numbers
-    shown = f"= {result}" if numbers in (result, f"{line.value:z.4f}") else f"= {numbers} = {result}"
-    if line.formula.is_Symbol:
-        shown = f"= {result}"
+    numbers = numbers_text(line)
+    shown = f"= {numbers} = {result}" if numbers else f"= {result}"
     return symbolic.text(line.symbol), f"= {formula}", shown, line.meaning
+
+
+def numbers_text(line: CalculationLine) -> str:
+    """A formula with its numbers; empty where that is the result itself."""
+    return "" if line.formula.is_Symbol else line.numbers
 
 
 def value_text(line: CalculationLine) -> str:

@@ -16,24 +16,25 @@ from contoursolve.output.plain_text import printable
 def system_element(system: EquationSystem) -> Iterator[h.Node]:
     """The same as HTML: each formula as MathML, which browsers draw and screen readers read out."""
     yield h.p[f"{size_text(system)}."]
-    equations = [(*stated_pair(each), _math(each.equation)) for each in system.statements]
+    equations = [(*stated_pair(each), maths(each.equation)) for each in system.statements]
     yield table("Equations", ("word", "what it says", "equation"), equations)
     if system.free:
         yield h.p[f"{open_line(system).capitalize()}."]
     if system.conditions:
-        rows = [(printable(each.meaning), _math(each.expression), _value(each)) for each in system.conditions]
+        rows = [(printable(each.meaning), maths(each.expression), _value(each)) for each in system.conditions]
         yield table("Conditions", ("what must hold", "must not be 0", "value here"), rows, numbers=(2,))
     if system.ties:
-        ties = [(" ".join(each.words), "" if each.identity is None else _math(each.identity)) for each in system.ties]
+        ties = [(" ".join(each.words), "" if each.identity is None else maths(each.identity)) for each in system.ties]
         yield table("What says the same", ("words", "formula"), ties)
     yield h.details[h.summary["Unknowns and values"], table_of(unknown_table(system)), table_of(value_table(system))]
     for corner in system.corners:
-        told = [(each.meaning, _math(each.equation)) for each in corner.equations]
+        told = [(each.meaning, maths(each.equation)) for each in corner.equations]
         own = table(f"Equations of {corner.name}", ("what it says", "equation"), told)
         yield h.details[h.summary[corner.name.capitalize()], own]
 
 
-def _math(expression: Any) -> h.Node:
+def maths(expression: Any) -> h.Node:
+    """An expression, or an equation, as MathML with its text as the alternative."""
     # Made by sympy of our own symbols: no text of a program.
     alternative = symbolic.text(expression)
     return h.math(xmlns="http://www.w3.org/1998/Math/MathML", alttext=alternative)[Markup(symbolic.mathml(expression))]

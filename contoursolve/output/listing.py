@@ -51,8 +51,11 @@ def listing_lines(result: Result, style: Style, *, is_explained: bool = False) -
     return _listing_lines(listed(result), result, style, is_explained=is_explained)
 
 
-def stream_listing(run: Run, tally: "Totals", style: Style, *, is_explained: bool = False) -> Iterator[str]:
-    """The same of a stream; that there is nothing to solve is one line."""
+def stream_listing(
+    run: Run, tally: "Totals", style: Style, *, is_explained: bool = False, is_derived: bool = False
+) -> Iterator[str]:
+    """The same of a stream; that there is nothing to solve is one line. With `is_derived`, contours are calculated by
+    hand."""
 
     def key(item: Answer | Diagnostic) -> Any:
         tally.count(item, is_explained=is_explained)
@@ -60,7 +63,8 @@ def stream_listing(run: Run, tally: "Totals", style: Style, *, is_explained: boo
 
     items = _in_order((key(item), item) for item in run)
     is_short = not (run.is_strict or is_explained)
-    return _listing_lines(items, run.frame, style, is_explained=is_explained, is_short=is_short)
+    options = {"is_explained": is_explained, "is_short": is_short, "is_derived": is_derived}
+    return _listing_lines(items, run.frame, style, **options)
 
 
 def stream_findings(
@@ -182,11 +186,17 @@ def _in_order(items: Iterable[tuple[Any, _Item]]) -> Iterator[_Item]:
 
 
 def _listing_lines(
-    items: Iterable[Diagnostic | Answer], result: Result, style: Style, *, is_explained: bool, is_short: bool = False
+    items: Iterable[Diagnostic | Answer],
+    result: Result,
+    style: Style,
+    *,
+    is_explained: bool,
+    is_short: bool = False,
+    is_derived: bool = False,
 ) -> Iterator[str]:
     for item in items:
         if isinstance(item, Answer):
-            yield from contour_lines(item, result, is_explained=is_explained)
+            yield from contour_lines(item, result, is_explained=is_explained, is_derived=is_derived)
         findings = findings_of(item, is_explained=is_explained)
         yield from lines_of_findings(result, findings, style, is_explained=is_explained, is_short=is_short)
 

@@ -222,7 +222,8 @@ def _contour(
 
 
 def _explained(answer: Answer) -> h.Element:
-    """The equations of a contour as maths, and its construction."""
+    """The equations of a contour as maths, its construction, and its calculation by hand."""
+    from contoursolve.output.derivation_html import derivation_element  # noqa: PLC0415 - sympy is slow to import
     from contoursolve.output.equations_html import system_element  # noqa: PLC0415 - sympy is slow to import
 
     return h.section(".equations")[
@@ -230,6 +231,7 @@ def _explained(answer: Answer) -> h.Element:
         *system_element(answer.system),
         h.h4["Construction"],
         h.pre["\n".join(line[2:] for line in construction_lines(answer)[1:])],
+        [h.h4["Calculation by hand"], *derivation_element(answer.system.derivation)] if answer.contour else None,
     ]
 
 

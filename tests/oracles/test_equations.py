@@ -44,6 +44,10 @@ def test_contours_satisfy_their_equations_and_are_what_their_function_gives(prog
         for corner in system.corners:
             known = values | {each.symbol: each.value for each in corner.unknowns}
             assert all(off(each.equation, known) < 1e-6 for each in corner.equations), (name, corner.name)
+        known = values | {each.symbol: each.value for corner in system.corners for each in corner.unknowns}
+        lines = [line for step in system.derivation.steps for line in step.lines if line.symbol in known]
+        assert {each.symbol for each in system.unknowns if each.unit} <= {line.symbol for line in lines}, name
+        assert all(abs(line.value - float(known[line.symbol])) < 1e-6 for line in lines), name
         found = {key: np.array(value) for key, value in system.function()(**system.inputs).items()}
         rows = system.rows
         assert all(len(rows[key]) == len(value) for key, value in found.items()), name
