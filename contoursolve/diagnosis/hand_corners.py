@@ -1,5 +1,6 @@
 """The calculation of corners by hand: the right triangle of half the turn, or circles beside arcs."""
 
+from collections.abc import Mapping
 from typing import Any
 
 from contoursolve.diagnosis.hand_sheet import Calculation, CalculationLine, HandSheet, Pair
@@ -17,23 +18,23 @@ from contoursolve.solving import CornerSolution
 class HandCorners(HandSheet):
     """The corners of a contour whose points are found."""
 
+    _landing: Any = None
+    """The angle of the line on which a corner lands where no element follows."""
+
     def _corner(self, corner: Corner) -> Calculation:
         self._number += 1
         solved, vertex = self._corners[corner.name], self._point(corner.at)
         elements = {each.name: each for each in self._system.figure.path}
-        before = elements[corner.before]
-        after = elements[corner.after] if corner.after else None
+        before, after, size = elements[corner.before], self._after(corner, elements, solved), self._size(corner)
         name = f"{corner.name.replace(' ', '')}"
-        size = self._size(corner)
-        if isinstance(before, Line) and not isinstance(after, Arc):
-            one, other = self._angle_of(before), self._angle_after(corner, after)
-            if other is not None:
-                return self._between_lines(corner, solved, vertex, one, other, size)
-        if after is not None and corner.shape is CornerShape.FILLET:
+        if isinstance(before, Line) and isinstance(after, Line):
+            one, other = self._angle_of(before), self._angle_of(after)
+            return self._between_lines(corner, solved, vertex, one, other, size)
+        if corner.shape is CornerShape.FILLET:
             return self._fillet_of_arcs(corner, solved, before, after, size)
-        if after is not None and corner.shape is CornerShape.CHAMFER_SETBACK:
+        if corner.shape is CornerShape.CHAMFER_SETBACK:
             return self._setbacks(corner, solved, before, after, size)
-        if after is not None and corner.shape.share:
+        if corner.shape.share:
             return self._bevel_of_arc(corner, solved, before, after, size)
         for part, point in (("begin", solved.begin), ("end", solved.end), ("center", solved.center)):
             for axis, value in enumerate(point or ()):
@@ -46,6 +47,8 @@ class HandCorners(HandSheet):
         return self._symbols.scalar(name if name in self._system.unknowns else corner.size)
 
     def _angle_of(self, line: Line) -> Any:
+        if not line.name:
+            return self._landing
         if line.heading is not None:
             return self._symbols.angle(line.heading)
         (a, b), (c, d) = self._point(line.tail), self._point(line.toward or line.head)
@@ -53,12 +56,19 @@ class HandCorners(HandSheet):
             f"w{line.name.replace(' ', '')}", self._hand.heading(d - b, c - a), "deg", f"angle of {line.name}"
         )
 
-    def _angle_after(self, corner: Corner, after: Line | None) -> Any:
-        if after is not None:
-            return self._angle_of(after)
+    def _after(self, corner: Corner, elements: Mapping[str, Line | Arc], solved: CornerSolution) -> Line | Arc:
+        """The element behind a corner; where none follows, the line on which it lands, with its angle."""
+        if corner.after is not None:
+            return elements[corner.after]
         if corner.lands_on is not None:
-            return self._angle_of(self._system.figure.line(corner.lands_on))
-        return None
+            return self._system.figure.line(corner.lands_on)
+        axis = FIRST if corner.lands_parallel_to == FIRST else SECOND
+        vertex = self._place(self._point(corner.at))
+        turns = (0 if axis == FIRST else 1) + (0 if solved.end[axis] > vertex[axis] else 2)
+        letter = self._profile.plane.axes[axis]
+        told = f"angle of the line that it lands on, along {letter}"
+        self._landing = self._put("w", turns * self._hand.PI / 2, "deg", told)
+        return Line("", corner.at, corner.at)
 
     def _between_lines(
         self, corner: Corner, solved: CornerSolution, vertex: Pair, one: Any, other: Any, size: Any
