@@ -8,7 +8,9 @@ from contoursolve.diagnosis.hand_corners import HandCorners
 from contoursolve.diagnosis.hand_sheet import Calculation, CalculationLine, Pair
 from contoursolve.geometry import (
     FIRST,
+    Chord,
     Fact,
+    Tangent,
     line_scalars,
 )
 from contoursolve.solving import ConstructionStep, StepKind, steps_of
@@ -56,7 +58,11 @@ class HandCalculation(HandCorners):
                 return self._two_circles(step)
             case StepKind.AFFINE if not is_direction:
                 return self._linear(step)
-        return self._polar(step) if is_polar else self._direction(step) if is_direction else None
+        if is_polar:
+            return self._polar(step)
+        if is_direction:
+            return self._direction(step)
+        return self._tangent_arc(step) or self._beside_line(step)
 
     def _radius(self, step: ConstructionStep) -> Calculation:
         """A radius, the long side of a right triangle."""
@@ -108,6 +114,65 @@ class HandCalculation(HandCorners):
         self._put(y, b + far * self._hand.sine(angle))
         self._triangle = self._right(tail, (a, b), head, (x, y))
         return self._done(f"{step.point}: right triangle from {tail}, the long side and the angle are known")
+
+    def _tangent_arc(self, step: ConstructionStep) -> Calculation | None:
+        """An arc that begins in a known direction and leads to a known point; None for another step."""
+        turned = next(
+            (fact for fact in step.facts if fact.turn_between and isinstance(fact.turn_between[1], Tangent)), None
+        )
+        circles = [fact.circle for fact in step.facts if fact.circle]
+        if turned is None or turned.turn_between is None or len(circles) != 2 or len(step.facts) != 3:  # noqa: PLR2004
+            return None
+        chord, tangent = turned.turn_between
+        ends = [circle.point for circle in circles if circle.point != tangent.point]
+        if not isinstance(chord, Chord) or len(ends) != 1:
+            return None
+        (a, b), (c, d), (e, f) = map(self._point, (chord.tail, chord.head, tangent.point))
+        x, y = self._point(ends[0])
+        way = self._put("w", self._hand.heading(d - b, c - a), "deg", f"angle from {chord.tail} to {chord.head}")
+        way = way + self._symbols.angle(turned.given)
+        far = self._put("k", self._hand.root((x - e) ** 2 + (y - f) ** 2), meaning="the chord")
+        across = self._put("v", self._hand.heading(y - f, x - e), "deg", f"angle from {tangent.point} to {ends[0]}")
+        radius = self._symbols.scalar(tangent.radius)
+        self._put(
+            radius, tangent.turn.sign * far / (2 * self._hand.sine(across - way)), meaning="half the chord, by its sine"
+        )
+        first, second = self._point(tangent.center)
+        self._put(first, e - tangent.turn.sign * radius * self._hand.sine(way))
+        self._put(second, f + tangent.turn.sign * radius * self._hand.cosine(way))
+        self._triangle = (
+            (tangent.point, self._place((e, f))),
+            ("centre", self._place((first, second))),
+            (ends[0], self._place((x, y))),
+        )
+        return self._done(
+            f"{tangent.center}: on the perpendicular at {tangent.point}; the chord and its angle are known"
+        )
+
+    def _beside_line(self, step: ConstructionStep) -> Calculation | None:
+        """The centre of a circle of known radius that touches a known line and leads through a known point; None for
+        another step."""
+        touching = next((fact.beside for fact in step.facts if fact.beside and fact.beside.line), None)
+        circle = next((fact.circle for fact in step.facts if fact.circle), None)
+        if touching is None or circle is None or len(step.unknowns) != len(step.facts) or len(step.facts) != 2:  # noqa: PLR2004
+            return None
+        if step.point != touching.center or circle.center != touching.center:
+            return None
+        headed = self._system.headed.get(touching.line)
+        if headed is None:
+            return None
+        angle, (a, b), radius = self._symbols.angle(headed[0]), self._point(headed[1]), self._at.radius(touching.radius)
+        sine, cosine = self._hand.sine(angle), self._hand.cosine(angle)
+        first, second = self._meant(step.point)
+        left = (second - self._sheet.value(b)) * self._sheet.value(cosine)
+        left -= (first - self._sheet.value(a)) * self._sheet.value(sine)
+        side = 1 if left > 0 else -1
+        beside = a - side * radius * sine, b + side * radius * cosine
+        along = self._crossing(beside, angle, self._point(circle.point), radius, (first, second))
+        x, y = self._point(step.point)
+        self._put(x, beside[0] + along * cosine)
+        self._put(y, beside[1] + along * sine)
+        return self._done(f"{step.point}: as far from the line as from {circle.point}")
 
     def _direction(self, step: ConstructionStep) -> Calculation | None:
         """The direction of a line that passes known points, or touches known circles; None for another one."""
