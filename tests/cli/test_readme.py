@@ -96,6 +96,12 @@ def test_the_architecture_page_shows_what_each_stage_makes() -> None:
     assert tried >= 20
 
 
+def test_the_page_by_hand_shows_what_is_calculated() -> None:
+    failed, tried = doctest.testfile(str(ROOT / "docs" / "by-hand.md"), module_relative=False)
+    assert not failed
+    assert tried >= 15
+
+
 def test_each_diff_of_the_architecture_page_stands_in_the_file_that_it_names() -> None:
     (text,) = (text for page, text in PAGES.items() if page.endswith("architecture.md"))
     shown = re.findall(r"^\+\+\+ b/(.*)\n((?:[ +].*\n|\n)+?)(?=---|```)", text, re.MULTILINE)
