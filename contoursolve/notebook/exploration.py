@@ -23,6 +23,7 @@ from contoursolve.diagnosis import (
 )
 from contoursolve.gcode import FACT, Program, Word, number_of, parse, spell
 from contoursolve.geometry import Pick, Unit
+from contoursolve.output import stated_words
 from contoursolve.program import Result, UnknownControlError, changed, changes_of
 from contoursolve.solving import Status
 
@@ -124,6 +125,13 @@ def words_of(answer: Answer) -> dict[str, Word]:
     keys = word_keys(answer.claim.words.values())
     words = {word.span: word for word in answer.claim.words.values()}
     return {key: words[span] for span, key in keys.items()}
+
+
+def values_of(exploration: Exploration) -> dict[str, float]:
+    """The values of the words as they are typed, by their keys; none of those that are asked for."""
+    answer = exploration.answer
+    found = {} if answer is None else {each.key: each.value for each in stated_words(answer)}
+    return {key: value for key, value in found.items() if value is not None and key != FACT}
 
 
 def set_word(exploration: Exploration, key: str, value: float | str) -> Exploration:

@@ -25,8 +25,9 @@ def explore(
 ) -> "Explorer":
     """A contour to move, in a notebook: a slider for each word, the picture, the findings and their fixes.
 
-    Arguments and errors as for `solve`; `block` may be several lines, with one contour. The widget's `text` is the
-    block as it is now, `result` what it comes to. Without a kernel the notebook shows the picture as it last was.
+    Arguments and errors as for `solve`; `block` may be several lines, with one contour. The widget's traits
+    `text` and `values` are the block as it is now, and may be set; `answer` and `result` are what it comes to, and can
+    be observed. Without a kernel the notebook shows the picture as it last was.
     Numbers take the place of variables, and the words that hold them have the sliders.
 
     Raises FamilyError for a variable without a value, MissingExtraError without the packages of

@@ -173,7 +173,9 @@ function render({ model, el }) {
 
   function pressed(event) {
     event.stopPropagation();
-    if (!(event.ctrlKey || event.metaKey) || event.target === text || event.target.type === "number") return;
+    if (!(event.ctrlKey || event.metaKey) || event.target === text) return;
+    // What is being typed in a field is the browser's to take back.
+    if ([...rows.values()].some((row) => row.number === event.target && row.isTyping)) return;
     const key = event.key.toLowerCase();
     if (key !== "z" && key !== "y") return;
     event.preventDefault();
@@ -853,7 +855,18 @@ function render({ model, el }) {
   for (const element of [document.documentElement, document.body]) {
     observer.observe(element, { attributes: true, attributeFilter: ["class", "style", "data-theme", "data-jp-theme-light", "data-jp-theme-name", "data-vscode-theme-kind"] });
   }
-  model.on("change:number", show);
+  // What one answer changes comes in one event each, in any order: it is shown when all of it is there.
+  const CHANGED = ["view", "ranges", "ghost", "number"].map((name) => `change:${name}`);
+  let isDue = false;
+  const changed = () => {
+    if (isDue) return;
+    isDue = true;
+    queueMicrotask(() => {
+      isDue = false;
+      show();
+    });
+  };
+  for (const name of CHANGED) model.on(name, changed);
   followTheme();
   requestAnimationFrame(followTheme);
   show();
@@ -862,7 +875,7 @@ function render({ model, el }) {
     for (const timer of [quiet, silence, settling]) clearTimeout(timer);
     for (const signal of signals) signal.disconnect(followKernel);
     observer.disconnect();
-    model.off("change:number", show);
+    for (const name of CHANGED) model.off(name, changed);
   };
 }
 

@@ -395,3 +395,21 @@ def test_what_is_missing_is_named():
         "exploring a contour needs anywidget; install it with: "
         f'{sys.executable} -m pip install "contoursolve[notebook]"'
     )
+
+
+def test_the_traits_of_the_widget_are_observed_and_set():
+    widget = contoursolve.explore("G111 X100. A180. K-30. B120. P5.", start="X40. Z0.")
+    seen = []
+    widget.observe(lambda change: seen.append((change["name"], change["new"])), ["text", "values", "answer"])
+    widget.values = {"A": 170.0}
+    assert widget.text == "G111 X100. A170. K-30. B120. P5."
+    assert widget.answer.contour.end == pytest.approx((-44.2664, 50), abs=1e-4)
+    assert {name for name, _ in seen} == {"text", "values", "answer"}
+    widget.text = "G111 X100. A180. K-30. B130. P5."
+    assert widget.values == {"X": 100, "A": 180, "K": -30, "B": 130, "P": 5}
+    assert widget.view["text"] == widget.text
+    for name, wrong in (("values", {"Q": 1.0}), ("values", {"A": "x"})):
+        with pytest.raises(ValueError, match="Q|x"):
+            setattr(widget, name, wrong)
+        assert widget.text == "G111 X100. A180. K-30. B130. P5."
+        assert widget.values["A"] == 180
