@@ -71,6 +71,7 @@ from .output import (
     rule_page as rule_page,
     start_text as start_text,
     stated_words as stated_words,
+    to_dxf as to_dxf,
 )
 from .postprocess import (
     BlockNumber as BlockNumber,

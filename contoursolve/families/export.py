@@ -139,6 +139,10 @@ class Family(Shown):
         Raises MissingExtraError without pyarrow."""
         return to_arrow({name: self[name].reshape(-1) for name in self.names}, self.measures())
 
+    def __arrow_c_stream__(self, requested_schema: Any = None) -> Any:
+        """The same as a stream of Arrow, by which pandas, polars and others take it: `polars.DataFrame(family)`."""
+        return self.to_arrow().__arrow_c_stream__(requested_schema)
+
     def to_parquet(self, path: str | Path) -> None:
         """Write that table to a Parquet file. Raises MissingExtraError without pyarrow."""
         write_parquet(path, [{name: self[name].reshape(-1) for name in self.names}], self.measures())

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from hashlib import sha256
 from math import pi, tau
+from pathlib import Path
 from xml.sax.saxutils import escape, quoteattr
 from zlib import crc32
 
@@ -71,6 +72,19 @@ class Picture:
         # Behind the 33 bytes of signature and header: the resolution, and the title (PNG, third edition, 11.3).
         size = _chunk(b"pHYs", struct.pack(">IIB", meter, meter, 1))
         return png[:33] + size + _chunk(b"iTXt", b"Title\0\0\0\0\0" + _known(self.title).encode()) + png[33:]
+
+    def save(self, path: str | Path, dpi: float = DPI) -> None:
+        """Write the drawing: as SVG or, at a resolution, as PNG, by the ending of the file's name. Raises ValueError
+        for another ending, and as `png`."""
+        target = Path(path)
+        match target.suffix.lower():
+            case ".svg":
+                target.write_text(self.svg + "\n", encoding="utf-8", newline="\n")
+            case ".png":
+                target.write_bytes(self.png(dpi))
+            case ending:
+                told = "; contoursolve.to_dxf(result.answers) makes a drawing for CAD" if ending == ".dxf" else ""
+                raise ValueError(f"{target}: a picture ends in .svg or .png{told}")
 
 
 def _painted(svg: str, zoom: float = 1.0) -> bytes:

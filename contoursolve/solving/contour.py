@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from math import asin, atan2, cos, degrees, dist, hypot, pi, radians, sin, sqrt, tau
+from math import acos, asin, atan2, ceil, cos, degrees, dist, hypot, pi, radians, sin, sqrt, tau
 from typing import NamedTuple
 
 from msgspec import Struct
@@ -88,6 +88,18 @@ class Contour(Shown):
         """
         return [_row(element, self.plane) for element in self.elements]
 
+    def sample(self, chord_error: float = 0.01) -> list[Point]:
+        """Points along the path, mm, from its start to its end: the ends of lines, and on arcs so many more that no
+        chord between two of them is farther from its arc than `chord_error` (mm). Raises ValueError unless that is
+        positive."""
+        if not chord_error > 0:
+            raise ValueError(f"a chord error is more than 0 mm, not {chord_error}")
+        found = [self.start]
+        for element in self.elements:
+            found += _along(element, chord_error) if isinstance(element, ArcSegment) else ()
+            found.append(element.end)
+        return found
+
     def is_alike(self, other: "Contour") -> bool:
         """Whether the elements of two paths are of the same kinds and turn the same way, one by one."""
         return [_kind(each) for each in self.elements] == [_kind(each) for each in other.elements]
@@ -125,6 +137,17 @@ class Contour(Shown):
             if across is not None:
                 break
         return across
+
+
+def _along(arc: ArcSegment, chord_error: float) -> Iterator[Point]:
+    """The points of an arc between its ends."""
+    # The sagitta of a chord over the angle 2 a is r (1 - cos a); of half a turn it is the radius.
+    half = acos(max(1 - chord_error / arc.radius, 0.0)) if arc.radius > 0 else pi
+    count = max(ceil(radians(arc.sweep) / (2 * half)), 1)
+    begin = atan2(arc.start[1] - arc.center[1], arc.start[0] - arc.center[0])
+    for number in range(1, count):
+        angle = begin + arc.turn.sign * radians(arc.sweep) * number / count
+        yield arc.center[0] + arc.radius * cos(angle), arc.center[1] + arc.radius * sin(angle)
 
 
 def _kind(segment: Segment) -> Turn | None:

@@ -409,7 +409,7 @@ def test_the_traits_of_the_widget_are_observed_and_set():
     assert widget.values == {"X": 100, "A": 180, "K": -30, "B": 130, "P": 5}
     assert widget.view["text"] == widget.text
     for name, wrong in (("values", {"Q": 1.0}), ("values", {"A": "x"})):
-        with pytest.raises(ValueError, match="Q|x"):
+        with pytest.raises(ValueError, match=r"Q|x"):
             setattr(widget, name, wrong)
         assert widget.text == "G111 X100. A180. K-30. B130. P5."
         assert widget.values["A"] == 180
