@@ -61,6 +61,7 @@ from contoursolve.solving import (
     is_searched,
     jacobian_of,
     pick,
+    points_with_two_solutions,
     rank_of,
     rows_of,
     scalars_of,
@@ -380,6 +381,9 @@ class EquationSystem(Shown):
         if not profile.start.is_known or not self.is_determined:
             return None
         if is_closed(self._system):
+            chosen = {choice.point for choice in profile.choices}
+            if not chosen.issuperset(points_with_two_solutions(self._system)):
+                return None
             found = solve(profile)
             scalars = {**scalars_of(found.points), **found.radii, **found.scalars}
             return (scalars, found) if found.points else None

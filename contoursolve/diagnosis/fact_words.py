@@ -48,7 +48,7 @@ def condition_text(group: Group, system: System, profile: Profile) -> str:
         return "the two circles must not only touch"
     if len(circles) == 1 and size == _PAIR:
         return "the line must not only touch the circle"
-    return f"what determines {unknowns_text(group.unknowns, profile)} must be independent"
+    return f"the equations for {unknowns_text(group.unknowns, profile)} must not say the same"
 
 
 _PAIR = 2

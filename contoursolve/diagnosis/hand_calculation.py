@@ -5,12 +5,11 @@ from math import atan2, hypot
 from typing import Any
 
 from contoursolve.diagnosis.hand_corners import HandCorners
-from contoursolve.diagnosis.hand_sheet import Calculation, CalculationLine, Pair
+from contoursolve.diagnosis.hand_sheet import SAME, Calculation, CalculationLine, Pair
 from contoursolve.geometry import (
     FIRST,
-    Chord,
+    Arc,
     Fact,
-    Tangent,
     line_scalars,
 )
 from contoursolve.solving import ConstructionStep, StepKind, steps_of
@@ -89,7 +88,7 @@ class HandCalculation(HandCorners):
         return self._done(f"{step.point}: from linear equations") if formulas is not None else None
 
     def _together(self, step: ConstructionStep, title: str) -> Calculation:
-        """What several equations give together, as the solution has it."""
+        """The values that several equations give together, as the solution has them."""
         for name in step.unknowns:
             unit = "" if name.endswith((".cos", ".sin")) else "mm"
             symbol, value = self._symbols.scalar(name), self._scalars[name]
@@ -117,37 +116,32 @@ class HandCalculation(HandCorners):
 
     def _tangent_arc(self, step: ConstructionStep) -> Calculation | None:
         """An arc that begins in a known direction and leads to a known point; None for another step."""
-        turned = next(
-            (fact for fact in step.facts if fact.turn_between and isinstance(fact.turn_between[1], Tangent)), None
-        )
-        circles = [fact.circle for fact in step.facts if fact.circle]
-        if turned is None or turned.turn_between is None or len(circles) != 2 or len(step.facts) != 3:  # noqa: PLR2004
+        turned = next((fact for fact in step.facts if fact.turn_between), None)
+        arcs = [arc for arc in self._system.figure.path if isinstance(arc, Arc) and f"{arc.center}.0" in step.unknowns]
+        if turned is None or turned.turn_between is None or len(arcs) != 1 or len(step.facts) != 3:  # noqa: PLR2004
             return None
-        chord, tangent = turned.turn_between
-        ends = [circle.point for circle in circles if circle.point != tangent.point]
-        if not isinstance(chord, Chord) or len(ends) != 1:
-            return None
-        (a, b), (c, d), (e, f) = map(self._point, (chord.tail, chord.head, tangent.point))
-        x, y = self._point(ends[0])
-        way = self._put("w", self._hand.heading(d - b, c - a), "deg", f"angle from {chord.tail} to {chord.head}")
+        (arc,) = arcs
+        (a, b), (x, y) = map(self._point, (arc.tail, arc.head))
+        side, (first, second) = arc.turn.sign, turned.turn_between[0].vector(self._at)
+        way = self._put("w", self._hand.heading(second, first), "deg", "angle of what is before")
         way = way + self._symbols.angle(turned.given)
-        far = self._put("k", self._hand.root((x - e) ** 2 + (y - f) ** 2), meaning="the chord")
-        across = self._put("v", self._hand.heading(y - f, x - e), "deg", f"angle from {tangent.point} to {ends[0]}")
-        radius = self._symbols.scalar(tangent.radius)
-        self._put(
-            radius, tangent.turn.sign * far / (2 * self._hand.sine(across - way)), meaning="half the chord, by its sine"
-        )
-        first, second = self._point(tangent.center)
-        self._put(first, e - tangent.turn.sign * radius * self._hand.sine(way))
-        self._put(second, f + tangent.turn.sign * radius * self._hand.cosine(way))
+        far = self._put("k", self._hand.root((x - a) ** 2 + (y - b) ** 2), meaning="the chord")
+        across = self._put("v", self._hand.heading(y - b, x - a), "deg", f"angle from {arc.tail} to {arc.head}")
+        size = side * far / (2 * self._hand.sine(across - way))
+        radius = self._put(self._symbols.scalar(arc.radius), size, meaning="half the chord, by its sine")
+        center = self._point(arc.center)
+        self._put(center[0], a - side * radius * self._hand.sine(way))
+        self._put(center[1], b + side * radius * self._hand.cosine(way))
+        if abs(self._sheet.value(radius) - self._scalars[arc.radius]) > SAME:
+            # It does not begin in that direction.
+            self._lines = []
+            return None
         self._triangle = (
-            (tangent.point, self._place((e, f))),
-            ("centre", self._place((first, second))),
-            (ends[0], self._place((x, y))),
+            (arc.tail, self._place((a, b))),
+            ("centre", self._place(center)),
+            (arc.head, self._place((x, y))),
         )
-        return self._done(
-            f"{tangent.center}: on the perpendicular at {tangent.point}; the chord and its angle are known"
-        )
+        return self._done(f"{arc.center}: on the perpendicular at {arc.tail}; the chord and its angle are known")
 
     def _beside_line(self, step: ConstructionStep) -> Calculation | None:
         """The centre of a circle of known radius that touches a known line and leads through a known point; None for

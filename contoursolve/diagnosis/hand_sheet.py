@@ -68,7 +68,7 @@ class HandSheet:
         self._hand = hand
         self._profile, self._system, self._symbols = profile, system, symbols
         self._scalars, self._corners = scalars, corners
-        self._sheet = hand.Sheet(values)
+        self._sheet = hand.Calculator(values)
         self._sheet.angles |= {
             symbols.angle(given.name) for given in profile.givens.values() if given.unit.value == "deg"
         }

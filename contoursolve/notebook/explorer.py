@@ -60,7 +60,7 @@ class Explorer(anywidget.AnyWidget):
             self._set({"do": "move", "values": dict(change["new"])})
 
     def _set(self, action: dict[str, Any]) -> None:
-        """What Python sets. Raises ValueError for what makes no sense; the contour is then as before."""
+        """Do what Python sets. Raises ValueError for what makes no sense; the contour is then as before."""
         self._do({**action, "number": self.number})
         if self.view["trouble"]:
             raise ValueError(self.view["trouble"])

@@ -9,7 +9,7 @@ from sympy.printing.str import StrPrinter
 from contoursolve.numeric.symbolic import PositiveFirst
 
 
-class Sheet:
+class Calculator:
     """Symbols with their values so far, by which later lines are calculated."""
 
     def __init__(self, values: Mapping[Any, Any]) -> None:
@@ -37,7 +37,7 @@ class Sheet:
 class _Numbers(PositiveFirst, StrPrinter):  # type: ignore[misc]
     """Text of a formula with numbers for symbols."""
 
-    def __init__(self, sheet: Sheet) -> None:
+    def __init__(self, sheet: Calculator) -> None:
         super().__init__()
         self._sheet = sheet
 

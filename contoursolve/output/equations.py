@@ -25,7 +25,7 @@ def equation_lines(system: EquationSystem) -> list[str]:
     lines = [f"  {size_text(system)}:", *equation_table(system).lines("    ", is_headed=False)]
     lines += ["", f"  {open_line(system)}"] if system.free else []
     if system.conditions:
-        lines += ["", "  it is determined on these conditions:"]
+        lines += ["", "  these conditions must hold:"]
         lines += condition_table(system).lines("    ", is_headed=False)
     lines += (
         ["", "  these words say the same:", *tie_table(system).lines("    ", is_headed=False)] if system.ties else []
@@ -60,7 +60,8 @@ def size_text(system: EquationSystem) -> str:
     """The number of equations and of unknowns, and the rank."""
     many = count(len(system.statements), "equation")
     found = f"{many} for {count(len(system.unknowns), 'unknown')}"
-    return found if system.rank == len(system.statements) == len(system.unknowns) else f"{found}, rank {system.rank}"
+    is_even = system.rank == len(system.statements) == len(system.unknowns)
+    return found if is_even else f"{found}; {system.rank} of them say something new"
 
 
 def open_line(system: EquationSystem) -> str:

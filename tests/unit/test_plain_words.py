@@ -26,8 +26,10 @@ SOLVER = (
     "solving/construction.py",
     "solving/solve.py",
     "solving/step_outputs.py",
+    "system",
 )
-"""The layers of `--explain`, the table of all sets of words, errors of programmers: these have the solver's words."""
+"""The layers of `--explain`, the table of all sets of words, errors of programmers, the function that gives the system
+of equations: these have the solver's words."""
 
 
 def faults(text: str) -> list[str]:
