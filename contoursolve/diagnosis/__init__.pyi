@@ -127,6 +127,7 @@ from .wording import (
     length_of as length_of,
     length_text as length_text,
     limit_text as limit_text,
+    meaning_of as meaning_of,
     measured as measured,
     short_name as short_name,
     status_text as status_text,

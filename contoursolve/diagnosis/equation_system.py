@@ -22,7 +22,7 @@ from contoursolve.diagnosis.fact_words import condition_text, fact_text
 from contoursolve.diagnosis.hand_calculation import HandCalculation
 from contoursolve.diagnosis.hand_sheet import Derivation
 from contoursolve.diagnosis.symbol_names import CORNER_PLACES, corner_names, symbol_names
-from contoursolve.diagnosis.wording import join, unknowns_text, word_keys
+from contoursolve.diagnosis.wording import join, meaning_of, unknowns_text, word_keys
 from contoursolve.diagnostics import Shown
 from contoursolve.gcode import FACT
 from contoursolve.geometry import (
@@ -47,6 +47,7 @@ from contoursolve.solving import (
     Determinacy,
     Group,
     Solution,
+    StepCondition,
     StepKind,
     TypedValues,
     analyse,
@@ -55,6 +56,7 @@ from contoursolve.solving import (
     circuits_of,
     conditions_of,
     corner_equations,
+    ends_somewhere,
     find_alternatives,
     is_closed,
     is_known,
@@ -157,8 +159,10 @@ class EquationSystem(Shown):
 
     @cached_property
     def corners(self) -> tuple[CornerSystem, ...]:
-        """The corners with the places where they begin and end, their centres, and the equations of these."""
-        return tuple(map(self._corner, self._system.figure.corners))
+        """The corners with the places where they begin and end, their centres, and the equations of these; none of a
+        corner that has nothing to end on."""
+        figure = self._system.figure
+        return tuple(self._corner(each) for each in figure.corners if ends_somewhere(each, figure))
 
     # What sympy says of it ---------------------------------------------------------------------------------------
 
@@ -197,23 +201,28 @@ class EquationSystem(Shown):
     @cached_property
     def conditions(self) -> tuple[SystemCondition, ...]:
         """The condition of each step that has one, in the order in which the steps are solved; none where something is
-        free."""
-        if not self.is_determined:
-            return ()
-        numbers, found = self.values | self.solution | self._turned(), list[SystemCondition]()
-        for each in conditions_of(self._system, self._symbols, self.jacobian, self._verdict.basis):
+        free, nor of the steps that are `too_large`."""
+        found = list[SystemCondition]()
+        for each in self._step_conditions:
             expression = symbolic().product(each.factors)
             if each.factors:
                 determines = tuple(map(self._symbols.scalar, each.group.unknowns))
-                value = symbolic().value_at(expression, numbers)
+                value = symbolic().value_at(expression, self._numbers)
                 meaning = condition_text(each.group, self._system, self.profile)
                 found.append(SystemCondition(expression, value, meaning, determines))
         return tuple(found)
 
     @property
+    def too_large(self) -> tuple[tuple[SystemUnknown, ...], ...]:
+        """The unknowns of each step of which no condition is worked out, for it has too many of them."""
+        named = dict(zip(self._system.unknowns, self.unknowns, strict=True))
+        large = (each.group for each in self._step_conditions if each.is_large)
+        return tuple(tuple(named[name] for name in group.unknowns) for group in large)
+
+    @property
     def condition(self) -> Any:
         """The expression that must not be zero for the equations to determine the unknowns: 1 if they always do, None
-        if they never do."""
+        if they never do. It leaves out the steps that are `too_large`."""
         if not self.is_determined:
             return None
         factors = (factor for each in self.conditions for factor in symbolic().factors_of(each.expression))
@@ -222,8 +231,7 @@ class EquationSystem(Shown):
     @property
     def margin(self) -> float | None:
         """The value of the condition at the contour that was solved; None without one."""
-        numbers = self.values | self.solution | self._turned()
-        return symbolic().value_at(self.condition, numbers) if self.is_determined else None
+        return symbolic().value_at(self.condition, self._numbers) if self.is_determined else None
 
     @cached_property
     def steps(self) -> tuple[SystemStep, ...]:
@@ -240,7 +248,8 @@ class EquationSystem(Shown):
             raise ValueError("there is no contour at the values of the words that could be calculated")
         scalars, solution = self._solved
         profile, system, symbols = self.profile, self._system, self._symbols
-        hand = HandCalculation(profile, system, symbols, self.values, scalars, solution.corners)
+        places = {corner.name: self._places(corner) for corner in system.figure.corners}
+        hand = HandCalculation(profile, system, symbols, self.values, scalars, solution.corners, places)
         return Derivation(tuple(hand.steps()))
 
     # What can be done with it ------------------------------------------------------------------------------------
@@ -370,6 +379,17 @@ class EquationSystem(Shown):
         return symbolic().Symbols(lambda name: self._names.get(name, name))
 
     @cached_property
+    def _numbers(self) -> dict[Any, Any]:
+        """The values of all symbols, as far as they are known."""
+        return self.values | self.solution | self._turned()
+
+    @cached_property
+    def _step_conditions(self) -> list[StepCondition]:
+        if not self.is_determined:
+            return []
+        return conditions_of(self._system, self._symbols, self.jacobian, self._verdict.basis)
+
+    @cached_property
     def _verdict(self) -> Determinacy:
         system = self._system
         return analyse(system) if is_known(system) else rank_of(system, self._symbols, self.jacobian)
@@ -432,8 +452,7 @@ class EquationSystem(Shown):
         is_angle = given.unit is Unit.DEGREE
         symbol = self._symbols.angle(given.name) if is_angle else self._symbols.scalar(given.name)
         number = symbolic().exact(given.value, is_angle=is_angle)
-        row = self.claim.lexicon.addresses.get(given.word.address) if given.word else None
-        meaning = self.claim.form.meanings.get(given.name) or (row.meaning if row else "")
+        meaning = meaning_of(given.name, given.word, self.claim) if given.word else ""
         return SystemValue(symbol, meaning, "rad" if is_angle else "mm", number, self._names[given.name], given.word)
 
     def _equation(self, fact: Fact) -> Equation:
@@ -453,10 +472,13 @@ class EquationSystem(Shown):
         meaning = fact_text(fact, self._system.unknowns, self.profile)
         return Equation(found, "" if word is not None and word.address == FACT else meaning, word)
 
+    def _places(self, corner: Corner) -> Mapping[str, tuple[Any, Any]]:
+        """The symbols of the places of a corner."""
+        names = corner_names(corner.name, self.profile, self._names.values())
+        return {place: (symbolic().symbol(one), symbolic().symbol(two)) for place, (one, two) in names.items()}
+
     def _corner(self, corner: Corner) -> CornerSystem:
-        numeric, taken = symbolic(), self._names.values()
-        names = corner_names(corner.name, self.profile, taken)
-        pairs = {place: tuple(map(numeric.symbol, names[place])) for place in CORNER_PLACES}
+        numeric, pairs = symbolic(), self._places(corner)
         at = symbolic_values(self._symbols, numeric.FUNCTIONS, self._system.headed)
         size = f"{corner.name}.radius" if f"{corner.name}.radius" in self._system.unknowns else corner.size
         told = corner_equations(
@@ -467,9 +489,9 @@ class EquationSystem(Shown):
         unknowns = []
         for place in shown:
             point = getattr(solved, place) if solved else None
-            for axis, (own, name) in enumerate(zip(pairs[place], names[place], strict=True)):
+            for axis, own in enumerate(pairs[place]):
                 meaning = _PLACES[place].format(self.profile.plane.axes[axis], corner.name)
-                unknowns.append(SystemUnknown(own, meaning, "mm", point[axis] if point else None, name))
+                unknowns.append(SystemUnknown(own, meaning, "mm", point[axis] if point else None, str(own)))
         given = self.profile.givens.get(corner.size)
         word = given.word if given else None
         equations = tuple(Equation(numeric.balanced(zero), meaning, word) for meaning, zero in told)

@@ -5,7 +5,7 @@ from math import atan2, hypot
 from typing import Any
 
 from contoursolve.diagnosis.hand_corners import HandCorners
-from contoursolve.diagnosis.hand_sheet import SAME, Calculation, CalculationLine, Pair
+from contoursolve.diagnosis.hand_sheet import Calculation, Pair
 from contoursolve.geometry import (
     FIRST,
     Arc,
@@ -42,7 +42,7 @@ class HandCalculation(HandCorners):
             for each in steps:
                 self._placed(each)
             return self._done(f"{title}: its size is stated" if step.facts[0].sizes else f"{title}: words state it")
-        return self._by_hand(step) or self._together(step, title)
+        return self._checked(lambda: self._by_hand(step)) or self._together(step, title)
 
     def _by_hand(self, step: ConstructionStep) -> Calculation | None:
         """The calculation of a step that is no word's own; None where nobody can make it by hand."""
@@ -89,19 +89,13 @@ class HandCalculation(HandCorners):
 
     def _together(self, step: ConstructionStep, title: str) -> Calculation:
         """The values that several equations give together, as the solution has them."""
-        for name in step.unknowns:
-            unit = "" if name.endswith((".cos", ".sin")) else "mm"
-            symbol, value = self._symbols.scalar(name), self._scalars[name]
-            self._sheet.put(symbol, value)
-            self._lines.append(CalculationLine(symbol, symbol, "", value, unit))
-            if name.endswith(".cos"):
-                line = name.removesuffix(".cos")
-                self._sheet.put(
-                    self._symbols.turned_angle(line),
-                    atan2(self._scalars[f"{line}.sin"], value),
-                    is_angle=True,
-                )
-        return self._done(f"{title}: no calculation by hand, several equations are solved together", is_searched=True)
+        for line in (name.removesuffix(".cos") for name in step.unknowns if name.endswith(".cos")):
+            cosine, sine, _ = line_scalars(line)
+            angle = atan2(self._scalars[sine], self._scalars[cosine])
+            self._sheet.put(self._symbols.turned_angle(line), angle, is_angle=True)
+        units = {name: "" if name.endswith((".cos", ".sin")) else "mm" for name in step.unknowns}
+        found = [(self._symbols.scalar(name), self._scalars[name], unit) for name, unit in units.items()]
+        return self._taken(title, found)
 
     def _polar(self, step: ConstructionStep) -> Calculation:
         """A point by its distance and its direction from another one."""
@@ -109,8 +103,7 @@ class HandCalculation(HandCorners):
         tail, head = ray.heading or ("", "")
         (a, b), (x, y) = self._point(tail), self._point(head)
         angle, far = self._symbols.angle(ray.given), self._at.amount(length.given)
-        self._put(x, a + far * self._hand.cosine(angle))
-        self._put(y, b + far * self._hand.sine(angle))
+        self._put_pair((x, y), (a + far * self._hand.cosine(angle), b + far * self._hand.sine(angle)))
         self._triangle = self._right(tail, (a, b), head, (x, y))
         return self._done(f"{step.point}: right triangle from {tail}, the long side and the angle are known")
 
@@ -130,12 +123,8 @@ class HandCalculation(HandCorners):
         size = side * far / (2 * self._hand.sine(across - way))
         radius = self._put(self._symbols.scalar(arc.radius), size, meaning="half the chord, by its sine")
         center = self._point(arc.center)
-        self._put(center[0], a - side * radius * self._hand.sine(way))
-        self._put(center[1], b + side * radius * self._hand.cosine(way))
-        if abs(self._sheet.value(radius) - self._scalars[arc.radius]) > SAME:
-            # It does not begin in that direction.
-            self._lines = []
-            return None
+        sine, cosine = self._hand.sine(way), self._hand.cosine(way)
+        self._put_pair(center, (a - side * radius * sine, b + side * radius * cosine))
         self._triangle = (
             (arc.tail, self._place((a, b))),
             ("centre", self._place(center)),
@@ -163,9 +152,7 @@ class HandCalculation(HandCorners):
         side = 1 if left > 0 else -1
         beside = a - side * radius * sine, b + side * radius * cosine
         along = self._crossing(beside, angle, self._point(circle.point), radius, (first, second))
-        x, y = self._point(step.point)
-        self._put(x, beside[0] + along * cosine)
-        self._put(y, beside[1] + along * sine)
+        self._put_pair(self._point(step.point), (beside[0] + along * cosine, beside[1] + along * sine))
         return self._done(f"{step.point}: as far from the line as from {circle.point}")
 
     def _direction(self, step: ConstructionStep) -> Calculation | None:
@@ -256,10 +243,9 @@ class HandCalculation(HandCorners):
         sine, cosine = self._hand.sine, self._hand.cosine
         along = ((c - a) * sine(other) - (d - b) * cosine(other)) / sine(other - one)
         t = self._put("t", along, meaning=f"from {begin} to {step.point}, by the law of sines")
-        x, y = self._point(step.point)
-        self._put(x, a + t * cosine(one))
-        self._put(y, b + t * sine(one))
-        self._triangle = (begin, self._place((a, b))), (step.point, self._place((x, y))), (end, self._place((c, d)))
+        point = self._point(step.point)
+        self._put_pair(point, (a + t * cosine(one), b + t * sine(one)))
+        self._triangle = (begin, self._place((a, b))), (step.point, self._place(point)), (end, self._place((c, d)))
         return self._done(f"{step.point}: triangle {begin}, {step.point}, {end}; one side and its angles are known")
 
     def _line_circle(self, step: ConstructionStep) -> Calculation:
@@ -269,19 +255,15 @@ class HandCalculation(HandCorners):
             raise ValueError("the line of a step has a known point")
         (a, b), angle, _ = line
         center, radius = self._point(step.centers[0]), self._at.radius(circle.radius)
-        x, y = self._point(step.point)
         way = self._crossing((a, b), angle, center, radius, self._meant(step.point))
-        self._put(x, a + way * self._hand.cosine(angle))
-        self._put(y, b + way * self._hand.sine(angle))
+        there = a + way * self._hand.cosine(angle), b + way * self._hand.sine(angle)
+        self._put_pair(self._point(step.point), there)
         return self._done(f"{step.point}: the line meets the circle about {step.centers[0]}; half the chord is a leg")
 
     def _two_circles(self, step: ConstructionStep) -> Calculation:
         first, second = map(self._point, step.centers)
         one, other = (self._at.radius(circle.radius) for circle in step.circles)
-        x, y = self._point(step.point)
-        formulas = self._meeting(first, second, one, other, self._meant(step.point))
-        self._put(x, formulas[0])
-        self._put(y, formulas[1])
+        self._put_pair(self._point(step.point), self._meeting(first, second, one, other, self._meant(step.point)))
         names = " and ".join(step.centers)
         return self._done(f"{step.point}: triangle with {names}, all three sides are known")
 

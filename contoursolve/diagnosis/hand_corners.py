@@ -1,9 +1,10 @@
 """The calculation of corners by hand: the right triangle of half the turn, or circles beside arcs."""
 
 from collections.abc import Mapping
+from math import tau
 from typing import Any
 
-from contoursolve.diagnosis.hand_sheet import Calculation, CalculationLine, HandSheet, Pair
+from contoursolve.diagnosis.hand_sheet import Calculation, HandSheet, Pair
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -23,10 +24,21 @@ class HandCorners(HandSheet):
 
     def _corner(self, corner: Corner) -> Calculation:
         self._number += 1
-        solved, vertex = self._corners[corner.name], self._point(corner.at)
+        solved = self._corners[corner.name]
+        if solved.begin == solved.end:
+            return self._done(f"{corner.name}: the control leaves it out, for the path hardly turns")
+        found = self._checked(lambda: self._by_its_shape(corner, solved))
+        if found is not None:
+            return found
+        at = [(pair, getattr(solved, place)) for place, pair in self._places[corner.name].items()]
+        coordinates = [each for pair, point in at if point for each in zip(pair, point, strict=True)]
+        return self._taken(corner.name, ((symbol, value, "mm") for symbol, value in coordinates))
+
+    def _by_its_shape(self, corner: Corner, solved: CornerSolution) -> Calculation | None:
+        """A corner by its definition; None for a chamfer of given face beside an arc."""
+        vertex = self._point(corner.at)
         elements = {each.name: each for each in self._system.figure.path}
         before, after, size = elements[corner.before], self._after(corner, elements, solved), self._size(corner)
-        name = f"{corner.name.replace(' ', '')}"
         if isinstance(before, Line) and isinstance(after, Line):
             one, other = self._angle_of(before), self._angle_of(after)
             return self._between_lines(corner, solved, vertex, one, other, size)
@@ -34,13 +46,13 @@ class HandCorners(HandSheet):
             return self._fillet_of_arcs(corner, solved, before, after, size)
         if corner.shape is CornerShape.CHAMFER_SETBACK:
             return self._setbacks(corner, solved, before, after, size)
-        if corner.shape.share:
-            return self._bevel_of_arc(corner, solved, before, after, size)
-        for part, point in (("begin", solved.begin), ("end", solved.end), ("center", solved.center)):
-            for axis, value in enumerate(point or ()):
-                symbol, found = self._sheet.put(f"{self._profile.plane.axes[axis]}_{part}_{name}", value)
-                self._lines.append(CalculationLine(symbol, symbol, "", found, "mm"))
-        return self._done(f"{corner.name}: beside an arc; its equations are solved together", is_searched=True)
+        return self._bevel_of_arc(corner, solved, before, after, size) if corner.shape.share else None
+
+    def _extent(self, corner: Corner, solved: CornerSolution, size: Any) -> Pair:
+        """The way from the begin to the end of a chamfer at 45 degrees to the axes."""
+        share = self._hand.root(2) / 2 if corner.shape is CornerShape.CHAMFER_LENGTH_45 else 1
+        first, second = (1 if end > begin else -1 for begin, end in zip(solved.begin, solved.end, strict=True))
+        return size * share * first, size * share * second
 
     def _size(self, corner: Corner) -> Any:
         name = f"{corner.name}.radius"
@@ -85,8 +97,7 @@ class HandCorners(HandSheet):
             back = ahead = self._put("t", size / (2 * cosine(turn / 2)), meaning="from the intersection")
             why = "right triangle of half the face and half the turn"
         elif corner.shape.share:
-            share = self._hand.root(2) / 2 if corner.shape is CornerShape.CHAMFER_LENGTH_45 else 1
-            step = [size * share * (1 if solved.end[axis] > solved.begin[axis] else -1) for axis in (FIRST, SECOND)]
+            step = self._extent(corner, solved, size)
             back = self._put(
                 "t", (step[0] * sine(other) - step[1] * cosine(other)) / sine(turn), meaning="on the first line"
             )
@@ -94,19 +105,14 @@ class HandCorners(HandSheet):
                 "v", (step[1] * cosine(one) - step[0] * sine(one)) / sine(turn), meaning="on the second line"
             )
             why = "triangle with two angles of 45 degrees to the axes"
-        own = corner.name.rpartition(" ")[2]
-        axes = self._profile.plane.axes
-        begin = vertex[0] - back * cosine(one), vertex[1] - back * sine(one)
-        end = vertex[0] + ahead * cosine(other), vertex[1] + ahead * sine(other)
-        starts = [self._put(self._named(axes[axis], "begin", own), begin[axis]) for axis in (FIRST, SECOND)]
-        for axis in (FIRST, SECOND):
-            self._put(self._named(axes[axis], "end", own), end[axis])
+        places = self._places[corner.name]
+        self._put_pair(places["begin"], (vertex[0] - back * cosine(one), vertex[1] - back * sine(one)))
+        self._put_pair(places["end"], (vertex[0] + ahead * cosine(other), vertex[1] + ahead * sine(other)))
         third = ("centre", solved.center) if solved.center else ("end", solved.end)
         self._triangle = ("begin", solved.begin), (corner.at, self._place(vertex)), third
         if corner.shape is CornerShape.FILLET:
-            side = 1 if solved.turn > 0 else -1
-            self._put(self._named(axes[0], "center", own), starts[0] - side * size * sine(one))
-            self._put(self._named(axes[1], "center", own), starts[1] + side * size * cosine(one))
+            reach, (first, second) = (1 if solved.turn > 0 else -1) * size, places["begin"]
+            self._put_pair(places["center"], (first - reach * sine(one), second + reach * cosine(one)))
         return self._done(f"{corner.name}: {why}")
 
     def _fillet_of_arcs(
@@ -131,17 +137,17 @@ class HandCorners(HandSheet):
             beside = vertex[0] - side * size * sine, vertex[1] + side * size * cosine
             way = self._crossing(beside, angle, self._point(arc.center), reach, solved.center)
             center = beside[0] + way * cosine, beside[1] + way * sine
-        own, axes = corner.name.rpartition(" ")[2], self._profile.plane.axes
-        m = [self._put(self._named(axes[axis], "center", own), center[axis]) for axis in (FIRST, SECOND)]
+        places = self._places[corner.name]
+        self._put_pair(places["center"], center)
+        first, second = places["center"]
         for place, edge, reach in zip(("begin", "end"), edges, reaches, strict=True):
             if isinstance(edge, Arc):
-                middle, radius = self._point(edge.center), self._at.radius(edge.radius)
-                found = [middle[axis] + (m[axis] - middle[axis]) * radius / reach for axis in (FIRST, SECOND)]
+                (x, y), share = self._point(edge.center), self._at.radius(edge.radius) / reach
+                found = x + (first - x) * share, y + (second - y) * share
             else:
                 angle = self._angle_of(edge)
-                found = [m[0] + side * size * self._hand.sine(angle), m[1] - side * size * self._hand.cosine(angle)]
-            for axis in (FIRST, SECOND):
-                self._put(self._named(axes[axis], place, own), found[axis])
+                found = first + side * size * self._hand.sine(angle), second - side * size * self._hand.cosine(angle)
+            self._put_pair(places[place], found)
         return self._done(f"{corner.name}: its centre is as far from both elements as its radius")
 
     def _setbacks(
@@ -149,7 +155,6 @@ class HandCorners(HandSheet):
     ) -> Calculation:
         """A chamfer beside an arc whose ends are so far from the intersection, on an arc along the chord."""
         vertex = self._point(corner.at)
-        own, axes = corner.name.rpartition(" ")[2], self._profile.plane.axes
         for place, edge, way, meant in (("begin", before, -1, solved.begin), ("end", after, 1, solved.end)):
             if isinstance(edge, Arc):
                 found = self._meeting(self._point(edge.center), vertex, self._at.radius(edge.radius), size, meant)
@@ -159,8 +164,7 @@ class HandCorners(HandSheet):
                     vertex[0] + way * size * self._hand.cosine(angle),
                     vertex[1] + way * size * self._hand.sine(angle),
                 )
-            for axis in (FIRST, SECOND):
-                self._put(self._named(axes[axis], place, own), found[axis])
+            self._put_pair(self._places[corner.name][place], found)
         return self._done(f"{corner.name}: each end is so far from the intersection, on an arc along the chord")
 
     def _bevel_of_arc(
@@ -171,18 +175,16 @@ class HandCorners(HandSheet):
         if not isinstance(line, Line) or not isinstance(arc, Arc):
             raise ValueError("no control makes a 45 degree chamfer between two arcs")
         vertex, center = self._point(corner.at), self._point(arc.center)
-        share = self._hand.root(2) / 2 if corner.shape is CornerShape.CHAMFER_LENGTH_45 else 1
-        steps = [size * share * (1 if solved.end[axis] > solved.begin[axis] else -1) for axis in (FIRST, SECOND)]
+        steps = self._extent(corner, solved, size)
         way = 1 if line is before else -1
         moved = center[0] - way * steps[0], center[1] - way * steps[1]
         angle, meant = self._angle_of(line), solved.begin if line is before else solved.end
         along = self._crossing(vertex, angle, moved, self._at.radius(arc.radius), meant)
-        own, axes = corner.name.rpartition(" ")[2], self._profile.plane.axes
-        places = ("begin", "end") if line is before else ("end", "begin")
-        on_line = vertex[0] + along * self._hand.cosine(angle), vertex[1] + along * self._hand.sine(angle)
-        for axis in (FIRST, SECOND):
-            first = self._put(self._named(axes[axis], places[0], own), on_line[axis])
-            self._put(self._named(axes[axis], places[1], own), first + way * steps[axis])
+        begin, end = (self._places[corner.name][place] for place in ("begin", "end"))
+        on_line, on_arc = (begin, end) if line is before else (end, begin)
+        there = vertex[0] + along * self._hand.cosine(angle), vertex[1] + along * self._hand.sine(angle)
+        self._put_pair(on_line, there)
+        self._put_pair(on_arc, (on_line[0] + way * steps[0], on_line[1] + way * steps[1]))
         return self._done(f"{corner.name}: the circle, moved by the chamfer, meets the line")
 
     def _reach(self, arc: Arc, side: int, size: Any) -> Any:
@@ -190,18 +192,7 @@ class HandCorners(HandSheet):
         outward = self._at.radius(arc.radius) - arc.turn.sign * side * size
         return self._put(f"q{arc.name.rpartition(' ')[2]}", outward, meaning=f"from {arc.center} to the centre")
 
-    def _named(self, axis: str, place: str, own: str) -> Any:
-        from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import
-
-        return symbolic.symbol(f"{axis}_{place}_{own}")
-
     def _turn(self, one: Any, other: Any) -> Any:
         """The turn between two angles, by whole turns between half of one to either side."""
-        degrees = (self._sheet.value(other) - self._sheet.value(one)) * 57.29577951308232
-        turns = round(degrees / 360)
-        return other - one - (2 * turns * self._pi() if turns else 0)
-
-    def _pi(self) -> Any:
-        from contoursolve.numeric import symbolic  # noqa: PLC0415 - sympy is slow to import
-
-        return symbolic.PI
+        turns = round((self._sheet.value(other) - self._sheet.value(one)) / tau)
+        return other - one - 2 * turns * self._hand.PI

@@ -1,7 +1,7 @@
 """The sheet of a calculation by hand: its lines, with the triangles of which several steps are made."""
 
-from collections.abc import Mapping
-from math import hypot
+from collections.abc import Callable, Iterable, Mapping
+from math import degrees, hypot
 from typing import Any
 
 from msgspec import Struct
@@ -12,6 +12,7 @@ from contoursolve.geometry import (
     SECOND,
     Profile,
     System,
+    Unit,
     scalar,
 )
 from contoursolve.solving import CornerSolution, symbolic_values
@@ -52,7 +53,8 @@ class Derivation(Shown, Struct, frozen=True):
 
 
 class HandSheet:
-    """The lines of the calculation of one contour, in the symbols of its system, with the values so far."""
+    """The lines of the calculation of one contour, in the symbols of its system, with the values so far. `places` are
+    the symbols of the places of each corner, by its name and theirs; `scalars` and `corners` are the solution."""
 
     def __init__(
         self,
@@ -62,16 +64,20 @@ class HandSheet:
         values: Mapping[Any, Any],
         scalars: Mapping[str, float],
         corners: Mapping[str, CornerSolution],
+        places: Mapping[str, Mapping[str, Pair]],
     ) -> None:
         from contoursolve.numeric import hand, symbolic  # noqa: PLC0415 - sympy is slow to import
 
         self._hand = hand
         self._profile, self._system, self._symbols = profile, system, symbols
-        self._scalars, self._corners = scalars, corners
+        self._scalars, self._corners, self._places = scalars, corners, places
         self._sheet = hand.Calculator(values)
-        self._sheet.angles |= {
-            symbols.angle(given.name) for given in profile.givens.values() if given.unit.value == "deg"
-        }
+        angles = (given.name for given in profile.givens.values() if given.unit is Unit.DEGREE)
+        self._sheet.angles |= set(map(symbols.angle, angles))
+        self._meant_values = {symbols.scalar(name): value for name, value in scalars.items()}
+        for name, corner in corners.items():
+            for place, pair in places.get(name, {}).items():
+                self._meant_values |= zip(pair, getattr(corner, place) or (), strict=False)
         self._at = symbolic_values(symbols, symbolic.FUNCTIONS, system.headed)
         self._number = 0
         self._lines: list[CalculationLine] = []
@@ -83,9 +89,33 @@ class HandSheet:
         own = f"{name}_{self._number}" if isinstance(name, str) else name
         numbers = self._sheet.numbers(formula)
         symbol, value = self._sheet.put(own, formula, is_angle=is_angle)
-        shown = value * 57.29577951308232 if is_angle else value
+        shown = degrees(value) if is_angle else value
         self._lines.append(CalculationLine(symbol, formula, numbers, shown, unit, meaning))
         return symbol
+
+    def _put_pair(self, symbols: Pair, formulas: Pair) -> None:
+        """Both coordinates of a place."""
+        for symbol, formula in zip(symbols, formulas, strict=True):
+            self._put(symbol, formula)
+
+    def _checked(self, calculate: Callable[[], Calculation | None]) -> Calculation | None:
+        """A calculation that gives what the solution has; None where there is none, as where a control allows a radius
+        to be less than it must be."""
+        try:
+            found = calculate()
+        except ArithmeticError:
+            return None
+        known = self._meant_values
+        lines = [line for line in found.lines if line.symbol in known] if found else []
+        return found if all(abs(line.value - known[line.symbol]) <= SAME for line in lines) else None
+
+    def _taken(self, title: str, values: Iterable[tuple[Any, float, str]]) -> Calculation:
+        """Values that nobody calculates by hand, each with its symbol and its unit, as the solution has them."""
+        self._lines, self._triangle = [], ()
+        for symbol, value, unit in values:
+            self._sheet.put(symbol, value)
+            self._lines.append(CalculationLine(symbol, symbol, "", value, unit))
+        return self._done(f"{title}: no calculation by hand; as the solution has it", is_searched=True)
 
     def _done(self, title: str, *, is_searched: bool = False) -> Calculation:
         found = Calculation(title, tuple(self._lines), self._triangle, is_searched)

@@ -6,6 +6,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import FACT, Word, call, spell
 from contoursolve.geometry import Arc, CornerShape, Given, Length, Plane, Profile, Unit
+from contoursolve.reading import ParsedContour
 from contoursolve.solving import Status
 
 LEAST_SHOWN = 0.00025
@@ -69,6 +70,12 @@ def statement_text(given: Given, value: float, profile: Profile) -> str:
         return f"{word.text.partition('=')[0].strip() if word else given.name} = {number}"
     lines = {each.word.span.line for each in profile.givens.values() if each.word}
     return spell(word.address, number) + (f" (program line {word.span.line})" if len(lines) > 1 else "")
+
+
+def meaning_of(name: str, word: Word, claim: ParsedContour) -> str:
+    """The meaning of the word that states a given of a contour."""
+    row = claim.lexicon.addresses.get(word.address)
+    return claim.form.meanings.get(name) or (row.meaning if row else "")
 
 
 def word_keys(words: Iterable[Word]) -> dict[Span, str]:

@@ -8,7 +8,7 @@ from typing import Any
 from msgspec import to_builtins
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, AskedValue, inward, join, list_solutions, written
+from contoursolve.diagnosis import Answer, AskedValue, inward, join, list_solutions, meaning_of, written
 from contoursolve.diagnostics import Applicability
 from contoursolve.families import End, FamilyError, Feasible, Interval, Way, feasible
 from contoursolve.gcode import Word
@@ -22,7 +22,6 @@ from contoursolve.output import (
     finding_pieces,
     form_text,
     found_value,
-    meaning_of,
     path_table,
     short,
     solution_rows,
@@ -132,7 +131,7 @@ def _fields(answer: Answer, pinned: Collection[str]) -> Iterator[Data]:
         yield {
             "key": key,
             "word": short(word.text),
-            "meaning": meaning_of(names[word.span], word, answer),
+            "meaning": meaning_of(names[word.span], word, answer.claim),
             "unit": unit,
             "value": None if value is None else round(value, 6) + 0.0,
             "state": "free" if word.is_asked else "ignored" if word in ignored else "given",

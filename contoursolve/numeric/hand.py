@@ -1,12 +1,13 @@
 """Formulas of a calculation by hand, with sympy: each line gives a symbol a value from those before it."""
 
 from collections.abc import Mapping
+from math import degrees
 from typing import Any
 
 import sympy
 from sympy.printing.str import StrPrinter
 
-from contoursolve.numeric.symbolic import PositiveFirst
+from contoursolve.numeric.symbolic import PositiveFirst, symbol
 
 
 class Calculator:
@@ -17,17 +18,20 @@ class Calculator:
         self.angles: set[Any] = set()
 
     def put(self, name: str | Any, formula: Any, *, is_angle: bool = False) -> tuple[Any, float]:
-        """A new symbol, or one that is known by its name, with the value of a formula."""
-        symbol = sympy.Symbol(name, real=True) if isinstance(name, str) else name
-        value = sympy.sympify(formula).xreplace(self.values)
-        self.values[symbol] = sympy.Float(float(value), 17)
+        """A new symbol, or one that is known by its name, with the value of a formula. Raises ArithmeticError where
+        that is no real number."""
+        own = symbol(name) if isinstance(name, str) else name
+        value = sympy.sympify(formula).xreplace(self.values).evalf(17)
+        if not value.is_real:
+            raise ArithmeticError(f"{formula} is no real number")
+        self.values[own] = sympy.Float(float(value), 17)
         if is_angle:
-            self.angles.add(symbol)
-        return symbol, float(value)
+            self.angles.add(own)
+        return own, float(value)
 
-    def value(self, symbol: Any) -> float:
-        """The value of a symbol, or of a formula."""
-        return float(sympy.sympify(symbol).xreplace(self.values))
+    def value(self, formula: Any) -> float:
+        """The value of a formula, or of a symbol."""
+        return float(sympy.sympify(formula).xreplace(self.values))
 
     def numbers(self, formula: Any) -> str:
         """A formula with the numbers in place of its symbols, angles in degrees."""
@@ -41,10 +45,10 @@ class _Numbers(PositiveFirst, StrPrinter):  # type: ignore[misc]
         super().__init__()
         self._sheet = sheet
 
-    def _print_Symbol(self, symbol: Any) -> str:  # noqa: N802 - the name that sympy looks for
-        value = float(self._sheet.values[symbol])
-        if symbol in self._sheet.angles:
-            return f"{short(value * 180 / float(sympy.pi))} deg"
+    def _print_Symbol(self, own: Any) -> str:  # noqa: N802 - the name that sympy looks for
+        value = float(self._sheet.values[own])
+        if own in self._sheet.angles:
+            return f"{short(degrees(value))} deg"
         text = short(value)
         return f"({text})" if text.startswith("-") else text
 
@@ -55,37 +59,16 @@ def short(value: float) -> str:
     return text.rstrip("0").rstrip(".")
 
 
-def tangent(angle: Any) -> Any:
-    """The tangent of an angle."""
-    return sympy.tan(angle)
-
-
-def sine(angle: Any) -> Any:
-    """The sine of an angle."""
-    return sympy.sin(angle)
-
-
-def cosine(angle: Any) -> Any:
-    """The cosine of an angle."""
-    return sympy.cos(angle)
-
-
-def arcsine(value: Any) -> Any:
-    """The angle whose sine is a value."""
-    return sympy.asin(value)
-
-
-PI = sympy.pi
-
-
-def root(value: Any) -> Any:
-    """The square root."""
-    return sympy.sqrt(value)
-
-
-def heading(second: Any, first: Any) -> Any:
-    """The angle of a direction from its parts along the second and the first axis."""
-    return sympy.atan2(second, first)
+sine, cosine, tangent, arcsine, root, heading, PI = (
+    sympy.sin,
+    sympy.cos,
+    sympy.tan,
+    sympy.asin,
+    sympy.sqrt,
+    sympy.atan2,
+    sympy.pi,
+)
+"""`heading` is the angle of a direction from its parts along the second and the first axis."""
 
 
 def solve_linear(residuals: list[Any], unknowns: list[Any]) -> list[Any] | None:

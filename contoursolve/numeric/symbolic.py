@@ -16,7 +16,6 @@ from contoursolve.numeric import expressions
 from contoursolve.numeric.functions import Functions
 from contoursolve.numeric.modular_rank import ExactRank
 
-PI = sympy.pi
 FUNCTIONS = Functions(sympy.sqrt, sympy.cos, sympy.sin)
 
 
@@ -32,13 +31,13 @@ class Symbols:
     def scalar(self, name: str) -> Any:
         """The symbol of a coordinate, a radius, an amount, or a part of a line."""
         if name not in self._symbols:
-            self._symbols[name] = sympy.Symbol(self._call(name), real=True)
+            self._symbols[name] = symbol(self._call(name))
         return self._symbols[name]
 
     def angle(self, given: str) -> Any:
         """The symbol of an angle."""
         if given not in self._angles:
-            self._angles[given] = sympy.Symbol(self._call(given), real=True)
+            self._angles[given] = symbol(self._call(given))
         return self._angles[given]
 
     def direction(self, given: str) -> tuple[Any, Any]:
@@ -58,7 +57,7 @@ class Symbols:
 
     def turned_angle(self, line: str) -> Any:
         """The angle of a line whose direction is unknown."""
-        return sympy.Symbol(self._call(line), real=True)
+        return symbol(self._call(line))
 
     def points(self) -> list[tuple[Any, Any]]:
         """The coordinates of each point of which a formula asked for both."""

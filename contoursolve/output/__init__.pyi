@@ -123,7 +123,6 @@ from .word_meanings import (
     end_text as end_text,
     form_text as form_text,
     found_value as found_value,
-    meaning_of as meaning_of,
     start_text as start_text,
     stated_value as stated_value,
     stated_words as stated_words,

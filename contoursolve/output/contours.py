@@ -7,6 +7,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import (
     Answer,
     AskedValue,
+    EquationSystem,
     Listed,
     Listing,
     axis_labels,
@@ -17,6 +18,7 @@ from contoursolve.diagnosis import (
     length_of,
     list_alternatives,
     list_solutions,
+    meaning_of,
     printed_certificate,
     short_name,
     status_text,
@@ -27,7 +29,7 @@ from contoursolve.gcode import FACT
 from contoursolve.geometry import Length, Turn
 from contoursolve.output.plain_text import NAMELESS, Name, Table, columns, printable
 from contoursolve.output.premises import premise_texts
-from contoursolve.output.word_meanings import form_text, found_value, meaning_of, stated_words
+from contoursolve.output.word_meanings import form_text, found_value, stated_words
 from contoursolve.program import Result
 from contoursolve.solving import ArcSegment, Contour, resolved_later
 
@@ -49,12 +51,13 @@ def title_line(answer: Answer, name: str) -> str:
     return f"{place}: {form_text(answer)}{_called(answer)}: {status_text(answer.status)}"
 
 
-def explaining_lines(answer: Answer) -> list[str]:
-    """The equations of a contour, the conditions on which they determine it, and the construction."""
+def explaining_lines(answer: Answer, system: EquationSystem | None = None) -> list[str]:
+    """The equations of a contour, the conditions on which they determine it, and the construction; `system` is its own,
+    if it is made already."""
     from contoursolve.output.construction import construction_lines  # noqa: PLC0415 - only on demand
     from contoursolve.output.equations import equation_lines  # noqa: PLC0415 - sympy is slow to import
 
-    lines = [*equation_lines(answer.system), "", *construction_lines(answer)]
+    lines = [*equation_lines(system or answer.system), "", *construction_lines(answer)]
     if answer.contour and answer.profile.figure.corners and answer.claim.form.corner_note:
         lines.append(f"    {answer.claim.form.corner_note}")
     return lines
@@ -70,12 +73,13 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False,
     lines = [title_line(answer, result.program.name)]
     lines += [f"  {printable(block.text.strip())[:160]}" for block in answer.profile.blocks]
     lines += ["", *columns(given_table(answer).rows, left=(0, 3))]
+    system = answer.system if is_explained or is_derived else None
     if is_explained:
-        lines += ["", *explaining_lines(answer)]
-    if is_derived and answer.contour:
+        lines += ["", *explaining_lines(answer, system)]
+    if is_derived and system is not None and system.solution:
         from contoursolve.output.derivation import derivation_lines  # noqa: PLC0415 - sympy is slow to import
 
-        lines += ["", *derivation_lines(answer.system.derivation)]
+        lines += ["", *derivation_lines(system.derivation)]
     if answer.contour:
         path = path_table(answer.contour, answer.unit)
         lines += ["", *columns([("", "", *path.header[2:]), *path.rows], path.left)]
@@ -184,7 +188,7 @@ def given_table(answer: Answer) -> Table:
             rows.append((each.word.text, *_cells(each.value, each.unit), meaning))
     for asked in answer.answers:
         question = asked.question
-        meaning = f"asked: {meaning_of(question.name, question.word, answer)}".strip(": ")
+        meaning = f"asked: {meaning_of(question.name, question.word, answer.claim)}".strip(": ")
         number = ("?", "") if asked.value is None else _cells(*found_value(asked, answer))
         rows.append((printable(question.word.text), *number, meaning))
         names.append(("word", keys[question.word.span]) if question.word.span in keys else NAMELESS)

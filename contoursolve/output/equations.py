@@ -27,6 +27,7 @@ def equation_lines(system: EquationSystem) -> list[str]:
     if system.conditions:
         lines += ["", "  these conditions must hold:"]
         lines += condition_table(system).lines("    ", is_headed=False)
+    lines += [f"    {line}" for line in large_lines(system)]
     lines += (
         ["", "  these words say the same:", *tie_table(system).lines("    ", is_headed=False)] if system.ties else []
     )
@@ -69,6 +70,14 @@ def open_line(system: EquationSystem) -> str:
     meanings = [each.meaning for each in system.unknowns if each.symbol in system.free]
     missing = len(system.unknowns) - system.rank
     return f"still open: {join(meanings)}; {count(missing, 'equation')} {'is' if missing == 1 else 'are'} missing"
+
+
+def large_lines(system: EquationSystem) -> list[str]:
+    """A line for each step of which no condition is worked out."""
+    return [
+        f"no condition is worked out for {join([each.meaning for each in step])}: they are solved together"
+        for step in system.too_large
+    ]
 
 
 def unknown_table(system: EquationSystem) -> Table:

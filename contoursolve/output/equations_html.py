@@ -8,7 +8,7 @@ from markupsafe import Markup
 
 from contoursolve.diagnosis import EquationSystem, SystemCondition
 from contoursolve.numeric import symbolic
-from contoursolve.output.equations import open_line, size_text, stated_pair, unknown_table, value_table
+from contoursolve.output.equations import large_lines, open_line, size_text, stated_pair, unknown_table, value_table
 from contoursolve.output.html import table, table_of
 from contoursolve.output.plain_text import printable
 
@@ -23,6 +23,7 @@ def system_element(system: EquationSystem) -> Iterator[h.Node]:
     if system.conditions:
         rows = [(printable(each.meaning), maths(each.expression), _value(each)) for each in system.conditions]
         yield table("Conditions", ("what must hold", "must not be 0", "value here"), rows, numbers=(2,))
+    yield from (h.p[f"{line.capitalize()}."] for line in large_lines(system))
     if system.ties:
         ties = [(" ".join(each.words), "" if each.identity is None else maths(each.identity)) for each in system.ties]
         yield table("What says the same", ("words", "formula"), ties)

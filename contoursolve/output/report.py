@@ -226,12 +226,13 @@ def _explained(answer: Answer) -> h.Element:
     from contoursolve.output.derivation_html import derivation_element  # noqa: PLC0415 - sympy is slow to import
     from contoursolve.output.equations_html import system_element  # noqa: PLC0415 - sympy is slow to import
 
+    system = answer.system
     return h.section(".equations")[
         h.h4["Equations"],
-        *system_element(answer.system),
+        *system_element(system),
         h.h4["Construction"],
         h.pre["\n".join(line[2:] for line in construction_lines(answer)[1:])],
-        [h.h4["Calculation by hand"], *derivation_element(answer.system.derivation)] if answer.contour else None,
+        [h.h4["Calculation by hand"], *derivation_element(system.derivation)] if system.solution else None,
     ]
 
 

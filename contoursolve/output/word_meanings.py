@@ -6,7 +6,7 @@ from itertools import islice
 
 from msgspec import Struct
 
-from contoursolve.diagnosis import Answer, AskedValue, coordinates, short_name, word_keys, write_word
+from contoursolve.diagnosis import Answer, AskedValue, coordinates, meaning_of, short_name, word_keys, write_word
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Length, Line, Unit
 
@@ -66,7 +66,7 @@ def stated_words(answer: Answer) -> tuple[StatedWord, ...]:
         if id(word) not in seen:
             seen.add(id(word))
             value, unit = stated_value(word, answer) if word.address != FACT else (None, "")
-            meaning, key = meaning_of(name, word, answer), keys.get(word.span, FACT)
+            meaning, key = meaning_of(name, word, answer.claim), keys.get(word.span, FACT)
             fixes = tuple(dict.fromkeys(_fixed(name, answer)))
             found.append(StatedWord(key, word, meaning, value, unit, fixes, name in ignored))
     return tuple(found)
@@ -83,12 +83,6 @@ def _fixed(name: str, answer: Answer) -> Iterator[str]:
                 found = (getattr(fact, part, "") for part in ("point", "head", "center", "radius", "line"))
                 yield from (str(each) for each in islice(filter(None, found), 1))
     yield from (corner.name for corner in answer.profile.figure.corners if corner.size == name)
-
-
-def meaning_of(name: str, word: Word, answer: Answer) -> str:
-    """Meaning of the word that states a given."""
-    row = answer.claim.lexicon.addresses.get(word.address)
-    return answer.claim.form.meanings.get(name) or (row.meaning if row else "")
 
 
 def stated_value(word: Word, answer: Answer) -> tuple[float | None, str]:

@@ -79,7 +79,10 @@ from .contour_function import (
     build_function as build_function,
     rows_of as rows_of,
 )
-from .corner_definition import corner_equations as corner_equations
+from .corner_definition import (
+    corner_equations as corner_equations,
+    ends_somewhere as ends_somewhere,
+)
 from .determinacy import (
     Determinacy as Determinacy,
     StepCondition as StepCondition,

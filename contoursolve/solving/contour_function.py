@@ -1,6 +1,7 @@
 """One contour as a function of CasADi: from the values of its words to points, elements, corners, room, conditions."""
 
 from collections.abc import Callable, Mapping, Sequence
+from math import radians
 from typing import Any
 
 from msgspec import Struct
@@ -37,7 +38,7 @@ from contoursolve.solving.determinacy import basis_of
 from contoursolve.solving.inputs import input_values
 from contoursolve.solving.numbers import axes_of, inputs_of
 
-RADIANS = 0.017453292519943295
+_RADIANS = radians(1)
 """Of one degree."""
 
 
@@ -90,7 +91,7 @@ def _values(profile: Profile, system: System, typed: TypedValues, start: Pair) -
         if given.unit is not Unit.DEGREE:
             found[name] = value
         elif name in typed.givens:
-            found[name + COSINE], found[name + SINE] = cosine(value * RADIANS), sine(value * RADIANS)
+            found[name + COSINE], found[name + SINE] = cosine(value * _RADIANS), sine(value * _RADIANS)
     return found | dict(zip(both(system.figure.start), start, strict=True))
 
 

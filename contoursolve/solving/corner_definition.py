@@ -39,6 +39,12 @@ def corner_equations(
         yield f"it ends so far behind the begin of {names[1]}", _square(end, vertex) - size**2
 
 
+def ends_somewhere(corner: Corner, figure: Figure) -> bool:
+    """Whether there is something behind a corner on which it can end."""
+    lines = {line.name for line in (*figure.path, *figure.lines)}
+    return corner.after is not None or corner.lands_on in lines or corner.lands_parallel_to is not None
+
+
 class _Edge:
     """An element that passes a virtual intersection: a line along a direction, or a circle."""
 

@@ -225,3 +225,29 @@ def test_a_function_is_differentiated_and_optimised_by_casadi():
     largest = float(solver(x0=5, lbg=0)["x"])
     # The tangent of half the turn of 60 degrees, on the shorter line of 30 mm.
     assert largest == pytest.approx(min(30, 40 / 3**0.5 * 1.5) / np.tan(pi / 6), rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("block", "start", "control", "told"),
+    [
+        # The radius of the half circle is less than half its chord, by what the control allows.
+        (
+            "G1 X50\nG3 X-50 Y0 R49.9995\nG1 X-50 Y42.857 ,A171.87 Q-1",
+            "G42 X90 Y0",
+            "nct-99m",
+            "as the solution has it",
+        ),
+        ("G01 X30. ,R3.\nG03 X50. Y20. R20.", "X0. Y0.", "fanuc-mill", "the control leaves it out"),
+    ],
+)
+def test_what_nobody_calculates_by_hand_is_told(block, start, control, told):
+    for answer in contoursolve.solve(block, start=start, control=control).answers:
+        if answer.contour:
+            assert any(told in step.title for step in answer.system.derivation.steps)
+
+
+def test_a_corner_that_has_nothing_to_end_on_has_no_equations():
+    (answer,) = contoursolve.solve(
+        "G112 K32.023 I--92.673 W2.851 P40.372 Q22.272 R62.798", start="X369.372 Z-88.938"
+    ).answers
+    assert [corner.name for corner in answer.system.corners] == ["corner 1"]
