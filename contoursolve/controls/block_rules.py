@@ -242,6 +242,16 @@ READING_RULES = (
         rejected=(_GOOD + " P2", _START + "G111 A180 K-30 B120 X100"),
     ),
     Rule(
+        code="suspected",
+        message="{words} was probably meant to be {meant}: {reason}",
+        help="change it if that is meant; the setting suspicions=off tells nothing of this kind",
+        source=own_source("slips that machinists make, and how the paths of turned parts run"),
+        about=ReadIssue.SUSPECTED,
+        severity=Severity.WARNING,
+        accepted=(_GOOD,),
+        rejected=(_START + "G111 A0. K30. B60. X100.\nG01 Z-60.",),
+    ),
+    Rule(
         code="start-in-increments",
         message="{words} of the start point {have} no decimal point and {are} read as {actual}; {meant} would be "
         "{expected}",

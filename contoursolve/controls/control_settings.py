@@ -107,5 +107,11 @@ BLOCKS_SETTING = Setting(
     bounds=(Decimal(1), Decimal(100_000_000)),
     unit="blocks",
 )
-SETTINGS_OF_ALL = (TRAVEL_SETTING, BLOCKS_SETTING, WORDS)
+SUSPICIONS_SETTING = setting(
+    "suspicions",
+    "whether legal programs that are hardly meant are warned of",
+    {"on": "each with what was probably meant", "off": "not at all"},
+    own_source("one right program of fifty at most is warned of without a reason"),
+)
+SETTINGS_OF_ALL = (TRAVEL_SETTING, BLOCKS_SETTING, SUSPICIONS_SETTING, WORDS)
 """Those of every control."""

@@ -39,6 +39,7 @@ from .examine import (
     count_choices as count_choices,
     examine as examine,
     list_alternatives as list_alternatives,
+    may_be_suspected as may_be_suspected,
     rank as rank,
 )
 from .explain import (
@@ -62,6 +63,9 @@ from .hand_sheet import (
 )
 from .legality_table import (
     tabulate as tabulate,
+)
+from .line_slips import (
+    mend_line as mend_line,
 )
 from .references import (
     compare_reference as compare_reference,
@@ -93,6 +97,9 @@ from .spelling import (
     readings as readings,
     without_point as without_point,
 )
+from .suspicion import (
+    suspect as suspect,
+)
 from .typo_fixes import (
     explain_codes as explain_codes,
     explain_commas as explain_commas,
@@ -110,6 +117,10 @@ from .vocabulary import (
     moves as moves,
     name_of as name_of,
     not_read_yet as not_read_yet,
+)
+from .window import (
+    Window as Window,
+    WindowPart as WindowPart,
 )
 from .wording import (
     SHOWN as SHOWN,

@@ -2,9 +2,11 @@
 
 import dataclasses
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from bisect import insort
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from decimal import Decimal
-from itertools import chain, islice
+from itertools import chain
+from math import log2
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -12,20 +14,33 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.edits import Edit, EditKind, InsertionSide, Why, apply_edits, edit_facts, edited
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
 from contoursolve.diagnosis.examples import ends, propose, sampled
-from contoursolve.diagnosis.reach import Reach
-from contoursolve.diagnosis.subsets import LARGEST_ROLE
-from contoursolve.diagnosis.typo_fixes import (
-    FEW,
-    NEIGHBOUR,
-    POINT_LOST,
-    ROUND,
-    SIGN_ADDED,
-    SIGN_LOST,
-    SLIPS,
-    Slip,
-    recognise,
+from contoursolve.diagnosis.plausibility import (
+    OF_EDITS,
+    Feature,
+    cost_of,
+    distance,
+    familiarity,
+    length_of,
+    oddities,
+    round_points,
+    rounding_of,
+    size_of,
+    total,
 )
-from contoursolve.diagnostics import Applicability, Diagnostic, Severity, Span
+from contoursolve.diagnosis.prospects import Prospects, keeps_address
+from contoursolve.diagnosis.reach import Reach
+from contoursolve.diagnosis.slip_kinds import FEW, OF_DIGITS, ROUND, SlipKind, recognise
+from contoursolve.diagnosis.slips_around import (
+    MOST_OF_DIGITS,
+    MOST_TRIED as MOST_AROUND,
+    Candidate,
+    Marked,
+    drafts_around,
+    touches,
+)
+from contoursolve.diagnosis.subsets import LARGEST_ROLE
+from contoursolve.diagnosis.window import Seen, Window, moves_of
+from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, Severity, Span
 from contoursolve.gcode import Block, parse_block
 from contoursolve.geometry import Profile, Unit, assemble
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, advance, leave, read
@@ -48,11 +63,8 @@ MOST_TRIED = 60
 """Changed blocks that are tried for one contour, fewer for a chain, whose every trial takes longer; beyond it the list
 is not called complete."""
 
-MOST_SLIPS = 60
-"""Changed blocks that are considered for the slips of one contour."""
-
-MOST_OF_DIGITS = 3
-"""Slips of digits that are told; there may be many."""
+MOST_SEEN = 16
+"""Repairs of one contour that are looked at with the blocks around it."""
 
 MOST_CONSIDERED = 2_000
 """Changed blocks that are looked at for one contour; most of them contain a repair that was found before."""
@@ -85,14 +97,24 @@ class Repair(Struct, frozen=True):
     """From which number to which one the placeholder may be; nothing where no end was found."""
     is_exact: bool = True
     """Whether its circles pass through their points, and do not only miss them by less than a control minds."""
-    is_blamed: bool = True
-    """Whether a finding is about a word that it changes."""
-    reason: Why = Why.OTHER
-    """The least convincing of the reasons for its edits."""
-    slips: tuple[Slip | None, ...] = ()
+    slips: tuple[SlipKind | None, ...] = ()
     """The slip that explains each edit."""
     drawbacks: tuple[str, ...] = ()
     """The reason, in words, for which it is unlikely to be meant."""
+    beside: tuple[LineChange, ...] = ()
+    """The lines outside the contour that it changes, too."""
+    evidence: tuple[tuple[Feature, float], ...] = ()
+    """The features that tell how plausible it is, with the amount of each."""
+
+    @property
+    def cost(self) -> float:
+        """The cost of all of them: the higher, the less it is what was meant."""
+        return round(total(self.evidence), 6)
+
+    @property
+    def cost_of_edits(self) -> float:
+        """The part of it that is known before it is tried."""
+        return total(each for each in self.evidence if each[0] in OF_EDITS)
 
 
 class Repairs(Struct, frozen=True):
@@ -128,6 +150,22 @@ class Trial(Struct, frozen=True):
     """Whether its words say something twice, and agree."""
     reach: Reach | None = None
     """The parts that edits leave as they are."""
+    window: Window | None = None
+    """The blocks around it."""
+    is_open: bool = False
+    """Whether words are missing."""
+    is_round: bool = False
+    """Whether a finding is about a circle: any word of its block may place it wrongly."""
+    is_missed: bool = False
+    """Whether a circle is missed, so that its size may be wrong."""
+    is_crossing_curves: bool = False
+    """Whether it has points that are computed as those of two lines or circles."""
+    is_dropped: bool = False
+    """Whether all that is wrong is that the control leaves corners out."""
+    prospects: Prospects | None = None
+    """The words and lines that slips must change to undo what is wrong."""
+    told: str = ""
+    """The messages of its findings, which may name a word to add."""
 
     def repair(self, edits: tuple[Edit, ...]) -> Repair | None:
         """The repair with the reasons for it, if it is one."""
@@ -139,9 +177,7 @@ class Trial(Struct, frozen=True):
         if repair is None:
             return None
         found = tuple(recognise(edit, self.claim) or (ROUND if _is_round(edit) else None) for edit in edits)
-        reason = max(Why.SLIP if slip else edit.reason for edit, slip in zip(edits, found, strict=True))
-        is_blamed = not self.blamed or any(edit.span in self.blamed for edit in edits)
-        return replace(repair, reason=reason, slips=found, is_blamed=is_blamed)
+        return replace(repair, slips=found)
 
     def _solve(self, edits: tuple[Edit, ...]) -> Repair | None:
         """The repair, if the changed block is read as the same form, accepted, and solved without a finding."""
@@ -157,7 +193,7 @@ class Trial(Struct, frozen=True):
         if answer is None:
             paths = (self._path_in_parts, self._path_beside_arcs) if _is_about_corners(edits, claim) else ()
             contour = next(filter(None, (path(edits) for path in paths)), None)
-            return self._making(contour, edits, replacement) if contour else None
+            return self.made(contour, edits, replacement) if contour else None
         if answer.contour is None or not _is_settled(answer, edits):
             return None
         # No change of the block moves its start.
@@ -173,7 +209,7 @@ class Trial(Struct, frozen=True):
             return None
         if answer.contour.crossing is not None and self.codes == {each.code for each in rules if _is_crossing(each)}:
             return None
-        repair = self._making(answer.contour, edits, replacement)
+        repair = self.made(answer.contour, edits, replacement)
         is_safe = repair.applicability is Applicability.SAFE and not any(_drops_more(edit, claim) for edit in edits)
         return replace(
             repair,
@@ -182,7 +218,40 @@ class Trial(Struct, frozen=True):
             is_exact=all(each.about is not NoteKind.RADIUS_DIFFERS for each in answer.diagnostics),
         )
 
-    def _making(self, contour: Contour, edits: tuple[Edit, ...], replacement: str) -> Repair:
+    @property
+    def marked(self) -> Marked:
+        """The places that its findings mark: of an arc all its words, and where words are missing all of them."""
+        lines = frozenset(span.line for span in self.blamed)
+        own = list[Block]()
+        if self.is_round:
+            sizes = (*"IJK", self.dialect.modes.radius)
+            own += (block for block in self.claim.blocks if block.line in lines and any(map(block.find, sizes)))
+        if self.is_missed:
+            own += [block for block in self.claim.blocks if block.find(self.dialect.modes.radius)]
+        own += self.claim.blocks if self.is_open and len(self.claim.blocks) <= _SHORT else ()
+        spans = {word.span for block in own for word in block.words}
+        return Marked(self.blamed | spans, lines | {block.line for block in own}, self.told)
+
+    def strangeness(self, edit: Edit) -> float:
+        """The cost of a word that is added seldom: one that no block around has, or that counts from where
+        the tool is; more likely one that the finding names."""
+        shapes = {
+            self.claim.vocabulary[name][0] for name in self.claim.form.outline.shapes if name in self.claim.vocabulary
+        }
+        if edit.kind is EditKind.DROP and edit.address in shapes and not self.is_dropped:
+            # A corner stands on the drawing.
+            return 0.8
+        if edit.kind is not EditKind.ADD or edit.address == "G":
+            return 0.0
+        if edit.address == self.claim.form.free.picking:
+            return -2.5
+        blocks = self.window.blocks if self.window else self.claim.blocks
+        row, is_used = self.claim.lexicon.addresses.get(edit.address), any(block.find(edit.address) for block in blocks)
+        is_named = re.search(rf"(?<![A-Z,#]){re.escape(edit.address)}(?![A-Z=])", self.told) is not None
+        is_step = row is not None and (row.is_increment or "=" in edit.address)
+        return 0.7 * (not is_used) + 0.8 * (is_step and not is_used) - 0.8 * is_named
+
+    def made(self, contour: Contour, edits: tuple[Edit, ...], replacement: str) -> Repair:
         """The repair that makes a contour, which may be parted into several, and lines between them."""
         reference = self.contour
         deviation = contour.deviation(reference) if reference else float("inf")
@@ -410,36 +479,18 @@ def _parted(blocks: list[Block], edits: tuple[Edit, ...]) -> tuple[list[Block], 
     return blocks[:first], blocks[first:last], blocks[last:]
 
 
+_SHORT = 12
+"""Blocks of a contour in all of which a word may be missing."""
+
+
 # Ranking -------------------------------------------------------------------------------------------------------------
 
 
-def choose_repairs(
-    trial: Trial,
-    stages: Iterable[Iterable[tuple[Edit, ...]]],
-    slips: Iterable[tuple[Edit, ...]] = (),
-    digits: Iterable[tuple[Edit, ...]] = (),
-    radii: Iterable[tuple[Edit, ...]] = (),
-) -> Repairs:
-    """The drafts that are repairs, none of which contains another one; of each stage after what came before.
-
-    `slips` are tried besides, `digits` where neither these nor a value that agrees or fits explains the block; of
-    `radii` those count that make round points.
-    """
+def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -> Repairs:
+    """The drafts that are repairs, none of which contains another one, and the slips around the contour that explain
+    it; the most plausible first."""
     found: list[Repair] = []
     tried: set[tuple[Edit, ...]] = set()
-
-    def try_slips(drafts: Iterable[tuple[Edit, ...]], enough: int, *, is_round: bool = False) -> None:
-        for edits in islice(drafts, MOST_SLIPS):
-            repair = trial.repair(edits)
-            if is_round and repair and not _has_round_points(repair):
-                continue
-            if repair and not any(set(other.edits) <= set(edits) for other in found):
-                found.append(repair)
-            if sum(each.reason is Why.SLIP for each in found) >= enough:
-                return
-
-    try_slips(slips, MOST_SLIPS)
-    try_slips(radii, MOST_SLIPS, is_round=True)
     spent = 0
     length = len(trial.claim.blocks)
     most = MOST_TRIED if length <= LARGEST_ROLE else max(8, 2 * MOST_TRIED // length)
@@ -453,85 +504,225 @@ def choose_repairs(
             repair = trial.repair(edits)
             found += [repair] if repair else []
             spent += trial.extra(edits)
-    if not any(each.reason in _STRONG and each.is_exact and not each.drawbacks for each in found):
-        try_slips(digits, MOST_OF_DIGITS)
-    found = [repair for repair in found if not any(set(other.edits) < set(repair.edits) for other in found)]
+    is_complete = len(tried) + spent <= most and considered <= MOST_CONSIDERED
+    found = [_weighed(each, trial) for each in found]
+    # With the blocks around them, as slips are.
+    found = [_seen(each, trial) if at < _ENOUGH else each for at, each in enumerate(sorted(found, key=_order))]
+    known = {each.edits: each for each in found}
+    for each in _slips_around(trial, known.copy(), tried - known.keys()):
+        other = known.get(each.edits)
+        if other is None or each.cost_of_edits < other.cost_of_edits:
+            known[each.edits] = each
+    found = [*known.values()]
+    found = [
+        each
+        for each in found
+        if not any(set(other.edits) < set(each.edits) and other.cost <= each.cost for other in found)
+    ]
+    found = [_seen(each, trial) if at < MOST_SEEN else each for at, each in enumerate(sorted(found, key=_order))]
+    found = _large_marked(found, trial.contour)
     found.sort(key=_order)
     found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
-    is_complete = len(tried) + spent <= most and considered <= MOST_CONSIDERED
+    farthest = found[0].cost + _FARTHEST if found else 0.0
+    found = [each for at, each in enumerate(found) if at < _ENOUGH or each.cost <= farthest or not any(each.slips)]
     found = [trial.with_ends(each) if each.example else each for each in found]
     added = frozenset((edit.address, edit.line) for edits in tried for edit in edits if edit.kind is EditKind.ADD)
-    ordered = tuple(_large_last(found, trial.contour))
-    return Repairs(ordered, is_complete, has_tried_all=is_complete, tried=added)
+    return Repairs(tuple(found), is_complete, has_tried_all=is_complete, tried=added)
 
 
-def _order(repair: Repair) -> tuple[object, ...]:
-    """The order in which a colleague would name them: what a slip of typing explains, then what agrees with the other
-    words, what fits, what is missing, what is one too many; among equals the smallest change."""
-    slip = max((min(SLIPS.index(each), len(FEW) + 1) for each in repair.slips if each), default=0)
-    # Of signs that may be lost or too many, the one with which the contour does not go to and fro.
-    is_sign = repair.contour is not None and {*repair.slips} <= {SIGN_LOST, SIGN_ADDED}
-    is_other = repair.applicability is not Applicability.SAFE
-    size = _size(repair.contour) if repair.contour else 0.0
-    # A lost point is looked for at the end of a number first; in a long one, before the last three digits.
-    lost = [edit for edit, each in _explained(repair) if each and each.sentence == "a lost decimal point"]
-    lost += [edit for edit, each in _explained(repair) if each is POINT_LOST]
-    decimals = [len(edit.text.partition(".")[2]) for edit in lost]
-    decimals = [_DECIMALS - each if len(edit.text) > _LONG else each for edit, each in zip(lost, decimals, strict=True)]
-    is_of_digits = repair.reason is Why.SLIP and any(each and each.is_of_digits for each in repair.slips) and not lost
+def _slips_around(
+    trial: Trial, known: Mapping[tuple[Edit, ...], Repair], refused: Set[tuple[Edit, ...]]
+) -> Iterator[Repair]:
+    """The slips of a contour and of the blocks around it that explain what is wrong: those of digits where no other
+    one does."""
+    window, claim = trial.window, trial.claim
+    if window is None or not trial.marked.lines:
+        return
+    ranked = sorted(each.cost for each in known.values())
+    paths = [_USUAL, *(each.cost - each.cost_of_edits for each in known.values())]
+    best = min((each.cost_of_edits for each in known.values()), default=None)
+    # What cannot be read is an error until an edit touches it.
+    torn = {each.span for block in window.own for each in block.faults}
+
+    def may_mend(edits: tuple[Edit, ...]) -> bool:
+        is_whole = all(any(touches(edit, span) for edit in edits) for span in torn)
+        return is_whole and (trial.prospects is None or trial.prospects.has(edits))
+
+    for kinds in (FEW, OF_DIGITS):
+        is_likely = best is not None and best < _LIKELY
+        if kinds is OF_DIGITS and is_likely and not trial.is_crossing_curves:
+            return
+        drafts = drafts_around(window, trial.marked, claim, kinds, may_mend)
+        if kinds is OF_DIGITS and is_likely:
+            # The sizes of circles that are missed, which few other slips explain.
+            sizes = {*"IJK", window.dialect.modes.radius} if trial.is_missed else None
+            drafts = [
+                each
+                for each in drafts
+                if all(edit.span in trial.marked.spans for edit in each.edits)
+                and (sizes is None or all(edit.address in sizes for edit in each.edits))
+            ]
+        tried = 0
+        for draft in drafts:
+            own = known.get(draft.edits)
+            if own is not None and own.cost_of_edits <= draft.cost:
+                continue
+            if draft.edits in refused and all(map(keeps_address, draft.edits)):
+                continue
+            most = MOST_AROUND if kinds is FEW else MOST_OF_DIGITS
+            if tried >= most or draft.cost + min(paths) - _PATH > _bound(ranked):
+                break
+            tried += 1
+            seen = window.after(draft.edits)
+            if seen is None or not window.mends(seen):
+                continue
+            lines = {*window.lines}
+            answers = [each for each in seen.answers if lines.intersection(each.lines)]
+            # Without a word, plain blocks may be left.
+            is_plain = not answers and all(edit.kind is EditKind.DROP for edit in draft.edits)
+            if not is_plain and (not answers or any(each.contour is None for each in answers)):
+                continue
+            repair = repair_of(draft, seen, answers, trial)
+            best = repair.cost_of_edits if best is None else min(best, repair.cost_of_edits)
+            insort(ranked, repair.cost)
+            paths.append(repair.cost - repair.cost_of_edits)
+            yield repair
+
+
+def _bound(costs: Sequence[float]) -> float:
+    """The cost beyond which a further repair would hardly be among the first ones."""
+    return min([*costs[_ENOUGH - 1 : _ENOUGH], *(each + _BEHIND for each in costs[:1])], default=float("inf"))
+
+
+_FARTHEST = 5.0
+"""Slips that are so much less plausible than the best repair are not told behind some others."""
+
+_LIKELY = 4.0
+"""The cost of the edits of a repair beside which wrong digits are not looked for."""
+
+_MARGIN = 2.5
+"""By so much less plausible than the best one, repairs tell nothing of sizes."""
+
+_USUAL = 2.0
+"""The cost of a usual path, where those that are known are odd."""
+
+_ENOUGH, _BEHIND, _PATH = 3, 1.0, 0.2
+"""Repairs that are read, and by how much less plausible than the first one they may be; by so much another path may
+cost less than the least of those that are known."""
+
+
+def repair_of(draft: Candidate, seen: Seen, answers: Sequence[Answer], trial: Trial) -> Repair:
+    """A draft that was tried, with what it makes of the contour; of plain blocks, none is left."""
+    contour = answers[0].contour if answers else None
+    own = {block.line for block in trial.claim.blocks}
+    within = [edit for edit in draft.edits if (edit.span.line if edit.span else edit.line) in own]
+    replacement = edited(trial.claim.blocks, within)
+    repair = Repair(draft.edits, replacement, Applicability.CHANGES_CONTOUR, None, 0.0)
+    if contour is not None:
+        repair = trial.made(contour, draft.edits, replacement)
+    beside = (
+        tuple(each for each in trial.window.changes(draft.edits) if each.span.line not in own) if trial.window else ()
+    )
+    more = ((Feature.MENDS_MORE, -float(min(trial.window.gain(seen), _MOST_MORE)) if trial.window else 0.0),)
+    evidence = (*_of_path(repair, seen, draft.evidence), *more)
+    return replace(repair, slips=draft.slips, evidence=evidence, beside=beside)
+
+
+_MOST_MORE = 3
+"""Problems elsewhere that count."""
+
+
+def _weighed(repair: Repair, trial: Trial) -> Repair:
+    """A repair with what is known of it without the blocks around it."""
+    edits, marked = repair.edits, trial.marked
+    kind = sum(cost_of(edit, slip) + trial.strangeness(edit) for edit, slip in zip(edits, repair.slips, strict=True))
+    kind += _SIGNED * sum(edit.why is Why.AGREES and _has_other_sign(edit) for edit in edits)
+    lines = [edit.span.line if edit.span else edit.line for edit in edits]
+    near = [distance(line, edit.span in marked.spans, marked.lines) for line, edit in zip(lines, edits, strict=True)]
+    rounding = sum(map(rounding_of, edits))
+    blocks = trial.window.blocks if trial.window else trial.claim.blocks
+    evidence = (
+        (Feature.KIND, kind),
+        (Feature.NEAR, min(near, default=0.0)),
+        (Feature.ROUND, rounding),
+        (Feature.FAMILIAR, familiarity(edits, blocks)),
+    )
+    return replace(repair, evidence=_of_path(repair, None, evidence))
+
+
+_SIGNED = 0.8
+"""The cost of a sign that changes with the value, which the others would have as well with the old sign."""
+
+
+def _has_other_sign(edit: Edit) -> bool:
+    return ("-" in edit.text) is not ("-" in edit.old)
+
+
+def _seen(repair: Repair, trial: Trial) -> Repair:
+    """A repair with what the blocks around it tell."""
+    window, edits = trial.window, repair.edits if repair.contour is not None else repair.example
+    if window is None or any(each[0] is Feature.SEEN for each in repair.evidence) or not edits:
+        return repair
+    seen = window.after(edits)
+    if seen is None:
+        return repair
+    kept = [each for each in repair.evidence if each[0] in OF_EDITS]
+    new = (Feature.SEEN, float(not window.mends(seen)))
+    more = (Feature.MENDS_MORE, -float(min(window.gain(seen), _MOST_MORE)))
+    return replace(repair, evidence=(*_of_path(repair, seen, tuple(kept)), new, more))
+
+
+def _of_path(
+    repair: Repair, seen: Seen | None, known: tuple[tuple[Feature, float], ...]
+) -> tuple[tuple[Feature, float], ...]:
+    """The features that are known, and those of the path."""
+    contour = repair.contour
+    if contour is None and seen is None:
+        return known
+    moves = seen.moves if seen is not None else tuple(moves_of(contour)) if contour else ()
     return (
-        bool(repair.drawbacks),
-        repair.reason,
-        not repair.is_exact,
-        repair.reason is Why.SLIP and not _has_round_points(repair),
-        (SLIPS.index(SIGN_LOST) if is_sign else slip) if repair.reason is Why.SLIP else 0,
-        round(size, 6) if is_sign else 0.0,
-        sum(decimals),
-        not repair.is_blamed,
-        sum(_change(edit) for edit in repair.edits) if is_of_digits else 0,
-        repair.warnings,
-        is_other,
-        [edit.text for edit in repair.edits if edit.text.startswith("\n")],
-        repair.deviation,
-        len(repair.edits),
-        round(size, 6) if NEIGHBOUR not in repair.slips else 0,
+        *known,
+        *oddities(moves).items(),
+        (Feature.POINTS, -round_points(contour)),
+        (Feature.SAME, -float(repair.applicability is Applicability.SAFE)),
+        (Feature.EXACT, float(not repair.is_exact)),
+        (Feature.WARNING, float(repair.warnings)),
+        *(((Feature.SEEN, 0.0),) if seen is not None else ()),
     )
 
 
-def _large_last(found: list[Repair], before: Contour | None) -> list[Repair]:
-    """Repairs in order, behind the others those that make the contour more than twice as large as it was, or as the
-    first one makes it; of several by the same slip in one word, as the smallest one. A slip that makes it several times
-    as large as another slip does goes there, too."""
-    sizes = [_size(each.contour) for each in found if each.contour and _is_alike(each, found[0])]
-    if before is None and not sizes:
+def _large_marked(found: list[Repair], before: Contour | None) -> list[Repair]:
+    """Repairs, those that make the contour more than twice as large as it was, or as the smallest of the more plausible
+    ones makes it, with that as a drawback."""
+    best = min((each.cost for each in found if each.contour), default=0.0)
+    sizes = [size_of(each.contour) for each in found if each.contour and each.cost <= best + _MARGIN]
+    if not sizes:
         return found
-    largest = 2 * (_size(before) if before else min(sizes))
-    by_slips = [_size(each.contour) for each in found if each.contour and each.reason is Why.SLIP]
-    largest = min([largest, *(_SEVERAL * size for size in by_slips)])
-    large = [
-        each for each in found if each.contour and _size(each.contour) > largest and not all(map(_is_comma, each.edits))
-    ]
-    rest = [each for each in found if each not in large]
-    return rest + [replace(each, drawbacks=(*each.drawbacks, _LARGE)) for each in large]
+    least = max(size_of(before) if before else 0.0, min(sizes), AGREEMENT)
+    shortest = min(length_of(each.contour) for each in found if each.contour and each.cost <= best + _MARGIN)
+    marked = []
+    for each in found:
+        times = log2(size_of(each.contour) / least) - 1 if each.contour and size_of(each.contour) else 0.0
+        if each.contour and shortest:
+            longer = max(log2(max(length_of(each.contour), AGREEMENT) / shortest), 0.0)
+            each = replace(each, evidence=(*each.evidence, (Feature.LONG, longer)))  # noqa: PLW2901
+        if times > 0:
+            evidence = (*each.evidence, (Feature.LARGE, max(times - 1, 0.0)))
+            each = replace(each, drawbacks=(*each.drawbacks, _LARGE), evidence=evidence)  # noqa: PLW2901
+        marked.append(each)
+    return marked
 
 
-def _change(edit: Edit) -> float:
-    """By how much a number is changed, of its size."""
-    old, new = (_NUMBER.search(text) for text in (edit.old, edit.text))
-    return abs(float(new[0]) / float(old[0]) - 1) if old and new and float(old[0]) else 1.0
-
-
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)")
-
-
-def _has_round_points(repair: Repair) -> bool:
-    """Whether the intersections that a control computes come out at round numbers, which hardly happens by chance."""
-    points = [at for name, at in repair.contour.points.items() if name.startswith("P")] if repair.contour else []
-    return bool(points) and all(abs(round(each, 1) - each) <= AGREEMENT for at in points for each in at)
-
-
-def _explained(repair: Repair) -> Iterator[tuple[Edit, Slip | None]]:
-    return zip(repair.edits, repair.slips, strict=True)
+def _order(repair: Repair) -> tuple[object, ...]:
+    """The most plausible first; of those alike the smallest change."""
+    size = size_of(repair.contour) if repair.contour else 0.0
+    return (
+        repair.cost,
+        round(repair.deviation, 6),
+        len(repair.edits),
+        round(size, 6),
+        [(edit.span or Span(edit.line, 0, 0), edit.text) for edit in repair.edits],
+    )
 
 
 def _is_again(repair: Repair, other: Repair) -> bool:
@@ -541,17 +732,4 @@ def _is_again(repair: Repair, other: Repair) -> bool:
     return is_same and changes and [edit.span for edit in repair.edits] == [edit.span for edit in other.edits]
 
 
-def _is_alike(repair: Repair, other: Repair) -> bool:
-    """Whether two repairs say that the same slip happened to the same words."""
-    return repair.slips == other.slips and [edit.span for edit in repair.edits] == [edit.span for edit in other.edits]
-
-
-_STRONG = (Why.ROUNDED, Why.SLIP, Why.FITS)
-_SEVERAL, _DECIMALS, _LONG = 5, 3, 6
 _LARGE = "more than twice as large"
-
-
-def _size(contour: Contour) -> float:
-    """The larger side of the rectangle around the points of a path, mm."""
-    points = [contour.start, *(element.end for element in contour.elements)]
-    return max(max(each[axis] for each in points) - min(each[axis] for each in points) for axis in (0, 1))

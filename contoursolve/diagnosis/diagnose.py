@@ -1,12 +1,12 @@
 """Adds to findings why they are so and what to write instead, and which checks a contour went through."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence, Set
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.attempt import Repairs
+from contoursolve.diagnosis.attempt import Repair, Repairs
 from contoursolve.diagnosis.edits import EditKind
-from contoursolve.diagnosis.examine import Answer, Policy, problems
+from contoursolve.diagnosis.examine import SUSPICIONS, Answer, Policy, problems
 from contoursolve.diagnosis.explain import (
     AGAINST,
     LEAVING_FREE,
@@ -20,6 +20,8 @@ from contoursolve.diagnosis.explain import (
 from contoursolve.diagnosis.fix_text import fixes_of
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
+from contoursolve.diagnosis.slips_around import touches
+from contoursolve.diagnosis.window import Window
 from contoursolve.diagnosis.wording import SHOWN, count, length_text
 from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, Label, Layer, Severity, Span, Tie, Verdict
 from contoursolve.gcode import FACT, Block, FaultKind
@@ -53,6 +55,7 @@ def diagnose(
     policy: Policy,
     following: Iterable[Block] = (),
     previous: tuple[Sequence[Block], State] | None = None,
+    window: Window | None = None,
 ) -> Answer:
     """The answer with a diagnosis; its findings with their reasons, the first one with the repairs. `following` are
     the next blocks, `previous` those before it, of which it may be the end, with the state before them."""
@@ -67,7 +70,7 @@ def diagnose(
     # What a contour needs and nobody reads here is no slip.
     repairs = Repairs((), is_complete=False)
     if not answer.claim.unread:
-        repairs = find_repairs(answer, dialect, tuple(following), previous)
+        repairs = find_repairs(answer, dialect, tuple(following), previous, window)
     diagnosis = Diagnosis(
         layers=list_layers(answer, policy),
         freedoms=freedoms,
@@ -90,8 +93,23 @@ def diagnose(
     if main is not None:
         fixes = fixes_of(answer, repairs.repairs)
         for number in (main, *_both(findings)):
-            findings[number] = replace(findings[number], fixes=fixes)
+            findings[number] = _pointing(replace(findings[number], fixes=fixes), repairs.repairs)
     return replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis)
+
+
+def _pointing(finding: Diagnostic, repairs: Sequence[Repair]) -> Diagnostic:
+    """The finding; it points at the words that its first fix changes, too."""
+    known, labels, notes = {label.span for label in finding.labels}, list[Label](), list[str]()
+    for edit in repairs[0].edits if repairs else ():
+        if (
+            edit.kind is EditKind.CHANGE
+            and edit.span is not None
+            and edit.span.line > 0
+            and not any(touches(edit, span) for span in known)
+        ):
+            labels.append(Label(edit.span, f"probably {edit.text}"))
+            notes.append(f"{edit.old} in program line {edit.span.line} was probably {edit.text}")
+    return replace(finding, labels=(*finding.labels, *labels), notes=(*notes, *finding.notes))
 
 
 def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Dialect, repairs: Repairs) -> list[Diagnostic]:
@@ -133,12 +151,23 @@ _MISSING = {ReadIssue.UNDERDETERMINED, ReadIssue.CORNER_NOWHERE, *LEAVING_FREE}
 def mend_points(answer: Answer, dialect: Dialect) -> Answer:
     """The answer; its findings that a number lacks its point with what they were meant to be, each about its words."""
     repairs = find_repairs(answer, dialect).repairs
-    findings = []
+    findings, is_telling = [], dialect.modes.settings.get(SUSPICIONS) != "off"
     for finding in answer.diagnostics:
         spans = spans_of([finding], ReadIssue.POINT_MISSING)
         own = [repair for repair in repairs if any(edit.span in spans for edit in repair.edits)]
-        findings.append(replace(finding, fixes=fixes_of(answer, own)))
+        told = replace(finding, fixes=fixes_of(answer, own))
+        is_doubted = is_telling and finding.about is ReadIssue.POINT_MISSING and _is_tiny(answer, spans)
+        findings.append(replace(told, severity=Severity.WARNING) if is_doubted else told)
     return replace(answer, diagnostics=tuple(findings))
+
+
+def _is_tiny(answer: Answer, spans: Set[Span]) -> bool:
+    """Whether one word alone lacks its point, and counts so few least increments that nobody means that."""
+    words = [word for word in answer.claim.words.values() if word.span in spans]
+    return len(words) == 1 and 0 < abs(float(words[0].number or 0)) < _FEW_INCREMENTS
+
+
+_FEW_INCREMENTS = 100
 
 
 def _main(findings: list[Diagnostic], *, is_extended: bool) -> int | None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
-from math import dist
+from math import dist, pi
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -55,6 +55,7 @@ from contoursolve.reading import (
     unused_words,
 )
 from contoursolve.solving import (
+    ArcSegment,
     Certificate,
     Contour,
     Note,
@@ -353,6 +354,34 @@ def _state_more(
 def problems(answer: Answer) -> list[Diagnostic]:
     """The errors and the warnings about a contour."""
     return [each for each in answer.diagnostics if each.severity is not Severity.INFO]
+
+
+def may_be_suspected(answer: Answer) -> bool:
+    """Whether a contour is worth a second look: a turned one that runs away from the chuck somewhere, an arc of more
+    than half a turn, a number that begins with a zero, a turning axis."""
+    contour, claim = answer.contour, answer.claim
+    if contour is None:
+        return False
+    turned = next((number for number, is_diameter in enumerate(contour.plane.diameters) if is_diameter), None)
+    if turned is not None and any(each.end[1 - turned] - each.start[1 - turned] > LENGTH for each in contour.elements):
+        return True
+    if any(isinstance(each, ArcSegment) and each.length > _WIDE * each.radius for each in contour.elements):
+        return True
+    words = (word for block in claim.blocks for word in block.words)
+    return any((word.has_point and LEADING.search(word.text)) or word.address in _TURNING for word in words)
+
+
+_WIDE = pi + 1e-3
+"""Radians: half a turn is usual."""
+
+LEADING = re.compile(r"[A-Za-z][ \t]*+[=(]?+[ \t]*+[+-]?0\d")
+"""A word whose number begins with a zero that nobody writes, as in 08.4."""
+
+_TURNING = "BC"
+"""Axes that turn on most machines."""
+
+SUSPICIONS = "suspicions"
+"""The name of the setting by which suspicions are told, or not."""
 
 
 def answer_question(question: Question, profile: Profile, solution: Solution) -> AskedValue:

@@ -33,7 +33,7 @@ def _fix(answer: Answer, repair: Repair, outcome: str) -> Fix:
     effect = f"drops {join(dropped)}" if is_beside else ""
     example = edited(blocks, repair.example) if numbers else ""
     replaced = "\n".join(block.text for block in blocks)
-    return Fix(description, repair.replacement, repair.applicability, effect, example, replaced)
+    return Fix(description, repair.replacement, repair.applicability, effect, example, replaced, repair.beside)
 
 
 def _outcomes(answer: Answer, contours: Sequence[Contour | None]) -> list[str]:

@@ -1,7 +1,8 @@
 """Repairs: every smallest change of a block's words that the control accepts and that has a
 contour. Each one is applied to the text, read, checked and solved again before it is offered."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from decimal import ROUND_HALF_EVEN, Decimal
 from itertools import chain, combinations, product
 from math import copysign, sqrt
@@ -25,7 +26,9 @@ from contoursolve.diagnosis.drafts import (
 from contoursolve.diagnosis.edits import AT_LEAST, Edit, EditKind, Why, add, change, drop, write_word
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine, problems
 from contoursolve.diagnosis.explain import SINGULAR, spans_of
+from contoursolve.diagnosis.prospects import Prospects
 from contoursolve.diagnosis.reach import Reach
+from contoursolve.diagnosis.slip_kinds import explained
 from contoursolve.diagnosis.spelling import torn_codes
 from contoursolve.diagnosis.subsets import (
     blamed_spans,
@@ -36,19 +39,10 @@ from contoursolve.diagnosis.subsets import (
     smallest_changes,
     words_of,
 )
-from contoursolve.diagnosis.typo_fixes import (
-    FEW,
-    OF_DIGITS,
-    SIGN_ADDED,
-    SIGN_LOST,
-    explained,
-    other_codes,
-    point_slips,
-    slips,
-    suspects,
-)
+from contoursolve.diagnosis.typo_fixes import other_codes, point_slips
+from contoursolve.diagnosis.window import Window
 from contoursolve.diagnostics import Diagnostic, Span
-from contoursolve.gcode import Block, FaultKind, Word, number_of
+from contoursolve.gcode import Block, FaultKind, number_of
 from contoursolve.geometry import Given, Profile, Unit
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, check, read
 from contoursolve.solving import (
@@ -63,15 +57,13 @@ from contoursolve.solving import (
     refusals_about,
 )
 
-MOST_BLOCKS = 6
-"""Of a contour in which wrong digits are looked for."""
-
 
 def find_repairs(
     answer: Answer,
     dialect: Dialect,
     following: tuple[Block, ...] = (),
     previous: tuple[Sequence[Block], State] | None = None,
+    window: Window | None = None,
 ) -> Repairs:
     """The repairs of a contour that was refused, or in which a word is ignored.
 
@@ -81,20 +73,32 @@ def find_repairs(
     claim = answer.claim
     # No change of words closes a comment, and what leaves a warning is no repair.
     is_closed = all(each.kind is not FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for each in block.faults)
-    if not (answer.start.is_known and is_closed):
-        return Repairs((), is_complete=False)
     codes = frozenset(each.code for each in answer.diagnostics)
+    told = " ".join(each.message for each in problems(answer))
+    is_open = any(each.about in _OPEN for each in problems(answer))
+    if not is_closed or (not answer.start.is_known and _waits(answer)):
+        return Repairs((), is_complete=False)
+    around = window.blocks if window is not None else ()
+    if not answer.start.is_known:
+        trial = Trial(claim, dialect, codes, None, blamed=frozenset(blamed_spans(answer)), window=window, told=told)
+        trial = replace(trial, prospects=Prospects.of(answer, dialect.rules, blocks=around))
+        return replace(choose_repairs(trial, ()), is_complete=False)
     if not problems(answer):
-        return choose_repairs(Trial(claim, dialect, codes, answer.contour), (), point_slips(answer))
+        return choose_repairs(Trial(claim, dialect, codes, answer.contour), [point_slips(answer)])
     if torn_codes(claim):
         # Without its letters the code is another one, which nobody has written.
-        repairs = choose_repairs(Trial(claim, dialect, codes, None, following=following), [mended_words(answer)])
+        blamed = frozenset(blamed_spans(answer))
+        trial = Trial(claim, dialect, codes, None, following=following, blamed=blamed, window=window)
+        repairs = choose_repairs(trial, [mended_words(answer)])
         return replace(repairs, is_complete=False)
     if answer.profile.is_extended:
         # Few blocks state more than their words.
         from contoursolve.diagnosis.drafts_beside_facts import further_drafts, next_place_of  # noqa: PLC0415
 
-        trial = Trial(claim, dialect, codes, answer.contour, next_place_of(answer.profile), reach=Reach(answer))
+        place, blamed = next_place_of(answer.profile), frozenset(blamed_spans(answer))
+        reach = Reach(answer)
+        trial = Trial(claim, dialect, codes, answer.contour, place, blamed=blamed, reach=reach, window=window)
+        trial = replace(trial, is_open=is_open, told=told)
         repairs = choose_repairs(trial, further_drafts(answer, trial))
         return replace(repairs, is_complete=False)
     whole = _Geometry.of(claim)
@@ -116,58 +120,47 @@ def find_repairs(
     spelled = (mended_words(answer), missing_points(answer), commas(answer), marked(answer), fitting(answer))
     moved = (moving(claim, stage) for stage in changes)
     is_redundant = answer.status is Status.OVERDETERMINED
-    trial = Trial(claim, dialect, codes, reference, None, following, blamed, previous, is_redundant, Reach(answer))
-    stages = (*spelled, *moved)
-    repairs = choose_repairs(trial, stages, *_slips_of(answer, whole, trial))
+    reach = Reach(answer)
+    trial = Trial(claim, dialect, codes, reference, None, following, blamed, previous, is_redundant, reach, window)
+    is_crossing = any(name.startswith("P") for name in answer.profile.intersections)
+    trial = replace(trial, is_open=is_open, told=told, is_crossing_curves=is_crossing)
+    is_missed = any(each.about is RefusalKind.CIRCLE_MISSED for each in answer.diagnostics)
+    is_round = any(each.about in _OF_CIRCLES for each in problems(answer))
+    is_dropped = all(each.about is ReadIssue.CORNER_DROPPED for each in problems(answer))
+    trial = replace(trial, is_missed=is_missed, is_round=is_round, is_dropped=is_dropped)
+    conflicts = [each.facts for each in whole.conflicts]
+    trial = replace(trial, prospects=Prospects.of(answer, dialect.rules, conflicts, reach, around))
+    repairs = choose_repairs(trial, (*_valued(answer, whole, trial), *spelled, *moved))
     is_complete = repairs.is_complete and drop_sets.is_complete and not has_faults(claim)
     return replace(repairs, is_complete=is_complete)
 
 
-def _slips_of(answer: Answer, whole: "_Geometry", trial: Trial) -> Iterator[Iterator[tuple[Edit, ...]]]:
-    """Slips that may explain what is wrong, those of digits, and those of the radii of circles that are missed."""
+_OF_CIRCLES = tuple(kind for kind in RefusalKind if re.search("radius|circle", kind.event.code))
+_OPEN = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
+
+
+def _waits(answer: Answer) -> bool:
+    """Whether something took the start away that it had: that is to be mended first."""
+    before = answer.claim.before
+    return any(before.axes[axis].value is None and before.axes[axis].span is not None for axis in before.plane.axes)
+
+
+def _valued(answer: Answer, whole: "_Geometry", trial: Trial) -> Iterator[Iterator[tuple[Edit, ...]]]:
+    """Words with the values that the others leave them, and codes that others are like."""
     claim = answer.claim
     if all(each.about is ReadIssue.CORNER_DROPPED for each in problems(answer)):
         # The path is as the words say: the corner is one too many.
         return
     against = whole.conflicts
-    tied = {fact.given or "" for circuit in against for fact in circuit.facts}
-    words = suspects(answer, tied)
     if against and not any(each.about in SINGULAR for each in answer.diagnostics):
         # One word that is wrong is in each contradiction, and the others tell its value.
         names = frozenset.intersection(*(frozenset(fact.given or "" for fact in each.facts) for each in against))
         yield chain.from_iterable(_agreeing(claim, name) for name in claim.words if name in names)
         return
-    offences = [each.rule.when for each in check(trial.dialect.rules, claim.form.roles, claim.stated())]
-    is_about_values = all(when is None or when.reads_values for when in offences)
-    if answer.status not in (Status.NO_SOLUTION, Status.CONFLICTING, Status.SOLVED) and not (
-        offences and is_about_values
-    ):
-        of_addresses = [slip for slip in FEW if not slip.is_of_numbers]
-        yield chain(slips(answer, of_addresses, words), other_codes(answer, trial.dialect.modes))
+    if answer.status not in (Status.NO_SOLUTION, Status.CONFLICTING, Status.SOLVED):
+        yield other_codes(answer, trial.dialect.modes)
         return
-    blamed = blamed_spans(answer)
-    is_missed = any(each.about is RefusalKind.CIRCLE_MISSED for each in answer.diagnostics)
-    sizes = {row.fact.given for row in claim.form.outline.facts if row.fact.sizes}
-    near = [word for word in words if word.span in blamed]
-    if len(claim.blocks) > MOST_BLOCKS:
-        signs = slips(answer, (SIGN_LOST, SIGN_ADDED), _against_neighbours(words, claim))
-        yield chain(_of_circles(answer, trial), signs, slips(answer, FEW, near))
-        return
-    yield chain(_of_circles(answer, trial), slips(answer, FEW, words))
-    yield slips(answer, OF_DIGITS, near or words[:1])
-    yield slips(answer, OF_DIGITS, [claim.words[name] for name in claim.words if name in sizes and is_missed])
-
-
-def _against_neighbours(words: Iterable[Word], claim: ParsedContour) -> Iterator[Word]:
-    """Words of another sign than those of the same address in the lines right before and behind."""
-    lines = [block.line for block in claim.blocks]
-    values = {(word.address, lines.index(word.span.line)): word.number for word in claim.words.values() if word.number}
-    for word in words:
-        place = lines.index(word.span.line)
-        beside = [values.get((word.address, place + step)) for step in (-1, 1)]
-        own = values.get((word.address, place))
-        if own and all(other and (other > 0) is not (own > 0) for other in beside):
-            yield word
+    yield _of_circles(answer, trial)
 
 
 def _agreeing(claim: ParsedContour, name: str) -> Iterator[tuple[Edit, ...]]:
@@ -342,8 +335,9 @@ def _values(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
         given = claim.givens.get(name)
         if given is None or word.number is None or given.unit is Unit.SIGN:
             continue
-        asked = _asked(asking.get(word.span, ()), given)
+        asked = list(_asked(asking.get(word.span, ()), given))
         texts = [write_word(word.address, value, lexicon, unit, rounding) for rounding, value in asked]
+        why = {text: Why.FITS for text, (rounding, _) in zip(texts, asked, strict=True) if rounding is AT_LEAST}
         agreeing: list[str] = []
         asked_together += [change(word, texts[0])] if texts and texts[0] != word.text else []
         if name in tied and answer.status is not Status.OVERDETERMINED:
@@ -353,7 +347,7 @@ def _values(answer: Answer, whole: _Geometry) -> Iterator[tuple[Edit, ...]]:
             agreeing = [write_word(word.address, value, lexicon, unit)] if value is not None else []
             texts += agreeing
         new = (text for text in dict.fromkeys(texts) if Decimal(number_of(text, word.address)) != word.number)
-        why = dict.fromkeys(agreeing, Why.AGREES)
+        why |= dict.fromkeys(agreeing, Why.AGREES)
         yield from ((*forced, change(word, text, why.get(text, Why.OTHER))) for text in new)
     if len(asked_together) > 1:
         yield (*forced, *asked_together)
@@ -381,6 +375,26 @@ def _of_circles(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
             text = write_word(word.address, value + step, lexicon, unit)
             slips = list(explained(word, value + step, claim))
             yield from ((change(word, each, Why.AGREES),) for each in slips or [text])
+    yield from _lost_centres(answer, trial, spans)
+
+
+def _lost_centres(answer: Answer, trial: Trial, spans: Set[Span]) -> Iterator[tuple[Edit, ...]]:
+    """The other word of a centre of which a block has one, which counts as 0: with the value at which the circle passes
+    through its points."""
+    claim, unit, lexicon = answer.claim, answer.claim.after.unit, answer.claim.lexicon
+    lines = {span.line for span in spans}
+    stated = {(word.address, word.span.line) for word in claim.words.values()}
+    for name, (address, index) in claim.vocabulary.items():
+        line = claim.blocks[index].line
+        is_beside = any((other, line) in stated for other in _CENTRES if other != address)
+        if address in _CENTRES and line in lines and is_beside and (address, line) not in stated:
+            texts = [write_word(address, step, lexicon, unit) for step in (-_STEP, 0.0, _STEP)]
+            gaps = [_gap(trial.examine((add(claim, name, text),))) for text in texts]
+            for step in _zeros([gap for gap in gaps if gap is not None]):
+                yield (add(claim, name, write_word(address, step, lexicon, unit)),)
+
+
+_CENTRES = ("I", "J", "K")
 
 
 _FLAT = 1e-6

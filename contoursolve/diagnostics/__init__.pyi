@@ -25,6 +25,7 @@ from .finding import (
     Freedom as Freedom,
     Label as Label,
     Layer as Layer,
+    LineChange as LineChange,
     Severity as Severity,
     Tie as Tie,
     Verdict as Verdict,

@@ -39,6 +39,13 @@ class Applicability(Enum):
     PLACEHOLDER = "placeholder"
 
 
+class LineChange(Struct, frozen=True):
+    """The new text of a whole line; nothing if it is dropped, several lines if it becomes these."""
+
+    span: Span
+    text: str
+
+
 class Fix(Struct, frozen=True):
     """A whole new block to write instead, or a line for each block of a contour of several; a single block may become
     several lines."""
@@ -52,10 +59,15 @@ class Fix(Struct, frozen=True):
     """The replacement with numbers that make a contour, where it leaves gaps and such numbers are known."""
     replaced: str = ""
     """The text that it replaces, a line for each block of the contour."""
+    beside: tuple[LineChange, ...] = ()
+    """The lines outside the contour that it changes, too."""
 
     def by_line(self, lines: Sequence[int]) -> dict[int, str]:
-        """The new text of each of the lines that it replaces: empty for a line that it drops, several lines where it
-        adds some."""
+        """The new text of each of the lines that it replaces, and of those beside: empty for a line that it drops,
+        several lines where it adds some."""
+        return self._own(lines) | {each.span.line: each.text for each in self.beside}
+
+    def _own(self, lines: Sequence[int]) -> dict[int, str]:
         texts = [self.replacement] if len(lines) == 1 else self.replacement.split("\n")
         if len(texts) == len(lines):
             return dict(zip(lines, texts, strict=True))

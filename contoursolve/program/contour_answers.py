@@ -2,17 +2,22 @@
 
 from collections import Counter
 from itertools import islice
+from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, Depth, examine
+from contoursolve.diagnosis import Answer, Depth, examine, may_be_suspected
 from contoursolve.diagnostics import Severity
 from contoursolve.gcode import Block
 from contoursolve.program.named_words import mark_trusted, with_named_words
 from contoursolve.program.outside_contours import NEAR
 from contoursolve.program.request import Request
-from contoursolve.program.solve_queue import Pending
+from contoursolve.program.solve_queue import Pending, Previous
+from contoursolve.program.windows import Parts, window_of
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, next_place
+
+if TYPE_CHECKING:
+    from contoursolve.diagnosis import Window
 
 BEHIND = 32
 """Blocks after a contour of which a repair may make a part of it: the rest of a chain that a comma joins."""
@@ -32,24 +37,38 @@ def answer_to(asked: Request, dialect: Dialect, found: ParsedContour, pending: P
     return answer
 
 
-def explained(asked: Request, dialect: Dialect, answer: Answer, pending: Pending) -> Answer:
-    """An answer with what is wrong explained, and how it is mended."""
-    if asked.depth is Depth.VERDICT:
+def explained(
+    asked: Request, dialect: Dialect, answer: Answer, pending: Pending, ahead: tuple[Previous, ...], parts: Parts
+) -> Answer:
+    """An answer with what is wrong, or hardly meant, explained, and how it is mended; `ahead` is before the contour,
+    `parts` examines blocks that are tried."""
+    if asked.depth in (Depth.VERDICT, Depth.TRIAL):
         return answer
+    claim, after = answer.claim, pending.after
+
+    def window() -> "Window":
+        view = pending.view
+        return window_of(ahead, view[:after], view[after : after + NEAR], claim.before, dialect, parts)
+
     if _is_wrong(answer):
         # Most programs need no diagnosis, and none should wait for its import.
         from contoursolve.diagnosis import diagnose  # noqa: PLC0415
 
         following = pending.view[pending.after : pending.after + BEHIND]
-        answer = diagnose(answer, dialect, asked.policy, following, pending.previous)
+        answer = diagnose(answer, dialect, asked.policy, following, pending.previous, window())
         if asked.depth is Depth.FULL and _has(answer, ReadIssue.VARIABLE):
             from contoursolve.program.open_values import tell_values  # noqa: PLC0415 - few contours need it
 
             return tell_values(answer, dialect, asked.policy)
-    elif _has(answer, ReadIssue.POINT_MISSING):
+        return answer
+    if _has(answer, ReadIssue.POINT_MISSING):
         from contoursolve.diagnosis import mend_points  # noqa: PLC0415
 
-        return mend_points(answer, dialect)
+        answer = mend_points(answer, dialect)
+    if may_be_suspected(answer):
+        from contoursolve.diagnosis import suspect  # noqa: PLC0415 - few contours look odd
+
+        answer = suspect(answer, window())
     return answer
 
 
@@ -67,8 +86,8 @@ def _has(answer: Answer, issue: ReadIssue) -> bool:
 class Answers:
     """The answers to the contours of one program, each examined where it is found."""
 
-    def __init__(self, asked: Request, dialect: Dialect) -> None:
-        self.asked, self.dialect = asked, dialect
+    def __init__(self, asked: Request, dialect: Dialect, parts: Parts) -> None:
+        self.asked, self.dialect, self.parts = asked, dialect, parts
 
     def find(self, found: ParsedContour, pending: Pending) -> Answer:
         """The answer to a contour."""
@@ -77,7 +96,8 @@ class Answers:
     def examine(self, found: ParsedContour, pending: Pending) -> Answer:
         """The answer to what is read as a contour is."""
         found = mark_trusted(found, self.asked)
-        answer = explained(self.asked, self.dialect, answer_to(self.asked, self.dialect, found, pending), pending)
+        answer = answer_to(self.asked, self.dialect, found, pending)
+        answer = explained(self.asked, self.dialect, answer, pending, pending.ahead, self.parts)
         return with_named_words(answer, self.asked)
 
 
@@ -85,8 +105,8 @@ class AnswersInPasses(Answers):
     """The same of a program that runs: where a contour comes to the same again, its answer is that of before; and in a
     loop, each pass may be wrong, of which the first ones are explained."""
 
-    def __init__(self, asked: Request, dialect: Dialect) -> None:
-        super().__init__(asked, dialect)
+    def __init__(self, asked: Request, dialect: Dialect, parts: Parts) -> None:
+        super().__init__(asked, dialect, parts)
         self._known: dict[object, Answer] = {}
         """By what is known before a contour, its blocks and those behind it."""
         self._wrong = Counter[tuple[str, int]]()
@@ -107,7 +127,9 @@ class AnswersInPasses(Answers):
             note = f"only the first {MOST_EXPLAINED} wrong results of a contour are explained; this is a later one"
             noted = (replace(each, notes=(*each.notes, note)) for each in answer.diagnostics)
             return replace(answer, diagnostics=tuple(noted))
-        return with_named_words(explained(self.asked, self.dialect, answer, pending), self.asked)
+        # What runs before it may run before something else, too.
+        answer = explained(self.asked, self.dialect, answer, pending, (), self.parts)
+        return with_named_words(answer, self.asked)
 
     def _is_late(self, first: Block) -> bool:
         """Whether enough results of a contour, of which this is the first block, are explained; it is wrong again."""

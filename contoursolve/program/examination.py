@@ -4,11 +4,12 @@ lines, and gives what is found there and where the walk stands behind it."""
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import islice
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Context, explain_call, explain_codes_by_name, report
+from contoursolve.diagnosis import Context, Depth, explain_call, explain_codes_by_name, report
 from contoursolve.diagnostics import Basis, Diagnostic, Span
 from contoursolve.execution import EventKind, ProgramEvent
 from contoursolve.gcode import Block, Passage
@@ -27,6 +28,7 @@ from contoursolve.program.solve_queue import Pending, Previous, Queue, Step, Tog
 from contoursolve.program.start_point import StartCount, compare_count, start_count, state_before
 from contoursolve.program.tape_markers import Marks
 from contoursolve.program.told_outside import Outside
+from contoursolve.program.windows import further
 from contoursolve.reading import (
     Dialect,
     Modes,
@@ -41,6 +43,9 @@ from contoursolve.reading import (
     is_plain,
     reach_of,
 )
+
+if TYPE_CHECKING:
+    from contoursolve.diagnosis import WindowPart
 
 _FIRST, _WINDOW = 16, 4_096
 """Steps of a program of which the contours are solved together while it is read: in the beginning, when nothing is
@@ -57,13 +62,18 @@ class Cursor(Struct, frozen=True):
     marks: Marks
     count: StartCount | None
     """Units in which a start point that is stated apart counts."""
-    previous: Previous | None = None
-    """The last contour or block that says something, and the state before it: with a comma in the next block, it may be
-    part of the contour there."""
+    ahead: tuple[Previous, ...] = ()
+    """The last contours and blocks that say something, each with the state before it: what is wrong behind them may be
+    a slip in them, and with a comma in the next block, the last one may be part of the contour there."""
     told: tuple[Span, ...] = ()
     """Words behind the contour before of which it tells itself."""
     findings: tuple[Diagnostic, ...] = ()
     """Findings since the last step, told with the next one."""
+
+    @property
+    def previous(self) -> Previous | None:
+        """The last contour or block that says something, and the state before it."""
+        return self.ahead[-1] if self.ahead else None
 
 
 class Beginning(Struct, frozen=True):
@@ -96,7 +106,7 @@ class Examination:
         is_run: bool = False,
     ) -> None:
         self.asked, self.dialect = asked, dialect
-        self.answers = (AnswersInPasses if is_run else Answers)(asked, dialect)
+        self.answers = (AnswersInPasses if is_run else Answers)(asked, dialect, self._parts)
         self.queue = Queue(dialect, together, self.answers.find, goes_on=goes_on)
         self._context = Context(asked.rules, asked.unit)
         meant = dialect.modes.lexicon.numbers.without_point
@@ -106,6 +116,19 @@ class Examination:
         # A program that runs is not read in its order, in which a % stands.
         self.begin = Cursor(state, Marks(is_done=is_run), start_count(asked, state), findings=found)
         """The cursor before the program, behind the block that states its start point apart."""
+
+    def _parts(self, blocks: Sequence[Block], state: State) -> "Iterator[WindowPart]":
+        """Blocks from a state on as they are examined, without what is said of what is wrong."""
+        from contoursolve.diagnosis import WindowPart  # noqa: PLC0415 - most programs need no diagnosis
+
+        tried = Examination(replace(self.asked, depth=Depth.TRIAL, start=None, facts=()), self.dialect)
+        cursor, index = Cursor(state, Marks(is_done=True), None), 0
+        while index < len(blocks):
+            view = View(blocks, index)
+            taken = tried.take(view, tried.find(view, cursor.state), cursor)
+            cursor, index = taken.behind(), index + taken.lines
+            step = taken.step.step if isinstance(taken.step, Pending) else taken.step
+            yield WindowPart(step.blocks, step.before, cursor.state, step.findings, step.answer)
 
     # One step ----------------------------------------------------------------------------------------------------
 
@@ -120,7 +143,7 @@ class Examination:
         marks, outside = cursor.marks.look(blocks, self._context)
         count, differences = compare_count(cursor.count, found.contour, self.asked)
         found_before = (*cursor.findings, *outside, *differences)
-        here = Cursor(cursor.state, marks, count, cursor.previous, cursor.told, found_before)
+        here = Cursor(cursor.state, marks, count, cursor.ahead, cursor.told, found_before)
         if found.contour is not None and found.contour.form.is_contour:
             return self._take_contour(view, blocks, found.contour, here)
         return self._take_block(view, blocks, found.contour, here)
@@ -130,11 +153,12 @@ class Examination:
         arc = findings_of_arc_before(self.asked, self.dialect, view, here.previous, self.answers.examine)
         strange = [each for block in blocks for each in self._codes_beside(block, contour)]
         step = Step(blocks, here.state, findings=(*here.findings, *arc, *strange))
-        pending = self.queue.add(contour, step, view, len(blocks), here.previous)
+        pending = self.queue.add(contour, step, view, len(blocks), here.ahead)
 
         def behind() -> Cursor:
             told = tuple(word.span for word in contour.unread if word.span.line > blocks[-1].line)
-            return Cursor(self.queue.leave(pending), here.marks, here.count, (contour.blocks, here.state), told)
+            ahead = further(here.ahead, blocks, here.state)
+            return Cursor(self.queue.leave(pending), here.marks, here.count, ahead, told)
 
         return WalkStep(pending, len(blocks), behind)
 
@@ -160,10 +184,10 @@ class Examination:
         else:
             found = findings_of_block(asked, block, apply_modes(here.state, block, modes), here.previous)
             told_of = [*here.findings, *(each for each in found if each.span not in here.told)]
-            findings = untouched(with_slips(asked, view, states, here.previous, told_of), blocks, asked)
-        previous = ((block,), here.state) if block.words else here.previous
+            findings = untouched(with_slips(asked, view, states, here.ahead, told_of, self._parts), blocks, asked)
+        ahead = further(here.ahead, blocks, here.state) if block.words else here.ahead
         told = tuple(span for span in here.told if span.line > block.line)
-        behind = Cursor(states[1], here.marks, here.count, previous, told)
+        behind = Cursor(states[1], here.marks, here.count, ahead, told)
         return WalkStep(Step(blocks, here.state, findings=findings), len(blocks), lambda: behind)
 
     def pass_by(self, passage: Passage, cursor: Cursor) -> WalkStep:
@@ -173,7 +197,7 @@ class Examination:
 
         def behind() -> Cursor:
             state = advance_plainly(cursor.state, passage, self.dialect.modes)
-            return Cursor(state, marks, cursor.count, cursor.previous)
+            return Cursor(state, marks, cursor.count)
 
         return WalkStep(step, len(passage.lines), behind)
 

@@ -34,6 +34,7 @@ from contoursolve.program.lookahead import View
 from contoursolve.program.named_words import named_outside
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Pending, Previous, Step
+from contoursolve.program.windows import Parts, window_of
 from contoursolve.reading import (
     COMMENTED,
     Dialect,
@@ -230,15 +231,17 @@ def with_slips(
     asked: Request,
     blocks: Sequence[Block],
     states: tuple[State, State],
-    previous: Previous | None,
+    ahead: tuple[Previous, ...],
     found: Sequence[Diagnostic],
+    parts: Parts,
 ) -> Sequence[Diagnostic]:
-    """The findings about the first of some blocks, with those about slips without which it would be a contour. `states`
-    are those before and behind it."""
+    """The findings about the first of some blocks, with those about slips without which it would be a contour, and with
+    what was meant. `states` are those before and behind it, `ahead` is before it, `parts` examines what is tried."""
     block, dialect = blocks[0], asked.dialect
-    if dialect is None or asked.depth is Depth.VERDICT:
+    if dialect is None or asked.depth in (Depth.VERDICT, Depth.TRIAL):
         return found
-    modes = dialect.modes
+    previous = ahead[-1] if ahead else None
+    modes, context = dialect.modes, _context_of(asked, block)
     if any(f",{word.address}" in modes.lexicon.addresses for word in block.words):
         from contoursolve.diagnosis import explain_commas  # noqa: PLC0415 - few programs need it
 
@@ -246,8 +249,29 @@ def with_slips(
     if any(word.address == "G" and word.number is not None and word.number not in modes.codes for word in block.words):
         from contoursolve.diagnosis import explain_codes  # noqa: PLC0415 - few programs need it
 
-        found = [*explain_codes(_context_of(asked, block), dialect, blocks[:NEAR], states[0], found)]
-    return with_letters(asked, dialect, blocks[:NEAR], states[0], found) if has_lookalike_code(block) else found
+        found = [*explain_codes(context, dialect, blocks[:NEAR], states[0], found)]
+    if has_lookalike_code(block):
+        found = with_letters(asked, dialect, blocks[:NEAR], states[0], found)
+    own = [each for each in found if each.span.line == block.line]
+    is_open = any(each.severity is not Severity.INFO for each in own) and not any(each.fixes for each in own)
+    if is_open or (not own and any(_is_doubtful(word, modes) for word in block.words)):
+        from contoursolve.diagnosis import mend_line  # noqa: PLC0415 - few programs need it
+
+        window = window_of(ahead, (block,), blocks[1:NEAR], states[0], dialect, parts)
+        others = [each for each in found if each.span.line != block.line]
+        found = [*others, *mend_line(context, own, window)]
+    return found
+
+
+_WHOLE_NUMBERS = "STMHD"
+"""Addresses of numbers that have no decimal point."""
+
+
+def _is_doubtful(word: Word, modes: Modes) -> bool:
+    """Whether a word is a code that the control has not, or a number with a point where none belongs."""
+    if word.address == "G":
+        return word.number is not None and word.number not in modes.codes
+    return word.address in _WHOLE_NUMBERS and word.has_point
 
 
 def with_letters(

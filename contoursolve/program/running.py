@@ -76,7 +76,7 @@ class _Running:
         if is_open and view.reach > len(held) - index:
             return None
         goes_on = self._last is not None and self._last[0] is held and self._last[1] == index
-        here = replace(self.cursor, state=state, previous=self.cursor.previous if goes_on else None)
+        here = replace(self.cursor, state=state, ahead=self.cursor.ahead if goes_on else ())
         taken = examination.take(view, found, here)
         self._last, self.cursor = (held, index + taken.lines), taken.behind()
         self.found.append(taken.step)

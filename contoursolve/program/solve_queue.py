@@ -72,13 +72,18 @@ class Pending:
     """A contour that is found and not solved yet, in a state, and what follows it."""
 
     def __init__(
-        self, contour: ParsedContour, step: Step, view: View, after: int, previous: Previous | None = None
+        self, contour: ParsedContour, step: Step, view: View, after: int, ahead: tuple[Previous, ...] = ()
     ) -> None:
-        self.contour, self.step, self.view, self.after, self.previous = contour, step, view, after, previous
+        self.contour, self.step, self.view, self.after, self.ahead = contour, step, view, after, ahead
         self.wave = max([each.wave for each in step.before.axes.values() if isinstance(each, Awaited)], default=0)
         """How many contours in a row have to be solved before."""
         self.left: Callable[[], State] | None = None
         """The state that it leaves, once it is solved."""
+
+    @property
+    def previous(self) -> Previous | None:
+        """The last contour or block before it, and the state before that."""
+        return self.ahead[-1] if self.ahead else None
 
 
 class Queue:
@@ -97,10 +102,10 @@ class Queue:
         self.pending: list[Pending] = []
 
     def add(
-        self, contour: ParsedContour, step: Step, view: View, after: int, previous: Previous | None = None
+        self, contour: ParsedContour, step: Step, view: View, after: int, ahead: tuple[Previous, ...] = ()
     ) -> Pending:
         """A contour that begins a view and ends before its block `after`; without company, it is solved at once."""
-        pending = Pending(contour, step, view, after, previous)
+        pending = Pending(contour, step, view, after, ahead)
         self.pending.append(pending)
         if self.together is None:
             self.settle()

@@ -25,6 +25,7 @@ class ReadIssue(Enum):
     VARIABLE = "variable"
     WORD_IGNORED = "word-ignored"
     POINT_MISSING = "point-missing"
+    SUSPECTED = "suspected"
     START_IN_INCREMENTS = "start-in-increments"
     MOVE_IN_INCREMENTS = "move-in-increments"
     COMMA_MISSING = "comma-missing"

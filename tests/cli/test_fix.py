@@ -21,7 +21,7 @@ from contoursolve.gcode import decode, split_lines
 START = "G00 X40. Z0.\n"
 IGNORED, KEPT = "G111 A135. I10. K-12. B180. Z-40.", "G111 I10. K-12. B180. Z-40."
 COOLANT = "G111 X100. A180. K-30. B120. M08"
-TOO_LARGE, FITS = "G111 A180. K-30. P90. B120. X100.", "G111 A180. K-30. P51.961 B120. X100."
+TOO_LARGE, FITS = "G111 A180. K-30. P90. B120. X100.", "G111 A180. K-30. P9. B120. X100."
 
 
 @pytest.fixture(autouse=True)

@@ -105,7 +105,7 @@ def test_a_fix_of_a_chain_is_in_sarif_line_by_line(tmp_path):
     )
     first = sarif["runs"][0]["results"][0]["fixes"][0]
     (change,) = first["artifactChanges"][0]["replacements"]
-    assert (change["deletedRegion"]["startLine"], change["insertedContent"]["text"]) == (3, "X80 ,R45")
+    assert (change["deletedRegion"]["startLine"], change["insertedContent"]["text"]) == (3, "X80 ,R6")
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,109 @@
+"""Findings about a block outside contours, with what it was probably meant to be."""
+
+from collections.abc import Iterator, Mapping, Sequence, Set
+
+from msgspec.structs import replace
+
+from contoursolve.diagnosis.edits import Edit
+from contoursolve.diagnosis.explain import Context, report, spans_of
+from contoursolve.diagnosis.plausibility import oddities, total
+from contoursolve.diagnosis.prospects import is_lasting
+from contoursolve.diagnosis.slip_kinds import FEW, LETTER_ALIKE, SlipKind
+from contoursolve.diagnosis.slips_around import MOST_TRIED, Candidate, Marked, drafts_around, touches
+from contoursolve.diagnosis.window import Seen, Window
+from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, Severity, Span
+from contoursolve.gcode import Block, Word
+from contoursolve.reading import Code, ReadIssue
+
+MOST_FIXES = 3
+_WHOLE_NUMBERS = "STMHD"
+"""Addresses of numbers that have no decimal point."""
+
+
+def mend_line(context: Context, findings: Sequence[Diagnostic], window: Window) -> Iterator[Diagnostic]:
+    """The findings about one block, the only one of its window's own; the first that has no fix with what was probably
+    meant. Of a block of which nothing is said, a code that the control has not, or a number with a point where none
+    belongs, if with another one it is part of a contour that is solved."""
+    block = window.own[0]
+    open_ = next((each for each in findings if each.severity is not Severity.INFO and not each.fixes), None)
+    if any(each.fixes for each in findings) or (open_ and open_.about is ReadIssue.LETTER_FOR_DIGIT):
+        # With the digit it would be a contour, which has a slip more.
+        open_ = None
+    for each in findings:
+        yield replace(each, fixes=tuple(_fixes(each, findings, window))) if each is open_ else each
+    if findings:
+        return
+    for word in _doubtful(block, window):
+        marked = Marked(frozenset({word.span}), frozenset({block.line}))
+        fixes = [fix for fix, seen in _tried(window, marked, (LETTER_ALIKE,), word) if _is_joined(window, seen)]
+        if fixes:
+            about = ReadIssue.CODE_MISTYPED if word.address == "G" else ReadIssue.SUSPECTED
+            meant = fixes[0].description.split()[1]
+            reason = "its number has no decimal point"
+            told = report(context, about, Basis.RULE, [word], meant=meant, reason=reason)
+            yield replace(told, fixes=tuple(fixes[:MOST_FIXES]))
+
+
+def _is_odd(word: Word, codes: Mapping[int, Code]) -> bool:
+    is_code = word.address == "G" and word.number is not None and word.number not in codes
+    return is_code or (word.address in _WHOLE_NUMBERS and word.has_point and word.number is not None)
+
+
+def _doubtful(block: Block, window: Window) -> Iterator[Word]:
+    yield from (word for word in block.words if _is_odd(word, window.dialect.modes.codes))
+
+
+def _is_joined(window: Window, seen: Seen) -> bool:
+    """Whether the block is part of a contour that is solved then, and was none before."""
+    line = window.own[0].line
+    return any(line in answer.lines and answer.contour is not None for answer in seen.answers)
+
+
+def _fixes(finding: Diagnostic, findings: Sequence[Diagnostic], window: Window) -> Iterator[Fix]:
+    own = window.own[0]
+    spans = frozenset(spans_of([finding]))
+    torn = {each.span for each in own.faults}
+    marked = Marked(frozenset(spans_of(findings)) | spans, frozenset({own.line}))
+    found = [fix for fix, _ in _tried(window, marked, FEW, None, torn)]
+    yield from found[:MOST_FIXES]
+
+
+def _tried(
+    window: Window, marked: Marked, kinds: tuple[SlipKind, ...], word: Word | None, torn: Set[Span] = frozenset()
+) -> list[tuple[Fix, Seen]]:
+    """The fixes of a block that leave nothing wrong, the most plausible first."""
+    own, found = window.own[0], list[tuple[float, Fix, Seen]]()
+    for draft in drafts_around(window, marked, None, kinds)[:MOST_TRIED]:
+        lines = {edit.span.line if edit.span else edit.line for edit in draft.edits}
+        if lines != {own.line} or (word is not None and not all(edit.span == word.span for edit in draft.edits)):
+            continue
+        if not all(any(touches(edit, span) for edit in draft.edits) for span in torn):
+            continue
+        if not any(touches(edit, span) for edit in draft.edits for span in marked.spans):
+            continue
+        seen = window.after(draft.edits)
+        if any(map(is_lasting, draft.edits)) and (seen is None or not _is_joined(window, seen)):
+            # In another plane, much is right that nobody meant.
+            continue
+        if seen is not None and window.mends(seen):
+            # What draws a contour that is solved is meant rather than what draws none.
+            cost = draft.cost + total(oddities(seen.moves).items()) - 2 * _is_joined(window, seen) - _gain(window, seen)
+            found.append((round(cost, 6), _fix(window, draft), seen))
+    found.sort(key=lambda each: (each[0], each[1].description))
+    return [(fix, seen) for _, fix, seen in found]
+
+
+def _gain(window: Window, seen: Seen) -> float:
+    """The number of problems behind it that a block would mend, as a cost below zero would count."""
+    return min(len(window.before.keys - seen.keys), 3) * 1.0
+
+
+def _fix(window: Window, draft: Candidate) -> Fix:
+    own = window.own[0]
+    (text,) = (each.text for each in window.changes(draft.edits) if each.span.line == own.line)
+    told = "; ".join(map(_told, draft.edits, draft.slips))
+    return Fix(told, text, Applicability.CHANGES_CONTOUR, replaced=own.text)
+
+
+def _told(edit: Edit, slip: SlipKind | None) -> str:
+    return f"{edit} ({slip.sentence})" if slip is not None and slip.sentence else str(edit)

@@ -1,0 +1,146 @@
+"""Legal programs that are hardly meant: a turned path that runs back, a number that begins with a zero, a word that
+draws nothing where one like it would; told as a warning, with what was probably meant."""
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+from msgspec.structs import replace
+
+from contoursolve.diagnosis.attempt import Repair, Trial, repair_of
+from contoursolve.diagnosis.examine import LEADING, SUSPICIONS, Answer, problems
+from contoursolve.diagnosis.explain import context_of, report
+from contoursolve.diagnosis.fix_text import fixes_of
+from contoursolve.diagnosis.plausibility import Feature, oddities
+from contoursolve.diagnosis.slip_kinds import (
+    LETTER_ALIKE,
+    OPPOSITE,
+    OTHER_AXIS,
+    POINT_MOVED,
+    SIGN_ADDED,
+    SIGN_LOST,
+    SUPPLEMENT,
+    ZERO_FIRST,
+    ZERO_LOST,
+    SlipKind,
+)
+from contoursolve.diagnosis.slips_around import MOST_TRIED, Candidate, Marked, drafts_around
+from contoursolve.diagnosis.window import Stretch, Window, moves_of
+from contoursolve.diagnosis.wording import either
+from contoursolve.diagnostics import Basis, Diagnostic, Span
+from contoursolve.gcode import Word
+from contoursolve.reading import ParsedContour, ReadIssue
+
+MOST_FIXES = 3
+_TURNING = (SIGN_LOST, SIGN_ADDED, SUPPLEMENT, OPPOSITE, OTHER_AXIS)
+"""Slips after which a turned path runs back."""
+
+_TENFOLD = (ZERO_LOST, POINT_MOVED)
+"""Slips after which an end lies a tenth as far, or ten times."""
+
+_ODD = (Feature.TURNS_BACK, Feature.BEHIND_START, Feature.ACROSS)
+
+
+def suspect(answer: Answer, window: Window) -> Answer:
+    """The answer; with a warning where a legal contour is hardly meant, and a slip explains why."""
+    settings = window.dialect.modes.settings
+    if settings.get(SUSPICIONS) == "off" or answer.contour is None or problems(answer) or answer.profile.is_extended:
+        return answer
+    for reason, kinds, words in _doubtful(answer, window):
+        found = sorted(_meant(answer, window, kinds, words), key=lambda repair: repair.cost)
+        if found:
+            finding = _told(answer, window, found[:MOST_FIXES], reason)
+            return replace(answer, diagnostics=(*answer.diagnostics, finding))
+    return answer
+
+
+def _doubtful(answer: Answer, window: Window) -> Iterator[tuple[str, tuple[SlipKind, ...], frozenset[Span]]]:
+    """The reasons to doubt a contour, each with the slips that may explain it and the words in which they may be."""
+    claim = answer.claim
+    words = [word for block in claim.blocks for word in block.words]
+    leading = frozenset(word.span for word in words if word.has_point and LEADING.search(word.text))
+    if leading:
+        yield "its number begins with a zero", (ZERO_FIRST,), leading
+    beside = frozenset(word.span for word in _beside(claim))
+    if beside:
+        yield "it draws nothing here", (LETTER_ALIKE,), beside
+    if wide := _wide(answer):
+        yield "an arc turns by more than half a turn, against its neighbours", (), wide
+    if _is_odd(window):
+        stated = frozenset(word.span for word in claim.words.values())
+        yield "the path runs back along the axis", _TURNING, stated
+    if window.before.moves and oddities(window.before.moves).get(Feature.TURNS_BACK):
+        stated = frozenset(word.span for word in claim.words.values())
+        yield "the path runs back along the axis", _TENFOLD, stated
+
+
+def _beside(claim: ParsedContour) -> Iterator[Word]:
+    """The words of turning axes, which move nothing in the plane, with a number as an angle has it."""
+    stated = {each.span for each in claim.words.values()}
+    for block in claim.blocks:
+        yield from (word for word in block.words if word.address in "ABC" and word.number and word.span not in stated)
+
+
+def _wide(answer: Answer) -> frozenset[Span]:
+    """The codes of arcs, where one turns by more than half a turn and joins its neighbours in corners."""
+    moves = tuple(moves_of(answer.contour)) if answer.contour else ()
+    for at, move in enumerate(moves):
+        beside = [_corner(*pair) for pair in pairwise(moves[max(at - 1, 0) : at + 2])]
+        if abs(move.sweep) > _HALF_TURN and beside and min(beside) > _SHARP:
+            codes = (word for block in answer.claim.blocks for word in block.words if word.address in ("G", "DR"))
+            return frozenset(word.span for word in codes)
+    return frozenset()
+
+
+def _corner(one: Stretch, two: Stretch) -> float:
+    """The angle by which a path turns between two elements, degrees."""
+    return abs((two.headings[0] - one.headings[1] + 180) % 360 - 180)
+
+
+_SHARP, _HALF_TURN = 15.0, 180.01
+"""Degrees: arcs that are meant to go round join their neighbours tangentially, or are parted from them by a corner."""
+
+
+def _is_odd(window: Window) -> bool:
+    odd = oddities(window.before.moves)
+    # Where a path ends, it may run back a little.
+    return odd.get(Feature.TURNS_BACK, 0.0) > 1 or any(odd.get(each) for each in _ODD[1:])
+
+
+def _meant(answer: Answer, window: Window, kinds: tuple[SlipKind, ...], words: frozenset[Span]) -> Iterator[Repair]:
+    """The repairs by slips in these words without which nothing is odd."""
+    claim = answer.claim
+    marked = Marked(words, frozenset(span.line for span in words))
+    trial = Trial(claim, window.dialect, frozenset(), answer.contour, window=window)
+    for draft in drafts_around(window, marked, claim, kinds)[:MOST_TRIED]:
+        if not _is_of(draft, words):
+            continue
+        seen = window.after(draft.edits)
+        if seen is None or not window.mends(seen):
+            continue
+        odd = oddities(seen.moves)
+        answers = [each for each in seen.answers if {*window.lines}.intersection(each.lines)]
+        is_better = not any(odd.get(each) for each in _ODD)
+        if not kinds:
+            old = oddities(window.before.moves)
+            is_better = odd.get(Feature.WIDE, 0.0) < old.get(Feature.WIDE, 0.0) and (
+                odd.get(Feature.TURNING, 0.0) < old.get(Feature.TURNING, 0.0) - _LESS
+            )
+        if answers and all(each.contour for each in answers) and is_better:
+            yield repair_of(draft, seen, answers, trial)
+
+
+_LESS = 0.5
+"""Half turns by which the path has to turn less."""
+
+
+def _is_of(draft: Candidate, words: frozenset[Span]) -> bool:
+    return all(edit.span in words for edit in draft.edits) and all(draft.slips)
+
+
+def _told(answer: Answer, window: Window, found: list[Repair], reason: str) -> Diagnostic:
+    """The warning, about the word of the most plausible slip."""
+    context, edit = context_of(answer.claim, window.dialect.rules), found[0].edits[0]
+    same = [each.edits[0].text for each in found if each.edits[0].span == edit.span]
+    words = [word for block in answer.claim.blocks for word in block.words if word.span == edit.span]
+    finding = report(context, ReadIssue.SUSPECTED, Basis.NUMERICAL, words, meant=either(same), reason=reason)
+    return replace(finding, fixes=fixes_of(answer, found))

@@ -1,0 +1,196 @@
+"""The blocks around a contour, examined as a program is: as they are, and with edits that are tried."""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cached_property
+from math import atan2, degrees
+
+from msgspec import Struct
+
+from contoursolve.diagnosis.edits import Edit, apply_edits
+from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnostics import Diagnostic, LineChange, Severity
+from contoursolve.gcode import Block, parse_block
+from contoursolve.reading import Dialect, ReadIssue, State
+from contoursolve.solving import ArcSegment, Contour, Point
+
+_FEEDS = (1, 2, 3)
+"""Motions that cut."""
+
+
+class WindowPart(Struct, frozen=True):
+    """Blocks of a program in a row, a contour or none, as they are examined: with the states before and behind them."""
+
+    blocks: tuple[Block, ...]
+    before: State
+    after: State
+    findings: tuple[Diagnostic, ...] = ()
+    answer: Answer | None = None
+
+
+class Stretch(Struct, frozen=True):
+    """A stretch of the path in the plane, mm; `turned` is the axis that counts diameters, if one does. It begins and
+    ends in a direction, and turns by `sweep` between them, degrees."""
+
+    start: Point
+    end: Point
+    turned: int | None
+    headings: tuple[float, float]
+    sweep: float = 0.0
+    is_cutting: bool = True
+
+
+class Seen(Struct, frozen=True):
+    """The result of examining a window: the errors and warnings, the contours, and the path as far as it is known."""
+
+    problems: tuple[Diagnostic, ...]
+    answers: tuple[Answer, ...]
+    moves: tuple[Stretch, ...]
+
+    @property
+    def keys(self) -> frozenset[tuple[str, int]]:
+        """The problems by their code and line."""
+        return frozenset((each.code, each.span.line) for each in self.problems)
+
+
+class Window(Struct, frozen=True, dict=True):
+    """The blocks of something that is wrong (`own`) with the state before them, those `ahead` of it, a contour or a
+    block each, with the states before these, and those `behind` it; `examine` examines blocks from a state on."""
+
+    ahead: tuple[tuple[Sequence[Block], State], ...]
+    own: tuple[Block, ...]
+    behind: tuple[Block, ...]
+    state: State
+    dialect: Dialect
+    examine: Callable[[Sequence[Block], State], Iterable[WindowPart]]
+
+    @cached_property
+    def blocks(self) -> tuple[Block, ...]:
+        """All of them."""
+        return (*(block for blocks, _ in self.ahead for block in blocks), *self.own, *self.behind)
+
+    @cached_property
+    def first(self) -> int:
+        """The index of the first of its own blocks."""
+        return sum(len(blocks) for blocks, _ in self.ahead)
+
+    @property
+    def lines(self) -> tuple[int, ...]:
+        """The lines of its own blocks."""
+        return tuple(block.line for block in self.own)
+
+    @cached_property
+    def before(self) -> Seen:
+        """The result as it is."""
+        return _seen(self._parts)
+
+    @cached_property
+    def _parts(self) -> list[WindowPart]:
+        return [*self.examine(self.blocks, self.ahead[0][1] if self.ahead else self.state)]
+
+    def after(self, edits: Iterable[Edit]) -> Seen | None:
+        """The result with edits, up to the first thing that is wrong with its own blocks; None where they change
+        nothing."""
+        texts = apply_edits(self.blocks, edits)
+        changed = next((at for at, block in enumerate(self.blocks) if texts[at] != block.text), None)
+        if changed is None:
+            return None
+        # What is before the changed block, and before the one that it may go on from, stays.
+        begins, at = [(0, self.ahead[0][1] if self.ahead else self.state)], 0
+        for blocks, state in self.ahead:
+            begins.append((at, state))
+            at += len(blocks)
+        begins.append((self.first, self.state))
+        known = [each for each in begins if each[0] <= changed]
+        begin, state = known[-2] if len(known) > 1 else known[-1]
+        kept = {block.line for block in self.blocks[:begin]}
+        parts = [part for part in self._parts if part.blocks and part.blocks[-1].line in kept] if begin else []
+        syntax, blocks = self.dialect.modes.syntax, list[Block]()
+        for block, text in zip(self.blocks[begin:], texts[begin:], strict=True):
+            if text == block.text:
+                blocks.append(block)
+            elif text.strip():
+                blocks += [parse_block(part, block.line, syntax) for part in text.split("\n")]
+        own = {*self.lines}
+        for part in self.examine(blocks, state):
+            parts.append(part)
+            if any(each.span.line in own and each.about not in _MEANT for each in _problems(part)):
+                break
+        return _seen(parts)
+
+    def changes(self, edits: Iterable[Edit]) -> Iterator[LineChange]:
+        """The lines that edits change, each with its new text."""
+        for block, text in zip(self.blocks, apply_edits(self.blocks, edits), strict=True):
+            if text != block.text:
+                yield LineChange(block.span, text)
+
+    def gain(self, seen: Seen) -> int:
+        """The number of problems elsewhere that are gone then, besides those of blocks that only wait."""
+        own = {*self.lines}
+        old = {(each.code, each.span.line) for each in self.before.problems if each.about not in _FOLLOWING}
+        return len({each for each in old if each[1] not in own} - seen.keys)
+
+    def mends(self, seen: Seen) -> bool:
+        """Whether nothing of its own is wrong then, and nothing new elsewhere."""
+        first, last = self.lines[0], self.lines[-1]
+        old = self.before
+        lost = {each.span.line for each in old.problems if each.about in _FOLLOWING}
+        # The last blocks may belong to what is not seen any more.
+        end = self.behind[-1].line if self.behind else last + 1
+        for each in seen.problems:
+            line = each.span.line
+            if each.about in _MEANT:
+                continue
+            if first <= line <= last:
+                return False
+            if (each.code, line) not in old.keys and line < end and line not in lost:
+                return False
+        return True
+
+
+def _problems(part: WindowPart) -> list[Diagnostic]:
+    found = (*part.findings, *(part.answer.diagnostics if part.answer else ()))
+    return [each for each in found if each.severity is not Severity.INFO]
+
+
+def _seen(parts: Sequence[WindowPart]) -> Seen:
+    return Seen(
+        tuple(each for part in parts for each in _problems(part)),
+        tuple(part.answer for part in parts if part.answer is not None),
+        tuple(move for part in parts for move in _moves(part)),
+    )
+
+
+_FOLLOWING = (ReadIssue.POSITION_UNKNOWN, ReadIssue.CONTOUR_WAITS)
+"""Problems of contours behind one that has no path; what else is wrong with them shows later."""
+
+_MEANT = (ReadIssue.AXIS_CROSSED, ReadIssue.START_IN_INCREMENTS)
+"""Problems that no edit of the contour is about."""
+
+
+def _moves(part: WindowPart) -> Iterator[Stretch]:
+    plane = part.after.plane
+    turned = next((number for number, is_diameter in enumerate(plane.diameters) if is_diameter), None)
+    contour = part.answer.contour if part.answer else None
+    if contour is not None:
+        yield from moves_of(contour)
+    elif part.answer is None and part.after.motion is not None and not part.after.doubts:
+        ends = [state.axes[axis].value for state in (part.before, part.after) for axis in plane.axes]
+        if all(each is not None for each in ends):
+            first, second, third, fourth = (float(each or 0) for each in ends)
+            if (first, second) != (third, fourth):
+                heading = degrees(atan2(fourth - second, third - first))
+                is_cutting = part.after.motion in _FEEDS
+                yield Stretch((first, second), (third, fourth), turned, (heading, heading), is_cutting=is_cutting)
+
+
+def moves_of(contour: Contour) -> Iterator[Stretch]:
+    """The path of a contour."""
+    turned = next((number for number, is_diameter in enumerate(contour.plane.diameters) if is_diameter), None)
+    for each in contour.elements:
+        if isinstance(each, ArcSegment):
+            sweep = degrees(each.length / each.radius) * each.turn.sign if each.radius else 0.0
+            out = degrees(atan2(each.end[1] - each.center[1], each.end[0] - each.center[0])) + 90 * each.turn.sign
+            yield Stretch(each.start, each.end, turned, (out - sweep, out), sweep)
+        elif each.length:
+            heading = degrees(atan2(each.end[1] - each.start[1], each.end[0] - each.start[0]))
+            yield Stretch(each.start, each.end, turned, (heading, heading))

@@ -1,0 +1,42 @@
+"""The blocks around something that is wrong, for trying what was meant."""
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from contoursolve.gcode import Block
+from contoursolve.program.solve_queue import Previous
+from contoursolve.reading import Dialect, State
+
+if TYPE_CHECKING:
+    from contoursolve.diagnosis import Window, WindowPart
+
+Parts = Callable[[Sequence[Block], State], "Iterable[WindowPart]"]
+"""Examines blocks from a state on."""
+
+AHEAD, MOST_AHEAD = 8, 12
+"""Contours and blocks ahead of one that are kept, and the blocks of them in which slips are looked for."""
+
+
+def further(ahead: tuple[Previous, ...], blocks: Sequence[Block], state: State) -> tuple[Previous, ...]:
+    """The last contours and blocks, with one more."""
+    return (*ahead[1 - AHEAD :], (blocks, state))
+
+
+def window_of(
+    ahead: Sequence[Previous],
+    own: Sequence[Block],
+    behind: Sequence[Block],
+    state: State,
+    dialect: Dialect,
+    parts: Parts,
+) -> "Window":
+    """Blocks in a state, with what is ahead of them, as far as it is near, and some blocks behind."""
+    from contoursolve.diagnosis import Window  # noqa: PLC0415 - most programs need no diagnosis
+
+    near, count = list[Previous](), 0
+    for blocks, before in reversed(ahead):
+        count += len(blocks)
+        if count > MOST_AHEAD:
+            break
+        near.insert(0, (blocks, before))
+    return Window(tuple(near), tuple(own), tuple(behind), state, dialect, parts)

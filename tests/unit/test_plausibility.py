@@ -1,0 +1,54 @@
+"""The model that orders fixes: what its weights are worth, and that the order of words in a block changes nothing."""
+
+import json
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from contoursolve import solve
+
+plausibility = import_module("contoursolve.diagnosis.plausibility")
+Feature, FEATURES = plausibility.Feature, plausibility.FEATURES
+SLIPS = {each["id"]: each for each in json.loads((Path(__file__).parents[1] / "slips" / "by_hand.json").read_text())}
+
+DECIDES = {
+    Feature.KIND: ("ya-spindle-01", "write K-28. for I-28."),
+    Feature.ROUND: ("nc-plate-02", "write ,R8 for ,R88"),
+    Feature.NEAR: ("ya-flange-02", "write I15. for K15."),
+    Feature.TURNS_BACK: ("fl-full-03", "write Z-25. for Z-52."),
+    Feature.INWARD: ("fl-cone-06", "write X70. for X7."),
+    Feature.TURNING: ("is-roof-02", "write #ANG=345 for #ANG=165"),
+    Feature.LONG: ("nc-hook-08", "write X10 for X-10"),
+    Feature.SAME: ("mi-lever-02", "write A350. for A170."),
+    Feature.MENDS_MORE: ("hm-cover-07", "write G01 for G00"),
+}
+"""The slip by hand, and its first fix, for each feature that some first fix of the corpus hangs on."""
+
+
+def first_fix(name: str, lines: list[str] | None = None) -> str:
+    entry = SLIPS[name]
+    settings = dict(each.split("=", 1) for each in entry["settings"])
+    found = solve("\n".join(lines or entry["slip"]) + "\n", control=entry["control"], settings=settings).diagnostics
+    return next((fix.description for each in found for fix in each.fixes), "")
+
+
+def test_every_feature_has_a_weight_above_zero_and_a_reason():
+    assert FEATURES.keys() == set(Feature)
+    assert all(weight > 0 and reason for weight, reason in FEATURES.values())
+
+
+@pytest.mark.parametrize("feature", DECIDES, ids=lambda feature: feature.value)
+def test_without_its_weight_another_fix_comes_first(feature, monkeypatch):
+    name, expected = DECIDES[feature]
+    assert first_fix(name).startswith(expected)
+    monkeypatch.setitem(FEATURES, feature, (0.0, FEATURES[feature][1]))
+    assert not first_fix(name).startswith(expected)
+
+
+@pytest.mark.parametrize("name", ["ya-spindle-01", "nc-plate-02", "ya-flange-02", "mi-lever-02"])
+def test_the_first_fix_is_the_same_in_whatever_order_words_stand(name):
+    lines = [line.split() for line in SLIPS[name]["slip"]]
+    numbers = [[word for word in line[:1] if word.startswith("N")] for line in lines]
+    turned = [" ".join((*number, *reversed(line[len(number) :]))) for number, line in zip(numbers, lines, strict=True)]
+    assert first_fix(name, turned) == first_fix(name)
