@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.edits import Edit, EditKind, InsertionSide, Why, apply_edits, edit_facts, edited
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
-from contoursolve.diagnosis.examples import ends, propose, sampled
+from contoursolve.diagnosis.examples import numbers_for, propose, sampled
 from contoursolve.diagnosis.plausibility import (
     OF_EDITS,
     Feature,
@@ -40,7 +40,7 @@ from contoursolve.diagnosis.slips_around import (
 )
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnosis.window import Seen, Window, moves_of
-from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, Severity, Span
+from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, OpenNumber, Severity, Span
 from contoursolve.gcode import Block, parse_block
 from contoursolve.geometry import Profile, Unit, assemble
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, advance, leave, read
@@ -93,8 +93,8 @@ class Repair(Struct, frozen=True):
     """Rules that warn about the changed block and did not before."""
     example: tuple[Edit, ...] = ()
     """The edits with numbers for the placeholders that make a contour."""
-    ends: tuple[str, ...] = ()
-    """From which number to which one the placeholder may be; nothing where no end was found."""
+    numbers: tuple[OpenNumber, ...] = ()
+    """The numbers that it leaves open."""
     is_exact: bool = True
     """Whether its circles pass through their points, and do not only miss them by less than a control minds."""
     slips: tuple[SlipKind | None, ...] = ()
@@ -374,17 +374,25 @@ class Trial(Struct, frozen=True):
             return None
         return next((each for each in propose(found, profile, edits) if self.repair(each)), None)
 
-    def with_ends(self, repair: Repair) -> Repair:
-        """A repair with a placeholder, with the numbers between which that of its example stands."""
+    def with_numbers(self, repair: Repair) -> Repair:
+        """A repair with placeholders, with the numbers that they may be; where hardly one is left, with that."""
+        open_ = tuple(OpenNumber(edit.text, edit.line) for edit in repair.edits if edit.is_placeholder)
         found = self.find(repair.example) if repair.example != repair.edits else None
-        if found is None:
-            return repair
+        profile = self._stated(found) if found is not None else None
+        if found is None or profile is None:
+            return replace(repair, numbers=open_)
 
         def is_accepted(edits: tuple[Edit, ...]) -> bool:
             return self.repair(edits) is not None
 
-        profile = self._stated(found)
-        return replace(repair, ends=tuple(ends(found, profile, repair.edits, is_accepted))) if profile else repair
+        numbers = [*numbers_for(found, profile, repair.edits, repair.example, is_accepted)]
+        is_fixed = all(each.is_complete and width <= _FIXED for each, width in numbers)
+        valued = self.repair(repair.example) if is_fixed else None
+        if valued is not None:
+            return replace(valued, slips=repair.slips, evidence=repair.evidence)
+        texts = iter([each.example for each, _ in numbers])
+        example = tuple(dataclasses.replace(e, text=next(texts)) if e.is_placeholder else e for e in repair.edits)
+        return replace(repair, example=example, numbers=tuple(each for each, _ in numbers))
 
     def _stated(self, claim: ParsedContour) -> Profile | None:
         """The profile of a contour with its further facts; None if one of them cannot be used."""
@@ -525,7 +533,7 @@ def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -
     found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
     farthest = found[0].cost + _FARTHEST if found else 0.0
     found = [each for at, each in enumerate(found) if at < _ENOUGH or each.cost <= farthest or not any(each.slips)]
-    found = [trial.with_ends(each) if each.example else each for each in found]
+    found = [trial.with_numbers(each) if each.example else each for each in found]
     added = frozenset((edit.address, edit.line) for edits in tried for edit in edits if edit.kind is EditKind.ADD)
     return Repairs(tuple(found), is_complete, has_tried_all=is_complete, tried=added)
 
@@ -733,3 +741,6 @@ def _is_again(repair: Repair, other: Repair) -> bool:
 
 
 _LARGE = "more than twice as large"
+
+_FIXED = 0.05
+"""mm or degrees: a number that may differ by so much is fixed by the others, as closely as the control looks."""

@@ -2,12 +2,14 @@
 
 import dataclasses
 from bisect import bisect_left
-from collections.abc import Callable, Iterator, Sequence
-from math import log10
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from math import inf, isinf, log10
 
 import numpy
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.edits import PLACEHOLDER, Edit, write_word
+from contoursolve.diagnostics import NumberRange, OpenNumber
 from contoursolve.gcode import spell
 from contoursolve.geometry import Profile, Unit
 from contoursolve.numeric import Array
@@ -28,6 +30,13 @@ MOST_PLACES = 4
 
 ROWS = 4_000
 """Numbers, or combinations of several, that are looked through."""
+
+FAR = 2_000.0
+"""mm from the start, or from zero: drawings have nothing farther away, and numbers up to there are looked through."""
+
+MOST_RANGES, MOST_FAR, MOST_TRIED = 3, 20, 10
+"""Ranges of one number that are told, the nearest to its example; lengths beyond the reach on either side; and numbers
+on either side that are tried one by one, where no one function tells."""
 
 SEED = 1
 """Of the combinations that are looked through."""
@@ -61,40 +70,135 @@ def propose(claim: ParsedContour, profile: Profile, edits: Sequence[Edit]) -> It
         yield tuple(_numbered(edit, next(numbers)) if edit.is_placeholder else edit for edit in edits)
 
 
-def ends(
-    claim: ParsedContour, profile: Profile, edits: Sequence[Edit], is_accepted: Callable[[tuple[Edit, ...]], bool]
-) -> Iterator[str]:
-    """From which number to which one, around that of an example, the equations and the rules accept the edits: a side
-    on which no end is found is left out; nothing if several words are added, or no function tells.
+IsAccepted = Callable[[tuple[Edit, ...]], bool]
 
-    `claim` and `profile` are those of the example. Rules refuse some of the last numbers that the equations accept.
-    """
-    added = [edit for edit in edits if edit.is_placeholder]
-    name = _name_of(claim, added[0])
-    if len(added) > 1 or name not in profile.givens:
-        return
-    value, grid = float(profile.givens[name].value), _grid(claim, profile, name)
-    passed, step = passed_rows(profile, {name: grid}), _increment(claim, name)
-    if passed is None:
-        return
 
-    def accepts(text: str) -> bool:
-        return is_accepted(tuple(_numbered(edit, text) if edit.is_placeholder else edit for edit in edits))
-
-    for word, inward in (("from", step), ("up to", -step)):
-        side = numpy.flatnonzero((grid - value) * inward < 0)[:: -1 if inward > 0 else 1]
-        if passed[side].all():
+def numbers_for(
+    claim: ParsedContour, profile: Profile, edits: Sequence[Edit], example: Sequence[Edit], is_accepted: IsAccepted
+) -> Iterator[tuple[OpenNumber, float]]:
+    """The numbers that the equations and the rules accept for each placeholder, and how far apart the first one and the
+    last one are, mm or degrees. `claim` and `profile` are those of the example."""
+    is_alone = sum(edit.is_placeholder for edit in edits) == 1
+    for place, edit in enumerate(edits):
+        if not edit.is_placeholder:
             continue
-        number = int(numpy.argmin(passed[side]))
-        good = float(grid[side[number - 1]]) if number else value
-        last = _last(claim, profile, name, good, float(grid[side[number]]))
-        steps = range(round(abs(value - last) / step) + 1)
+        name, open_ = _name_of(claim, edit), OpenNumber(edit.text, edit.line, example[place].text)
+        if name not in profile.givens:
+            yield open_, inf
+            continue
 
-        def at(number: int, last: float = last, inward: float = inward) -> str:
-            return _text(claim, name, last + inward * number)
+        def accepts(text: str, place: int = place) -> bool:
+            tried = [*example]
+            tried[place] = _numbered(tried[place], text)
+            return is_accepted(tuple(tried))
 
-        first = 0 if accepts(at(0)) else bisect_left(steps, True, 1, len(steps) - 1, key=lambda n: accepts(at(n)))
-        yield f"{word} {at(first)}"
+        ranges, is_complete, width = _ranges_of(claim, profile, name, accepts)
+        value = float(profile.givens[name].value)
+        texts = (_text(claim, name, round(value, digits)) for digits in (-1, 0, 1))
+        is_odd = is_alone and round(value, 1) != value
+        rounder = next(filter(accepts, texts), open_.example) if is_odd else open_.example
+        yield replace(open_, example=rounder, ranges=ranges, is_complete=is_complete), width
+
+
+def _ranges_of(
+    claim: ParsedContour, profile: Profile, name: str, accepts: Callable[[str], bool]
+) -> tuple[tuple[NumberRange, ...], bool, float]:
+    """The ranges of a number, whether these are all, and how far apart their ends are."""
+    value, is_angle = float(profile.givens[name].value), profile.givens[name].unit is Unit.DEGREE
+    if is_angle:
+        value = (value + _HALF_TURN) % (2 * _HALF_TURN) - _HALF_TURN
+    grid = _far_grid(claim, profile, name, value)
+    passed = _passed(profile, {name: grid})
+    is_told = passed is not None and bool(passed[numpy.argmin(abs(grid - value))])
+    if not is_told:
+        grid = _few(grid, value)
+        passed = numpy.array([accepts(_text(claim, name, float(each))) for each in grid])
+    assert passed is not None
+    places = numpy.flatnonzero(passed)
+    runs = numpy.split(places, numpy.flatnonzero(numpy.diff(places) > 1) + 1) if places.size else []
+    runs.sort(key=lambda run: float(numpy.min(abs(grid[run] - value))))
+    found = list[tuple[float, float]]()
+    for run in runs[:MOST_RANGES]:
+        is_own = run[0] <= numpy.argmin(abs(grid - value)) <= run[-1]
+        middle = value if is_own else float(grid[run[len(run) // 2]])
+        if is_own or accepts(_text(claim, name, middle)):
+            ends = ((int(run[0]), -1), (int(run[-1]), 1))
+            low, high = (_end(claim, profile, name, grid, middle, end, is_told, accepts) for end in ends)
+            found.append((low, high))
+    found.sort()
+    if is_angle and len(found) > 1 and (found[0][0], found[-1][1]) == (-_HALF_TURN, _HALF_TURN):
+        (_, last), *found, (first, _) = found
+        turn = 2 * _HALF_TURN * (value < first)
+        around = (first - turn, last + 2 * _HALF_TURN - turn)
+        if all(accepts(_text(claim, name, each)) for each in around):
+            found.append(around)
+        else:
+            found = [(-_HALF_TURN, last), *found, (first, _HALF_TURN)]
+    if is_angle and found == [(-_HALF_TURN, _HALF_TURN)]:
+        found = [(-inf, inf)]
+    texts = (tuple("" if isinf(each) else _text(claim, name, each) for each in ends) for ends in found)
+    ranges = tuple(NumberRange(*ends) for ends in texts)
+    return ranges, len(runs) <= MOST_RANGES, found[-1][1] - found[0][0] if found else inf
+
+
+_HALF_TURN = 180.0
+
+
+def _far_grid(claim: ParsedContour, profile: Profile, name: str, value: float) -> Array:
+    """The numbers that are looked through, a value that is accepted among them; lengths as far as any machine goes."""
+    grid = _grid(claim, profile, name)
+    if profile.givens[name].unit is Unit.DEGREE:
+        return numpy.unique(numpy.append(grid, value))
+    step, start = _increment(claim, name), _start_of(profile, name)
+    reach = _reach(profile, [name])
+    far = numpy.geomspace(reach, max(2 * reach, FAR), MOST_FAR)
+    sides = [start + far] if name in _sizes(profile) else [start - far, start + far]
+    about = [value, step] if name in _sizes(profile) else [value, -step, 0.0, step]
+    return numpy.unique(numpy.rint(numpy.concatenate([grid, *sides, about]) / step) * step)
+
+
+def _few(grid: Array, value: float) -> Array:
+    """Few numbers of a grid, the denser the nearer to a value, which is one of them."""
+    own, least, most = int(numpy.argmin(abs(grid - value))), 0, len(grid) - 1
+    steps = numpy.unique(numpy.rint(numpy.geomspace(1, len(grid), MOST_TRIED)).astype(int))
+    zero = int(numpy.argmin(abs(grid)))
+    places = numpy.concatenate([own - steps, [own], own + steps, [zero - 1, zero, zero + 1]])
+    return grid[numpy.unique(numpy.clip(places, least, most))]
+
+
+def _end(
+    claim: ParsedContour,
+    profile: Profile,
+    name: str,
+    grid: Array,
+    middle: float,
+    end: tuple[int, int],
+    is_told: bool,
+    accepts: Callable[[str], bool],
+) -> float:
+    """The last number on one side of a stretch that is accepted, infinite where each one is that was tried. Rules
+    refuse some of the last numbers that the equations accept, where these tell at all."""
+    place, side = end
+    step, last = _increment(claim, name), float(grid[place])
+    is_edge = not 0 <= place + side < len(grid)
+    if not is_edge:
+        beyond = float(grid[place + side])
+        last = _last(claim, profile, name, last, beyond) if is_told else beyond
+    steps = range(round(abs(middle - last) / step) + 1)
+
+    def at(number: int) -> float:
+        return last - side * step * number
+
+    if accepts(_text(claim, name, at(0))):
+        is_size = name in _sizes(profile) and side < 0
+        is_length = profile.givens[name].unit is not Unit.DEGREE
+        return side * inf if is_edge and is_length and not is_size else at(0)
+    return at(bisect_left(steps, True, 1, len(steps) - 1, key=lambda each: accepts(_text(claim, name, at(each)))))
+
+
+def _sizes(profile: Profile) -> set[str]:
+    """The givens that are sizes of corners and circles, which are above zero."""
+    return {corner.size for corner in profile.figure.corners} | {fact.given for fact in profile.facts if fact.sizes}
 
 
 def _last(claim: ParsedContour, profile: Profile, name: str, good: float, bad: float) -> float:
@@ -113,6 +217,14 @@ def _last(claim: ParsedContour, profile: Profile, name: str, good: float, bad: f
     return good
 
 
+def _passed(profile: Profile, values: Mapping[str, Array]) -> Array | None:
+    """The numbers that pass every check; None where no function tells, as of a word that states several values, which
+    change with it."""
+    spans = {word.span for name in values if (word := profile.givens[name].word) is not None}
+    stated = [name for name, given in profile.givens.items() if given.word is not None and given.word.span in spans]
+    return passed_rows(profile, values) if len(stated) == len(values) else None
+
+
 def _numbered(edit: Edit, text: str) -> Edit:
     return dataclasses.replace(edit, text=text)
 
@@ -128,10 +240,10 @@ def _name_of(claim: ParsedContour, edit: Edit) -> str:
 def _one(claim: ParsedContour, profile: Profile, name: str) -> list[Array]:
     """Stretches of numbers for one given that are passed, shape (numbers, 1), the longest first."""
     grid = _grid(claim, profile, name)
-    passed = passed_rows(profile, {name: grid})
+    passed = _passed(profile, {name: grid})
     if passed is not None and passed.sum() <= FEW_PROPOSED:
         grid = _closer(claim, profile, name, grid)
-        passed = passed_rows(profile, {name: grid})
+        passed = _passed(profile, {name: grid})
     if passed is None or not passed.any():
         # Where a corner always takes the whole of a line, as under G12, no number has room around it.
         count = MOST_PROPOSED if passed is None else FEW_PROPOSED
@@ -166,7 +278,7 @@ def _several(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> It
     for is_coarse in (True, False):
         grids = [_grid(claim, profile, name, reach / REACH / 5 if is_coarse else 0.0) for name in names]
         rows = numpy.stack([rng.choice(grid, ROWS) for grid in grids], axis=1)
-        passed = passed_rows(profile, dict(zip(names, rows.T, strict=True)))
+        passed = _passed(profile, dict(zip(names, rows.T, strict=True)))
         if passed is None:
             yield from (rows[[place]] for place in _apart(len(rows), MOST_PROPOSED))
             return
@@ -220,9 +332,7 @@ def _grid(claim: ParsedContour, profile: Profile, name: str, coarse: float = 0.0
         return numpy.linspace(-180, 180, 25 if coarse else 1441)
     along = numpy.linspace(-1, 1, 2001)
     steps = _reach(profile, [name]) * (0.1 * along + 0.9 * along**3)
-    sizes = {corner.size for corner in profile.figure.corners}
-    sizes |= {fact.given for fact in profile.facts if fact.sizes}
-    if name in sizes:
+    if name in _sizes(profile):
         steps = steps[steps > 0]
     step = _increment(claim, name)
     if coarse:

@@ -6,7 +6,7 @@ from contoursolve.diagnosis.attempt import Repair
 from contoursolve.diagnosis.edits import EditKind, edited
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.wording import join, length_text, place_text
-from contoursolve.diagnostics import Fix
+from contoursolve.diagnostics import Fix, NumberRange, OpenNumber
 from contoursolve.geometry import Profile
 from contoursolve.solving import ArcSegment, Contour, Point, scalars_of
 
@@ -23,17 +23,50 @@ def _fix(answer: Answer, repair: Repair, outcome: str) -> Fix:
     blocks = answer.claim.blocks
     told = (edit.among(blocks) + (f" ({slip.sentence})" if slip and slip.sentence else "") for edit, slip in edits)
     description = "; ".join(told)
-    numbers = [each.text for each, edit in zip(repair.example, repair.edits, strict=False) if each != edit]
-    if numbers:
-        description += f" (such as {' '.join(numbers)}{''.join(f', {each}' for each in repair.ends)})"
+    if told := _numbers(repair.numbers):
+        description += f" ({told})"
     if outcome:
         description += f" -> {outcome}" + "".join(f", {drawback}" for drawback in repair.drawbacks)
     dropped = [edit.old for edit in repair.edits if edit.kind is EditKind.DROP and edit.errand]
     is_beside = len(dropped) == len(repair.edits)
     effect = f"drops {join(dropped)}" if is_beside else ""
-    example = edited(blocks, repair.example) if numbers else ""
+    example = edited(blocks, repair.example) if any(each.example for each in repair.numbers) else ""
     replaced = "\n".join(block.text for block in blocks)
-    return Fix(description, repair.replacement, repair.applicability, effect, example, replaced, repair.beside)
+    return Fix(
+        description,
+        repair.replacement,
+        repair.applicability,
+        effect,
+        example,
+        replaced,
+        repair.beside,
+        repair.numbers,
+    )
+
+
+def _numbers(numbers: Sequence[OpenNumber]) -> str:
+    """What open numbers may be; empty where there are none."""
+    known = [each for each in numbers if each.example]
+    if not known:
+        return "no number was tried" if numbers else ""
+    if len(known) == 1:
+        return f"such as {known[0].example}{_ranges(known[0], ', ')}"
+    return "such as " + " and ".join(each.example + _ranges(each, " (", ")") for each in known)
+
+
+def _ranges(number: OpenNumber, before: str, behind: str = "") -> str:
+    if not number.ranges:
+        return ""
+    texts = [*map(_range, number.ranges)]
+    return before + ("; or " if len(texts) > 1 else "").join(texts) + "; or others" * (not number.is_complete) + behind
+
+
+def _range(ends: NumberRange) -> str:
+    if not ends.low and not ends.high:
+        return "any number"
+    if not ends.low or not ends.high:
+        return f"{ends.low} or above" if ends.low else f"{ends.high} or below"
+    return f"between {ends.low} and {ends.high}" if ends.low != ends.high else ends.low
 
 
 def _outcomes(answer: Answer, contours: Sequence[Contour | None]) -> list[str]:

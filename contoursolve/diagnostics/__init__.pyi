@@ -26,6 +26,8 @@ from .finding import (
     Label as Label,
     Layer as Layer,
     LineChange as LineChange,
+    NumberRange as NumberRange,
+    OpenNumber as OpenNumber,
     Severity as Severity,
     Tie as Tie,
     Verdict as Verdict,

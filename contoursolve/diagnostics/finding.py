@@ -46,6 +46,28 @@ class LineChange(Struct, frozen=True):
     text: str
 
 
+class NumberRange(Struct, frozen=True):
+    """A range of numbers, as words: from one to another; empty where it may be any number on that side."""
+
+    low: str
+    high: str
+
+
+class OpenNumber(Struct, frozen=True):
+    """A number that a fix leaves open: the word in which `?` stands for it, and the word with one that makes a contour,
+    where one is known.
+
+    Each end of `ranges` was tried, while the other open numbers were those of their examples. `is_complete` tells that
+    no range was left out.
+    """
+
+    word: str
+    line: int
+    example: str = ""
+    ranges: tuple[NumberRange, ...] = ()
+    is_complete: bool = False
+
+
 class Fix(Struct, frozen=True):
     """A whole new block to write instead, or a line for each block of a contour of several; a single block may become
     several lines."""
@@ -61,6 +83,8 @@ class Fix(Struct, frozen=True):
     """The text that it replaces, a line for each block of the contour."""
     beside: tuple[LineChange, ...] = ()
     """The lines outside the contour that it changes, too."""
+    numbers: tuple[OpenNumber, ...] = ()
+    """The numbers that it leaves open."""
 
     def by_line(self, lines: Sequence[int]) -> dict[int, str]:
         """The new text of each of the lines that it replaces, and of those beside: empty for a line that it drops,

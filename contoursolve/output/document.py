@@ -5,7 +5,7 @@ from tempfile import SpooledTemporaryFile
 from typing import Any
 
 from contoursolve.diagnosis import DECIMALS, Answer, AskedValue, decimals_of, list_solutions, printed_certificate, rank
-from contoursolve.diagnostics import Diagnosis, Diagnostic, Span, json_text, members, plain
+from contoursolve.diagnostics import Diagnosis, Diagnostic, Fix, Span, json_text, members, plain
 from contoursolve.output.listing import Collected, Totals, findings_of
 from contoursolve.output.premises import premise_data
 from contoursolve.program import Result, Run
@@ -144,8 +144,27 @@ def finding_data(finding: Diagnostic, result: Result) -> dict[str, Any]:
         **members(finding, "message help notes"),
         "labels": [{**_place(label.span, result), "text": label.text} for label in finding.labels],
         **members(finding, "addresses basis source alarm values"),
-        "fixes": [members(fix, "description replacement applicability") for fix in finding.fixes],
+        "fixes": [_fix(fix) for fix in finding.fixes],
     }
+
+
+def _fix(fix: Fix) -> dict[str, Any]:
+    """A fix; with the numbers that it leaves open, and the lines outside the contour that it changes, if there are
+    any."""
+    data = members(fix, "description replacement applicability")
+    if fix.numbers:
+        data["numbers"] = [
+            {
+                **members(each, "word line"),
+                "example": each.example or None,
+                "ranges": [{"from": ends.low or None, "to": ends.high or None} for ends in each.ranges],
+                "complete": each.is_complete,
+            }
+            for each in fix.numbers
+        ]
+    if fix.beside:
+        data["beside"] = [{"line": each.span.line, "text": each.text} for each in fix.beside]
+    return data
 
 
 def _place(span: Span, result: Result) -> dict[str, Any]:

@@ -108,7 +108,7 @@ def test_a_path_across_the_spindle_axis_names_the_line_that_crosses_it(lines, to
 def test_an_increment_in_brackets_is_offered_too():
     (finding, *_) = check("G17 G90 G0 X10 Y0\nG1 ANG=30\nM30", control="siemens-840d")
     fixes = {each.description: each.example for each in finding.fixes}
-    assert fixes["add X=IC(?) (such as X=IC(10))"] == "G1 ANG=30 X=IC(10)"
+    assert fixes["add X=IC(?) (such as X=IC(10), X=IC(0.001) or above)"] == "G1 ANG=30 X=IC(10)"
 
 
 @pytest.mark.parametrize(

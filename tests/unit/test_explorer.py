@@ -72,7 +72,7 @@ def test_a_freed_word_is_drawn_with_where_it_may_lead():
     assert not re.search(r"end\s*</tspan>", picture)  # V1 is no end
     fixes = [fix["text"] for finding in view_of(freed)["findings"] for fix in finding["fixes"]]
     # U would say what X does.
-    assert fixes == ["add Z? (such as Z-70., up to Z-32.114)", "add W? (such as W-70., up to W-32.114)"]
+    assert fixes == ["add Z? (such as Z-70., Z-32.114 or below)", "add W? (such as W-70., W-32.114 or below)"]
 
 
 def test_a_number_that_no_control_reads_is_told_as_that():

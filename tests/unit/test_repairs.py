@@ -118,9 +118,8 @@ def placeholders(spoilt: Spoilt) -> list[tuple[str, str]]:
     found = []
     for finding, fix in ((each, fix) for each in result.diagnostics for fix in each.fixes):
         if fix.applicability is Applicability.PLACEHOLDER:
-            text = fix.replacement
-            for number in re.search(r"\(such as (.+?)(?:, (?:from|up to) .*)?\)$", fix.description)[1].split():
-                text = re.sub(rf"(?<!\S){number.rstrip('-.0123456789')}\?", number, text, count=1)
+            assert all(each.example for each in fix.numbers)
+            text = fix.example
             mended = next((each.lines for each in result.answers if finding.span.line in each.lines), (2,))
             lines = [*spoilt.lines[: mended[0] - 1], *text.split("\n"), *spoilt.lines[mended[-1] :]]
             found.append((fix.description, "\n".join(lines)))
@@ -159,36 +158,32 @@ def test_a_word_without_its_number_is_offered_with_a_number_in_many_blocks(form,
 @pytest.mark.parametrize(
     ("circle", "fix"),
     [
-        ("X-40 Y60 I-40 J20", "add R? to program line 3 (such as R40, from R39.99, up to R40.01)"),
-        ("X-40 I-40 J20 R40", "add Y? to program line 3 (such as Y60, from Y59.99, up to Y60.01)"),
-        ("X-30 Y60 J30 R50", "add I? to program line 3 (such as I-70, from I-70.012, up to I-69.988)"),
+        ("X-40 Y60 I-40 J20", "add R40 to program line 3"),
+        ("X-40 I-40 J20 R40", "add Y60 to program line 3"),
+        ("X-30 Y60 J30 R50", "add I-70 to program line 3"),
     ],
 )
-def test_the_word_that_closes_a_circle_is_found_between_numbers_of_which_none_does(circle, fix):
+def test_the_word_that_closes_a_circle_has_the_number_that_the_circle_fixes(circle, fix):
     result = solve(f"G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\nG3 {circle} Q-1", control="nct-99m")
-    fixes = [each.description for finding in result.diagnostics for each in finding.fixes]
+    fixes = [each.description.partition(" -> ")[0] for finding in result.diagnostics for each in finding.fixes]
     assert fix in fixes
-
-
-STEP = {"from": Decimal("-0.001"), "up to": Decimal("0.001")}
 
 
 def check_ends(spoilt: Spoilt) -> int:
     """That each end of the numbers that a fix names makes a contour, and one increment more does not; how many."""
     count = 0
-    for finding in solve(spoilt.text, control=spoilt.control).diagnostics:
-        for fix in finding.fixes:
-            for word, address, number in re.findall(r", (from|up to) (,?[A-Z])(-?[.\d]+)", fix.description):
-                at, count = Decimal(number), count + 1
-                for value, is_good in ((at, True), (at + STEP[word], False)):
-                    text = fix.replacement.replace(
-                        f"{address}?", f"{address}{value:f}{'' if '.' in str(value) else '.'}"
-                    )
-                    assert is_clean([spoilt.lines[0], *text.split("\n")], spoilt.control) is is_good, (
-                        spoilt,
-                        fix,
-                        value,
-                    )
+    for fix in (fix for each in solve(spoilt.text, control=spoilt.control).diagnostics for fix in each.fixes):
+        for number in fix.numbers if len(fix.numbers) == 1 else ():
+            for ends, sign in ((each, sign) for each in number.ranges for sign in (-1, 1)):
+                word = ends.low if sign < 0 else ends.high
+                if word:
+                    address, at = re.fullmatch(r"(,?[A-Z]+)(.+)", word).groups()
+                    count += 1
+                    for value, is_good in ((Decimal(at), True), (Decimal(at) + sign * Decimal("0.001"), False)):
+                        spelled = f"{address}{value:f}{'' if '.' in str(value) else '.'}"
+                        text = fix.replacement.replace(number.word, spelled)
+                        told = is_clean([spoilt.lines[0], *text.split("\n")], spoilt.control)
+                        assert told is is_good, (spoilt, fix, value)
     return count
 
 
@@ -206,7 +201,7 @@ def test_the_numbers_that_are_named_for_a_word_reach_to_the_last_increment_in_ma
         ("G111 X100. A180. K-30. P5. Q5.", 4),
         ("G111 A180. K-30. B135. P5. Q5.", 4),
         ("G111 X100. A180. C2. (contoursolve: length of line 1 = 30)", 6),
-        ("G111 K-20. A180. C2. (contoursolve: length of line 2 = 30)", 2),
+        ("G111 K-20. A180. C2. (contoursolve: length of line 2 = 30)", 4),
     ],
     one_in=3,
 )
