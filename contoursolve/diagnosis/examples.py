@@ -163,7 +163,7 @@ def _few(grid: Array, value: float) -> Array:
     steps = numpy.unique(numpy.rint(numpy.geomspace(1, len(grid), MOST_TRIED)).astype(int))
     zero = int(numpy.argmin(abs(grid)))
     places = numpy.concatenate([own - steps, [own], own + steps, [zero - 1, zero, zero + 1]])
-    return grid[numpy.unique(numpy.clip(places, least, most))]
+    return numpy.unique(grid[numpy.clip(places, least, most)])
 
 
 def _end(

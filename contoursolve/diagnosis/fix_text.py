@@ -23,8 +23,8 @@ def _fix(answer: Answer, repair: Repair, outcome: str) -> Fix:
     blocks = answer.claim.blocks
     told = (edit.among(blocks) + (f" ({slip.sentence})" if slip and slip.sentence else "") for edit, slip in edits)
     description = "; ".join(told)
-    if told := _numbers(repair.numbers):
-        description += f" ({told})"
+    if repair.numbers:
+        description += f" ({_numbers(repair.numbers)})"
     if outcome:
         description += f" -> {outcome}" + "".join(f", {drawback}" for drawback in repair.drawbacks)
     dropped = [edit.old for edit in repair.edits if edit.kind is EditKind.DROP and edit.errand]
@@ -48,7 +48,7 @@ def _numbers(numbers: Sequence[OpenNumber]) -> str:
     """What open numbers may be; empty where there are none."""
     known = [each for each in numbers if each.example]
     if not known:
-        return "no number was tried" if numbers else ""
+        return "no number was tried"
     if len(known) == 1:
         return f"such as {known[0].example}{_ranges(known[0], ', ')}"
     return "such as " + " and ".join(each.example + _ranges(each, " (", ")") for each in known)
