@@ -5,6 +5,7 @@ import re
 from bisect import insort
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from decimal import Decimal
+from functools import cached_property
 from itertools import chain
 from math import log2
 
@@ -17,10 +18,12 @@ from contoursolve.diagnosis.examples import numbers_for, propose, sampled
 from contoursolve.diagnosis.plausibility import (
     OF_EDITS,
     Feature,
+    Numbers,
     cost_of,
     distance,
     familiarity,
     length_of,
+    numbers_of,
     oddities,
     round_points,
     rounding_of,
@@ -131,7 +134,7 @@ class Repairs(Struct, frozen=True):
     tried: frozenset[tuple[str, int]] = frozenset()
 
 
-class Trial(Struct, frozen=True):
+class Trial(Struct, frozen=True, dict=True):
     """The contour that edits are tried on, as it is before: its codes, its path if there is one, and where the next
     block's line ends."""
 
@@ -218,7 +221,7 @@ class Trial(Struct, frozen=True):
             is_exact=all(each.about is not NoteKind.RADIUS_DIFFERS for each in answer.diagnostics),
         )
 
-    @property
+    @cached_property
     def marked(self) -> Marked:
         """The places that its findings mark: of an arc all its words, and where words are missing all of them."""
         lines = frozenset(span.line for span in self.blamed)
@@ -231,6 +234,11 @@ class Trial(Struct, frozen=True):
         own += self.claim.blocks if self.is_open and len(self.claim.blocks) <= _SHORT else ()
         spans = {word.span for block in own for word in block.words}
         return Marked(self.blamed | spans, lines | {block.line for block in own}, self.told)
+
+    @cached_property
+    def numbers(self) -> Numbers:
+        """The numbers of the blocks around."""
+        return numbers_of(self.window.blocks if self.window else self.claim.blocks)
 
     def strangeness(self, edit: Edit) -> float:
         """The cost of a word that is added seldom: one that no block around has, or that counts from where
@@ -648,12 +656,11 @@ def _weighed(repair: Repair, trial: Trial) -> Repair:
     lines = [edit.span.line if edit.span else edit.line for edit in edits]
     near = [distance(line, edit.span in marked.spans, marked.lines) for line, edit in zip(lines, edits, strict=True)]
     rounding = sum(map(rounding_of, edits))
-    blocks = trial.window.blocks if trial.window else trial.claim.blocks
     evidence = (
         (Feature.KIND, kind),
         (Feature.NEAR, min(near, default=0.0)),
         (Feature.ROUND, rounding),
-        (Feature.FAMILIAR, familiarity(edits, blocks)),
+        (Feature.FAMILIAR, familiarity(edits, trial.numbers)),
     )
     return replace(repair, evidence=_of_path(repair, None, evidence))
 

@@ -243,7 +243,8 @@ def examine(
         # Whatever the rules say of it: nothing is dropped without a word.
         if word.span not in explained:
             notebook.add(report(context, ReadIssue.WORD_UNUSED, Basis.RULE, [word], form=claim.form.name))
-    if is_readable and not (claim.form.is_general and is_doubtful):
+    is_tried = depth is Depth.TRIAL and bool(notebook.statuses)
+    if is_readable and not is_tried and not (claim.form.is_general and is_doubtful):
         if claim.form.is_general:
             profile = _without_cuts(context, profile, claim, analyse(assemble(profile)).free, notebook)
         profile, solution, alternatives = _examine_geometry(context, claim, profile, notebook, depth)
@@ -508,7 +509,7 @@ def _solve(
 ) -> tuple[Profile, Solution, Alternatives | None]:
     """The contour that the control makes, or the only one that there is; and the profile that it is one of."""
     is_chosen = not profile.is_extended and not _has_choice(profile)
-    solution = solve(profile, is_proven=depth is not Depth.PATH) if is_chosen else None
+    solution = solve(profile, is_proven=depth not in (Depth.PATH, Depth.TRIAL)) if is_chosen else None
     touches = solution is not None and any(remark.kind is NoteKind.TOUCHES for remark in solution.remarks)
     if solution is not None and not (touches and count_choices(profile) <= MOST_CHOICES):
         return profile, solution, None

@@ -4,7 +4,7 @@ Each row is a cost in natural units: the negative logarithm of about how much mo
 sum over a repair orders it among the others; nothing else does.
 """
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
 from itertools import groupby, pairwise
@@ -13,6 +13,7 @@ from contoursolve.diagnosis.edits import Edit, EditKind, Why
 from contoursolve.diagnosis.examine import LEADING
 from contoursolve.diagnosis.slip_kinds import SlipKind, number_in
 from contoursolve.diagnosis.window import Stretch
+from contoursolve.diagnostics import Span
 from contoursolve.gcode import Block
 from contoursolve.solving import Contour
 from contoursolve.tolerance import AGREEMENT
@@ -139,23 +140,34 @@ _SHORT = 4
 """Digits of a number in which the place of the point tells how round it is."""
 
 
-def familiarity(edits: Iterable[Edit], blocks: Iterable[Block]) -> float:
-    """The plausibility of new numbers that other words of some blocks have, the more with the same address; negative,
-    as a cost."""
-    changes = {edit.span: edit for edit in edits if edit.kind is EditKind.CHANGE}
-    numbers: dict[str, set[str]] = {}
+Numbers = Mapping[Decimal, Sequence[tuple[Span, str]]]
+"""The words that have each number, whatever its sign: their places and addresses."""
+
+
+def numbers_of(blocks: Iterable[Block]) -> Numbers:
+    """The numbers of the words of some blocks, without those of codes and of what is no length and no angle."""
+    found: dict[Decimal, list[tuple[Span, str]]] = {}
     for block in blocks:
         for word in block.words:
-            if word.span not in changes and word.number and word.address not in "GMNFST":
-                numbers.setdefault(f"{abs(word.number.normalize()):f}", set()).add(word.address.strip(",#"))
+            if word.number and word.address not in "GMNFST":
+                found.setdefault(abs(word.number), []).append((word.span, word.address.strip(",#")))
+    return found
+
+
+def familiarity(edits: Iterable[Edit], numbers: Numbers) -> float:
+    """The plausibility of new numbers that other words around have, the more with the same address; negative, as a
+    cost."""
+    changes = {edit.span: edit for edit in edits if edit.kind is EditKind.CHANGE}
     found = 0.0
     for edit in changes.values():
         new, old = number_in(edit.text), number_in(edit.old)
-        if new and new != old and float(new):
-            letters = numbers.get(f"{Decimal(new).normalize():f}", set())
-            found -= 0.7 if edit.address.strip(",#") in letters else 0.3 if letters else 0.0
-        elif new and edit.text != edit.old and float(new):
-            found -= 0.4 if edit.address.strip(",#") in numbers.get(f"{Decimal(new).normalize():f}", set()) else 0.0
+        if new and edit.text != edit.old and (number := Decimal(new)):
+            letters = {address for span, address in numbers.get(number, ()) if span not in changes}
+            is_same = edit.address.strip(",#") in letters
+            if new != old:
+                found -= 0.7 if is_same else 0.3 if letters else 0.0
+            else:
+                found -= 0.4 * is_same
     return found
 
 

@@ -4,6 +4,7 @@ meant to be if it happened."""
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from decimal import Decimal
+from functools import lru_cache
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -519,6 +520,12 @@ def number_in(text: str) -> str:
     """The number of a word as it is typed, without its sign; empty if it has none."""
     match = _WORD.fullmatch(text.strip())
     return match["number"] if match else ""
+
+
+@lru_cache(maxsize=1024)
+def plain_code(text: str) -> str:
+    """A code without a zero that leads."""
+    return re.sub(r"^G0+(?=\d)", "G", text.strip().upper())
 
 
 def _says_the_same(text: str, typed: str) -> bool:

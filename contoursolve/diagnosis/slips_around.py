@@ -8,7 +8,16 @@ from itertools import chain, pairwise, permutations
 from msgspec import Struct
 
 from contoursolve.diagnosis.edits import Edit, EditKind, change, drop
-from contoursolve.diagnosis.plausibility import FEATURES, Feature, cost_of, distance, familiarity, rounding_of
+from contoursolve.diagnosis.plausibility import (
+    FEATURES,
+    Feature,
+    Numbers,
+    cost_of,
+    distance,
+    familiarity,
+    numbers_of,
+    rounding_of,
+)
 from contoursolve.diagnosis.slip_kinds import (
     LETTER_ALIKE,
     NEIGHBOUR,
@@ -18,6 +27,7 @@ from contoursolve.diagnosis.slip_kinds import (
     SlipKind,
     Speech,
     number_in,
+    plain_code,
     texts_of,
 )
 from contoursolve.diagnosis.window import Window
@@ -66,7 +76,7 @@ class Marked(Struct, frozen=True):
 
 
 def _is_named(code: str, told: str) -> bool:
-    return re.search(rf"\b{re.escape(_plain(code))}(?!\d)", told) is not None
+    return re.search(rf"\b{re.escape(plain_code(code))}(?!\d)", told) is not None
 
 
 def drafts_around(
@@ -79,13 +89,14 @@ def drafts_around(
     """Drafts around what a finding marks that may mend it, the most plausible first, and those alike in the order of
     the text; those of more than one word beside the `FEW` kinds."""
     found: dict[tuple[Edit, ...], Candidate] = {}
+    numbers = numbers_of(window.blocks)
     trusted = claim.trusted if claim is not None else frozenset[Span]()
     kinds = tuple(kinds)
     several = _of_several(window, marked) if kinds != OF_DIGITS else iter(())
     for edits, slips, cost in chain(_of_words(window, marked, claim, kinds), several):
         if any(edit.span in trusted for edit in edits) or not may_mend(edits):
             continue
-        draft = _draft(window, marked, edits, slips, cost)
+        draft = _draft(numbers, marked, edits, slips, cost)
         known = found.get(draft.edits)
         if known is None or draft.cost < known.cost:
             found[draft.edits] = draft
@@ -104,7 +115,7 @@ def _place(draft: Candidate) -> tuple[object, ...]:
     return round(draft.cost, 6), places
 
 
-def _draft(window: Window, marked: Marked, edits: Edits, slips: Slips, cost: float) -> Candidate:
+def _draft(numbers: Numbers, marked: Marked, edits: Edits, slips: Slips, cost: float) -> Candidate:
     lines = [edit.span.line if edit.span else edit.line for edit in edits]
     near = [distance(line, marked.has(edit), marked.lines) for line, edit in zip(lines, edits, strict=True)]
     # Of two words that are exchanged, one is enough.
@@ -113,7 +124,7 @@ def _draft(window: Window, marked: Marked, edits: Edits, slips: Slips, cost: flo
         (Feature.KIND, cost),
         (Feature.NEAR, min(near, default=0.0)),
         (Feature.ROUND, rounding),
-        (Feature.FAMILIAR, familiarity(edits, window.blocks)),
+        (Feature.FAMILIAR, familiarity(edits, numbers)),
     )
     return Candidate(edits, slips, evidence)
 
@@ -232,12 +243,12 @@ def _all_points(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
 
 
 def _codes(window: Window, blocks: Iterable[Block], pairs: Sequence[tuple[str, str]]) -> Iterator[Edits]:
-    known = {_plain(code.text): code for code in window.dialect.modes.codes.values()}
+    known = window.codes
     for block in blocks:
         for word in block.words:
-            name = _plain(word.text)
             if word.address not in _CODES:
                 continue
+            name = plain_code(word.text)
             for typed, meant in pairs:
                 if name == typed and (meant in known or word.address != "G"):
                     yield (change(word, _like(word, meant)),)
@@ -245,11 +256,6 @@ def _codes(window: Window, blocks: Iterable[Block], pairs: Sequence[tuple[str, s
 
 _CODES = ("G", "DR")
 """Addresses of words that are one of few."""
-
-
-def _plain(text: str) -> str:
-    """A code without a zero that leads."""
-    return re.sub(r"^G0+(?=\d)", "G", text.strip().upper())
 
 
 def _like(word: Word, code: str) -> str:
@@ -274,11 +280,11 @@ def _code_digits(window: Window, *, draws: bool) -> Iterator[Edits]:
     lost."""
     modes = window.dialect.modes
     known = {
-        _plain(code.text) for code in modes.codes.values() if code.effect in _OF_PATHS or code.number in modes.separate
+        plain_code(code.text) for code in modes.codes.values() if code.effect in _OF_PATHS or code.number in modes.separate
     }
     for block in window.blocks:
         for word in block.words:
-            digits = _plain(word.text)[1:]
+            digits = plain_code(word.text)[1:]
             if word.address != "G" or not digits.isdigit() or (f"G{digits}" in known) is not draws:
                 continue
             for other in known:
@@ -306,7 +312,7 @@ def _motion_to_arc(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
     yield from _codes(window, with_centre, [("G1", "G2"), ("G1", "G3"), ("G0", "G2"), ("G0", "G3")])
     for block in with_centre:
         for word in block.words:
-            digits = _plain(word.text)[1:]
+            digits = plain_code(word.text)[1:]
             if word.address == "G" and digits.isdigit() and len(digits) > 1:
                 arcs = [arc for arc in ("G2", "G3") if _is_near(word.text.strip()[1:], _like(word, arc)[1:])]
                 yield from ((change(word, _like(word, arc)),) for arc in arcs)
@@ -318,7 +324,7 @@ def _motion_lost(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
     lines, motion = {block.line for block in blocks}, ""
     has_two = any(re.match(r"G0\d", word.text.strip()) for block in window.blocks for word in block.words)
     for block in window.blocks:
-        codes = [_plain(word.text) for word in block.words if word.address == "G"]
+        codes = [plain_code(word.text) for word in block.words if word.address == "G"]
         motion = next((code for code in codes if code in _MOTIONS), "" if codes else motion)
         if codes or block.line not in lines or not any(word.address in _AXES for word in block.words):
             continue

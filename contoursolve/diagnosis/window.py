@@ -2,12 +2,14 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
+from itertools import accumulate
 from math import atan2, degrees
 
 from msgspec import Struct
 
 from contoursolve.diagnosis.edits import Edit, apply_edits
 from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.slip_kinds import plain_code
 from contoursolve.diagnostics import Diagnostic, LineChange, Severity
 from contoursolve.gcode import Block, parse_block
 from contoursolve.reading import Dialect, ReadIssue, State
@@ -23,6 +25,9 @@ class WindowPart(Struct, frozen=True):
     blocks: tuple[Block, ...]
     before: State
     after: State
+    reach: int
+    """The number of blocks from its first one on that it rests on, one more than there are where it rests on the
+    end."""
     findings: tuple[Diagnostic, ...] = ()
     answer: Answer | None = None
 
@@ -61,7 +66,7 @@ class Window(Struct, frozen=True, dict=True):
     behind: tuple[Block, ...]
     state: State
     dialect: Dialect
-    examine: Callable[[Sequence[Block], State], Iterable[WindowPart]]
+    examine: Callable[[Sequence[Block], State, tuple[tuple[Sequence[Block], State], ...]], Iterable[WindowPart]]
 
     @cached_property
     def blocks(self) -> tuple[Block, ...]:
@@ -79,43 +84,59 @@ class Window(Struct, frozen=True, dict=True):
         return tuple(block.line for block in self.own)
 
     @cached_property
+    def codes(self) -> frozenset[str]:
+        """The codes of the control, without zeros that lead."""
+        return frozenset(plain_code(code.text) for code in self.dialect.modes.codes.values())
+
+    @cached_property
     def before(self) -> Seen:
         """The result as it is."""
         return _seen(self._parts)
 
     @cached_property
     def _parts(self) -> list[WindowPart]:
-        return [*self.examine(self.blocks, self.ahead[0][1] if self.ahead else self.state)]
+        return [*self.examine(self.blocks, self.ahead[0][1] if self.ahead else self.state, ())]
+
+    @cached_property
+    def _places(self) -> list[int]:
+        """The index of the first block of each part."""
+        return [0, *accumulate(len(part.blocks) for part in self._parts)][:-1]
+
+    @cached_property
+    def _known(self) -> dict[int, tuple[int, object]]:
+        """The number of each part by the index of its first block, and what is known before it."""
+        return {place: (number, self._parts[number].before.known()) for number, place in enumerate(self._places)}
 
     def after(self, edits: Iterable[Edit]) -> Seen | None:
         """The result with edits, up to the first thing that is wrong with its own blocks; None where they change
         nothing."""
         texts = apply_edits(self.blocks, edits)
-        changed = next((at for at, block in enumerate(self.blocks) if texts[at] != block.text), None)
-        if changed is None:
+        changed = [at for at, block in enumerate(self.blocks) if texts[at] != block.text]
+        if not changed:
             return None
-        # What is before the changed block, and before the one that it may go on from, stays.
-        begins, at = [(0, self.ahead[0][1] if self.ahead else self.state)], 0
-        for blocks, state in self.ahead:
-            begins.append((at, state))
-            at += len(blocks)
-        begins.append((self.first, self.state))
-        known = [each for each in begins if each[0] <= changed]
-        begin, state = known[-2] if len(known) > 1 else known[-1]
-        kept = {block.line for block in self.blocks[:begin]}
-        parts = [part for part in self._parts if part.blocks and part.blocks[-1].line in kept] if begin else []
+        parts, places = self._parts, self._places
+        # What rests on nothing that is changed stays.
+        kept = next(at for at, part in enumerate(parts) if places[at] + part.reach > changed[0])
+        begin, seen = places[kept], parts[:kept]
         syntax, blocks = self.dialect.modes.syntax, list[Block]()
         for block, text in zip(self.blocks[begin:], texts[begin:], strict=True):
             if text == block.text:
                 blocks.append(block)
             elif text.strip():
                 blocks += [parse_block(part, block.line, syntax) for part in text.split("\n")]
-        own = {*self.lines}
-        for part in self.examine(blocks, state):
-            parts.append(part)
+        own, left = {*self.lines}, len(blocks)
+        ahead = tuple((part.blocks, part.before) for part in seen if any(block.words for block in part.blocks))[-1:]
+        for part in self.examine(blocks, parts[kept].before, ahead):
+            seen.append(part)
             if any(each.span.line in own and each.about not in _MEANT for each in _problems(part)):
                 break
-        return _seen(parts)
+            left -= len(part.blocks)
+            # Where as much is known as there was, all is as it was from there on.
+            number, known = self._known.get(len(self.blocks) - left, (0, None))
+            if number and self._places[number] > changed[-1] + 1 and known == part.after.known():
+                seen += parts[number:]
+                break
+        return _seen(seen)
 
     def changes(self, edits: Iterable[Edit]) -> Iterator[LineChange]:
         """The lines that edits change, each with its new text."""

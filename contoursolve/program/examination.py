@@ -2,7 +2,7 @@
 lines, and gives what is found there and where the walk stands behind it."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
+from functools import cached_property, partial
 from itertools import islice
 from typing import TYPE_CHECKING
 
@@ -117,18 +117,21 @@ class Examination:
         self.begin = Cursor(state, Marks(is_done=is_run), start_count(asked, state), findings=found)
         """The cursor before the program, behind the block that states its start point apart."""
 
-    def _parts(self, blocks: Sequence[Block], state: State) -> "Iterator[WindowPart]":
-        """Blocks from a state on as they are examined, without what is said of what is wrong."""
+    @cached_property
+    def _trial(self) -> "Examination":
+        """The walk over blocks that are tried."""
+        return Examination(replace(self.asked, depth=Depth.TRIAL, start=None, facts=()), self.dialect)
+
+    def _parts(
+        self, blocks: Sequence[Block], state: State, ahead: tuple[Previous, ...]
+    ) -> "Iterator[WindowPart]":
+        """Blocks from a state on, with what is ahead of them, as they are examined, without what is said of what is
+        wrong."""
         from contoursolve.diagnosis import WindowPart  # noqa: PLC0415 - most programs need no diagnosis
 
-        tried = Examination(replace(self.asked, depth=Depth.TRIAL, start=None, facts=()), self.dialect)
-        cursor, index = Cursor(state, Marks(is_done=True), None), 0
-        while index < len(blocks):
-            view = View(blocks, index)
-            taken = tried.take(view, tried.find(view, cursor.state), cursor)
-            cursor, index = taken.behind(), index + taken.lines
-            step = taken.step.step if isinstance(taken.step, Pending) else taken.step
-            yield WindowPart(step.blocks, step.before, cursor.state, step.findings, step.answer)
+        cursor = Cursor(state, Marks(is_done=True), None, ahead)
+        for step, reach, behind in self._trial.resume(blocks, 0, cursor):
+            yield WindowPart(step.blocks, step.before, behind.state, reach, step.findings, step.answer)
 
     # One step ----------------------------------------------------------------------------------------------------
 

@@ -10,8 +10,8 @@ from contoursolve.reading import Dialect, State
 if TYPE_CHECKING:
     from contoursolve.diagnosis import Window, WindowPart
 
-Parts = Callable[[Sequence[Block], State], "Iterable[WindowPart]"]
-"""Examines blocks from a state on."""
+Parts = Callable[[Sequence[Block], State, tuple[Previous, ...]], "Iterable[WindowPart]"]
+"""Examines blocks from a state on; the last is ahead of them."""
 
 AHEAD, MOST_AHEAD = 8, 12
 """Contours and blocks ahead of one that are kept, and the blocks of them in which slips are looked for."""
