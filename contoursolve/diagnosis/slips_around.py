@@ -280,7 +280,9 @@ def _code_digits(window: Window, *, draws: bool) -> Iterator[Edits]:
     lost."""
     modes = window.dialect.modes
     known = {
-        plain_code(code.text) for code in modes.codes.values() if code.effect in _OF_PATHS or code.number in modes.separate
+        plain_code(code.text)
+        for code in modes.codes.values()
+        if code.effect in _OF_PATHS or code.number in modes.separate
     }
     for block in window.blocks:
         for word in block.words:

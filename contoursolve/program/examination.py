@@ -122,9 +122,7 @@ class Examination:
         """The walk over blocks that are tried."""
         return Examination(replace(self.asked, depth=Depth.TRIAL, start=None, facts=()), self.dialect)
 
-    def _parts(
-        self, blocks: Sequence[Block], state: State, ahead: tuple[Previous, ...]
-    ) -> "Iterator[WindowPart]":
+    def _parts(self, blocks: Sequence[Block], state: State, ahead: tuple[Previous, ...]) -> "Iterator[WindowPart]":
         """Blocks from a state on, with what is ahead of them, as they are examined, without what is said of what is
         wrong."""
         from contoursolve.diagnosis import WindowPart  # noqa: PLC0415 - most programs need no diagnosis
