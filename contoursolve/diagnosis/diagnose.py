@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Sequence, Set
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.attempt import Repair, Repairs
-from contoursolve.diagnosis.edits import EditKind
+from contoursolve.diagnosis.edits import Edit, EditKind
 from contoursolve.diagnosis.examine import SUSPICIONS, Answer, Policy, problems
 from contoursolve.diagnosis.explain import (
     AGAINST,
@@ -98,18 +98,31 @@ def diagnose(
 
 
 def _pointing(finding: Diagnostic, repairs: Sequence[Repair]) -> Diagnostic:
-    """The finding; it points at the words that its first fix changes, too."""
-    known, labels, notes = {label.span for label in finding.labels}, list[Label](), list[str]()
-    for edit in repairs[0].edits if repairs else ():
-        if (
-            edit.kind is EditKind.CHANGE
-            and edit.span is not None
-            and edit.span.line > 0
-            and not any(touches(edit, span) for span in known)
-        ):
-            labels.append(Label(edit.span, f"probably {edit.text}"))
-            notes.append(f"{edit.old} in program line {edit.span.line} was probably {edit.text}")
+    """The finding; it points at the words that its first fix changes, too, and says where that adds or takes away."""
+    known, labels, notes = [label.span for label in finding.labels], list[Label](), list[str]()
+    edits = repairs[0].edits if repairs else ()
+    for edit in edits:
+        is_marked = any(touches(edit, span) for span in known)
+        if edit.place <= 0 or is_marked or (edit.kind is EditKind.ADD and edit.place in {span.line for span in known}):
+            continue
+        there = f"program line {edit.place}"
+        if edit.kind is EditKind.CHANGE:
+            notes.append(f"{edit.old} in {there} was probably {edit.text}")
+        elif edit.kind is EditKind.DROP:
+            meant = next((each for each in edits if each.kind is EditKind.ADD and each.address == edit.address), None)
+            where = (
+                f"was probably meant {_side(meant)} program line {meant.place}" if meant else "is probably not meant"
+            )
+            notes.append(f"{edit.old} in {there} {where}")
+        elif edit.kind is EditKind.ADD and not any(each.kind is EditKind.DROP for each in edits):
+            notes.append(f"{edit.text.strip()} is missing {_side(edit)} {there}")
+        if edit.span is not None:
+            labels.append(Label(edit.span, f"probably {edit.text}" if edit.text else "probably not meant here"))
     return replace(finding, labels=(*finding.labels, *labels), notes=(*notes, *finding.notes))
+
+
+def _side(edit: Edit) -> str:
+    return "behind" if edit.is_behind else "in"
 
 
 def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Dialect, repairs: Repairs) -> list[Diagnostic]:

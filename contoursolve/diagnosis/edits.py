@@ -135,12 +135,25 @@ class Edit:
 
     def among(self, blocks: Sequence[Block]) -> str:
         """It in words, with its program line where other blocks have the same word, or could get it."""
-        line, is_added = (self.span.line if self.span else self.line), self.kind is EditKind.ADD
-        others = (block for block in blocks if block.line != line)
-        if line > 0 and any(is_added or any(word.text == self.old for word in block.words) for block in others):
-            where = "behind" if self.text.startswith("\n") else "to" if is_added else "in"
+        line, is_added = self.place, self.kind is EditKind.ADD
+        others = [block for block in blocks if block.line != line]
+        is_beside = len(others) == len(blocks)
+        if line > 0 and (
+            is_beside or any(is_added or any(word.text == self.old for word in block.words) for block in others)
+        ):
+            where = "behind" if self.is_behind else "to" if is_added else "in"
             return f"{self} {where} program line {line}"
         return str(self)
+
+    @property
+    def is_behind(self) -> bool:
+        """Whether what it adds gets a block of its own, behind that of its line."""
+        return self.text.startswith("\n")
+
+    @property
+    def place(self) -> int:
+        """The program line that it changes."""
+        return self.span.line if self.span else self.line
 
     @property
     def errand(self) -> Errand | None:

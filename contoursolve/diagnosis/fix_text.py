@@ -1,12 +1,16 @@
 """Repairs as fixes: what is written, and what the contour is then, so that no two that differ look the same."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
+
+from msgspec.structs import replace
 
 from contoursolve.diagnosis.attempt import Repair
-from contoursolve.diagnosis.edits import EditKind, edited
+from contoursolve.diagnosis.edits import Edit, EditKind, edited
 from contoursolve.diagnosis.examine import Answer
+from contoursolve.diagnosis.slip_kinds import SlipKind
 from contoursolve.diagnosis.wording import join, length_text, place_text
 from contoursolve.diagnostics import Fix, NumberRange, OpenNumber
+from contoursolve.gcode import Block
 from contoursolve.geometry import Profile
 from contoursolve.solving import ArcSegment, Contour, Point, scalars_of
 
@@ -14,15 +18,43 @@ from contoursolve.solving import ArcSegment, Contour, Point, scalars_of
 def fixes_of(answer: Answer, repairs: Sequence[Repair]) -> tuple[Fix, ...]:
     """Repairs in words, each with the place where the contour then ends or turns; where several have the same place,
     with what is different."""
-    outcomes = _outcomes(answer, [repair.contour for repair in repairs])
+    outcomes = _outcomes(answer, repairs)
     return tuple(_fix(answer, repair, outcome) for repair, outcome in zip(repairs, outcomes, strict=True))
 
 
+def told(edits: Sequence[Edit], slips: Sequence[SlipKind | None], blocks: Sequence[Block]) -> str:
+    """Edits in words, and the slip that each undoes; `blocks` are those of the contour. A word that goes from one place
+    to another is moved, and blocks that get each other's text are exchanged."""
+    sentences = [slip.sentence if slip else "" for slip in slips]
+    texts = [edit.among(blocks) for edit in edits]
+    is_one = len({*sentences}) == 1
+    if is_one and len(edits) > 1:
+        texts = _together(edits) or texts
+        return "; ".join(texts) + f" ({sentences[0]})" * bool(sentences[0])
+    return "; ".join(text + f" ({sentence})" * bool(sentence) for text, sentence in zip(texts, sentences, strict=True))
+
+
+def _together(edits: Sequence[Edit]) -> list[str]:
+    """Several edits as one; nothing if they are no move and no exchange."""
+    last = edits[-1]
+    old, lines = [edit.old.strip() for edit in edits], [edit.place for edit in edits]
+    is_moved = last.kind is EditKind.ADD and all(edit.kind is EditKind.DROP for edit in edits[:-1])
+    if is_moved and " ".join(old[:-1]) == last.text.strip():
+        where = "behind" if last.is_behind else "to"
+        errand = edits[0].errand if len(edits) == _PAIR else None
+        what = last.text.strip() + (f" ({errand.meaning})" if errand else "")
+        return [f"move {what} from program line {lines[0]} {where} program line {lines[-1]}"]
+    if len(edits) == _PAIR and lines[0] != lines[1] and (edits[0].old, edits[0].text) == (last.text, last.old):
+        return [f"exchange {old[0]} in program line {lines[0]} and {old[1]} in program line {lines[1]}"]
+    return []
+
+
+_PAIR = 2
+
+
 def _fix(answer: Answer, repair: Repair, outcome: str) -> Fix:
-    edits = zip(repair.edits, repair.slips, strict=True)
     blocks = answer.claim.blocks
-    told = (edit.among(blocks) + (f" ({slip.sentence})" if slip and slip.sentence else "") for edit, slip in edits)
-    description = "; ".join(told)
+    description = told(repair.edits, repair.slips, blocks)
     if repair.numbers:
         description += f" ({_numbers(repair.numbers)})"
     if outcome:
@@ -69,10 +101,12 @@ def _range(ends: NumberRange) -> str:
     return f"between {ends.low} and {ends.high}" if ends.low != ends.high else ends.low
 
 
-def _outcomes(answer: Answer, contours: Sequence[Contour | None]) -> list[str]:
-    """A text for each contour: where it ends or turns, and what tells it from those of which that is the same."""
-    texts = [_place(answer, contour) if contour else "" for contour in contours]
-    features = [_features(answer.profile, contour) if contour else {} for contour in contours]
+def _outcomes(answer: Answer, repairs: Sequence[Repair]) -> list[str]:
+    """A text for each repair: where its contour ends or turns, and what tells it from those of which that is the
+    same."""
+    contours = [repair.contour for repair in repairs]
+    texts = [_place(answer, repair) for repair in repairs]
+    features = [_features(_drawn(answer, contour), contour) if contour else {} for contour in contours]
     while groups := _alike(texts, features):
         for group in groups:
             name = _most_different([features[each] for each in group])
@@ -81,13 +115,38 @@ def _outcomes(answer: Answer, contours: Sequence[Contour | None]) -> list[str]:
     return texts
 
 
-def _place(answer: Answer, contour: Contour) -> str:
+def _drawn(answer: Answer, contour: Contour) -> Profile:
+    """The profile in whose plane a contour lies, which an edit may have changed."""
     profile = answer.profile
+    return profile if contour.plane == profile.plane else replace(profile, plane=contour.plane)
+
+
+def _place(answer: Answer, repair: Repair) -> str:
+    """The place of the point that the edited block makes; else of the first intersection, or of the end."""
+    contour = repair.contour
+    if contour is None:
+        return ""
+    profile = _drawn(answer, contour)
     point = next(iter(profile.intersections), "")
     # The changed blocks may be of another form.
     if answer.contour is None and len(answer.lines) > 1 and point in contour.points:
+        own = _made(answer, {edit.place for edit in repair.edits})
+        if own in contour.points:
+            point = own
+        elif own and own == profile.figure.path[-1].head:
+            return f"the contour ends at {_at(profile, contour.end)}"
         return f"{point} is at {_at(profile, contour.points[point])}"
     return f"the contour ends at {_at(profile, contour.end)}"
+
+
+def _made(answer: Answer, lines: Set[int]) -> str:
+    """The point at which the last element ends that some lines make; empty if they make none."""
+    claim, path = answer.claim, answer.profile.figure.path
+    names = claim.makes or [(each.name,) for each in path]
+    if len(names) != len(claim.blocks):
+        return ""
+    made = {name for block, own in zip(claim.blocks, names, strict=True) if block.line in lines for name in own}
+    return next((each.head for each in reversed(path) if each.name in made), "")
 
 
 def _at(profile: Profile, place: Point) -> str:

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.edits import Edit
 from contoursolve.diagnosis.explain import Context, report, spans_of
+from contoursolve.diagnosis.fix_text import told
 from contoursolve.diagnosis.plausibility import oddities, total
 from contoursolve.diagnosis.prospects import is_lasting
 from contoursolve.diagnosis.slip_kinds import FEW, LETTER_ALIKE, SlipKind
@@ -40,8 +40,8 @@ def mend_line(context: Context, findings: Sequence[Diagnostic], window: Window) 
             about = ReadIssue.CODE_MISTYPED if word.address == "G" else ReadIssue.SUSPECTED
             meant = fixes[0].description.split()[1]
             reason = "its number has no decimal point"
-            told = report(context, about, Basis.RULE, [word], meant=meant, reason=reason)
-            yield replace(told, fixes=tuple(fixes[:MOST_FIXES]))
+            finding = report(context, about, Basis.RULE, [word], meant=meant, reason=reason)
+            yield replace(finding, fixes=tuple(fixes[:MOST_FIXES]))
 
 
 def _is_odd(word: Word, codes: Mapping[int, Code]) -> bool:
@@ -101,9 +101,4 @@ def _gain(window: Window, seen: Seen) -> float:
 def _fix(window: Window, draft: Candidate) -> Fix:
     own = window.own[0]
     (text,) = (each.text for each in window.changes(draft.edits) if each.span.line == own.line)
-    told = "; ".join(map(_told, draft.edits, draft.slips))
-    return Fix(told, text, Applicability.CHANGES_CONTOUR, replaced=own.text)
-
-
-def _told(edit: Edit, slip: SlipKind | None) -> str:
-    return f"{edit} ({slip.sentence})" if slip is not None and slip.sentence else str(edit)
+    return Fix(told(draft.edits, draft.slips, [own]), text, Applicability.CHANGES_CONTOUR, replaced=own.text)

@@ -142,7 +142,7 @@ class Window(Struct, frozen=True, dict=True):
         """The lines that edits change, each with its new text."""
         for block, text in zip(self.blocks, apply_edits(self.blocks, edits), strict=True):
             if text != block.text:
-                yield LineChange(block.span, text)
+                yield LineChange(block.span, text, block.text)
 
     def gain(self, seen: Seen) -> int:
         """The number of problems elsewhere that are gone then, besides those of blocks that only wait."""

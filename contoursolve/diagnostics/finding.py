@@ -44,6 +44,8 @@ class LineChange(Struct, frozen=True):
 
     span: Span
     text: str
+    old: str = ""
+    """The text that it has."""
 
 
 class NumberRange(Struct, frozen=True):

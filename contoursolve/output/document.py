@@ -163,7 +163,7 @@ def _fix(fix: Fix) -> dict[str, Any]:
             for each in fix.numbers
         ]
     if fix.beside:
-        data["beside"] = [{"line": each.span.line, "text": each.text} for each in fix.beside]
+        data["beside"] = [{"line": each.span.line, **members(each, "old text")} for each in fix.beside]
     return data
 
 

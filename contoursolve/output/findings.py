@@ -1,6 +1,6 @@
 """A finding as text, in the layout that compilers use: the place, the words marked, why, and what to do."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from contoursolve.diagnosis import count
 from contoursolve.diagnostics import Applicability, Diagnostic, Fix, Label
@@ -110,8 +110,7 @@ def finding_pieces(
     for fix in fixes:
         lines.append([*foot, (f" fix [{effect_of(fix, finding)}]: {fix.description}", "")])
         if fix.applicability is not Applicability.PLACEHOLDER:
-            shown = (printable(line.strip())[:WIDTH] for line in fix.replacement.split("\n"))
-            lines += [[(f"{' ' * (gutter + 4)} {line}", "")] for line in shown]
+            lines += [[(f"{' ' * (gutter + 4)} {line}", "")] for line in _written(fix)]
     if len(finding.fixes) > len(fixes):
         more = len(finding.fixes) - len(fixes)
         lines.append([*foot, (f" {count(more, 'more fix', 'more fixes')}: {explaining} lists all", "")])
@@ -121,6 +120,22 @@ def finding_pieces(
         lines.append([*foot, (f" control: alarm {finding.alarm.number} ({finding.alarm.evidence.value})", "")])
     # A message may quote what a fact says.
     return [*([(printable(text), kind) for text, kind in line] for line in lines), []]
+
+
+def _written(fix: Fix) -> Iterator[str]:
+    """The lines that a fix writes: those of the contour, if it changes any of them; then those beside with their
+    numbers, as they are and as they become."""
+    if not fix.beside or fix.replacement != fix.replaced:
+        yield from (_line(text) for text in fix.replacement.split("\n"))
+    for each in fix.beside:
+        yield f"program line {each.span.line}:"
+        texts = each.text.split("\n")
+        yield f"  {_line(each.old)}" if each.old in texts else f"- {_line(each.old)}"
+        yield from (f"+ {_line(text)}" for text in texts if text and text != each.old)
+
+
+def _line(text: str) -> str:
+    return printable(text.strip())[:WIDTH]
 
 
 def _margin(line: int) -> str:

@@ -21,9 +21,10 @@ Found = tuple[Diagnostic, tuple[int, ...]]
 
 
 def changes_of(fix: Fix, lines: Sequence[int], old: Mapping[int, str]) -> Changes:
-    """The changes that a fix makes to the lines that it replaces; `old` are texts of lines, these among them. None
-    where it is about what is stated apart from the program."""
-    return {line: new or None for line, new in fix.by_line(lines).items() if new != old[line]}
+    """The changes that a fix makes to the lines that it replaces and to those beside; `old` are texts of lines, at
+    least of the first."""
+    texts = {**old, **{each.span.line: each.old for each in fix.beside}}
+    return {line: new or None for line, new in sorted(fix.by_line(lines).items()) if new != texts[line]}
 
 
 def changed(text: str, changes: Changes) -> str:
@@ -62,7 +63,8 @@ class Mend(Struct, frozen=True):
     @property
     def key(self) -> tuple[int, str, str]:
         """The mark that tells it from others, as long as no lines move."""
-        return min(self.old), self.finding.code, self.fix.replacement
+        texts = [self.fix.replacement, *(each.text for each in self.fix.beside)]
+        return min(self.old), self.finding.code, "\n".join(texts)
 
 
 def _moved(line: int, changes: Changes) -> int:
@@ -87,13 +89,17 @@ class Examined(Struct, frozen=True):
         lines = split_lines(self.text)
         for finding, places in self.found:
             fixes = wanted(finding) if min(places) > 0 and max(places) <= len(lines) else ()
-            old = {line: lines[line - 1].rstrip("\r\n") for line in places}
-            there = "\n".join(old.values())
-            yield [
-                each
-                for each in (Mend(finding, fix, old, changes_of(fix, places, old)) for fix in fixes)
-                if each.changes and each.fix.replaced == there
-            ]
+            yield [each for fix in fixes if (each := self._mend(finding, fix, places, lines)) is not None]
+
+    def _mend(self, finding: Diagnostic, fix: Fix, places: Sequence[int], lines: Sequence[str]) -> Mend | None:
+        """A fix of a finding; None if it changes nothing, or is one of other texts than there are."""
+        beside = {each.span.line: each.old for each in fix.beside}
+        if not all(0 < line <= len(lines) for line in beside):
+            return None
+        old = {line: lines[line - 1].rstrip("\r\n") for line in (*places, *beside)}
+        made = Mend(finding, fix, old, changes_of(fix, places, old))
+        is_there = fix.replaced == "\n".join(old[line] for line in places)
+        return made if made.changes and is_there and all(old[line] == beside[line] for line in beside) else None
 
 
 def examined_result(text: str, result: Result) -> Examined:

@@ -169,7 +169,8 @@ def untouched(findings: Iterable[Diagnostic], blocks: Sequence[Block], asked: Re
     syntax = blocks[0].syntax if blocks else ISO
 
     def keeps(fix: Fix) -> bool:
-        old, new = (_count(text, syntax) for text in (fix.replaced, fix.replacement))
+        old = _count("\n".join([fix.replaced, *(each.old for each in fix.beside)]), syntax)
+        new = _count("\n".join([fix.replacement, *(each.text for each in fix.beside)]), syntax)
         return all(new[key] >= old[key] for key in trusted)
 
     return tuple(replace(each, fixes=tuple(filter(keeps, each.fixes))) if each.fixes else each for each in findings)

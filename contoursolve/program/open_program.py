@@ -21,7 +21,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Context, Policy, rank
-from contoursolve.diagnostics import Diagnostic, Fix, Span, choice_of
+from contoursolve.diagnostics import Diagnostic, Fix, LineChange, OpenNumber, Span, choice_of
 from contoursolve.execution import needs_running, surroundings_of
 from contoursolve.gcode import ISO, Block, Blocks, Program, Syntax, parse, parse_block, split_lines
 from contoursolve.geometry import Length, Plane
@@ -550,6 +550,10 @@ _LINES = re.compile(r"(?<=program )lines? \d+(?:, \d+)*(?: and \d+)?")
 """Line numbers as messages name them; `line 1` alone is an element of a contour."""
 
 
+_TEXTS = {Fix: ("replacement", "replaced", "example"), LineChange: ("old", "text")}
+"""Texts of programs, which name no lines."""
+
+
 def _moved(record: Any, move: _Move) -> Any:
     """A record with every line that it names moved."""
     if isinstance(record, str):
@@ -568,9 +572,9 @@ def _moved(record: Any, move: _Move) -> Any:
         values = {name: _moved(each, move) for name, each in record.items()}
         return record if all(values[name] is each for name, each in record.items()) else values
     if isinstance(record, Struct):
-        names = [name for name in record.__struct_fields__ if not (isinstance(record, Fix) and name == "replacement")]
+        names = [name for name in record.__struct_fields__ if name not in _TEXTS.get(type(record), ())]
         changes = _changes(record, names, move)
-        changes |= {"line": move.line(record.line)} if isinstance(record, Block) else {}
+        changes |= {"line": move.line(record.line)} if isinstance(record, Block | OpenNumber) else {}
         return replace(record, **changes) if changes else record
     if is_dataclass(record) and not isinstance(record, type):
         changes = _changes(record, [each.name for each in fields(record)], move)

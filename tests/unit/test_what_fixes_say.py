@@ -1,0 +1,115 @@
+"""What is said of fixes: where each edits, which lines beside the contour it changes, and when the contour stays."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from editor import Served, edits_of, types
+from examples import some_of
+
+from contoursolve import solve
+from contoursolve.cli import main
+from contoursolve.diagnostics import Applicability
+from contoursolve.notebook import exploration as explore
+from contoursolve.program import changed, changes_of
+
+SLIPS = json.loads((Path(__file__).parents[1] / "slips" / "by_hand.json").read_text())
+FUNCTION = ("fanuc-lathe", "G00 X16. Z2.\nG01 Z0. F0.2\nX30. ,C1.5\nZ-25. ,R3.\nM08\nX50. ,A120.\nZ-60.\n", 5)
+PLANE = ("fanuc-mill", "G17 G90\nG00 X0. Z0.\nG01 Z40. ,R6. F200\nX30. ,C3.\nZ-10. ,R4.\nX0.\n", 1)
+MENDED = {
+    FUNCTION: "G00 X16. Z2.\nG01 Z0. F0.2\nM08\nX30. ,C1.5\nZ-25. ,R3.\nX50. ,A120.\nZ-60.\n",
+    PLANE: PLANE[1].replace("G17", "G18"),
+}
+
+
+def solved(slip):
+    settings = dict(each.split("=", 1) for each in slip["settings"])
+    return solve("\n".join(slip["slip"]), control=slip["control"], settings=settings)
+
+
+@some_of("slip", SLIPS, one_in=4)
+def test_a_finding_names_every_line_that_its_first_fix_changes(slip):
+    result = solved(slip)
+    texts = {block.line: block.text for block in result.program.blocks}
+    for finding in result.diagnostics:
+        lines = {finding.span.line, *(label.span.line for label in finding.labels)}
+        told = re.findall(r"program lines? ([\d, and]+)", " ".join([finding.message, *finding.notes]))
+        lines |= {int(line) for each in told for line in re.findall(r"\d+", each)}
+        for fix in finding.fixes[:1]:
+            assert changes_of(fix, result.lines_of(finding), texts).keys() <= lines, (finding, fix)
+
+
+@some_of("slip", SLIPS, one_in=4)
+def test_the_same_contour_is_the_same_contour(slip):
+    result = solved(slip)
+    texts = {block.line: block.text for block in result.program.blocks}
+    for finding in result.diagnostics:
+        lines = result.lines_of(finding)
+        for fix in (each for each in finding.fixes if each.applicability is Applicability.SAFE):
+            after = changed("\n".join(slip["slip"]), changes_of(fix, lines, texts))
+            options = {"control": slip["control"], "rules": "off"}
+            one, two = (
+                [each.contour for each in solve(text, **options).answers if {*lines}.intersection(each.lines)]
+                for text in ("\n".join(slip["slip"]), after)
+            )
+            # Without a corner or an angle, plain lines may be left.
+            if len(one) == len(two) == 1 and one[0] and two[0] and after.count("\n") == len(slip["slip"]) - 1:
+                assert one[0].is_alike(two[0])
+                assert one[0].deviation(two[0]) < 2e-3, (slip["id"], fix.description)
+
+
+@pytest.mark.parametrize("case", [FUNCTION, PLANE], ids=["a function between", "another plane"])
+def test_the_lines_beside_the_contour_are_shown_and_written(case, tmp_path):
+    control, text, line = case
+    program = tmp_path / "part.nc"
+    program.write_text(text)
+
+    def run(*options):
+        return CliRunner().invoke(main, ["check", str(program), "--control", control, *options])
+
+    listing = run().stdout
+    assert f"program line {line}:\n" in listing
+    assert f"- {text.splitlines()[line - 1]}\n" in listing
+    (first, *_) = json.loads(run("--format", "json").stdout)["diagnostics"]
+    assert any(f"program line {line}" in note for note in first["notes"])
+    fix = first["fixes"][0]
+    assert line in [each["line"] for each in fix["beside"]]
+    assert [each["old"] for each in fix["beside"]] == [text.splitlines()[each["line"] - 1] for each in fix["beside"]]
+    sarif = json.loads(run("--format", "sarif").stdout)["runs"][0]["results"][0]
+    changes = sarif["fixes"][0]["artifactChanges"][0]["replacements"]
+    assert line in [each["deletedRegion"]["startLine"] for each in changes]
+    added = [each[1:] for each in run("--unsafe-fixes", "--diff").stdout.splitlines()[2:] if each.startswith("+")]
+    assert added == [each for each in MENDED[case].splitlines() if each not in text.splitlines() or each == "M08"]
+    assert run("--unsafe-fixes", "--yes").exit_code == 0
+    assert program.read_text() == MENDED[case]
+
+
+@pytest.mark.parametrize("case", [FUNCTION, PLANE], ids=["a function between", "another plane"])
+def test_an_editor_changes_the_lines_beside_the_contour(case):
+    control, text, _ = case
+
+    async def use(editor):
+        uri = "file:///part.nc"
+        editor.open(uri, text)
+        found = await editor.findings(uri)
+        asked = types.CodeActionParams(types.TextDocumentIdentifier(uri), found[0].range, types.CodeActionContext([]))
+        action, *_ = await editor.ask(editor.client.text_document_code_action_async(asked))
+        editor.edit(uri, *edits_of(action))
+        assert editor.texts[uri] == MENDED[case]
+
+    served = Served({"control": control})
+    served(use)
+    served.stop()
+
+
+def test_the_explorer_changes_the_lines_beside_the_contour():
+    now = explore.begin(PLANE[1], control=PLANE[0])
+    assert explore.apply_fix(now, 0, 0).text.splitlines() == MENDED[PLANE].splitlines()
+
+
+def test_a_point_is_told_in_the_plane_of_the_fix():
+    control, text, _ = PLANE
+    (fix, *_) = solve(text, control=control).diagnostics[0].fixes
+    assert fix.description.endswith("in program line 1 (another plane) -> V1 is at Z40.000 mm X0.000 mm")
