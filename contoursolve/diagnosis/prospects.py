@@ -8,14 +8,14 @@ from msgspec import Struct
 from contoursolve.diagnosis.edits import Edit, EditKind
 from contoursolve.diagnosis.examine import Answer, problems
 from contoursolve.diagnosis.explain import spans_of
-from contoursolve.diagnosis.reach import Reach
+from contoursolve.diagnosis.reach import Reach, is_of_codes
 from contoursolve.diagnosis.slip_kinds import number_in
 from contoursolve.diagnosis.slips_around import touches
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import Block
-from contoursolve.geometry import Fact
+from contoursolve.geometry import Fact, assemble
 from contoursolve.reading import ReadIssue, Rule
-from contoursolve.solving import RefusalKind
+from contoursolve.solving import RefusalKind, analyse
 
 _OF_WORDS = (
     ReadIssue.REPEATED_ADDRESS,
@@ -54,6 +54,8 @@ class Prospects(Struct, frozen=True):
     """Words of corners that are too large to fit."""
     own: frozenset[int]
     """The lines of the contour."""
+    lacking: int
+    """The number of facts that are missing."""
     reach: Reach | None
 
     @classmethod
@@ -75,11 +77,13 @@ class Prospects(Struct, frozen=True):
         spans = (frozenset(words[fact.given].span for fact in facts if fact.given in words) for facts in conflicts)
         return cls(
             bool(of_words),
-            tuple(_lines_of(each, order) for each in of_words if each.about is None),
+            # A rule about a chain may mind a word anywhere in it.
+            tuple(_lines_of(each, order) for each in of_words if each.about is None and not claim.form.is_general),
             tuple(frozenset(spans_of([each])) for each in of_words if each.about in _OF_A_BLOCK),
             tuple(filter(None, spans)),
             frozenset(each.span for each in found if each.about in _TOO_LARGE),
             frozenset(block.line for block in claim.blocks),
+            _lacking(answer) if any(each.about is ReadIssue.UNDERDETERMINED for each in found) else 0,
             reach,
         )
 
@@ -91,6 +95,8 @@ class Prospects(Struct, frozen=True):
         is_of_numbers = not is_of_code and all(map(keeps_address, edits))
         if self.is_of_words and is_of_numbers:
             return False
+        if self.lacking > _MOST_FACTS * len(edits) and not any(map(is_of_codes, edits)):
+            return False
         if is_of_numbers and all(edit.span in self.sizes for edit in edits) and not any(map(_is_less, edits)):
             return False
         for spans in () if is_everywhere else self.words:
@@ -101,10 +107,20 @@ class Prospects(Struct, frozen=True):
                 return False
         if not is_of_code and not all(touched & lines for lines in self.lines):
             return False
+        if self.reach is not None and self.reach.leaves_a_problem(edits, parts=True):
+            return False
         if is_of_code or not touched <= self.own:
             return True
-        is_about = all(_is_about(edits, spans, is_of_numbers=is_of_numbers) for spans in self.conflicts)
-        return is_about and (self.reach is None or not self.reach.leaves_a_problem(edits))
+        return all(_is_about(edits, spans, is_of_numbers=is_of_numbers) for spans in self.conflicts)
+
+
+def _lacking(answer: Answer) -> int:
+    system = assemble(answer.profile)
+    return len(system.unknowns) - analyse(system).rank
+
+
+_MOST_FACTS = 3
+"""Facts that one word, or the code of a block of Klartext, states at most: the centre and the radius of a circle."""
 
 
 def is_lasting(edit: Edit) -> bool:

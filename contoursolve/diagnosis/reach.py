@@ -12,7 +12,7 @@ from msgspec import Struct
 
 from contoursolve.diagnosis.edits import Edit, EditKind
 from contoursolve.diagnosis.examine import Answer, problems
-from contoursolve.diagnostics import Diagnostic, Severity
+from contoursolve.diagnostics import Diagnostic, Severity, Span
 from contoursolve.geometry import (
     FIRST,
     SECOND,
@@ -58,11 +58,12 @@ class Reach(Struct, frozen=True, dict=True):
 
     answer: Answer
 
-    def leaves_a_problem(self, edits: tuple[Edit, ...]) -> bool:
-        """Whether a problem rests on blocks that the edits do not touch. False where that is not known."""
-        if not self.held or not all(map(self._is_of_a_block, edits)):
+    def leaves_a_problem(self, edits: tuple[Edit, ...], *, parts: bool = False) -> bool:
+        """Whether a problem rests on blocks that the edits do not touch. False where that is not known; with `parts`,
+        what is left may be several contours, and edits before and behind it count, too."""
+        if not self.held or not all(map(self._is_near if parts else self._is_of_a_block, edits)):
             return False
-        touched = {self._places[edit.span.line if edit.span else edit.line] for edit in edits}
+        touched = {self._place_in(edit.span.line if edit.span else edit.line) for edit in edits}
         return any(not any(held.first <= place <= held.last for place in touched) for held in self.held)
 
     @cached_property
@@ -88,6 +89,11 @@ class Reach(Struct, frozen=True, dict=True):
         """The index of each block by its line."""
         return {block.line: place for place, block in enumerate(self._claim.blocks)}
 
+    def _place_in(self, line: int) -> int:
+        """The index of the block of a line; -1 before the contour, and the number of its blocks behind it."""
+        outside = -1 if line < self._claim.blocks[0].line else len(self._claim.blocks)
+        return self._places.get(line, outside)
+
     @cached_property
     def _lines(self) -> dict[str, int]:
         """The index of the block of each name of a given, and of what begins the names of a block."""
@@ -104,11 +110,17 @@ class Reach(Struct, frozen=True, dict=True):
         return frozenset(place for place in stated if place is not None)
 
     @cached_property
-    def _of_blocks(self) -> frozenset[object]:
-        """The places of the words that say something of their own block alone."""
+    def _lasting(self) -> frozenset[Span | None]:
+        """The places of the words that stay in force."""
         claim = self._claim
-        lasting = {word.span for word in claim.kept.values()} | {claim.words[name].span for name in claim.lasting}
-        return frozenset(word.span for word in claim.words.values()) - lasting
+        return frozenset(
+            [*(word.span for word in claim.kept.values()), *(claim.words[name].span for name in claim.lasting)]
+        )
+
+    @cached_property
+    def _of_blocks(self) -> frozenset[Span | None]:
+        """The places of the words that say something of their own block alone."""
+        return frozenset(word.span for word in self._claim.words.values()) - self._lasting
 
     @cached_property
     def _addresses(self) -> frozenset[str]:
@@ -123,6 +135,13 @@ class Reach(Struct, frozen=True, dict=True):
             return False
         written = [each.upper() for each in _ADDRESS.findall(edit.text)]
         return edit.address in self._addresses and all(each in self._addresses for each in written)
+
+    def _is_near(self, edit: Edit) -> bool:
+        """Whether an edit changes what one block says, whatever that makes of it, or the start, and no code, and nothing
+        that stays in force."""
+        if edit.kind is EditKind.MOVE or edit.span in self._lasting:
+            return False
+        return not is_of_codes(edit)
 
     def _held(self, finding: Diagnostic) -> Held | None:
         """The blocks on which a problem rests; None where that may be more than is near it."""
@@ -198,6 +217,12 @@ class Reach(Struct, frozen=True, dict=True):
         return self._lines.get(given, self._lines.get(given[: given.find(":") + 1]))
 
 
+def is_of_codes(edit: Edit) -> bool:
+    """Whether an edit changes a G code, which may stay in force."""
+    return any(_CODE.search(text) for text in (edit.old, edit.text))
+
+
+_CODE = re.compile(r"(?<![A-Z=])G\d", re.IGNORECASE)
 _ADDRESS = re.compile(r",?[A-Z]+", re.IGNORECASE)
 
 

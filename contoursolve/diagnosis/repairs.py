@@ -99,6 +99,7 @@ def find_repairs(
         reach = Reach(answer)
         trial = Trial(claim, dialect, codes, answer.contour, place, blamed=blamed, reach=reach, window=window)
         trial = replace(trial, is_open=is_open, told=told)
+        trial = replace(trial, prospects=Prospects.of(answer, dialect.rules, (), reach, around))
         repairs = choose_repairs(trial, further_drafts(answer, trial))
         return replace(repairs, is_complete=False)
     whole = _Geometry.of(claim)
