@@ -585,7 +585,7 @@ def _slips_around(
                 continue
             if draft.edits in refused and all(map(keeps_address, draft.edits)):
                 continue
-            most = MOST_AROUND if kinds is FEW else MOST_OF_DIGITS
+            most = _fewer(MOST_AROUND if kinds is FEW else MOST_OF_DIGITS, len(claim.blocks))
             if tried >= most or draft.cost + min(paths) - _PATH > _bound(ranked):
                 break
             tried += 1
@@ -605,10 +605,19 @@ def _slips_around(
             yield repair
 
 
+def _fewer(most: int, length: int) -> int:
+    """The number of drafts that are tried of a contour of so many blocks: fewer of a long one, whose every trial takes
+    longer."""
+    return most if length <= _SHORT else max(_FEWEST, most * _SHORT // length)
+
+
 def _bound(costs: Sequence[float]) -> float:
     """The cost beyond which a further repair would hardly be among the first ones."""
     return min([*costs[_ENOUGH - 1 : _ENOUGH], *(each + _BEHIND for each in costs[:1])], default=float("inf"))
 
+
+_FEWEST = 8
+"""Drafts that are tried of the longest contours."""
 
 _FARTHEST = 5.0
 """Slips that are so much less plausible than the best repair are not told behind some others."""
