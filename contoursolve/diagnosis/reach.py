@@ -137,7 +137,7 @@ class Reach(Struct, frozen=True, dict=True):
         return edit.address in self._addresses and all(each in self._addresses for each in written)
 
     def _is_near(self, edit: Edit) -> bool:
-        """Whether an edit changes what one block says, whatever that makes of it, or the start, and no code, and nothing
+        """Whether an edit changes what one block says, whatever that makes of it, or the start, and no code and nothing
         that stays in force."""
         if edit.kind is EditKind.MOVE or edit.span in self._lasting:
             return False
