@@ -244,12 +244,15 @@ READING_RULES = (
     Rule(
         code="suspected",
         message="{words} was probably meant to be {meant}: {reason}",
-        help="change it if that is meant; the setting suspicions=off tells nothing of this kind",
+        help="change it if that is meant; --set CONTROL.suspicions=off switches such warnings off",
         source=own_source("slips that machinists make, and how the paths of turned parts run"),
         about=ReadIssue.SUSPECTED,
         severity=Severity.WARNING,
         accepted=(_GOOD,),
-        rejected=(_START + "G111 A0. K30. B60. X100.\nG01 Z-60.",),
+        rejected=(
+            _START + "G111 A180. K-30. B60. X100.\nG01 Z-60.",
+            _START + "G111 A180. K-20. B150. X60.\nG111 A180. K-20. B150. X80.\nG111 A180. K-20. B120. X100.",
+        ),
     ),
     Rule(
         code="start-in-increments",

@@ -30,6 +30,7 @@ from contoursolve.diagnosis.explain import (
     report,
     spans_of,
 )
+from contoursolve.diagnosis.outliers import stands_out
 from contoursolve.diagnosis.spelling import (
     explain_modes,
     explain_skippable,
@@ -77,6 +78,7 @@ from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
     from contoursolve.diagnosis.equation_system import EquationSystem
+    from contoursolve.gcode import Block
     from contoursolve.solving import Alternatives
 
 
@@ -357,9 +359,10 @@ def problems(answer: Answer) -> list[Diagnostic]:
     return [each for each in answer.diagnostics if each.severity is not Severity.INFO]
 
 
-def may_be_suspected(answer: Answer) -> bool:
+def may_be_suspected(answer: Answer, around: Callable[[], Sequence[Block]]) -> bool:
     """Whether a contour is worth a second look: a turned one that runs away from the chuck somewhere, an arc of more
-    than half a turn, a number that begins with a zero, a turning axis."""
+    than half a turn, a number that begins with a zero, a turning axis, a corner or a taper unlike all others in the
+    blocks around."""
     contour, claim = answer.contour, answer.claim
     if contour is None:
         return False
@@ -369,7 +372,9 @@ def may_be_suspected(answer: Answer) -> bool:
     if any(isinstance(each, ArcSegment) and each.length > _WIDE * each.radius for each in contour.elements):
         return True
     words = (word for block in claim.blocks for word in block.words)
-    return any((word.has_point and LEADING.search(word.text)) or word.address in _TURNING for word in words)
+    if any((word.has_point and LEADING.search(word.text)) or word.address in _TURNING for word in words):
+        return True
+    return stands_out(claim, around)
 
 
 _WIDE = pi + 1e-3

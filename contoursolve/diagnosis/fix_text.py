@@ -77,7 +77,7 @@ def _fix(answer: Answer, repair: Repair, outcome: str) -> Fix:
 
 
 def _numbers(numbers: Sequence[OpenNumber]) -> str:
-    """What open numbers may be; empty where there are none."""
+    """The numbers that may be written for open ones, in words."""
     known = [each for each in numbers if each.example]
     if not known:
         return "no number was tried"

@@ -232,6 +232,13 @@ def _other_axis(angle: Decimal) -> Iterator[Decimal]:
     yield from (angle + _QUARTER, _QUARTER - angle, angle - _QUARTER)
 
 
+def _complement(angle: Decimal) -> Iterator[Decimal]:
+    """The angle with the other axis, in the same quadrant."""
+    turned = angle % _HALF
+    other = _QUARTER - turned if turned < _QUARTER else _HALF + _QUARTER - turned
+    yield angle - turned + other
+
+
 def _twice_or_half(typed: Typed) -> Iterator[str]:
     """A diameter as a radius and the reverse, where X counts diameters; a centre or an increment as a diameter."""
     row = typed.speech.lexicon.addresses.get(typed.word.address)
@@ -376,6 +383,9 @@ OPPOSITE = SlipKind(
 )
 OTHER_AXIS = SlipKind(
     "other-axis", "the angle from the other axis", 2.9, _MEANING, lambda typed: _turned(typed, _other_axis), True, True
+)
+COMPLEMENT = SlipKind(
+    "complement", "the angle from the other axis", 2.9, _MEANING, lambda typed: _turned(typed, _complement), True, True
 )
 POINT_MOVED = SlipKind("point-moved", "the decimal point moved", 2.0, _SEEN, _point_moved, True, True)
 ZERO_LOST = SlipKind("zero-lost", "a lost zero", 2.3, _SEEN, _zero_lost, True, True)

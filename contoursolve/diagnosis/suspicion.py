@@ -1,17 +1,21 @@
 """Legal programs that are hardly meant: a turned path that runs back, a number that begins with a zero, a word that
-draws nothing where one like it would; told as a warning, with what was probably meant."""
+draws nothing where one like it would, a corner or a taper unlike all others; told as a warning, with what was probably
+meant."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.attempt import Repair, Trial, repair_of
+from contoursolve.diagnosis.edits import Edit, EditKind
 from contoursolve.diagnosis.examine import LEADING, SUSPICIONS, Answer, problems
 from contoursolve.diagnosis.explain import context_of, report
 from contoursolve.diagnosis.fix_text import fixes_of
+from contoursolve.diagnosis.outliers import other_taper, sharp_corner, taper_of
 from contoursolve.diagnosis.plausibility import Feature, oddities
 from contoursolve.diagnosis.slip_kinds import (
+    COMPLEMENT,
     LETTER_ALIKE,
     OPPOSITE,
     OTHER_AXIS,
@@ -24,8 +28,8 @@ from contoursolve.diagnosis.slip_kinds import (
     SlipKind,
 )
 from contoursolve.diagnosis.slips_around import MOST_TRIED, Candidate, Marked, drafts_around
-from contoursolve.diagnosis.window import Stretch, Window, moves_of
-from contoursolve.diagnosis.wording import either
+from contoursolve.diagnosis.window import Seen, Stretch, Window, moves_of
+from contoursolve.diagnosis.wording import angle_text, either
 from contoursolve.diagnostics import Basis, Diagnostic, Span
 from contoursolve.gcode import Word
 from contoursolve.reading import ParsedContour, ReadIssue
@@ -50,7 +54,28 @@ def suspect(answer: Answer, window: Window) -> Answer:
         if found:
             finding = _told(answer, window, found[:MOST_FIXES], reason)
             return replace(answer, diagnostics=(*answer.diagnostics, finding))
+    for reason, own, text, drafts in _unlike(answer, window):
+        found = [*_tried(answer, window, drafts, lambda _: True)][:1]
+        if found:
+            finding = _told(answer, window, found, reason, own, text)
+            return replace(answer, diagnostics=(*answer.diagnostics, finding))
     return answer
+
+
+def _unlike(answer: Answer, window: Window) -> Iterator[tuple[str, Sequence[Word], str, Sequence[Candidate]]]:
+    """The reasons for which one block stands out from all others of the drawing, the words that it is about, what they
+    were meant to be, and the drafts."""
+    claim = answer.claim
+    if word := other_taper(claim, window.blocks):
+        taper = taper_of(word)
+        reason = f"it is a taper of {angle_text(taper)}, and all others are {angle_text(90 - taper)}"
+        yield reason, [word], "", [*_drafts(answer, window, (COMPLEMENT,), frozenset({word.span}))]
+    if sharp := sharp_corner(claim, window.blocks):
+        block, word = sharp
+        own, text = block.words[-1:], word.text.strip()
+        edit = Edit(EditKind.ADD, word.address, text=text, line=block.line)
+        reason = f"the corner behind it is sharp, and all others have {text}"
+        yield reason, own, f"{own[0].text.strip()} {text}", [Candidate((edit,), (None,), ())]
 
 
 def _doubtful(answer: Answer, window: Window) -> Iterator[tuple[str, tuple[SlipKind, ...], frozenset[Span]]]:
@@ -108,24 +133,37 @@ def _is_odd(window: Window) -> bool:
 
 def _meant(answer: Answer, window: Window, kinds: tuple[SlipKind, ...], words: frozenset[Span]) -> Iterator[Repair]:
     """The repairs by slips in these words without which nothing is odd."""
-    claim = answer.claim
+    old = oddities(window.before.moves)
+
+    def is_better(seen: Seen) -> bool:
+        odd = oddities(seen.moves)
+        if kinds:
+            return not any(odd.get(each) for each in _ODD)
+        is_less_wide = odd.get(Feature.WIDE, 0.0) < old.get(Feature.WIDE, 0.0)
+        return is_less_wide and odd.get(Feature.TURNING, 0.0) < old.get(Feature.TURNING, 0.0) - _LESS
+
+    yield from _tried(answer, window, _drafts(answer, window, kinds, words), is_better)
+
+
+def _drafts(answer: Answer, window: Window, kinds: tuple[SlipKind, ...], words: frozenset[Span]) -> Iterator[Candidate]:
+    """The drafts of slips in some words."""
     marked = Marked(words, frozenset(span.line for span in words))
-    trial = Trial(claim, window.dialect, frozenset(), answer.contour, window=window)
-    for draft in drafts_around(window, marked, claim, kinds)[:MOST_TRIED]:
-        if not _is_of(draft, words):
-            continue
+    for draft in drafts_around(window, marked, answer.claim, kinds)[:MOST_TRIED]:
+        if all(edit.span in words for edit in draft.edits) and all(draft.slips):
+            yield draft
+
+
+def _tried(
+    answer: Answer, window: Window, drafts: Iterable[Candidate], is_better: Callable[[Seen], bool]
+) -> Iterator[Repair]:
+    """The repairs of drafts with which all is right and better than before."""
+    trial = Trial(answer.claim, window.dialect, frozenset(), answer.contour, window=window)
+    for draft in drafts:
         seen = window.after(draft.edits)
         if seen is None or not window.mends(seen):
             continue
-        odd = oddities(seen.moves)
         answers = [each for each in seen.answers if {*window.lines}.intersection(each.lines)]
-        is_better = not any(odd.get(each) for each in _ODD)
-        if not kinds:
-            old = oddities(window.before.moves)
-            is_better = odd.get(Feature.WIDE, 0.0) < old.get(Feature.WIDE, 0.0) and (
-                odd.get(Feature.TURNING, 0.0) < old.get(Feature.TURNING, 0.0) - _LESS
-            )
-        if answers and all(each.contour for each in answers) and is_better:
+        if answers and all(each.contour for each in answers) and is_better(seen):
             yield repair_of(draft, seen, answers, trial)
 
 
@@ -133,14 +171,12 @@ _LESS = 0.5
 """Half turns by which the path has to turn less."""
 
 
-def _is_of(draft: Candidate, words: frozenset[Span]) -> bool:
-    return all(edit.span in words for edit in draft.edits) and all(draft.slips)
-
-
-def _told(answer: Answer, window: Window, found: list[Repair], reason: str) -> Diagnostic:
-    """The warning, about the word of the most plausible slip."""
+def _told(
+    answer: Answer, window: Window, found: list[Repair], reason: str, words: Sequence[Word] = (), meant: str = ""
+) -> Diagnostic:
+    """The warning, about the word of the most plausible slip if it is not told about which."""
     context, edit = context_of(answer.claim, window.dialect.rules), found[0].edits[0]
     same = [each.edits[0].text for each in found if each.edits[0].span == edit.span]
-    words = [word for block in answer.claim.blocks for word in block.words if word.span == edit.span]
-    finding = report(context, ReadIssue.SUSPECTED, Basis.NUMERICAL, words, meant=either(same), reason=reason)
+    words = words or [word for block in answer.claim.blocks for word in block.words if word.span == edit.span]
+    finding = report(context, ReadIssue.SUSPECTED, Basis.NUMERICAL, words, meant=meant or either(same), reason=reason)
     return replace(finding, fixes=fixes_of(answer, found))

@@ -65,7 +65,7 @@ def explained(
         from contoursolve.diagnosis import mend_points  # noqa: PLC0415
 
         answer = mend_points(answer, dialect)
-    if may_be_suspected(answer):
+    if may_be_suspected(answer, lambda: window().blocks):
         from contoursolve.diagnosis import suspect  # noqa: PLC0415 - few contours look odd
 
         answer = suspect(answer, window())

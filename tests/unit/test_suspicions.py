@@ -1,0 +1,70 @@
+"""Legal programs that are hardly meant: a warning with what was meant, which a setting switches off."""
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from examples import some_of
+
+from contoursolve import Severity, check
+from contoursolve.cli import main
+
+BACK = "G00 X40. Z0.\nG111 A180. K-30. B60. X100.\nG01 Z-60.\n"
+FILLETS = "G17 G90\nG00 X0. Y0.\nG01 X60. ,R4. F150.\nY30. ,R4.\nX40. ,R4.\nY50.\nX0. ,R4.\nY0."
+CONES = "G18 G90 DIAMON\nG0 X20 Z2\nG1 Z-15 F0.2\nX50 ANG=150\nZ-60\nX70 ANG=150\nZ-90\nX90 ANG=120\nZ-120"
+FIXES = [
+    ("yasnac-lx3", BACK, 2, "write B120. for B60."),
+    ("fanuc-mill", FILLETS, 6, "add ,R4. to program line 6"),
+    (
+        "isg",
+        "G17 G90\nG0 X0 Y0\nG1 X60 F500 #CHR=2\nY40 #CHR=2\nX30\nY60 #CHR=2\nX0",
+        5,
+        "add #CHR=2 to program line 5",
+    ),
+    ("siemens-840d", CONES, 8, "write ANG=150 for ANG=120"),
+    (
+        "yasnac-lx3",
+        "G00 X40. Z0.\nG111 A180. K-20. B150. X60.\nG111 A180. K-20. B150. X80.\nG111 A180. K-20. B120. X100.",
+        4,
+        "write B150. for B120.",
+    ),
+]
+
+
+@some_of(("control", "text", "line", "fix"), FIXES, one_in=1)
+def test_what_is_hardly_meant_is_a_warning_with_what_was_meant(control, text, line, fix):
+    (finding,) = check(text, control=control)
+    assert (finding.code, finding.severity, finding.span.line) == ("suspected", Severity.WARNING, line)
+    assert finding.fixes[0].description.startswith(fix)
+    assert not check(text, control=control, settings={f"{control}.suspicions": "off"})
+
+
+@pytest.mark.parametrize(
+    ("control", "text"),
+    [
+        ("fanuc-mill", FILLETS.replace("X40. ,R4.", "X40. ,R6.")),
+        ("fanuc-mill", FILLETS.replace("X40. ,R4.", "X40.")),
+        ("siemens-840d", CONES.replace("X70 ANG=150", "X70 ANG=165")),
+        ("siemens-840d", CONES.replace("ANG=120", "ANG=135")),
+    ],
+    ids=["another size", "two sharp corners", "tapers that differ", "no complement"],
+)
+def test_drawings_that_have_several_kinds_are_not_suspected(control, text):
+    assert not check(text, control=control)
+
+
+def test_a_suspicion_is_no_error_and_is_switched_off_in_three_ways(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+    def run(text, *options):
+        Path("part.nc").write_text(text)
+        done = CliRunner().invoke(main, ["check", "part.nc", "--format", "json", *options])
+        return done.exit_code, [each["code"] for each in json.loads(done.stdout)["diagnostics"]]
+
+    assert run(BACK, "--control", "yasnac-lx3") == (0, ["suspected"])
+    assert run(BACK, "--control", "yasnac-lx3", "--set", "yasnac-lx3.suspicions=off") == (0, [])
+    assert run("(contoursolve control: yasnac-lx3, suspicions: off)\n" + BACK) == (0, [])
+    Path("contoursolve.toml").write_text('control = "yasnac-lx3"\n\n[yasnac-lx3]\nsuspicions = "off"\n')
+    assert run(BACK) == (0, [])
+    assert run(BACK, "--set", "yasnac-lx3.suspicions=on") == (0, ["suspected"])
