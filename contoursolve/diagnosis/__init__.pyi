@@ -97,6 +97,7 @@ from .spelling import (
     readings as readings,
     without_point as without_point,
 )
+from .solved_contours import mend_behind as mend_behind
 from .suspicion import (
     suspect as suspect,
 )

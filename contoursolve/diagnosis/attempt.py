@@ -32,7 +32,7 @@ from contoursolve.diagnosis.plausibility import (
 )
 from contoursolve.diagnosis.prospects import Prospects, keeps_address
 from contoursolve.diagnosis.reach import Reach
-from contoursolve.diagnosis.slip_kinds import FEW, OF_DIGITS, ROUND, SlipKind, recognise
+from contoursolve.diagnosis.slip_kinds import FEW, OF_DIGITS, ROUND, SlipKind, number_in, partners, recognise
 from contoursolve.diagnosis.slips_around import (
     MOST_OF_DIGITS,
     MOST_TRIED as MOST_AROUND,
@@ -228,7 +228,8 @@ class Trial(Struct, frozen=True, dict=True):
         own = list[Block]()
         if self.is_round:
             sizes = (*"IJK", self.dialect.modes.radius)
-            own += (block for block in self.claim.blocks if block.line in lines and any(map(block.find, sizes)))
+            arcs = [block for block in self.claim.blocks if any(map(block.find, sizes))]
+            own += [block for block in arcs if block.line in lines] or arcs
         if self.is_missed:
             own += [block for block in self.claim.blocks if block.find(self.dialect.modes.radius)]
         own += self.claim.blocks if self.is_open and len(self.claim.blocks) <= _SHORT else ()
@@ -257,7 +258,9 @@ class Trial(Struct, frozen=True, dict=True):
         row, is_used = self.claim.lexicon.addresses.get(edit.address), any(block.find(edit.address) for block in blocks)
         is_named = re.search(rf"(?<![A-Z,#]){re.escape(edit.address)}(?![A-Z=])", self.told) is not None
         is_step = row is not None and (row.is_increment or "=" in edit.address)
-        return 0.7 * (not is_used) + 0.8 * (is_step and not is_used) - 0.8 * is_named
+        own = next((block for block in self.claim.blocks if block.line == edit.line), None)
+        is_half = own is not None and any(map(own.find, partners(edit.address)))
+        return 0.7 * (not is_used) + 0.8 * (is_step and not is_used) - 0.8 * is_named - _HALF * is_half
 
     def made(self, contour: Contour, edits: tuple[Edit, ...], replacement: str) -> Repair:
         """The repair that makes a contour, which may be parted into several, and lines between them."""
@@ -413,6 +416,10 @@ class Trial(Struct, frozen=True, dict=True):
         return None if faults else profile
 
 
+_HALF = 2.4
+"""By so much more plausible a word is that a point lacks, of which the other one is there."""
+
+
 def _is_round(edit: Edit) -> bool:
     """Whether a word gets a round number from the others, which hardly happens by chance."""
     return edit.why is Why.AGREES and len(edit.text.partition(".")[2]) <= 1 and edit.kind is EditKind.CHANGE
@@ -536,7 +543,7 @@ def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -
         if not any(set(other.edits) < set(each.edits) and other.cost <= each.cost for other in found)
     ]
     found = [_seen(each, trial) if at < MOST_SEEN else each for at, each in enumerate(sorted(found, key=_order))]
-    found = _large_marked(found, trial.contour)
+    found = _usual_marked(_large_marked(found, trial.contour))
     found.sort(key=_order)
     found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
     farthest = found[0].cost + _FARTHEST if found else 0.0
@@ -661,6 +668,7 @@ def _weighed(repair: Repair, trial: Trial) -> Repair:
     """A repair with what is known of it without the blocks around it."""
     edits, marked = repair.edits, trial.marked
     kind = sum(cost_of(edit, slip) + trial.strangeness(edit) for edit, slip in zip(edits, repair.slips, strict=True))
+    kind += _NAUGHT * sum(_is_naught(edit) for edit in edits)
     kind += _SIGNED * sum(edit.why is Why.AGREES and _has_other_sign(edit) for edit in edits)
     lines = [edit.span.line if edit.span else edit.line for edit in edits]
     near = [distance(line, edit.span in marked.spans, marked.lines) for line, edit in zip(lines, edits, strict=True)]
@@ -672,6 +680,14 @@ def _weighed(repair: Repair, trial: Trial) -> Repair:
         (Feature.FAMILIAR, familiarity(edits, trial.numbers)),
     )
     return replace(repair, evidence=_of_path(repair, None, evidence))
+
+
+_NAUGHT = 1.5
+"""The cost of another value for a 0, which nobody types by mistake."""
+
+
+def _is_naught(edit: Edit) -> bool:
+    return edit.why is Why.AGREES and not number_in(edit.old).strip("0.")
 
 
 _SIGNED = 0.8
@@ -687,6 +703,9 @@ def _seen(repair: Repair, trial: Trial) -> Repair:
     window, edits = trial.window, repair.edits if repair.contour is not None else repair.example
     if window is None or any(each[0] is Feature.SEEN for each in repair.evidence) or not edits:
         return repair
+    if any(edit.is_placeholder for edit in edits):
+        # Without its number, nothing says where the path leads.
+        return replace(repair, evidence=(*repair.evidence, (Feature.SEEN, 0.0)))
     seen = window.after(edits)
     if seen is None:
         return repair
@@ -735,6 +754,21 @@ def _large_marked(found: list[Repair], before: Contour | None) -> list[Repair]:
             each = replace(each, drawbacks=(*each.drawbacks, _LARGE), evidence=evidence)  # noqa: PLW2901
         marked.append(each)
     return marked
+
+
+def _usual_marked(found: list[Repair]) -> list[Repair]:
+    """Repairs; those whose path nobody knows turn as the most plausible one of the others does."""
+    known = (dict(each.evidence) for each in found if each.contour or each.example != each.edits)
+    turning = next((each[Feature.TURNING] for each in known if Feature.TURNING in each), _USUAL_TURNING)
+    return [
+        each if any(one[0] is Feature.TURNING for one in each.evidence) else
+        replace(each, evidence=(*each.evidence, (Feature.TURNING, turning)))
+        for each in found
+    ]  # fmt: skip
+
+
+_USUAL_TURNING = 1.0
+"""Half turns of a usual path."""
 
 
 def _order(repair: Repair) -> tuple[object, ...]:

@@ -20,6 +20,7 @@ from contoursolve.diagnosis.examine import Answer, AskedValue, problems
 from contoursolve.diagnosis.examples import sampled
 from contoursolve.diagnosis.explain import SAID_AGAIN, facts_at, spans_of
 from contoursolve.diagnosis.sample_drawing import sample_drawing
+from contoursolve.diagnosis.slip_kinds import partners
 from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, Word, number_of, spell
@@ -183,8 +184,17 @@ def _completing(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     open_ = freedom(())
     if open_ > MOST_ADDED:
         return
-    absent = [name for name in claim.form.free.usual if name not in claim.words and name in claim.vocabulary]
+    halves = (
+        name
+        for name, (address, index) in claim.vocabulary.items()
+        if any(map(claim.blocks[index].find, partners(address)))
+    )
+    usual = dict.fromkeys((*halves, *claim.form.free.usual))
+    absent = [name for name in usual if name not in claim.words and name in claim.vocabulary]
     drawing = sample_drawing(claim, answer.profile, absent)
+    if drawing is not None and not drawing.open_after(()):
+        # It is of another contour, in which nothing is open.
+        drawing = None
     names = {add(claim, name): name for name in absent if drawing is None or drawing.helps(name)}
     helping = list(islice((edit for edit in names if freedom((edit,)) < open_), MOST_HELPING))
 

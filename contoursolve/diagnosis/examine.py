@@ -360,12 +360,14 @@ def problems(answer: Answer) -> list[Diagnostic]:
 
 
 def may_be_suspected(answer: Answer, around: Callable[[], Sequence[Block]]) -> bool:
-    """Whether a contour is worth a second look: a turned one that runs away from the chuck somewhere, an arc of more
-    than half a turn, a number that begins with a zero, a turning axis, a corner or a taper unlike all others in the
-    blocks around."""
+    """Whether a contour is worth a second look: a turned one that crosses its axis, or runs away from the chuck
+    somewhere, an arc of more than half a turn, a number that begins with a zero, a turning axis, a corner or a taper
+    unlike all others in the blocks around."""
     contour, claim = answer.contour, answer.claim
     if contour is None:
         return False
+    if contour.crossing is not None:
+        return True
     turned = next((number for number, is_diameter in enumerate(contour.plane.diameters) if is_diameter), None)
     if turned is not None and any(each.end[1 - turned] - each.start[1 - turned] > LENGTH for each in contour.elements):
         return True

@@ -7,9 +7,8 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.explain import Context, report, spans_of
 from contoursolve.diagnosis.fix_text import told
 from contoursolve.diagnosis.plausibility import oddities, total
-from contoursolve.diagnosis.prospects import is_lasting
 from contoursolve.diagnosis.slip_kinds import FEW, LETTER_ALIKE, SlipKind
-from contoursolve.diagnosis.slips_around import MOST_TRIED, Candidate, Marked, drafts_around, touches
+from contoursolve.diagnosis.slips_around import MOST_TRIED, Candidate, Marked, drafts_around, is_lasting, touches
 from contoursolve.diagnosis.window import Seen, Window
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, Severity, Span
 from contoursolve.gcode import Block, Word

@@ -125,7 +125,7 @@ def roundness(text: str) -> float:
 
 def rounding_of(edit: Edit) -> float:
     """By how much less round the number of a word becomes."""
-    if edit.kind is not EditKind.CHANGE or edit.why is Why.ROUNDED or not number_in(edit.old):
+    if edit.kind is not EditKind.CHANGE or edit.why is Why.ROUNDED or edit.address == "G" or not number_in(edit.old):
         return 0.0
     typed, meant = (number_in(text).replace(".", "").strip("0") for text in (edit.old, edit.text))
     if typed == meant and len(typed) > _SHORT:

@@ -1,6 +1,5 @@
 """Slips that cannot be what is wrong, told by the words that they change before anything is read or solved again."""
 
-import re
 from collections.abc import Collection, Iterable, Sequence
 
 from msgspec import Struct
@@ -10,7 +9,7 @@ from contoursolve.diagnosis.examine import Answer, problems
 from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.reach import Reach, is_of_codes
 from contoursolve.diagnosis.slip_kinds import number_in
-from contoursolve.diagnosis.slips_around import touches
+from contoursolve.diagnosis.slips_around import is_lasting, touches
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import Block
 from contoursolve.geometry import Fact, assemble
@@ -121,11 +120,6 @@ def _lacking(answer: Answer) -> int:
 
 _MOST_FACTS = 3
 """Facts that one word, or the code of a block of Klartext, states at most: the centre and the radius of a circle."""
-
-
-def is_lasting(edit: Edit) -> bool:
-    """Whether a code chooses the plane, or what coordinates count from."""
-    return edit.address == "G" and re.fullmatch(r"G(1[789]|9[01])", edit.text.strip(), re.IGNORECASE) is not None
 
 
 def _is_of_words(finding: Diagnostic, by_values: Collection[str]) -> bool:

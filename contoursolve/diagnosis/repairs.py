@@ -70,6 +70,7 @@ def find_repairs(
     A repair leaves no error and no warning. None of them contains another one. `following` are the next blocks,
     `previous` those before it, of which it may be the end, with the state before them.
     """
+    answer = _alone(answer, dialect)
     claim = answer.claim
     # No change of words closes a comment, and what leaves a warning is no repair.
     is_closed = all(each.kind is not FaultKind.COMMENT_NOT_CLOSED for block in claim.blocks for each in block.faults)
@@ -134,6 +135,18 @@ def find_repairs(
     repairs = choose_repairs(trial, (*_valued(answer, whole, trial), *spelled, *moved))
     is_complete = repairs.is_complete and drop_sets.is_complete and not has_faults(claim)
     return replace(repairs, is_complete=is_complete)
+
+
+def _alone(answer: Answer, dialect: Dialect) -> Answer:
+    """The answer; of a contour that lacks words, and that is refused for what follows, that to its own blocks alone:
+    what it lacks is to be mended."""
+    claim = answer.claim
+    if answer.status is not Status.REJECTED or all(each.about not in _OPEN for each in answer.diagnostics):
+        return answer
+    found = dialect.find(claim.blocks, 0, claim.before, dialect.modes)
+    if not isinstance(found, ParsedContour) or not found.circumstances < claim.circumstances:
+        return answer
+    return examine(found, dialect.rules, Policy.ENFORCE)
 
 
 _OF_CIRCLES = tuple(kind for kind in RefusalKind if re.search("radius|circle", kind.event.code))
@@ -365,9 +378,11 @@ def _of_circles(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     if finding is None or has_faults(claim):
         return
     spans = spans_of([finding])
+    lines = {span.line for span in spans}
     for name, word in claim.words.items():
         given = claim.givens.get(name)
-        if given is None or word.number is None or word.span not in spans:
+        is_centre = word.address in _CENTRES and word.span.line in lines
+        if given is None or word.number is None or not (word.span in spans or is_centre):
             continue
         value = float(given.value)
         texts = [write_word(word.address, value + step, lexicon, unit) for step in (-_STEP, 0.0, _STEP)]

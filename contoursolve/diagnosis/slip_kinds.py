@@ -13,15 +13,25 @@ from contoursolve.diagnosis.edits import Edit, EditKind
 from contoursolve.diagnosis.examine import LEADING
 from contoursolve.diagnosis.spelling import respelled
 from contoursolve.gcode import FACT, Word, mended, spell
-from contoursolve.geometry import CornerShape, Unit
+from contoursolve.geometry import CornerShape, Plane, Unit
 from contoursolve.reading import Dialect, Effect, Lexicon, Modes, ParsedContour, WithoutPoint
 
 _WORD = re.compile(
-    r"(?P<address>,?[ \t]*[A-Za-z](?![A-Za-z_#])|[A-Za-z]\w*=[A-Za-z]+(?=\()|#?[A-Za-z]\w*?(?=[ \t]*=)"
+    r"(?P<address>RND[ \t]+R|,?[ \t]*[A-Za-z](?![A-Za-z_#])|[A-Za-z]\w*=[A-Za-z]+(?=\()|#?[A-Za-z]\w*?(?=[ \t]*=)"
     r"|[A-Za-z]{2,}(?=[ \t]*[+-]?[\d.]))"
     r"[ \t]*[=(]?[ \t]*(?P<sign>[+-]?)(?P<number>\d+\.?\d*|\.\d+)\)?",
     re.ASCII,
 )
+_TWO_WORDS = {"RND R": "ROUNDING", "CHF": "CHAMFER"}
+"""The addresses of Klartext's words whose text is two words."""
+
+
+def _address_in(match: re.Match[str]) -> str:
+    """The address of a word, as `spell` takes it."""
+    name = " ".join(match["address"].upper().split())
+    return match["address"] if "=" in match[0] else _TWO_WORDS.get(name, match["address"])
+
+
 _DECIMALS = 3
 """Decimals that a word of either control has at most."""
 _ABOUT, _NEARLY = 0.01, 0.003
@@ -45,21 +55,21 @@ class Speech(Struct, frozen=True):
     allowed: frozenset[str]
     shapes: Mapping[str, CornerShape]
     claim: ParsedContour | None = None
-    is_turned: bool = False
-    """Whether an axis of the plane counts diameters."""
+    turned: str = ""
+    """The axis of the plane that counts diameters, if one does."""
 
     @classmethod
     def of(cls, claim: ParsedContour) -> "Speech":
         """Those of a contour."""
         rows = claim.form.outline.shapes.items()
         shapes = {claim.vocabulary[name][0]: shape for name, shape in rows if name in claim.vocabulary}
-        return cls(claim.lexicon, claim.form.allowed, shapes, claim, any(claim.before.plane.diameters))
+        return cls(claim.lexicon, claim.form.allowed, shapes, claim, turned_axis(claim.before.plane))
 
     @classmethod
-    def of_control(cls, dialect: Dialect, *, is_turned: bool) -> "Speech":
+    def of_control(cls, dialect: Dialect, turned: str) -> "Speech":
         """Those of a control, outside its contours."""
         lexicon = dialect.modes.lexicon
-        return cls(lexicon, frozenset(lexicon.addresses), {}, None, is_turned)
+        return cls(lexicon, frozenset(lexicon.addresses), {}, None, turned)
 
     def is_angle(self, word: Word) -> bool:
         """Whether a word states an angle."""
@@ -69,12 +79,22 @@ class Speech(Struct, frozen=True):
     def is_diameter(self, word: Word) -> bool:
         """Whether a word states a diameter."""
         row = self.lexicon.addresses.get(word.address)
-        return row is not None and row.is_diameter and self.is_turned
+        return row is not None and bool(self.turned) and (row.is_diameter or row.axis == self.turned)
+
+    def is_axis(self, word: Word) -> bool:
+        """Whether a word moves an axis."""
+        row = self.lexicon.addresses.get(word.address)
+        return row is not None and bool(row.axis)
 
     def is_known(self, address: str) -> bool:
         """Whether words with this address may stand there."""
         name = address.replace(" ", "").upper()
         return name in self.lexicon.addresses and name in self.allowed
+
+
+def turned_axis(plane: Plane) -> str:
+    """The axis of a plane that counts diameters; empty for none."""
+    return next((axis for axis, is_diameter in zip(plane.axes, plane.diameters, strict=True) if is_diameter), "")
 
 
 class Typed(Struct, frozen=True):
@@ -240,18 +260,26 @@ def _complement(angle: Decimal) -> Iterator[Decimal]:
 
 
 def _twice_or_half(typed: Typed) -> Iterator[str]:
-    """A diameter as a radius and the reverse, where X counts diameters; a centre or an increment as a diameter."""
+    """A diameter as a radius and the reverse, where X counts diameters; a radius as a diameter."""
     row = typed.speech.lexicon.addresses.get(typed.word.address)
     if row is None or row.unit is not Unit.MM or not typed.value:
         return
     if row.is_diameter:
         yield from (typed.with_value(typed.value * 2), typed.with_value(typed.value / 2))
-    elif typed.word.address in _RADII or (typed.speech.is_turned and typed.word.address in _ACROSS):
+    elif typed.word.address in _RADII:
         yield typed.with_value(typed.value / 2)
 
 
-_ACROSS, _RADII = ("I", "U"), ("R", "CR")
-"""Words of lengths across a turned part that are radii, and radii; drawings have diameters."""
+def _half_across(typed: Typed) -> Iterator[str]:
+    """A length across a turned part, as the difference of the diameters on its drawing."""
+    row = typed.speech.lexicon.addresses.get(typed.word.address)
+    is_length = row is not None and row.unit is Unit.MM and not row.is_diameter
+    if is_length and typed.value and typed.speech.turned and typed.word.address in _ACROSS:
+        yield typed.with_value(typed.value / 2)
+
+
+_ACROSS, _RADII = ("I", "U"), ("R", "CR", "I", "J", "K")
+"""Words of lengths across a turned part that are radii, and radii and centres; drawings have diameters."""
 
 
 def _comma_of_address(typed: Typed) -> Iterator[str]:
@@ -332,8 +360,8 @@ def _letter_alike(typed: Typed) -> Iterator[str]:
     for address in typed.speech.lexicon.addresses:
         bare = address.lstrip(",#")
         is_angle = bare == "ANG" and letter in _ALIKE[0]
-        if typed.address.startswith(",") and bare in _AXES:
-            # The comma is no axis's.
+        if bare in _AXES if typed.address.startswith(",") else (letter in _AXES and bare not in _AXES):
+            # The comma is no axis's; and what moves an axis was meant to move one.
             continue
         if (bare in alike or is_angle) and address not in typed.stated and address != typed.word.address:
             yield spell(address, typed.sign + typed.number)
@@ -411,6 +439,7 @@ FEW = (
     SlipKind("twice", "a digit typed twice", 2.2, _TYPING, _typed_twice, True, True),
     SlipKind("swapped", "two digits swapped", 2.4, _TYPING, _swapped, True, True),
     OPPOSITE,
+    SlipKind("across", "a diameter for a radius", 1.8, _MEANING, _half_across, True, True),
     SlipKind("diameter", "a diameter for a radius, or the reverse", 2.6, _MEANING, _twice_or_half, True, True),
     OTHER_AXIS,
 )
@@ -465,16 +494,16 @@ def texts_of(slip: SlipKind, word: Word, speech: Speech, stated: frozenset[str] 
     match = _WORD.fullmatch(word.text.strip())
     if match is None:
         return
-    typed = Typed(speech, word, match["address"], match["sign"], match["number"], stated)
+    typed = Typed(speech, word, _address_in(match), match["sign"], match["number"], stated)
     if slip.is_of_digits and typed.is_choice:
         return
     for text in dict.fromkeys(slip.texts(typed)):
         match = _WORD.fullmatch(text)
-        if match is None or not speech.is_known(match["address"]) or _says_the_same(text, word.text.strip()):
+        if match is None or not speech.is_known(_address_in(match)) or _says_the_same(text, word.text.strip()):
             continue
         if LEADING.search(text) or (typed.unit is Unit.DEGREE and _is_idle_turn(match, typed)):
             continue
-        if not match["number"].strip("0.") and match["address"] in speech.shapes:
+        if not match["number"].strip("0.") and _address_in(match) in speech.shapes:
             # Nobody writes a corner of no size.
             continue
         if len(match["number"].partition(".")[2]) <= max(_DECIMALS, len(typed.number.partition(".")[2])):
@@ -518,12 +547,20 @@ def explained(word: Word, value: float, claim: ParsedContour) -> Iterator[str]:
     for slip in SLIPS:
         for text in texts_of(slip, word, speech):
             match = _WORD.fullmatch(text)
-            if match is None or match["address"].replace(" ", "").upper() != word.address:
+            if match is None or _address_in(match).replace(" ", "").upper() != word.address:
                 continue
             number = match["sign"] + match["number"]
             other = claim.lexicon.value(replace(word, number=Decimal(number), has_point="." in number), unit)
             if other is not None and abs(float(other) - value) <= (_ABOUT if slip.is_frequent else _NEARLY):
                 yield text
+
+
+def partners(address: str) -> Iterator[str]:
+    """The words that state a point together with the one of an address, and seldom stand without it."""
+    yield from (each for pair in _POINTS if address in pair for each in pair if each != address)
+
+
+_POINTS = (("CCX", "CCY"), ("ICCX", "ICCY"), ("CCPR", "CCPA"), ("PR", "PA"), ("IPR", "IPA"))
 
 
 def number_in(text: str) -> str:

@@ -2,11 +2,12 @@
 most plausible first."""
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import chain, pairwise, permutations
 
 from msgspec import Struct
 
+from contoursolve.diagnosis.centre_slips import centres_from_origin, centres_from_start
 from contoursolve.diagnosis.edits import Edit, EditKind, change, drop
 from contoursolve.diagnosis.plausibility import (
     FEATURES,
@@ -29,12 +30,14 @@ from contoursolve.diagnosis.slip_kinds import (
     number_in,
     plain_code,
     texts_of,
+    turned_axis,
 )
+from contoursolve.diagnosis.vocabulary import names_like
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import Block, Word, find_lookalikes
 from contoursolve.geometry import Unit
-from contoursolve.reading import Effect, ParsedContour, WithoutPoint
+from contoursolve.reading import Effect, ParsedContour, WithoutPoint, advance
 
 MOST_TRIED, MOST_OF_DIGITS = 30, 16
 """Drafts around one finding that are tried; the rest is less plausible than these. The second of wrong digits."""
@@ -117,7 +120,11 @@ def _place(draft: Candidate) -> tuple[object, ...]:
 
 def _draft(numbers: Numbers, marked: Marked, edits: Edits, slips: Slips, cost: float) -> Candidate:
     lines = [edit.span.line if edit.span else edit.line for edit in edits]
-    near = [distance(line, marked.has(edit), marked.lines) for line, edit in zip(lines, edits, strict=True)]
+    near = [
+        # What it says counts for all blocks behind it.
+        _BLOCK if is_lasting(edit) else distance(line, marked.has(edit), marked.lines)
+        for line, edit in zip(lines, edits, strict=True)
+    ]
     # Of two words that are exchanged, one is enough.
     rounding = sum(map(rounding_of, edits))
     evidence = (
@@ -127,6 +134,15 @@ def _draft(numbers: Numbers, marked: Marked, edits: Edits, slips: Slips, cost: f
         (Feature.FAMILIAR, familiarity(edits, numbers)),
     )
     return Candidate(edits, slips, evidence)
+
+
+def is_lasting(edit: Edit) -> bool:
+    """Whether a code chooses the plane, or what coordinates count from."""
+    return edit.address == "G" and re.fullmatch(r"G(1[789]|9[01])", edit.text.strip(), re.IGNORECASE) is not None
+
+
+_BLOCK = 0.6
+"""The distance of the block of what a finding marks."""
 
 
 def near_blocks(window: Window, marked: Marked) -> list[Block]:
@@ -144,8 +160,8 @@ def near_blocks(window: Window, marked: Marked) -> list[Block]:
 def _of_words(
     window: Window, marked: Marked, claim: ParsedContour | None, kinds: Iterable[SlipKind]
 ) -> Iterator[tuple[Edits, Slips, float]]:
-    turned = any(window.state.plane.diameters) or (claim is not None and any(claim.before.plane.diameters))
-    outside = Speech.of_control(window.dialect, is_turned=turned)
+    turned = turned_axis(window.state.plane) or (turned_axis(claim.before.plane) if claim is not None else "")
+    outside = Speech.of_control(window.dialect, turned)
     within = Speech.of(claim) if claim else outside
     lines = {block.line for block in claim.blocks} if claim else set[int]()
     kinds = tuple(kinds)
@@ -162,8 +178,10 @@ def _of_words(
                     speech = within
                 for text in texts_of(kind, word, speech, stated):
                     edit = change(word, text)
-                    is_read = kind is LETTER_ALIKE and word.span in read
-                    cost = cost_of(edit, kind) + _READ * is_read
+                    cost = cost_of(edit, kind)
+                    if kind is LETTER_ALIKE:
+                        is_read = word.span in read or (block.line not in lines and outside.is_axis(word))
+                        cost += _letter_cost(word, text, speech, marked, is_read=is_read)
                     # One point is seldom lost alone beside others.
                     others = (*block.words[:at], *later)
                     cost += _OTHER_POINTS * (kind is POINT_LOST and any(map(_is_pointless, others)))
@@ -174,6 +192,20 @@ def _of_words(
                     cost += _SIZE * (kind is SIGN_LOST and word.address.strip(",") in _SIZES)
                     yield (edit,), (kind,), cost
 
+
+def _letter_cost(word: Word, text: str, speech: Speech, marked: Marked, *, is_read: bool) -> float:
+    """The cost of a wrong letter besides that of its kind: more if the word has a meaning as it is, less if its sign
+    has none, or if a message names the other letter."""
+    letter = re.match(r"[,#]?[A-Z]+", text.upper())
+    if letter is not None and re.search(rf"(?<![A-Z,#]){re.escape(letter[0])}(?![A-Z=])", marked.told):
+        return -_NAMED
+    if speech.is_diameter(word) and word.number is not None and word.number < 0:
+        return -_ODD
+    return _READ * is_read
+
+
+_NAMED, _ODD = 0.8, 0.6
+"""By so much more plausible a letter is that a message names, and another one than that of a negative diameter."""
 
 _READ, _NEGATIVE, _EARLIER, _SIZE, _OTHER_POINTS, _ACROSS = 1.1, 0.5, 0.6, 1.6, 1.5, 1.6
 """The costs of a wrong letter that has a meaning there, of a negative angle, of the first of two equal words, of a
@@ -258,6 +290,16 @@ _CODES = ("G", "DR")
 """Addresses of words that are one of few."""
 
 
+def _said_again(window: Window, _: Sequence[Block]) -> Iterator[Edits]:
+    """A code for increments or places that says what is in force already, as the other one."""
+    state = window.ahead[0][1] if window.ahead else window.state
+    for block in window.blocks:
+        before, state = state, advance(state, block, window.dialect.modes)
+        typed = "G91" if before.is_incremental else "G90"
+        if state.is_incremental is before.is_incremental:
+            yield from _codes(window, [block], [(typed, "G90" if before.is_incremental else "G91")])
+
+
 def _like(word: Word, code: str) -> str:
     """A code with the zero that leads another one, or with as many digits."""
     has_two = re.fullmatch(r"G\d\d", word.text.strip(), re.IGNORECASE)
@@ -305,6 +347,23 @@ def _is_near(one: str, two: str) -> bool:
         return len(apart) == 1 or (len(apart) == 2 and apart[0] == apart[1][::-1])  # noqa: PLR2004
     short, long = sorted((one, two), key=len)
     return len(long) == len(short) + 1 and any(long[:at] + long[at + 1 :] == short for at in range(len(long)))
+
+
+def _tangents(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
+    """Lines and arcs that begin in the direction of the element before: of two of these, one is an arc."""
+    lines, before = {block.line for block in blocks}, ""
+    for block in window.blocks:
+        code = next((word for word in block.words if word.address == "G"), None)
+        name = plain_code(code.text) if code else ""
+        if block.line in lines and (name == "FC" or before in _KLARTEXT_ARCS):
+            yield from _codes(window, [block], _TANGENTS)
+        # Corners are no elements.
+        is_element = any(word.address not in ("N", "G") for word in block.words)
+        before = name if name and is_element else before
+
+
+_TANGENTS = (("FL", "FLT"), ("FC", "FCT"))
+_KLARTEXT_ARCS = ("FC", "FCT", "C", "CR", "CT", "CP", "CTP")
 
 
 def _motion_to_arc(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
@@ -418,6 +477,31 @@ _RESPELLED = (
 """Text that is almost a word, and the word."""
 
 
+def _misspelt(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
+    """The name of what is no word or code of the control, as one that it has."""
+    modes = window.dialect.modes
+    known = {*modes.lexicon.plain_names(), *modes.syntax.codes}
+    for block in blocks:
+        strange = [word.span for word in block.words if _is_strange(word, known)]
+        for span in (*strange, *(fault.span for fault in block.faults)):
+            match = _NAME.match(block.text, span.column - 1)
+            if match is None or match[0].upper() in known:
+                continue
+            place = Span(block.line, match.start() + 1, match.end() + 1)
+            for name in names_like(match[0], modes.lexicon, modes.syntax.codes):
+                yield (Edit(EditKind.CHANGE, "", place, match[0], name),)
+
+
+def _is_strange(word: Word, known: Collection[str]) -> bool:
+    """Whether the control has no word or code of this name."""
+    if word.address == "G":
+        return word.number is None
+    return word.address not in known and len(word.address) > 1
+
+
+_NAME = re.compile(r"#?[A-Za-z]{2,}")
+
+
 def _dropped(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
     for block in blocks:
         if block.line in window.lines:
@@ -436,6 +520,7 @@ def _other_block(_: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
 
 SEVERAL = (
     SeveralKind(SlipKind("respelled", "", 0.5, _MEANING), _respelled),
+    SeveralKind(SlipKind("misspelt", "", 0.7, _MEANING), _misspelt),
     SeveralKind(SlipKind("all-points", "", 0.4, _MEANING), _all_points),
     SeveralKind(
         SlipKind("words-swapped", "two words swapped", 1.4, _MEANING),
@@ -444,19 +529,22 @@ SEVERAL = (
     SeveralKind(
         SlipKind("ends-swapped", "two words swapped", 2.6, _MEANING), lambda _, blocks: _swapped_words(blocks, _ENDS)
     ),
+    SeveralKind(SlipKind("from-start", "the centre counted from the start", 2.0, _MEANING), centres_from_start),
+    SeveralKind(SlipKind("from-origin", "the centre counted from the origin", 3.0, _MEANING), centres_from_origin),
     SeveralKind(SlipKind("both-signs", "two lost minus signs", 3.0, _MEANING), _both_signs),
     SeveralKind(
         SlipKind("turn", "the other way round", 2.1, _MEANING), _of_codes(*_both("G2", "G3"), *_both("DR+", "DR-"))
     ),
     SeveralKind(SlipKind("motion-lost", "", 1.6, _MEANING), _motion_lost),
     SeveralKind(SlipKind("line-for-arc", "an arc", 1.6, _MEANING), _motion_to_arc),
-    SeveralKind(SlipKind("tangent", "the tangent", 1.9, _MEANING), _of_codes(("FL", "FLT"), ("FC", "FCT"))),
+    SeveralKind(SlipKind("tangent", "the tangent", 1.9, _MEANING), _tangents),
     SeveralKind(SlipKind("no-tangent", "no tangent", 3.4, _MEANING), _of_codes(("FLT", "FL"), ("FCT", "FC"))),
     SeveralKind(SlipKind("free-line", "", 2.0, _MEANING), _of_codes(("L", "FL"), ("C", "FC"))),
     SeveralKind(
         SlipKind("plane", "another plane", 1.6, _MEANING), _of_codes(*_both("G17", "G18", "G19"), everywhere=True)
     ),
     SeveralKind(SlipKind("increments", "", 2.6, _MEANING), _of_codes(*_both("G90", "G91"), everywhere=True)),
+    SeveralKind(SlipKind("increments-again", "", 1.2, _MEANING), _said_again),
     SeveralKind(
         SlipKind("compensation", "", 2.2, _MEANING), _of_codes(("G40", "G41"), ("G40", "G42"), everywhere=True)
     ),

@@ -28,6 +28,7 @@ from contoursolve.diagnosis.slip_kinds import (
     SlipKind,
 )
 from contoursolve.diagnosis.slips_around import MOST_TRIED, Candidate, Marked, drafts_around
+from contoursolve.diagnosis.solved_contours import mend_crossing
 from contoursolve.diagnosis.window import Seen, Stretch, Window, moves_of
 from contoursolve.diagnosis.wording import angle_text, either
 from contoursolve.diagnostics import Basis, Diagnostic, Span
@@ -47,7 +48,12 @@ _ODD = (Feature.TURNS_BACK, Feature.BEHIND_START, Feature.ACROSS)
 def suspect(answer: Answer, window: Window) -> Answer:
     """The answer; with a warning where a legal contour is hardly meant, and a slip explains why."""
     settings = window.dialect.modes.settings
-    if settings.get(SUSPICIONS) == "off" or answer.contour is None or problems(answer) or answer.profile.is_extended:
+    if answer.contour is None or answer.profile.is_extended:
+        return answer
+    if wrong := problems(answer):
+        is_crossing = all(each.about is ReadIssue.AXIS_CROSSED for each in wrong)
+        return mend_crossing(answer, window) if is_crossing else answer
+    if settings.get(SUSPICIONS) == "off":
         return answer
     for reason, kinds, words in _doubtful(answer, window):
         found = sorted(_meant(answer, window, kinds, words), key=lambda repair: repair.cost)

@@ -2,7 +2,7 @@
 
 import re
 from bisect import bisect_right
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from enum import Enum
 from functools import lru_cache
 
@@ -110,6 +110,30 @@ def _apart(typed: str, other: str) -> int | None:
         return None
     distance = _slips(typed, meant)
     return distance if distance <= most else None
+
+
+def names_like(typed: str, lexicon: Lexicon, codes: Iterable[str]) -> Iterator[str]:
+    """The names that a word or a code may have been meant to have, as they are typed: one letter too many, lost or
+    exchanged, or the same letters in another order."""
+    bare, known = typed.upper(), (*codes, *(_name(each) for each in lexicon.plain_names()))
+    for name in dict.fromkeys(known):
+        if name.strip("#,").isalpha() and name != bare and _is_like(bare.lstrip("#"), name.lstrip("#")):
+            yield name
+
+
+def _name(address: str) -> str:
+    """The name of a word as it is typed, without what its number needs before it."""
+    return spell(address, "").partition("(")[0].split("=")[0].split()[0]
+
+
+def _is_like(typed: str, name: str) -> bool:
+    if len(typed) < _SHORTEST or len(name) < _SHORTEST:
+        return False
+    return (
+        typed == name
+        or sorted(typed) == sorted(name)
+        or (max(len(typed), len(name)) > _SHORTEST and _slips(typed, name) == 1)
+    )
 
 
 def _slips(first: str, second: str) -> int:

@@ -1,13 +1,14 @@
 """The answer to one contour of a program: solved, with its findings explained as deeply as is asked."""
 
 from collections import Counter
+from collections.abc import Sequence
 from itertools import islice
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Depth, examine, may_be_suspected
-from contoursolve.diagnostics import Severity
+from contoursolve.diagnostics import Diagnostic, Severity
 from contoursolve.gcode import Block
 from contoursolve.program.named_words import mark_trusted, with_named_words
 from contoursolve.program.outside_contours import NEAR
@@ -44,11 +45,9 @@ def explained(
     `parts` examines blocks that are tried."""
     if asked.depth in (Depth.VERDICT, Depth.TRIAL):
         return answer
-    claim, after = answer.claim, pending.after
 
     def window() -> "Window":
-        view = pending.view
-        return window_of(ahead, view[:after], view[after : after + NEAR], claim.before, dialect, parts)
+        return _window(dialect, answer, pending, ahead, parts)
 
     if _is_wrong(answer):
         # Most programs need no diagnosis, and none should wait for its import.
@@ -70,6 +69,14 @@ def explained(
 
         answer = suspect(answer, window())
     return answer
+
+
+def _window(
+    dialect: Dialect, answer: Answer, pending: Pending, ahead: tuple[Previous, ...], parts: Parts, own: int = 0
+) -> "Window":
+    """The blocks around a contour; its own are as many more as `own` says."""
+    view, after = pending.view, pending.after + own
+    return window_of(ahead, view[:after], view[after : after + NEAR], answer.claim.before, dialect, parts)
 
 
 def _is_wrong(answer: Answer) -> bool:
@@ -99,6 +106,17 @@ class Answers:
         answer = answer_to(self.asked, self.dialect, found, pending)
         answer = explained(self.asked, self.dialect, answer, pending, pending.ahead, self.parts)
         return with_named_words(answer, self.asked)
+
+    def mend_behind(self, answer: Answer, found: Sequence[Diagnostic], pending: Pending) -> tuple[Diagnostic, ...]:
+        """The findings about the block behind a contour, with what was meant there."""
+        if self.asked.depth in (Depth.VERDICT, Depth.TRIAL):
+            return tuple(found)
+        from contoursolve.diagnosis import mend_behind  # noqa: PLC0415 - few contours need it
+
+        lines = [each.span.line for each in found]
+        own = next((at for at, block in enumerate(pending.view[pending.after :][:NEAR], 1) if block.line in lines), 0)
+        window = _window(self.dialect, answer, pending, pending.ahead, self.parts, own)
+        return tuple(mend_behind(answer, found, window))
 
 
 class AnswersInPasses(Answers):

@@ -87,18 +87,20 @@ class Pending:
 
 
 class Queue:
-    """The contours of one program that are pending; `examine` gives the answer to one of them by itself. If it
-    `goes_on`, those behind one that is refused are checked from where its best fix ends."""
+    """The contours of one program that are pending; `examine` gives the answer to one of them by itself, `mend` the
+    findings about the block behind it with what was meant. If it `goes_on`, those behind one that is refused are
+    checked from where its best fix ends."""
 
     def __init__(
         self,
         dialect: Dialect,
         together: Together | None,
         examine: Callable[[ParsedContour, Pending], Answer],
+        mend: Callable[[Answer, Sequence[Diagnostic], Pending], tuple[Diagnostic, ...]],
         *,
         goes_on: bool = False,
     ) -> None:
-        self.dialect, self.together, self.examine, self.goes_on = dialect, together, examine, goes_on
+        self.dialect, self.together, self.examine, self.mend, self.goes_on = dialect, together, examine, mend, goes_on
         self.pending: list[Pending] = []
 
     def add(
@@ -137,7 +139,8 @@ class Queue:
             end = partial(self._end_of_fix, tried) if self.goes_on else _nowhere
             each.left = cache(partial(_after, claim, self.dialect.modes, answer, origin, end))
             behind = self._behind(each, claim.form.name, answer.contour, each.left)
-            told = replace(told, diagnostics=(*told.diagnostics, *behind)) if behind else told
+            if behind:
+                told = replace(told, diagnostics=(*told.diagnostics, *self.mend(told, behind, each)))
             each.step = Step(step.blocks, step.before, told, step.findings)
 
     def _check_on(self, each: Pending, answer: Answer) -> tuple[Answer, Answer]:
