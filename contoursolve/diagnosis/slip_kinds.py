@@ -273,7 +273,9 @@ def _twice_or_half(typed: Typed) -> Iterator[str]:
 def _half_across(typed: Typed) -> Iterator[str]:
     """A length across a turned part, as the difference of the diameters on its drawing."""
     row = typed.speech.lexicon.addresses.get(typed.word.address)
+    # The size of a corner is none.
     is_length = row is not None and row.unit is Unit.MM and not row.is_diameter
+    is_length = is_length and typed.word.address not in typed.speech.shapes
     if is_length and typed.value and typed.speech.turned and typed.word.address in _ACROSS:
         yield typed.with_value(typed.value / 2)
 

@@ -357,9 +357,8 @@ def _tangents(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
         name = plain_code(code.text) if code else ""
         if block.line in lines and (name == "FC" or before in _KLARTEXT_ARCS):
             yield from _codes(window, [block], _TANGENTS)
-        # Corners are no elements.
-        is_element = any(word.address not in ("N", "G") for word in block.words)
-        before = name if name and is_element else before
+        # Corners and poles are no elements.
+        before = name if name and name != "FPOL" else before
 
 
 _TANGENTS = (("FL", "FLT"), ("FC", "FCT"))
@@ -428,7 +427,7 @@ def _swapped_blocks(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
 
 def _body(block: Block) -> Word:
     """All of a block behind its number, as one word."""
-    match = re.match(r"\s*(?:N\d+\s+)?", block.text)
+    match = re.match(r"\s*(?:N?\d+\s+)?", block.text)
     begin = match.end() if match else 0
     text = block.text[begin:].rstrip()
     return Word("", None, False, text, Span(block.line, begin + 1, begin + 1 + len(text)))
