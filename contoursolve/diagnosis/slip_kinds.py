@@ -63,6 +63,9 @@ class Speech(Struct, frozen=True):
         """Those of a contour."""
         rows = claim.form.outline.shapes.items()
         shapes = {claim.vocabulary[name][0]: shape for name, shape in rows if name in claim.vocabulary}
+        for shape in (shape for name, shape in rows if name not in claim.vocabulary):
+            # The axis along which the size is measured has its letter.
+            shapes |= {letter: shape for letter in "IJK" if letter in claim.vocabulary}
         return cls(claim.lexicon, claim.form.allowed, shapes, claim, turned_axis(claim.before.plane))
 
     @classmethod
@@ -266,7 +269,7 @@ def _twice_or_half(typed: Typed) -> Iterator[str]:
         return
     if row.is_diameter:
         yield from (typed.with_value(typed.value * 2), typed.with_value(typed.value / 2))
-    elif typed.word.address in _RADII:
+    elif typed.word.address in _RADII and typed.word.address not in typed.speech.shapes:
         yield typed.with_value(typed.value / 2)
 
 

@@ -110,7 +110,10 @@ def test_what_lacks_is_offered():
 
 def test_a_fix_that_drops_a_line_writes_no_other_twice():
     text = FRAME.format("2 L X+40 Y+0\n3 RND R5\n4 L X+60 Y+0\n5 L X+60 Y+20")
-    assert explore.apply_fix(begin(text), 0, 0).text == text.replace("3 RND R5\n", "")
+    now = begin(text)
+    fixes = view_of(now)["findings"][0]["fixes"]
+    number = next(at for at, fix in enumerate(fixes) if "delete RND R5" in fix["text"])
+    assert explore.apply_fix(now, 0, number).text == text.replace("3 RND R5\n", "")
 
 
 def test_a_corner_beside_a_departure_is_no_contour():

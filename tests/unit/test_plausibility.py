@@ -21,7 +21,6 @@ DECIDES = {
     Feature.TURNING: ("is-roof-02", "write #ANG=345 for #ANG=165"),
     Feature.LONG: ("nc-hook-08", "write X10 for X-10"),
     Feature.SAME: ("mi-lever-02", "write A350. for A170."),
-    Feature.MENDS_MORE: ("hm-cover-07", "write G01 for G00"),
 }
 """The slip by hand, and its first fix, for each feature that some first fix of the corpus hangs on."""
 
