@@ -81,6 +81,7 @@ from .solutions import (
     list_solutions as list_solutions,
     printed_certificate as printed_certificate,
 )
+from .solved_contours import mend_behind as mend_behind
 from .spelling import (
     Meanings as Meanings,
     are_points_usual as are_points_usual,
@@ -97,7 +98,6 @@ from .spelling import (
     readings as readings,
     without_point as without_point,
 )
-from .solved_contours import mend_behind as mend_behind
 from .suspicion import (
     suspect as suspect,
 )
