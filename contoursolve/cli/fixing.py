@@ -38,7 +38,7 @@ class Fixing:
         self.is_unsafe, self.is_diff = is_unsafe, is_diff
         self._agreed: bool | None = True if is_agreed or is_diff else None
         """The answer to all further questions; None where each is asked."""
-        self._applied = self._left = 0
+        self._applied = self._left = self._unsafe = 0
 
     @property
     def asks(self) -> bool:
@@ -65,6 +65,9 @@ class Fixing:
         done = "would be applied" if self.is_diff else "applied"
         told = [f"{count(self._applied, 'fix', 'fixes')} {done}"] if self._applied or self.is_diff else []
         told += [f"{count(self._left, 'fix', 'fixes')} not applied"] if self._left else []
+        if self._unsafe:
+            what = count(self._unsafe, "fix changes", "fixes change")
+            told.append(f"{what} the contour (see --unsafe-fixes)")
         return "; " + ", ".join(told) if told else ""
 
     def fix(
@@ -100,6 +103,8 @@ class Fixing:
         mended = mend(text, examined, wanted, agrees)
         left = [each for each in mended.left if each.trouble != DECLINED]
         self._applied, self._left = self._applied + len(mended.applied), self._left + len(left)
+        if not self.is_unsafe:
+            self._unsafe += sum(_is_unsafe(each) for each, _ in mended.after.found if id(each) not in hidden)
         if self.is_diff:
             _print_diff(source, text, mended.text)
         elif path is None:
@@ -136,6 +141,11 @@ class Fixing:
             raise KeyboardInterrupt from None
         self._agreed = {"a": True, "q": False}.get(answer)
         return answer in ("y", "a")
+
+
+def _is_unsafe(finding: Diagnostic) -> bool:
+    """Whether the first fix of a finding changes the contour, and no other one keeps it."""
+    return bool(likely_fixes(finding)) and not safe_fixes(finding)
 
 
 _QUESTION = "Apply this fix? It changes the contour: y(es), n(o), a(ll), q(uit asking)"

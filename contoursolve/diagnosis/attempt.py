@@ -12,7 +12,18 @@ from math import log2
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.edits import Edit, EditKind, InsertionSide, Why, apply_edits, edit_facts, edited
+from contoursolve.diagnosis.edits import (
+    Edit,
+    EditKind,
+    InsertionSide,
+    Why,
+    apply_edits,
+    edit_facts,
+    edited,
+    has_plus,
+    signed,
+    with_plus,
+)
 from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
 from contoursolve.diagnosis.examples import numbers_for, propose, sampled
 from contoursolve.diagnosis.plausibility import (
@@ -43,7 +54,7 @@ from contoursolve.diagnosis.slips_around import (
 )
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnosis.window import Seen, Window, moves_of
-from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, OpenNumber, Severity, Span
+from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, NumberRange, OpenNumber, Severity, Span
 from contoursolve.gcode import Block, parse_block
 from contoursolve.geometry import Profile, Unit, assemble
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, advance, leave, read
@@ -548,7 +559,7 @@ def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -
     found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
     farthest = found[0].cost + _FARTHEST if found else 0.0
     found = [each for at, each in enumerate(found) if at < _ENOUGH or each.cost <= farthest or not any(each.slips)]
-    found = [trial.with_numbers(each) if each.example else each for each in found]
+    found = [styled(trial.with_numbers(each) if each.example else each, trial) for each in found]
     added = frozenset((edit.address, edit.line) for edits in tried for edit in edits if edit.kind is EditKind.ADD)
     return Repairs(tuple(found), is_complete, has_tried_all=is_complete, tried=added)
 
@@ -641,6 +652,29 @@ _USUAL = 2.0
 _ENOUGH, _BEHIND, _PATH = 3, 1.0, 0.2
 """Repairs that are read, and by how much less plausible than the first one they may be; by so much another path may
 cost less than the least of those that are known."""
+
+
+def styled(repair: Repair, trial: Trial) -> Repair:
+    """A repair whose words have their signs as those around have them."""
+    window, blocks = trial.window, trial.claim.blocks
+    around = window.blocks if window is not None else blocks
+    edits, example = signed(repair.edits, around), signed(repair.example, around)
+    if (edits, example) == (repair.edits, repair.example) and not (repair.numbers and has_plus(around)):
+        return repair
+    own = {block.line for block in blocks}
+    beside = (
+        tuple(each for each in window.changes(edits) if each.span.line not in own) if repair.beside and window else ()
+    )
+    numbers = tuple(
+        replace(
+            each,
+            example=with_plus(each.example),
+            ranges=tuple(NumberRange(with_plus(ends.low), with_plus(ends.high)) for ends in each.ranges),
+        )
+        for each in repair.numbers
+    )
+    replacement = edited(blocks, [edit for edit in edits if edit.place in own or edit.place <= 0])
+    return replace(repair, edits=edits, example=example, replacement=replacement, beside=beside, numbers=numbers)
 
 
 def repair_of(draft: Candidate, seen: Seen, answers: Sequence[Answer], trial: Trial) -> Repair:

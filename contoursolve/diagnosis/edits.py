@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from decimal import ROUND_DOWN, ROUND_HALF_EVEN, ROUND_UP, Decimal
 from enum import Enum, IntEnum
 
@@ -225,6 +225,33 @@ def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ..
         is_fact_dropped = any(edit.address == FACT and not edit.text for edit in own)
         texts.append(_with_moved(_tidy(text) if is_fact_dropped else text, own))
     return tuple(texts)
+
+
+def signed(edits: Iterable[Edit], blocks: Iterable[Block]) -> tuple[Edit, ...]:
+    """Edits in the style of some blocks: with a plus before positive coordinates and angles, where words have one."""
+    edits = tuple(edits)
+    if not has_plus(blocks):
+        return edits
+    return tuple(replace(edit, text=with_plus(edit.text, is_like="+" in edit.old)) for edit in edits)
+
+
+def has_plus(blocks: Iterable[Block]) -> bool:
+    """Whether any word has a number with a plus."""
+    return any(_PLUS.search(word.text) for block in blocks for word in block.words)
+
+
+def with_plus(text: str, *, is_like: bool = False) -> str:
+    """A word with a plus before its positive number, if it is a coordinate or an angle, or like one that has it."""
+    match = _POSITIVE.fullmatch(text)
+    is_place = match is not None and (match["address"][-1] in _AXES or match["address"] in _ANGLES)
+    return f"{match['address']}+{match['number']}" if match is not None and (is_place or is_like) else text
+
+
+_PLUS = re.compile(r"[A-Za-z][ \t]*\+[\d.]")
+_POSITIVE = re.compile(r"(?P<address>[A-Za-z]+)(?P<number>[\d.]+)")
+_AXES = "XYZxyz"
+_ANGLES = ("AN", "IAN", "PA", "IPA", "CCA", "CCPA", "ICCPA")
+"""Angles of Klartext, the only language in which a plus is usual."""
 
 
 def edited(blocks: Sequence[Block], edits: Iterable[Edit]) -> str:

@@ -1,6 +1,6 @@
 """Repairs as fixes: what is written, and what the contour is then, so that no two that differ look the same."""
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Iterable, Mapping, Sequence
 
 from msgspec.structs import replace
 
@@ -130,7 +130,7 @@ def _place(answer: Answer, repair: Repair) -> str:
     point = next(iter(profile.intersections), "")
     # The changed blocks may be of another form.
     if answer.contour is None and len(answer.lines) > 1 and point in contour.points:
-        own = _made(answer, {edit.place for edit in repair.edits})
+        own = _touched(answer, repair.edits)
         if own in contour.points:
             point = own
         elif own and own == profile.figure.path[-1].head:
@@ -139,14 +139,25 @@ def _place(answer: Answer, repair: Repair) -> str:
     return f"the contour ends at {_at(profile, contour.end)}"
 
 
-def _made(answer: Answer, lines: Set[int]) -> str:
-    """The point at which the last element ends that some lines make; empty if they make none."""
+def _touched(answer: Answer, edits: Sequence[Edit]) -> str:
+    """The point that edits move first of all: where the last element that they change ends, or begins if its end is
+    stated and they change no coordinate; empty if they change none."""
     claim, path = answer.claim, answer.profile.figure.path
     names = claim.makes or [(each.name,) for each in path]
     if len(names) != len(claim.blocks):
         return ""
-    made = {name for block, own in zip(claim.blocks, names, strict=True) if block.line in lines for name in own}
-    return next((each.head for each in reversed(path) if each.name in made), "")
+    lines, rows = {edit.place for edit in edits}, claim.lexicon.addresses
+
+    def axes(addresses: Iterable[str]) -> set[str]:
+        return {row.axis for each in addresses if (row := rows.get(each)) is not None and row.axis}
+
+    for block, own in reversed([*zip(claim.blocks, names, strict=True)]):
+        element = next((each for each in reversed(path) if each.name in own), None)
+        if block.line in lines and element is not None:
+            is_stated = len(axes(word.address for word in block.words)) > 1
+            is_elsewhere = is_stated and not axes(edit.address for edit in edits if edit.place == block.line)
+            return element.tail if is_elsewhere else element.head
+    return ""
 
 
 def _at(profile: Profile, place: Point) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 
 from msgspec.structs import replace
 
+from contoursolve.diagnosis.edits import signed
 from contoursolve.diagnosis.explain import Context, report, spans_of
 from contoursolve.diagnosis.fix_text import told
 from contoursolve.diagnosis.plausibility import oddities, total
@@ -98,6 +99,6 @@ def _gain(window: Window, seen: Seen) -> float:
 
 
 def _fix(window: Window, draft: Candidate) -> Fix:
-    own = window.own[0]
-    (text,) = (each.text for each in window.changes(draft.edits) if each.span.line == own.line)
-    return Fix(told(draft.edits, draft.slips, [own]), text, Applicability.CHANGES_CONTOUR, replaced=own.text)
+    own, edits = window.own[0], signed(draft.edits, window.blocks)
+    (text,) = (each.text for each in window.changes(edits) if each.span.line == own.line)
+    return Fix(told(edits, draft.slips, [own]), text, Applicability.CHANGES_CONTOUR, replaced=own.text)

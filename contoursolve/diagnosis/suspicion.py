@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.attempt import Repair, Trial, repair_of
+from contoursolve.diagnosis.attempt import Repair, Trial, repair_of, styled
 from contoursolve.diagnosis.edits import Edit, EditKind
 from contoursolve.diagnosis.examine import LEADING, SUSPICIONS, Answer, problems
 from contoursolve.diagnosis.explain import context_of, report
@@ -170,7 +170,7 @@ def _tried(
             continue
         answers = [each for each in seen.answers if {*window.lines}.intersection(each.lines)]
         if answers and all(each.contour for each in answers) and is_better(seen):
-            yield repair_of(draft, seen, answers, trial)
+            yield styled(repair_of(draft, seen, answers, trial), trial)
 
 
 _LESS = 0.5

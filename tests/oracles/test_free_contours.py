@@ -317,7 +317,7 @@ def test_a_coordinate_that_rounding_alone_parts_from_zero_is_told_as_zero():
         chain("FL AN+0 LEN60 CLSD+", "FL AN+90 LEN40", "FL AN+180 LEN60", "FL AN+240 CLSD-")
     ).diagnostics
     texts = [fix.description for fix in finding.fixes]
-    assert any("write AN270 for AN+240" in text for text in texts)
+    assert any("write AN+270 for AN+240" in text for text in texts)
     assert not any("e-" in text for text in texts)
 
 
@@ -333,9 +333,9 @@ def test_many_arcs_on_one_circle_are_told_and_not_searched(monkeypatch):
 @pytest.mark.parametrize(
     ("block", "word"),
     [
-        ("FC DR+ R10 CCX+10 CCY+0 CCA+180 X+20 Y+0", "CCA0"),
+        ("FC DR+ R10 CCX+10 CCY+0 CCA+180 X+20 Y+0", "CCA+0"),
         ("FC DR+ R10 CCX+10 CCY+0 CCA+90 X+10 Y-10", "CCA-90"),
-        ("FC DR+ R10 CCX+10 CCY+0 CCA-45 X+20 Y+0", "CCA0"),
+        ("FC DR+ R10 CCX+10 CCY+0 CCA-45 X+20 Y+0", "CCA+0"),
     ],
 )
 def test_a_direction_of_an_arc_that_others_contradict_is_one_conflict_and_never_agrees(block, word):
@@ -379,7 +379,7 @@ def test_a_closing_line_in_the_wrong_direction_is_told_with_the_right_one():
     text = chain("FL AN+0 LEN60 CLSD+", "FL AN+90 LEN40", "FL AN+180 LEN60", "FL AN+240 CLSD-")
     (finding,) = solved(text).diagnostics
     assert finding.values["off_by_mm"] == pytest.approx(40 / 3**0.5)
-    assert finding.fixes[0].replacement.endswith("FL AN270 CLSD-")
+    assert finding.fixes[0].replacement.endswith("FL AN+270 CLSD-")
 
 
 # Chains drawn forwards ------------------------------------------------------------------------------------------

@@ -46,6 +46,6 @@ NCT_99M = Dialect(
     rules=COMMON_RULES + COMBINATION_RULES + GEOMETRY_RULES,
     find=ChainFinder(LANGUAGE),
     signs=_signs,
-    contours="blocks with ,A ,C or ,R, arcs with R, and blocks over-defined by ,A or by end, centre and R",
+    contours="blocks with ,A ,C or ,R, arcs with R, and intersections by ,A or by end, centre and R",
     settings=(*SETTINGS, *SETTINGS_OF_ALL),
 )

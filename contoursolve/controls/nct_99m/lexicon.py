@@ -91,14 +91,14 @@ def _row(name: str, meaning: str, place: str, roles: tuple[str, ...], when: Cond
 ASSUMPTIONS = (
     _row(
         "circle-without-point",
-        "the point of a circle that has I, J or K may be left out before an over-defined block",
+        "the point of a circle with I, J or K may be left out before a computed intersection",
         "16.3.3, p. 129: the format has a point",
         (ARC,),
         some("center-first", "center-second") & ~some(*STATED_POINT) & some(FOLLOWED),
     ),
     _row(
         "sign-of-radius",
-        "the sign of R of an over-defined circle means nothing",
+        "the sign of R of an arc that begins in an intersection means nothing",
         "p. 128: not described",
         (OVER_CIRCLE,),
         some(NEGATIVE_RADIUS),

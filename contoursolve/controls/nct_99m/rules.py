@@ -69,8 +69,7 @@ COMBINATION_RULES = (
     ),
     Rule(
         code="nct-nothing-before",
-        message="{words}: this block is over-defined, so it begins in an intersection; but right before it there is "
-        "no G1, G2 or G3 block",
+        message="{words}: this block begins in an intersection; but right before it there is no G1, G2 or G3 block",
         help="put the element that it shall meet right before it; or drop ,A of a line, or the centre or R of an arc",
         source=BOOK.printed("16.3: consecutive blocks"),
         roles=(*_OVER, LINE, ARC),
@@ -84,7 +83,7 @@ COMBINATION_RULES = (
     ),
     Rule(
         code="nct-line-rapid",
-        message="{words}: the over-defined line must be a G1 block, not G0",
+        message="{words}: a line that begins in an intersection must be a G1 block, not G0",
         help="write G1",
         source=BOOK.derived("16.3: the formats"),
         roles=(OVER_LINE,),
@@ -104,9 +103,9 @@ COMBINATION_RULES = (
     ),
     Rule(
         code="nct-line-incomplete",
-        message="{words} chooses an intersection, but the line is not over-defined: {lacking} is missing",
-        help="add {lacking}: an over-defined line has both coordinates of its end and ,A; or delete {words}, and the "
-        "line begins where the block before it ends",
+        message="{words} chooses an intersection, but this line begins in none: {lacking} is missing",
+        help="add {lacking}: a line that begins in an intersection has both coordinates of its end and ,A; or delete "
+        "{words}, and the line begins where the block before it ends",
         source=BOOK.derived("16.3: the formats"),
         roles=(OVER_LINE,),
         when=some("Q") & ~all_of("first", "second", ",A"),
@@ -115,9 +114,9 @@ COMBINATION_RULES = (
     ),
     Rule(
         code="nct-circle-incomplete",
-        message="{words} chooses an intersection, but the circle is not over-defined: {lacking} is missing",
-        help="add {lacking}: an over-defined circle has its end, its centre and R; or delete {words}, and the arc "
-        "begins where the block before it ends",
+        message="{words} chooses an intersection, but this arc begins in none: {lacking} is missing",
+        help="add {lacking}: an arc that begins in an intersection has its end, its centre and R; or delete {words}, "
+        "and the arc begins where the block before it ends",
         source=BOOK.derived("p. 128, 16.3.2"),
         roles=(OVER_CIRCLE,),
         when=some("Q") & ~all_of("first", "second", *STATED_CENTER, "R"),
@@ -211,8 +210,8 @@ COMBINATION_RULES = (
     Rule(
         code="nct-q-without-intersection",
         message="{words}: this block does not begin in a computed intersection, so Q chooses nothing",
-        help="delete it; a block begins in an intersection if it is over-defined: a line by both coordinates and ,A, "
-        "an arc by its end, its centre and R",
+        help="delete it; a line with both coordinates and ,A begins in an intersection; so does an arc with end, "
+        "centre and R",
         source=BOOK.derived("16.3: the formats"),
         roles=(LINE, ARC),
         when=some("Q") & ~some(ALONE),
@@ -242,8 +241,8 @@ COMBINATION_RULES = (
     ),
     Rule(
         code="nct-direction-twice",
-        message="{words}: an over-defined block follows, so this line ends in an intersection; its direction is "
-        "given by ,A and by a point",
+        message="{words}: the next block begins in an intersection, where this line ends; its direction is given by ,A "
+        "and by a point",
         help="keep ,A alone, or the point alone",
         source=BOOK.derived("16.3.1: the formats of N1"),
         roles=(LINE,),
@@ -393,7 +392,7 @@ GEOMETRY_RULES = (
         message="{words}: the arc has a radius of {radius}, and one of its points is {distance} from its centre; "
         "that differs by {off}, allowed {limit}",
         help="correct the point, the centre or the radius; a centre counts from where the arc begins, but that of an "
-        "over-defined circle is absolute",
+        "arc that begins in an intersection is absolute",
         source=BOOK.assumed("p. 26 (4.3): alarm 3011; the allowed difference is a machine parameter"),
         alarm=Alarm("3011 RADIUS DIFFERENCE", Evidence.PRINTED),
     ),
