@@ -235,7 +235,7 @@ def _turned(typed: Typed, others: Callable[[Decimal], Iterable[Decimal]]) -> Ite
     """Angles that follow from that of a line, or of an arc."""
     if typed.unit is Unit.DEGREE and 0 < abs(typed.value) <= _FULL_TURN:
         for angle in others(typed.value):
-            if angle and abs(angle) <= _FULL_TURN:
+            if (angle or abs(typed.value) == _HALF) and abs(angle) < _FULL_TURN:
                 yield typed.with_value(angle)
 
 
@@ -248,7 +248,7 @@ def _supplement(angle: Decimal) -> Iterator[Decimal]:
 
 
 def _opposite(angle: Decimal) -> Iterator[Decimal]:
-    yield angle - _HALF if angle > _HALF else angle + _HALF
+    yield angle - _HALF if angle >= _HALF else angle + _HALF
 
 
 def _other_axis(angle: Decimal) -> Iterator[Decimal]:
@@ -437,7 +437,7 @@ FEW = (
     POINT_MOVED,
     SlipKind("zero-added", "a zero too many", 2.0, _SEEN, _zero_added, True, True),
     ZERO_LOST,
-    SlipKind("other-address", "a word of another control", 0.9, _MEANING, _other_address),
+    SlipKind("other-address", "another word", 0.9, _MEANING, _other_address),
     SlipKind("other-letter", "another letter", 2.1, _TYPING, _other_letter),
     LETTER_ALIKE,
     SlipKind("increment", "a word of another control", 1.0, _MEANING, _increment),
