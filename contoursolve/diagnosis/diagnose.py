@@ -4,8 +4,8 @@ from collections.abc import Iterable, Iterator, Sequence, Set
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.attempt import Repair, Repairs
-from contoursolve.diagnosis.edits import Edit, EditKind
+from contoursolve.diagnosis.attempt import Repairs
+from contoursolve.diagnosis.edits import EditKind
 from contoursolve.diagnosis.examine import SUSPICIONS, Answer, Policy, problems
 from contoursolve.diagnosis.explain import (
     AGAINST,
@@ -17,10 +17,9 @@ from contoursolve.diagnosis.explain import (
     explain_missing,
     spans_of,
 )
-from contoursolve.diagnosis.fix_text import fixes_of
+from contoursolve.diagnosis.fix_text import with_fixes
 from contoursolve.diagnosis.reasons import conflict_reasons, freedom_reasons, identity, path_reasons
 from contoursolve.diagnosis.repairs import find_repairs
-from contoursolve.diagnosis.slips_around import touches
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnosis.wording import SHOWN, count, length_text
 from contoursolve.diagnostics import Basis, Diagnosis, Diagnostic, Label, Layer, Severity, Span, Tie, Verdict
@@ -91,38 +90,9 @@ def diagnose(
     # The rules of a control whose words are facts of all kinds are meant as they are.
     main = _main(findings, is_extended=profile.is_extended and not answer.claim.form.is_general)
     if main is not None:
-        fixes = fixes_of(answer, repairs.repairs)
         for number in (main, *_both(findings)):
-            findings[number] = _pointing(replace(findings[number], fixes=fixes), repairs.repairs)
+            findings[number] = with_fixes(findings[number], answer, repairs.repairs)
     return replace(answer, diagnostics=tuple(findings), diagnosis=diagnosis)
-
-
-def _pointing(finding: Diagnostic, repairs: Sequence[Repair]) -> Diagnostic:
-    """The finding; it points at the words that its first fix changes, too, and says where that adds or takes away."""
-    known, labels, notes = [label.span for label in finding.labels], list[Label](), list[str]()
-    edits = repairs[0].edits if repairs else ()
-    for edit in edits:
-        is_marked = any(touches(edit, span) for span in known)
-        if edit.place <= 0 or is_marked or (edit.kind is EditKind.ADD and edit.place in {span.line for span in known}):
-            continue
-        there = f"program line {edit.place}"
-        if edit.kind is EditKind.CHANGE:
-            notes.append(f"{edit.old} in {there} was probably {edit.text}")
-        elif edit.kind is EditKind.DROP:
-            meant = next((each for each in edits if each.kind is EditKind.ADD and each.address == edit.address), None)
-            where = (
-                f"was probably meant {_side(meant)} program line {meant.place}" if meant else "is probably not meant"
-            )
-            notes.append(f"{edit.old} in {there} {where}")
-        elif edit.kind is EditKind.ADD and not any(each.kind is EditKind.DROP for each in edits):
-            notes.append(f"{edit.text.strip()} is missing {_side(edit)} {there}")
-        if edit.span is not None:
-            labels.append(Label(edit.span, f"probably {edit.text}" if edit.text else "probably not meant here"))
-    return replace(finding, labels=(*finding.labels, *labels), notes=(*notes, *finding.notes))
-
-
-def _side(edit: Edit) -> str:
-    return "behind" if edit.is_behind else "in"
 
 
 def _with_able(findings: list[Diagnostic], answer: Answer, dialect: Dialect, repairs: Repairs) -> list[Diagnostic]:
@@ -168,7 +138,7 @@ def mend_points(answer: Answer, dialect: Dialect) -> Answer:
     for finding in answer.diagnostics:
         spans = spans_of([finding], ReadIssue.POINT_MISSING)
         own = [repair for repair in repairs if any(edit.span in spans for edit in repair.edits)]
-        told = replace(finding, fixes=fixes_of(answer, own))
+        told = with_fixes(finding, answer, own)
         is_doubted = is_telling and finding.about is ReadIssue.POINT_MISSING and _is_tiny(answer, spans)
         findings.append(replace(told, severity=Severity.WARNING) if is_doubted else told)
     return replace(answer, diagnostics=tuple(findings))

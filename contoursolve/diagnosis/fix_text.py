@@ -8,14 +8,50 @@ from contoursolve.diagnosis.attempt import Repair
 from contoursolve.diagnosis.edits import Edit, EditKind, edited
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.slip_kinds import SlipKind
+from contoursolve.diagnosis.slips_around import touches
 from contoursolve.diagnosis.wording import join, length_text, place_text
-from contoursolve.diagnostics import Fix, NumberRange, OpenNumber
+from contoursolve.diagnostics import Diagnostic, Fix, Label, NumberRange, OpenNumber
 from contoursolve.gcode import Block
 from contoursolve.geometry import Profile
 from contoursolve.solving import ArcSegment, Contour, Point, scalars_of
 
 
-def fixes_of(answer: Answer, repairs: Sequence[Repair]) -> tuple[Fix, ...]:
+def with_fixes(finding: Diagnostic, answer: Answer, repairs: Sequence[Repair]) -> Diagnostic:
+    """A finding with repairs as its fixes; it points at the words that the first one changes, too."""
+    return _pointing(replace(finding, fixes=_fixes_of(answer, repairs)), repairs)
+
+
+def _pointing(finding: Diagnostic, repairs: Sequence[Repair]) -> Diagnostic:
+    """The finding; it points at the words that its first fix changes, too, and says where that adds or takes away."""
+    known, labels, notes = [label.span for label in finding.labels], list[Label](), list[str]()
+    edits = repairs[0].edits if repairs else ()
+    for edit in edits:
+        is_marked = any(touches(edit, span) for span in known)
+        if edit.place <= 0 or is_marked or (edit.kind is EditKind.ADD and edit.place in {span.line for span in known}):
+            continue
+        there = f"program line {edit.place}"
+        if edit.kind is EditKind.CHANGE:
+            notes.append(f"{edit.old} in {there} was probably {edit.text}")
+        elif edit.kind is EditKind.DROP:
+            meant = next((each for each in edits if each.kind is EditKind.ADD and each.address == edit.address), None)
+            where = (
+                f"was probably meant {_side(meant)} program line {meant.place}" if meant else "is probably not meant"
+            )
+            notes.append(f"{edit.old} in {there} {where}")
+        elif edit.kind is EditKind.ADD and not any(each.kind is EditKind.DROP for each in edits):
+            notes.append(f"{edit.address} is missing {_side(edit)} {there}")
+        if edit.span is not None:
+            labels.append(Label(edit.span, f"probably {edit.text}" if edit.text else "probably not meant here"))
+    # The first reason says what is wrong.
+    told = (*finding.notes[:1], *notes, *finding.notes[1:])
+    return replace(finding, labels=(*finding.labels, *labels), notes=told)
+
+
+def _side(edit: Edit) -> str:
+    return "behind" if edit.is_behind else "in"
+
+
+def _fixes_of(answer: Answer, repairs: Sequence[Repair]) -> tuple[Fix, ...]:
     """Repairs in words, each with the place where the contour then ends or turns; where several have the same place,
     with what is different."""
     outcomes = _outcomes(answer, repairs)
@@ -105,7 +141,7 @@ def _outcomes(answer: Answer, repairs: Sequence[Repair]) -> list[str]:
     """A text for each repair: where its contour ends or turns, and what tells it from those of which that is the
     same."""
     contours = [repair.contour for repair in repairs]
-    texts = [_place(answer, repair) for repair in repairs]
+    texts = [_place(answer, repair, contours) for repair in repairs]
     features = [_features(_drawn(answer, contour), contour) if contour else {} for contour in contours]
     while groups := _alike(texts, features):
         for group in groups:
@@ -121,8 +157,9 @@ def _drawn(answer: Answer, contour: Contour) -> Profile:
     return profile if contour.plane == profile.plane else replace(profile, plane=contour.plane)
 
 
-def _place(answer: Answer, repair: Repair) -> str:
-    """The place of the point that the edited block makes; else of the first intersection, or of the end."""
+def _place(answer: Answer, repair: Repair, contours: Sequence[Contour | None]) -> str:
+    """The place of the point that the edited block makes; else of the first intersection that is not the same in all
+    contours, or of the end."""
     contour = repair.contour
     if contour is None:
         return ""
@@ -131,12 +168,19 @@ def _place(answer: Answer, repair: Repair) -> str:
     # The changed blocks may be of another form.
     if answer.contour is None and len(answer.lines) > 1 and point in contour.points:
         own = _touched(answer, repair.edits)
-        if own in contour.points:
-            point = own
-        elif own and own == profile.figure.path[-1].head:
+        is_end = bool(own) and own == profile.figure.path[-1].head
+        if own not in contour.points and is_end:
             return f"the contour ends at {_at(profile, contour.end)}"
+        named = [each for each in (own, point, *profile.intersections) if each in contour.points]
+        point = next((each for each in named if _differs(each, contours)), named[0])
         return f"{point} is at {_at(profile, contour.points[point])}"
     return f"the contour ends at {_at(profile, contour.end)}"
+
+
+def _differs(point: str, contours: Sequence[Contour | None]) -> bool:
+    """Whether a point is not at the same place in all contours, as far as a text can tell."""
+    places = {each.points.get(point) for each in contours if each is not None}
+    return len({None if each is None else tuple(round(at, 3) for at in each) for each in places}) > 1
 
 
 def _touched(answer: Answer, edits: Sequence[Edit]) -> str:

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.attempt import Repair, Trial, choose_repairs
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.explain import spans_of
-from contoursolve.diagnosis.fix_text import fixes_of
+from contoursolve.diagnosis.fix_text import with_fixes
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnostics import Diagnostic, Severity, Span
 from contoursolve.reading import ReadIssue
@@ -23,7 +23,7 @@ def mend_crossing(answer: Answer, window: Window) -> Answer:
         if each.about is ReadIssue.AXIS_CROSSED and not each.fixes:
             stated = frozenset(word.span for word in answer.claim.words.values())
             found = [repair for repair in _repairs(answer, window, stated, each.message) if _stays(repair)]
-            each = replace(each, fixes=fixes_of(answer, found[:MOST_FIXES]))  # noqa: PLW2901
+            each = with_fixes(each, answer, found[:MOST_FIXES])  # noqa: PLW2901
         findings.append(each)
     return replace(answer, diagnostics=tuple(findings))
 
@@ -41,7 +41,7 @@ def mend_behind(answer: Answer, findings: Sequence[Diagnostic], window: Window) 
         # The contour leads there.
         marked = frozenset({*spans_of([each]), answer.claim.blocks[-1].words[0].span})
         found = _repairs(answer, window, marked, each.message) if is_open else ()
-        yield replace(each, fixes=fixes_of(answer, found[:MOST_FIXES])) if found else each
+        yield with_fixes(each, answer, found[:MOST_FIXES]) if found else each
 
 
 def _repairs(answer: Answer, window: Window, marked: frozenset[Span], told: str) -> tuple[Repair, ...]:

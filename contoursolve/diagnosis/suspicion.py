@@ -11,7 +11,7 @@ from contoursolve.diagnosis.attempt import Repair, Trial, repair_of, styled
 from contoursolve.diagnosis.edits import Edit, EditKind
 from contoursolve.diagnosis.examine import LEADING, SUSPICIONS, Answer, problems
 from contoursolve.diagnosis.explain import context_of, report
-from contoursolve.diagnosis.fix_text import fixes_of
+from contoursolve.diagnosis.fix_text import with_fixes
 from contoursolve.diagnosis.outliers import other_taper, sharp_corner, taper_of
 from contoursolve.diagnosis.plausibility import Feature, oddities
 from contoursolve.diagnosis.slip_kinds import (
@@ -185,4 +185,4 @@ def _told(
     same = [each.edits[0].text for each in found if each.edits[0].span == edit.span]
     words = words or [word for block in answer.claim.blocks for word in block.words if word.span == edit.span]
     finding = report(context, ReadIssue.SUSPECTED, Basis.NUMERICAL, words, meant=meant or either(same), reason=reason)
-    return replace(finding, fixes=fixes_of(answer, found))
+    return with_fixes(finding, answer, found)
