@@ -25,10 +25,11 @@ _OF_WORDS = (
     ReadIssue.CORNER_NOWHERE,
     ReadIssue.CORNER_TWICE,
     ReadIssue.POSITION_UNKNOWN,
+    ReadIssue.VARIABLE,
 )
 """Matters of a problem that rests on which words there are, whatever their numbers."""
 
-_OF_A_BLOCK = (ReadIssue.REPEATED_ADDRESS, ReadIssue.UNKNOWN_ADDRESS)
+_OF_A_BLOCK = (ReadIssue.REPEATED_ADDRESS, ReadIssue.UNKNOWN_ADDRESS, ReadIssue.VARIABLE)
 """Matters that only an edit of the words themselves, or a code in force, can mend."""
 
 _TOO_LARGE = (RefusalKind.CORNER_TOO_LARGE, RefusalKind.CORNERS_OVERLAP)
@@ -82,7 +83,7 @@ class Prospects(Struct, frozen=True):
             tuple(filter(None, spans)),
             frozenset(each.span for each in found if each.about in _TOO_LARGE),
             frozenset(block.line for block in claim.blocks),
-            _lacking(answer) if any(each.about is ReadIssue.UNDERDETERMINED for each in found) else 0,
+            _lacking(answer),
             reach,
         )
 
