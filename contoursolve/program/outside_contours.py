@@ -3,6 +3,7 @@ and arcs that are read as contours are. `told_outside` chooses those that are to
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
+from itertools import repeat
 
 from msgspec.structs import replace
 
@@ -254,13 +255,20 @@ def with_slips(
         found = with_letters(asked, dialect, blocks[:NEAR], states[0], found)
     own = [each for each in found if each.span.line == block.line]
     is_open = any(each.severity is not Severity.INFO for each in own) and not any(each.fixes for each in own)
-    if is_open or (not own and any(_is_doubtful(word, modes) for word in block.words)):
+    is_near = is_open and any(map(_may_draw, blocks[:NEAR], repeat(dialect)))
+    if is_near or (not own and any(_is_doubtful(word, modes) for word in block.words)):
         from contoursolve.diagnosis import mend_line  # noqa: PLC0415 - few programs need it
 
         window = window_of(ahead, (block,), blocks[1:NEAR], states[0], dialect, parts)
         others = [each for each in found if each.span.line != block.line]
         found = [*others, *mend_line(context, own, window)]
     return found
+
+
+def _may_draw(block: Block, dialect: Dialect) -> bool:
+    """Whether a block has, or almost has, a word by which contours are known."""
+    is_long = any(len(word.address) > 1 for word in block.words) or "," in block.text
+    return is_long or bool(dialect.signs(block))
 
 
 _WHOLE_NUMBERS = "STMHD"

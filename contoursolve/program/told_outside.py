@@ -21,8 +21,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
 
 from contoursolve.diagnosis import Answer, are_points_usual, corner_words, moves, spans_of
-from contoursolve.diagnostics import Diagnostic, Span
-from contoursolve.gcode import Block, FaultKind, Word, spell
+from contoursolve.diagnostics import Diagnostic, Fix, Span
+from contoursolve.gcode import ISO, Block, FaultKind, Word, parse_block, spell
 from contoursolve.reading import Dialect, ReadIssue, State, apply_modes, words_of
 
 _BESIDE_CONTOURS: frozenset[Enum | None] = frozenset(
@@ -111,6 +111,11 @@ class Outside:
         words = (word for word in block.words if self._modes is not None and len(word.address) > 1)
         return bool(self._signs(block)) or any(word.address in self._corners for word in words)
 
+    def _makes_contour(self, fix: Fix) -> bool:
+        """Whether a block has with a fix a word by which contours are known."""
+        syntax = self._modes.syntax if self._modes is not None else ISO
+        return any(self._shows(parse_block(text, 1, syntax)) for text in fix.replacement.split("\n"))
+
     def _moves(self, block: Block, before: State) -> bool:
         """Whether a block moves an axis of the plane."""
         modes = self._modes
@@ -137,7 +142,7 @@ class Outside:
 
     def _is_told(self, finding: Diagnostic) -> bool:
         """Whether a finding waits for nothing."""
-        if finding.fixes or finding.about not in _WAITING or finding.span.line <= 0:
+        if finding.about not in _WAITING or finding.span.line <= 0 or any(map(self._makes_contour, finding.fixes)):
             return True
         if isinstance(finding.about, FaultKind) and not self._long.isdisjoint(finding.addresses):
             return True
