@@ -6,8 +6,9 @@ from itertools import accumulate
 from math import atan2, degrees
 
 from msgspec import Struct
+from msgspec.structs import replace
 
-from contoursolve.diagnosis.edits import Edit, apply_edits
+from contoursolve.diagnosis.edits import Edit, apply_edits, edit_facts
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.slip_kinds import plain_code
 from contoursolve.diagnostics import Diagnostic, LineChange, Severity
@@ -50,6 +51,8 @@ class Seen(Struct, frozen=True):
     problems: tuple[Diagnostic, ...]
     answers: tuple[Answer, ...]
     moves: tuple[Stretch, ...]
+    changed: frozenset[int] = frozenset()
+    """The lines that the edits change."""
 
     @property
     def keys(self) -> frozenset[tuple[str, int]]:
@@ -107,7 +110,7 @@ class Window(Struct, frozen=True, dict=True):
         """The number of each part by the index of its first block, and what is known before it."""
         return {place: (number, self._parts[number].before.known()) for number, place in enumerate(self._places)}
 
-    def after(self, edits: Iterable[Edit]) -> Seen | None:
+    def after(self, edits: Sequence[Edit]) -> Seen | None:
         """The result with edits, up to the first thing that is wrong with its own blocks; None where they change
         nothing."""
         texts = apply_edits(self.blocks, edits)
@@ -124,6 +127,8 @@ class Window(Struct, frozen=True, dict=True):
                 blocks.append(block)
             elif text.strip():
                 blocks += [parse_block(part, block.line, syntax) for part in text.split("\n")]
+                apart = edit_facts([each for each in block.directives if each.span.line < 0], edits)
+                blocks[-1] = replace(blocks[-1], directives=(*blocks[-1].directives, *apart))
         own, left = {*self.lines}, len(blocks)
         ahead = tuple((part.blocks, part.before) for part in seen if any(block.words for block in part.blocks))[-1:]
         for part in self.examine(blocks, parts[kept].before, ahead):
@@ -136,7 +141,7 @@ class Window(Struct, frozen=True, dict=True):
             if number and self._places[number] > changed[-1] + 1 and known == part.after.known():
                 seen += parts[number:]
                 break
-        return _seen(seen)
+        return replace(_seen(seen), changed=frozenset(self.blocks[at].line for at in changed))
 
     def changes(self, edits: Iterable[Edit]) -> Iterator[LineChange]:
         """The lines that edits change, each with its new text."""
@@ -150,11 +155,22 @@ class Window(Struct, frozen=True, dict=True):
         old = {(each.code, each.span.line) for each in self.before.problems if each.about not in _FOLLOWING}
         return len({each for each in old if each[1] not in own} - seen.keys)
 
+    @cached_property
+    def _waiting(self) -> frozenset[int]:
+        """The lines of contours of which nobody knows where they begin."""
+        return frozenset(each.span.line for each in self.before.problems if each.about in _FOLLOWING)
+
+    def errors_behind(self, seen: Seen) -> int:
+        """The number of contours that wait for its own, and have an error once they begin somewhere."""
+        wrong = (each for each in seen.problems if each.is_error and each.about not in _FOLLOWING)
+        return len({each.span.line for each in wrong} & self._waiting - seen.changed)
+
     def mends(self, seen: Seen) -> bool:
-        """Whether nothing of its own is wrong then, and nothing new elsewhere."""
+        """Whether nothing of its own is wrong then, and nothing new elsewhere. What is wrong with contours that waited
+        for it shows only then."""
         first, last = self.lines[0], self.lines[-1]
         old = self.before
-        lost = {each.span.line for each in old.problems if each.about in _FOLLOWING}
+        lost = self._waiting - seen.changed
         # The last blocks may belong to what is not seen any more.
         end = self.behind[-1].line if self.behind else last + 1
         for each in seen.problems:
