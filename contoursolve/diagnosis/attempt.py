@@ -689,7 +689,7 @@ def repair_of(draft: Candidate, seen: Seen, answers: Sequence[Answer], trial: Tr
     beside = (
         tuple(each for each in trial.window.changes(draft.edits) if each.span.line not in own) if trial.window else ()
     )
-    more = ((Feature.MENDS_MORE, -float(min(trial.window.gain(seen), _MOST_MORE)) if trial.window else 0.0),)
+    more = _of_others(trial.window, seen) if trial.window else ()
     evidence = (*_of_path(repair, seen, draft.evidence), *more)
     return replace(repair, slips=draft.slips, evidence=evidence, beside=beside)
 
@@ -745,8 +745,16 @@ def _seen(repair: Repair, trial: Trial) -> Repair:
         return repair
     kept = [each for each in repair.evidence if each[0] in OF_EDITS]
     new = (Feature.SEEN, float(not window.mends(seen)))
-    more = (Feature.MENDS_MORE, -float(min(window.gain(seen), _MOST_MORE)))
-    return replace(repair, evidence=(*_of_path(repair, seen, tuple(kept)), new, more))
+    more = _of_others(window, seen)
+    return replace(repair, evidence=(*_of_path(repair, seen, tuple(kept)), new, *more))
+
+
+def _of_others(window: Window, seen: Seen) -> tuple[tuple[Feature, float], ...]:
+    """The features of the contours around it."""
+    return (
+        (Feature.MENDS_MORE, -float(min(window.gain(seen), _MOST_MORE))),
+        (Feature.BREAKS_BEHIND, float(window.breaks_behind(seen))),
+    )
 
 
 def _of_path(

@@ -141,7 +141,8 @@ class Window(Struct, frozen=True, dict=True):
             if number and self._places[number] > changed[-1] + 1 and known == part.after.known():
                 seen += parts[number:]
                 break
-        return replace(_seen(seen), changed=frozenset(self.blocks[at].line for at in changed))
+        lines = frozenset(self.blocks[at].line for at in changed)
+        return replace(_seen(seen), changed=lines)
 
     def changes(self, edits: Iterable[Edit]) -> Iterator[LineChange]:
         """The lines that edits change, each with its new text."""
@@ -160,10 +161,11 @@ class Window(Struct, frozen=True, dict=True):
         """The lines of contours of which nobody knows where they begin."""
         return frozenset(each.span.line for each in self.before.problems if each.about in _FOLLOWING)
 
-    def errors_behind(self, seen: Seen) -> int:
-        """The number of contours that wait for its own, and have an error once they begin somewhere."""
+    def breaks_behind(self, seen: Seen) -> bool:
+        """Whether the first contour that waits for its own has an error once it begins somewhere."""
+        line = min((line for line in self._waiting if line > self.lines[-1]), default=0)
         wrong = (each for each in seen.problems if each.is_error and each.about not in _FOLLOWING)
-        return len({each.span.line for each in wrong} & self._waiting - seen.changed)
+        return line not in seen.changed and any(each.span.line == line for each in wrong)
 
     def mends(self, seen: Seen) -> bool:
         """Whether nothing of its own is wrong then, and nothing new elsewhere. What is wrong with contours that waited

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from decimal import Decimal
 from functools import cache, partial
+from itertools import islice
 from typing import Any, Protocol, cast
 
 from msgspec import Struct
@@ -19,7 +20,7 @@ from contoursolve.diagnosis import (
     report,
     report_behind,
 )
-from contoursolve.diagnostics import Applicability, Basis, Diagnostic
+from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix
 from contoursolve.gcode import Block, Passage, parse_block
 from contoursolve.program.lookahead import View
 from contoursolve.reading import (
@@ -35,6 +36,7 @@ from contoursolve.reading import (
     leave,
 )
 from contoursolve.solving import Contour
+from contoursolve.tolerance import AGREEMENT
 
 
 class Step(Struct, frozen=True):
@@ -170,16 +172,27 @@ class Queue:
             diagnostics=(*answer.diagnostics, start, *(each for each in others if each not in answer.diagnostics)),
         )
 
-    def _end_of_fix(self, answer: Answer) -> End:
-        """The end of a contour, mm: its own, or that with the first fix of its first error that leaves nothing open."""
+    def _end_of_fix(self, answer: Answer, state: State) -> End:
+        """The end of a contour, mm: its own, or that with the first fix of its first error that leaves nothing open and
+        ends where the contour says, as far as the state behind it knows that."""
         if answer.contour is not None:
             return answer.contour.end
+        if not answer.start.is_known:
+            return None
         errors = (each for each in answer.diagnostics if each.is_error)
         fixes = (fix for each in errors for fix in each.fixes if fix.applicability is not Applicability.PLACEHOLDER)
-        fix = next(fixes, None)
-        if fix is None or not answer.start.is_known:
-            return None
-        claim, ends = answer.claim, list[End]()
+        known = [state.axes[axis].value for axis in answer.claim.after.plane.axes]
+        for fix in islice(fixes, _MOST_FIXES):
+            end = self._end_with(fix, answer.claim)
+            if end and all(
+                at is None or abs(float(at) - value) <= AGREEMENT for at, value in zip(known, end, strict=True)
+            ):
+                return end
+        return None
+
+    def _end_with(self, fix: Fix, claim: ParsedContour) -> End:
+        """The end of a contour with a fix, mm."""
+        ends = list[End]()
         texts = enumerate(fix.replacement.split("\n"), claim.blocks[0].line)
         blocks = [parse_block(text, line, self.dialect.modes.syntax) for line, text in texts]
 
@@ -225,7 +238,11 @@ class Queue:
 _WAITS = "this contour waits for"
 
 
-def _nowhere() -> None:
+_MOST_FIXES = 3
+"""Fixes of one contour of which one may tell where it ends."""
+
+
+def _nowhere(_: State) -> None:
     """No point."""
 
 
@@ -234,14 +251,14 @@ def _after(
     modes: Modes,
     answer: Answer,
     origin: Position | None,
-    find_end: Callable[[], End],
+    find_end: Callable[[State], End],
 ) -> State:
     """The state that a contour leaves; `origin` is what made its start unknown, `find_end` finds where its best fix
     ends."""
     if answer.contour is not None:
         return leave(claim, answer.contour.end, modes)
     state = _lost(claim, modes, answer, origin)
-    ends = zip(claim.after.plane.axes, find_end() or (), strict=False)
+    ends = zip(claim.after.plane.axes, find_end(state) or (), strict=False)
     lost = {axis: (state.axes[axis], value) for axis, value in ends if state.axes[axis].value is None}
     return state.move(
         {
