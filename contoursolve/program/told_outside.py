@@ -22,7 +22,7 @@ from enum import Enum
 
 from contoursolve.diagnosis import Answer, are_points_usual, corner_words, moves, spans_of
 from contoursolve.diagnostics import Diagnostic, Fix, Span
-from contoursolve.gcode import ISO, Block, FaultKind, Word, parse_block, spell
+from contoursolve.gcode import Block, FaultKind, Word, parse_block, spell
 from contoursolve.reading import Dialect, ReadIssue, State, apply_modes, words_of
 
 _BESIDE_CONTOURS: frozenset[Enum | None] = frozenset(
@@ -112,9 +112,11 @@ class Outside:
         return bool(self._signs(block)) or any(word.address in self._corners for word in words)
 
     def _makes_contour(self, fix: Fix) -> bool:
-        """Whether a block has with a fix a word by which contours are known."""
-        syntax = self._modes.syntax if self._modes is not None else ISO
-        return any(self._shows(parse_block(text, 1, syntax)) for text in fix.replacement.split("\n"))
+        """Whether a block has with a fix a word by which contours are known; any, where no control is known."""
+        if self._modes is None:
+            return True
+        blocks = (parse_block(text, 1, self._modes.syntax) for text in fix.replacement.split("\n"))
+        return any(map(self._shows, blocks))
 
     def _moves(self, block: Block, before: State) -> bool:
         """Whether a block moves an axis of the plane."""
