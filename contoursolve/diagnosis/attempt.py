@@ -28,6 +28,7 @@ from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, probl
 from contoursolve.diagnosis.examples import numbers_for, propose, sampled
 from contoursolve.diagnosis.plausibility import (
     OF_EDITS,
+    ROUNDEST,
     Feature,
     Numbers,
     cost_of,
@@ -573,8 +574,8 @@ def _slips_around(
     if window is None or not trial.marked.lines:
         return
     ranked = sorted(each.cost for each in known.values())
-    paths = [_USUAL, *(each.cost - each.cost_of_edits for each in known.values())]
-    best = min((each.cost_of_edits for each in known.values()), default=None)
+    paths = [_USUAL, *(_cost_of_path(each, trial) for each in known.values())]
+    best = min(map(_doubt, known.values()), default=None)
     # What cannot be read is an error until an edit touches it.
     torn = {each.span for block in window.own for each in block.faults}
 
@@ -587,23 +588,24 @@ def _slips_around(
         if kinds is OF_DIGITS and is_likely and not trial.is_crossing_curves:
             return
         drafts = drafts_around(window, trial.marked, claim, kinds, may_mend)
+        most = MOST_AROUND if kinds is FEW else MOST_OF_DIGITS
         if kinds is OF_DIGITS and is_likely:
             # The sizes of circles that are missed, which few other slips explain.
             sizes = {*"IJK", window.dialect.modes.radius} if trial.is_missed else None
+            most = MOST_AROUND if sizes else most
             drafts = [
                 each
                 for each in drafts
                 if all(edit.span in trial.marked.spans for edit in each.edits)
                 and (sizes is None or all(edit.address in sizes for edit in each.edits))
             ]
-        tried = 0
+        most, tried = _fewer(most, len(claim.blocks)), 0
         for draft in drafts:
             own = known.get(draft.edits)
             if own is not None and own.cost_of_edits <= draft.cost:
                 continue
             if draft.edits in refused and all(map(keeps_address, draft.edits)):
                 continue
-            most = _fewer(MOST_AROUND if kinds is FEW else MOST_OF_DIGITS, len(claim.blocks))
             if tried >= most or draft.cost + min(paths) - _PATH > _bound(ranked):
                 break
             tried += 1
@@ -617,9 +619,9 @@ def _slips_around(
             if not is_plain and (not answers or any(each.contour is None for each in answers)):
                 continue
             repair = repair_of(draft, seen, answers, trial)
-            best = repair.cost_of_edits if best is None else min(best, repair.cost_of_edits)
+            best = _doubt(repair) if best is None else min(best, _doubt(repair))
             insort(ranked, repair.cost)
-            paths.append(repair.cost - repair.cost_of_edits)
+            paths.append(_cost_of_path(repair, trial))
             yield repair
 
 
@@ -636,6 +638,20 @@ def _bound(costs: Sequence[float]) -> float:
 
 _FEWEST = 8
 """Drafts that are tried of the longest contours."""
+
+
+def _cost_of_path(repair: Repair, trial: Trial) -> float:
+    """The cost of its path; of curves that cross, with intersections that come out round."""
+    path = dict(each for each in repair.evidence if each[0] not in OF_EDITS)
+    if trial.is_crossing_curves:
+        path[Feature.POINTS] = -ROUNDEST
+    return total(path.items())
+
+
+def _doubt(repair: Repair) -> float:
+    """The cost of its edits; with that of a path which hardly anybody means."""
+    return repair.cost_of_edits + total(each for each in repair.evidence if each[0] is Feature.ACROSS)
+
 
 _FARTHEST = 5.0
 """Slips that are so much less plausible than the best repair are not told behind some others."""

@@ -134,6 +134,9 @@ def rounding_of(edit: Edit) -> float:
         # A point in a long number is where it was.
         return 0.0
     less = roundness(edit.text) - roundness(edit.old)
+    if typed == meant and "." not in number_in(edit.text).rstrip("."):
+        # A zero too many makes each number rounder.
+        return min(less, 0.0)
     # A size that fits is computed, not read from a drawing.
     return 0.3 * max(less, 0.0) if edit.why is Why.FITS else less
 
@@ -234,10 +237,14 @@ def size_of(contour: Contour) -> float:
     return max(max(each[axis] for each in points) - min(each[axis] for each in points) for axis in (0, 1))
 
 
+ROUNDEST = 1.3
+"""The roundness of intersections in steps of 5 mm."""
+
+
 def round_points(contour: Contour | None) -> float:
     """The roundness of the intersections that a control computes, which they hardly have by chance: 0 for none."""
     points = [each for name, at in contour.points.items() if name.startswith("P") for each in at] if contour else []
-    for step, amount in ((5.0, 1.3), (1.0, 1.0), (0.1, 0.7)):
+    for step, amount in ((5.0, ROUNDEST), (1.0, 1.0), (0.1, 0.7)):
         if points and all(abs(round(each / step) * step - each) <= AGREEMENT for each in points):
             return amount
     return 0.0

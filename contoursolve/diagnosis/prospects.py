@@ -50,6 +50,8 @@ class Prospects(Struct, frozen=True):
     """Of the words of each, one has to be changed, unless a code in force is."""
     conflicts: tuple[frozenset[Span], ...]
     """The words of each contradiction."""
+    values: tuple[frozenset[Span], ...]
+    """The words whose values a rule refuses."""
     sizes: frozenset[Span]
     """Words of corners that are too large to fit."""
     own: frozenset[int]
@@ -72,15 +74,17 @@ class Prospects(Struct, frozen=True):
         by_values = {rule.code for rule in rules if rule.when is not None and rule.when.reads_values}
         found = problems(answer)
         of_words = [each for each in found if _is_of_words(each, by_values)]
+        is_open = any(each.about is ReadIssue.UNDERDETERMINED for each in answer.diagnostics)
         order = [block.line for block in blocks or claim.blocks]
         words = claim.words
         spans = (frozenset(words[fact.given].span for fact in facts if fact.given in words) for facts in conflicts)
         return cls(
-            bool(of_words),
+            bool(of_words) or is_open,
             # A rule about a chain may mind a word anywhere in it.
             tuple(_lines_of(each, order) for each in of_words if each.about is None and not claim.form.is_general),
             tuple(frozenset(spans_of([each])) for each in of_words if each.about in _OF_A_BLOCK),
             tuple(filter(None, spans)),
+            tuple(frozenset(spans_of([each])) for each in found if each.about is None and each.code in by_values),
             frozenset(each.span for each in found if each.about in _TOO_LARGE),
             frozenset(block.line for block in claim.blocks),
             _lacking(answer),
@@ -96,6 +100,8 @@ class Prospects(Struct, frozen=True):
         if self.is_of_words and is_of_numbers:
             return False
         if self.lacking > _MOST_FACTS * len(edits) and not any(map(is_of_codes, edits)):
+            return False
+        if is_of_numbers and not all(any(edit.span in spans for edit in edits) for spans in self.values):
             return False
         if is_of_numbers and all(edit.span in self.sizes for edit in edits) and not any(map(_is_less, edits)):
             return False

@@ -187,7 +187,7 @@ def _point_lost_in_few(typed: Typed) -> Iterator[str]:
 def _point_moved(typed: Typed) -> Iterator[str]:
     """The point a place to the right, or to the left of the last digit."""
     whole, point, rest = typed.number.partition(".")
-    if rest:
+    if rest and whole:
         moved = (whole + rest[0]).lstrip("0") or "0"
         tail = rest[1:].rstrip("0")
         yield typed.with_number(moved + (f".{tail}" if tail else point if typed.counts else ""))
@@ -309,7 +309,8 @@ def _neighbour(typed: Typed) -> Iterator[str]:
 def _swapped(typed: Typed) -> Iterator[str]:
     text = typed.number
     for at in range(len(text) - 1):
-        if text[at] != text[at + 1] and "." not in text[at : at + 2]:
+        # Within a number, a point is moved rather.
+        if text[at] != text[at + 1] and "." not in (text[at : at + 2] if at else text[1:2]):
             yield typed.with_number(text[:at] + text[at + 1] + text[at] + text[at + 2 :])
 
 
@@ -519,7 +520,9 @@ def _is_idle_turn(match: re.Match[str], typed: Typed) -> bool:
     """Whether an angle differs by whole turns, or becomes more than one, which drawings have not."""
     value = Decimal(match["sign"] + match["number"])
     is_turned = match["address"].upper() == typed.address.upper() and (value - typed.value) % _FULL_TURN == 0
-    return is_turned or abs(value) > _FULL_TURN >= abs(typed.value)
+    # A number without a point may count increments.
+    is_degrees = "." in match["number"] or not typed.counts or abs(typed.value) <= _FULL_TURN
+    return is_turned or (is_degrees and abs(value) > _FULL_TURN)
 
 
 def mistyped_codes(word: Word, modes: Modes) -> list[str]:
