@@ -173,7 +173,8 @@ def familiarity(edits: Iterable[Edit], numbers: Numbers) -> float:
                 found -= 0.7 if is_same else 0.3 if letters else 0.0
             else:
                 found -= 0.4 * is_same
-    return found
+    # Of two words that are exchanged, each has the number of the other one.
+    return found / max(len(changes), 1)
 
 
 def distance(line: int, is_marked: bool, marked: Collection[int]) -> float:
