@@ -54,10 +54,10 @@ from contoursolve.diagnosis.slips_around import (
     touches,
 )
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
-from contoursolve.diagnosis.window import Seen, Window, moves_of
+from contoursolve.diagnosis.window import Seen, Window, agrees, moves_of
 from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, NumberRange, OpenNumber, Severity, Span
 from contoursolve.gcode import Block, parse_block
-from contoursolve.geometry import Profile, Unit, assemble
+from contoursolve.geometry import Profile, assemble
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, advance, leave, read
 from contoursolve.solving import (
     Contour,
@@ -70,7 +70,6 @@ from contoursolve.solving import (
     analyse,
     groups_of,
     is_closed,
-    opposes,
 )
 from contoursolve.tolerance import AGREEMENT
 
@@ -323,9 +322,7 @@ class Trial(Struct, frozen=True, dict=True):
 
     def _now_agrees(self, finding: Diagnostic) -> bool:
         """Whether a finding that the block did not have before says only that a word now agrees."""
-        is_new = finding.code not in self.codes and not self.is_redundant and finding.severity is Severity.WARNING
-        is_near = finding.values.get("off_by_mm", float("inf")) <= AGREEMENT
-        return is_new and is_near and not opposes(finding.values, Unit.DEGREE)
+        return finding.code not in self.codes and not self.is_redundant and agrees(finding)
 
     def examine(self, edits: tuple[Edit, ...]) -> Answer | None:
         """The answer to the edited blocks; None where they are not read as the same contour any more."""

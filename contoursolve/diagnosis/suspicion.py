@@ -94,7 +94,7 @@ def _doubtful(answer: Answer, window: Window) -> Iterator[tuple[str, tuple[SlipK
     beside = frozenset(word.span for word in _beside(claim))
     if beside:
         yield "it draws nothing here", (LETTER_ALIKE,), beside
-    if wide := _wide(answer):
+    if not _asks_for_farther(claim) and (wide := _wide(answer)):
         yield "an arc turns by more than half a turn, against its neighbours", (), wide
     if _is_odd(window):
         stated = frozenset(word.span for word in claim.words.values())
@@ -109,6 +109,11 @@ def _beside(claim: ParsedContour) -> Iterator[Word]:
     stated = {each.span for each in claim.words.values()}
     for block in claim.blocks:
         yield from (word for word in block.words if word.address in "ABC" and word.number and word.span not in stated)
+
+
+def _asks_for_farther(claim: ParsedContour) -> bool:
+    """Whether a word asks for the farther one of two intersections, from which an arc may turn far."""
+    return any(name in claim.givens and claim.givens[name].value > 0 for name in claim.form.choices)
 
 
 def _wide(answer: Answer) -> frozenset[Span]:

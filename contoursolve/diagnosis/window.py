@@ -13,8 +13,10 @@ from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.slip_kinds import plain_code
 from contoursolve.diagnostics import Diagnostic, LineChange, Severity
 from contoursolve.gcode import Block, parse_block
+from contoursolve.geometry import Unit
 from contoursolve.reading import Dialect, ReadIssue, State
-from contoursolve.solving import ArcSegment, Contour, Point
+from contoursolve.solving import ArcSegment, Contour, Point, opposes
+from contoursolve.tolerance import AGREEMENT
 
 _FEEDS = (1, 2, 3)
 """Motions that cut."""
@@ -58,6 +60,10 @@ class Seen(Struct, frozen=True):
     def keys(self) -> frozenset[tuple[str, int]]:
         """The problems by their code and line."""
         return frozenset((each.code, each.span.line) for each in self.problems)
+
+    def has_code(self, code: str) -> bool:
+        """Whether one of the problems has a code."""
+        return any(each.code == code for each in self.problems)
 
 
 class Window(Struct, frozen=True, dict=True):
@@ -177,13 +183,19 @@ class Window(Struct, frozen=True, dict=True):
         end = self.behind[-1].line if self.behind else last + 1
         for each in seen.problems:
             line = each.span.line
-            if each.about in _MEANT:
+            if each.about in _MEANT or (agrees(each) and not old.has_code(each.code)):
                 continue
             if first <= line <= last:
                 return False
             if (each.code, line) not in old.keys and line < end and line not in lost:
                 return False
         return True
+
+
+def agrees(finding: Diagnostic) -> bool:
+    """Whether a finding says only that a word agrees with others that tell the same."""
+    is_near = finding.values.get("off_by_mm", float("inf")) <= AGREEMENT
+    return finding.severity is Severity.WARNING and is_near and not opposes(finding.values, Unit.DEGREE)
 
 
 def _problems(part: WindowPart) -> list[Diagnostic]:
