@@ -174,8 +174,9 @@ class Trial(Struct, frozen=True, dict=True):
     """Whether a circle is missed, so that its size may be wrong."""
     is_crossing_curves: bool = False
     """Whether it has points that are computed as those of two lines or circles."""
-    is_dropped: bool = False
-    """Whether all that is wrong is that the control leaves corners out."""
+    is_spare: bool = False
+    """Whether all that is wrong tells that a corner is one too many: the control leaves it out, or another one takes
+    exactly its room."""
     prospects: Prospects | None = None
     """The words and lines that slips must change to undo what is wrong."""
     told: str = ""
@@ -258,7 +259,7 @@ class Trial(Struct, frozen=True, dict=True):
         shapes = {
             self.claim.vocabulary[name][0] for name in self.claim.form.outline.shapes if name in self.claim.vocabulary
         }
-        if edit.kind is EditKind.DROP and edit.address in shapes and not self.is_dropped:
+        if edit.kind is EditKind.DROP and edit.address in shapes and not self.is_spare:
             # A corner stands on the drawing.
             return 0.8
         if edit.kind is not EditKind.ADD or edit.address == "G":

@@ -56,6 +56,7 @@ from contoursolve.solving import (
     lookup,
     refusals_about,
 )
+from contoursolve.tolerance import AGREEMENT
 
 
 def find_repairs(
@@ -128,8 +129,8 @@ def find_repairs(
     trial = replace(trial, is_open=is_open, told=told, is_crossing_curves=is_crossing)
     is_missed = any(each.about is RefusalKind.CIRCLE_MISSED for each in answer.diagnostics)
     is_round = any(each.about in _OF_CIRCLES for each in problems(answer))
-    is_dropped = all(each.about is ReadIssue.CORNER_DROPPED for each in problems(answer))
-    trial = replace(trial, is_missed=is_missed, is_round=is_round, is_dropped=is_dropped)
+    is_spare = all(each.about is ReadIssue.CORNER_DROPPED or _is_filled(each) for each in problems(answer))
+    trial = replace(trial, is_missed=is_missed, is_round=is_round, is_spare=is_spare)
     conflicts = [each.facts for each in whole.conflicts]
     trial = replace(trial, prospects=Prospects.of(answer, dialect.rules, conflicts, reach, around))
     repairs = choose_repairs(trial, (*_valued(answer, whole, trial), *spelled, *moved))
@@ -151,6 +152,11 @@ def _alone(answer: Answer, dialect: Dialect) -> Answer:
 
 _OF_CIRCLES = tuple(kind for kind in RefusalKind if re.search("radius|circle", kind.event.code))
 _OPEN = (ReadIssue.UNDERDETERMINED, RefusalKind.NOT_FIXED)
+
+
+def _is_filled(finding: Diagnostic) -> bool:
+    """Whether each of two corners alone takes exactly the room of the other one, which hardly happens by chance."""
+    return all(abs(finding.values.get(each, float("inf"))) <= AGREEMENT for each in ("limit_first", "limit_second"))
 
 
 def _waits(answer: Answer) -> bool:

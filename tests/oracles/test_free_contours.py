@@ -142,7 +142,8 @@ def test_a_line_meets_a_circle_in_two_points_and_both_are_listed():
     assert places[0] == pytest.approx((25.2114, 16.7554), abs=6e-5)
     assert places[1] == pytest.approx((73.0898, 29.5844), abs=6e-5)
     (finding,) = answer.diagnostics
-    assert [fix.replacement.split("\n")[2] for fix in finding.fixes] == ["FSELECT 1", "FSELECT 2"]
+    # The second one turns less.
+    assert [fix.replacement.split("\n")[2] for fix in finding.fixes] == ["FSELECT 2", "FSELECT 1"]
 
 
 def test_settings_tell_what_numbers_choose_and_what_comes_without_them():
@@ -341,7 +342,7 @@ def test_many_arcs_on_one_circle_are_told_and_not_searched(monkeypatch):
 def test_a_direction_of_an_arc_that_others_contradict_is_one_conflict_and_never_agrees(block, word):
     (finding,) = solved(chain(block)).diagnostics
     assert (finding.code, finding.values["expected"]) == ("words-conflict", pytest.approx(float(word[3:])))
-    assert any(f"write {word} for" in fix.description for fix in finding.fixes)
+    assert any(fix.description.replace("+", "").startswith(f"write {word} for") for fix in finding.fixes)
 
 
 @pytest.mark.parametrize(

@@ -215,7 +215,7 @@ def test_a_lost_comma_is_told_with_what_the_letter_means_without_it(control, tex
     [
         ("G01 Z-20. ,R25.\nX60.", "fanuc-corner-too-large", "G01 Z-20. ,R20.\nX60."),
         ("G01 Z-20. ,C-5.\nX60.", "fanuc-corner-negative", "G01 Z-20. ,C5.\nX60."),
-        ("G01 Z-20. ,C5. ,R5.\nX60.", "fanuc-two-corners", "G01 Z-20. ,R5.\nX60."),
+        ("G01 Z-20. ,C5. ,R5.\nX60.", "fanuc-two-corners", "G01 Z-20. ,C5.\nX60."),
         ("G01 Z-20. ,C5.\nZ-40.", "fanuc-corner-dropped", "G01 Z-20.\nZ-40."),
         ("G01 ,A180.\nX60. Z-47. A120.", "fanuc-closing-incomplete", "G01 ,A180.\nX60. Z-47. ,A120."),
         ("G01 ,A180.\nX60. Z-47. ,A-120.", "fanuc-angle-opposite", "G01 ,A180.\nX60. Z-47. ,A120."),

@@ -210,7 +210,7 @@ FIRST = {
     "G111": (LATHE.format("P4."), ["P3."]),
     "beside another": (LATHE.format("P50. D2."), ["P1.", "delete P50."]),
     "G11": ("G00 X30. Z0.\nG11 Z-5. I-8.", ["I-5."]),
-    "G112": ("G00 X100. Z-50.\nG112 U0 I10. K-50. P60. Q5. R30.", ["P42.5"]),
+    "G112": ("G00 X100. Z-50.\nG112 U0 I10. K-50. P60. Q5. R30.", ["P6."]),
     "a bevel on an arc": ("G00 X440. Z30.\nG112 X396. I26. K-126. R75. C45.", ["C4.5"]),
     "a pocket": (ROOMS["a pocket"][0], [",R6"]),
     "an overlap": (ROOMS["a corner takes all of the line after it"][0], [",R5"]),
