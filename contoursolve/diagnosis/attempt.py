@@ -24,7 +24,7 @@ from contoursolve.diagnosis.edits import (
     signed,
     with_plus,
 )
-from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
+from contoursolve.diagnosis.examine import LEADING, Answer, Depth, Policy, examine, problems
 from contoursolve.diagnosis.examples import numbers_for, propose, sampled
 from contoursolve.diagnosis.plausibility import (
     OF_EDITS,
@@ -785,9 +785,13 @@ def _of_path(
         (Feature.POINTS, -round_points(contour)),
         (Feature.SAME, -float(repair.applicability is Applicability.SAFE)),
         (Feature.EXACT, float(not repair.is_exact)),
-        (Feature.WARNING, float(repair.warnings)),
+        (Feature.WARNING, float(repair.warnings + len(_LEADING_ZERO.findall(repair.replacement)))),
         *(((Feature.SEEN, 0.0),) if seen is not None else ()),
     )
+
+
+_LEADING_ZERO = re.compile(LEADING.pattern + r"\d*+\.")
+"""A word that is left with a number that begins with a zero, of which a suspicion would be told."""
 
 
 def _large_marked(found: list[Repair], before: Contour | None) -> list[Repair]:

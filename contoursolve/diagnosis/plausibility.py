@@ -134,8 +134,8 @@ def rounding_of(edit: Edit) -> float:
         # A point in a long number is where it was.
         return 0.0
     less = roundness(edit.text) - roundness(edit.old)
-    if typed == meant and "." not in number_in(edit.text).rstrip("."):
-        # A zero too many makes each number rounder.
+    if typed == meant and len(meant) == 1 and "." not in number_in(edit.text).rstrip("."):
+        # Of sizes, those of one digit are as frequent as tens.
         return min(less, 0.0)
     # A size that fits is computed, not read from a drawing.
     return 0.3 * max(less, 0.0) if edit.why is Why.FITS else less

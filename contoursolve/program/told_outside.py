@@ -144,7 +144,10 @@ class Outside:
 
     def _is_told(self, finding: Diagnostic) -> bool:
         """Whether a finding waits for nothing."""
-        if finding.about not in _WAITING or finding.span.line <= 0 or any(map(self._makes_contour, finding.fixes)):
+        # A word of another control shows that the program may be for that one, whatever else it may have been.
+        is_of_own = finding.about is not ReadIssue.COMMA_WORD_UNKNOWN
+        is_mended = is_of_own and any(map(self._makes_contour, finding.fixes))
+        if is_mended or finding.about not in _WAITING or finding.span.line <= 0:
             return True
         if isinstance(finding.about, FaultKind) and not self._long.isdisjoint(finding.addresses):
             return True
