@@ -173,8 +173,10 @@ def familiarity(edits: Iterable[Edit], numbers: Numbers) -> float:
                 found -= 0.7 if is_same else 0.3 if letters else 0.0
             else:
                 found -= 0.4 * is_same
-    # Of two words that are exchanged, each has the number of the other one.
-    return found / max(len(changes), 1)
+    pairs = [(number_in(edit.text), number_in(edit.old)) for edit in changes.values()]
+    is_exchanged = len(pairs) > 1 and sorted(new for new, _ in pairs) == sorted(old for _, old in pairs)
+    # Of words that are exchanged, each has the number of another one.
+    return found / len(pairs) if is_exchanged and any(new != old for new, old in pairs) else found
 
 
 def distance(line: int, is_marked: bool, marked: Collection[int]) -> float:

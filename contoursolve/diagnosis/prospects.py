@@ -14,7 +14,7 @@ from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import Block
 from contoursolve.geometry import Fact, assemble
 from contoursolve.reading import ReadIssue, Rule
-from contoursolve.solving import RefusalKind, analyse
+from contoursolve.solving import RefusalKind, Topic, analyse, refusals_about
 
 _OF_WORDS = (
     ReadIssue.REPEATED_ADDRESS,
@@ -35,6 +35,9 @@ _OF_A_BLOCK = (ReadIssue.REPEATED_ADDRESS, ReadIssue.UNKNOWN_ADDRESS, ReadIssue.
 _TOO_LARGE = (RefusalKind.CORNER_TOO_LARGE, RefusalKind.CORNERS_OVERLAP)
 """Matters of corners that fit if they are smaller."""
 
+_OF_RADII = refusals_about(Topic.RADII)
+"""Matters of circles that miss their points."""
+
 _BESIDE = 1
 """Blocks on either side of the one that a rule refuses that may have the word that it lacks."""
 
@@ -54,6 +57,8 @@ class Prospects(Struct, frozen=True):
     """The words whose values a rule refuses."""
     sizes: frozenset[Span]
     """Words of corners that are too large to fit."""
+    idle: frozenset[Span]
+    """Words of corners, where all that is wrong is that circles miss their points."""
     own: frozenset[int]
     """The lines of the contour."""
     lacking: int
@@ -75,6 +80,7 @@ class Prospects(Struct, frozen=True):
         found = problems(answer)
         of_words = [each for each in found if _is_of_words(each, by_values)]
         is_open = any(each.about is ReadIssue.UNDERDETERMINED for each in answer.diagnostics)
+        is_round = all(each.about in _OF_RADII for each in found)
         order = [block.line for block in blocks or claim.blocks]
         words = claim.words
         spans = (frozenset(words[fact.given].span for fact in facts if fact.given in words) for facts in conflicts)
@@ -86,6 +92,7 @@ class Prospects(Struct, frozen=True):
             tuple(filter(None, spans)),
             tuple(frozenset(spans_of([each])) for each in found if each.about is None and each.code in by_values),
             frozenset(each.span for each in found if each.about in _TOO_LARGE),
+            frozenset(words[name].span for name in claim.form.outline.shapes if name in words and is_round),
             frozenset(block.line for block in claim.blocks),
             _lacking(answer),
             reach,
@@ -102,6 +109,8 @@ class Prospects(Struct, frozen=True):
         if self.lacking > _MOST_FACTS * len(edits) and not any(map(is_of_codes, edits)):
             return False
         if is_of_numbers and not all(any(edit.span in spans for edit in edits) for spans in self.values):
+            return False
+        if is_of_numbers and all(edit.span in self.idle for edit in edits):
             return False
         if is_of_numbers and all(edit.span in self.sizes for edit in edits) and not any(map(_is_less, edits)):
             return False

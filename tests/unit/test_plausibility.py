@@ -18,7 +18,7 @@ DECIDES = {
     Feature.NEAR: ("ya-flange-02", "write I15. for K15."),
     Feature.TURNS_BACK: ("fl-full-03", "write Z-25. for Z-52."),
     Feature.INWARD: ("fl-cone-06", "write X70. for X7."),
-    Feature.TURNING: ("is-roof-02", "write #ANG=345 for #ANG=165"),
+    Feature.TURNING: ("nc-cam-03", "write I-40 for I40"),
     Feature.LONG: ("nc-hook-08", "write X10 for X-10"),
     Feature.SAME: ("mi-lever-02", "write A350. for A170."),
 }

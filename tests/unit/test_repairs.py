@@ -323,9 +323,23 @@ def test_one_mistake_in_a_long_chain_is_repaired_near_it(text, fix, trials, deco
 @pytest.mark.parametrize(
     ("chain", "fixes"),
     [
-        ("G1 X80 ,R90\nG1 Y50", ["write ,R9 for ,R90 (a zero too many)", "write ,R50 for ,R90 (another digit)", "delete ,R90"]),
-        ("G1 X80 ,R50\nG1 Y50 ,C20\nG1 X0", ["write ,R5 for ,R50 (a zero too many)", "write ,R30 for ,R50 (another digit)", "delete ,C20", "delete ,R50"]),
-        ("G1 X80 ,R5\nG1 X90 ,R5\nG1 Y50", ["delete ,R5 in program line 2", "write Y80 for X80 (another letter)"]),
+        (
+            "G1 X80 ,R90\nG1 Y50",
+            ["write ,R9 for ,R90 (a zero too many)", "write ,R50 for ,R90 (another digit)", "delete ,R90"],
+        ),
+        (
+            "G1 X80 ,R50\nG1 Y50 ,C20\nG1 X0",
+            [
+                "write ,R5 for ,R50 (a zero too many)",
+                "write ,R30 for ,R50 (another digit)",
+                "delete ,C20",
+                "delete ,R50",
+            ],
+        ),
+        (
+            "G1 X80 ,R5\nG1 X90 ,R5\nG1 Y50",
+            ["delete ,R5 in program line 2", "write Y80 for X80 (another letter)"],
+        ),
     ],
     ids=["lines are left", "a contour and a line", "a contour is left"],
 )
