@@ -40,6 +40,7 @@ from .examine import (
     examine as examine,
     list_alternatives as list_alternatives,
     may_be_suspected as may_be_suspected,
+    may_have_odd_points as may_have_odd_points,
     rank as rank,
 )
 from .explain import (
@@ -67,6 +68,7 @@ from .legality_table import (
 from .line_slips import (
     mend_line as mend_line,
 )
+from .odd_points import has_odd_points as has_odd_points
 from .references import (
     compare_reference as compare_reference,
 )

@@ -379,6 +379,21 @@ def may_be_suspected(answer: Answer, around: Callable[[], Sequence[Block]]) -> b
     return stands_out(claim, around)
 
 
+def may_have_odd_points(answer: Answer) -> bool:
+    """Whether a path of lines has few of them aslant, or ends beside where it began."""
+    contour = answer.contour
+    lines = [each for each in contour.elements if not isinstance(each, ArcSegment)] if contour else []
+    lines = [each for each in lines if not each.name.startswith("corner")]
+    if contour is None or len(lines) < _FEWEST:
+        return False
+    slanted = sum(all(abs(a - b) > LENGTH for a, b in zip(each.start, each.end, strict=True)) for each in lines)
+    apart = sum(abs(a - b) > LENGTH for a, b in zip(contour.start, contour.end, strict=True))
+    return slanted in (1, 2) or (apart == 1 and not any(contour.plane.diameters))
+
+
+_FEWEST = 4
+"""Lines of a path in which one stands out."""
+
 _WIDE = pi + 1e-3
 """Radians: half a turn is usual."""
 

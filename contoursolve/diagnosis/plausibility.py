@@ -47,7 +47,7 @@ FEATURES: dict[Feature, tuple[float, str]] = {
     Feature.KIND: (1.0, "what kind of slip it undoes; a word that is missing, too many or does not fit is no slip"),
     Feature.ROUND: (1.0, "drawings have round numbers, and the typed one was hardly round by chance"),
     Feature.NEAR: (0.8, "the word that the finding marks, its block, the blocks beside it"),
-    Feature.FAMILIAR: (1.0, "the blocks around have the number, which drawings repeat"),
+    Feature.FAMILIAR: (1.0, "the blocks around have the number, or the sign, which drawings repeat"),
     Feature.POINTS: (2.2, "the intersections that a control computes come out round"),
     Feature.TURNS_BACK: (1.6, "a turned path runs back along Z"),
     Feature.BEHIND_START: (1.0, "a turned path reaches beyond where it began to cut"),
@@ -145,17 +145,17 @@ _SHORT = 4
 """Digits of a number in which the place of the point tells how round it is."""
 
 
-Numbers = Mapping[Decimal, Sequence[tuple[Span, str]]]
-"""The words that have each number, whatever its sign: their places and addresses."""
+Numbers = Mapping[Decimal, Sequence[tuple[Span, str, bool]]]
+"""The words that have each number, whatever its sign: their places, addresses, and whether they are negative."""
 
 
 def numbers_of(blocks: Iterable[Block]) -> Numbers:
     """The numbers of the words of some blocks, without those of codes and of what is no length and no angle."""
-    found: dict[Decimal, list[tuple[Span, str]]] = {}
+    found: dict[Decimal, list[tuple[Span, str, bool]]] = {}
     for block in blocks:
         for word in block.words:
             if word.number and word.address not in "GMNFST":
-                found.setdefault(abs(word.number), []).append((word.span, word.address.strip(",#")))
+                found.setdefault(abs(word.number), []).append((word.span, word.address.strip(",#"), word.number < 0))
     return found
 
 
@@ -167,16 +167,31 @@ def familiarity(edits: Iterable[Edit], numbers: Numbers) -> float:
     for edit in changes.values():
         new, old = number_in(edit.text), number_in(edit.old)
         if new and edit.text != edit.old and (number := Decimal(new)):
-            letters = {address for span, address in numbers.get(number, ()) if span not in changes}
+            letters = {address for span, address, _ in numbers.get(number, ()) if span not in changes}
             is_same = edit.address.strip(",#") in letters
             if new != old:
                 found -= 0.7 if is_same else 0.3 if letters else 0.0
             else:
                 found -= 0.4 * is_same
+        if edit.text.replace("-", "") == edit.old.replace("-", ""):
+            found += _sign_cost(edit, changes, numbers)
     pairs = [(number_in(edit.text), number_in(edit.old)) for edit in changes.values()]
     is_exchanged = len(pairs) > 1 and sorted(new for new, _ in pairs) == sorted(old for _, old in pairs)
     # Of words that are exchanged, each has the number of another one.
     return found / len(pairs) if is_exchanged and any(new != old for new, old in pairs) else found
+
+
+def _sign_cost(edit: Edit, changes: Collection[Span | None], numbers: Numbers) -> float:
+    """The cost of another sign: less if all other words of the address have it, more if all have the old one."""
+    own = (each for places in numbers.values() for each in places if each[1] == edit.address.strip(",#"))
+    signs = [is_negative for span, _, is_negative in own if span not in changes]
+    if len(signs) < _SEVERAL or len({*signs}) > 1:
+        return 0.0
+    return -_SIGN if signs[0] is ("-" in edit.text) else _SIGN
+
+
+_SEVERAL, _SIGN = 3, 0.4
+"""Words of one address by whose sign another one stands out, and what that is worth."""
 
 
 def distance(line: int, is_marked: bool, marked: Collection[int]) -> float:

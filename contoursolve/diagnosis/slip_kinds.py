@@ -549,10 +549,11 @@ def recognise(edit: Edit, claim: ParsedContour) -> SlipKind | None:
     return next((slip for slip in kinds if edit.text in texts_of(slip, word, speech)), None)
 
 
-def explained(word: Word, value: float, claim: ParsedContour) -> Iterator[str]:
-    """Words that a word may have been meant to be with about this value, mm (radius) or degrees."""
+def explained(word: Word, value: float, claim: ParsedContour, kinds: Iterable[SlipKind] | None = None) -> Iterator[str]:
+    """Words that a word may have been meant to be with about this value, mm (radius) or degrees, by any slip or by one
+    of some kinds."""
     unit, speech = claim.after.unit, Speech.of(claim)
-    for slip in SLIPS:
+    for slip in SLIPS if kinds is None else kinds:
         for text in texts_of(slip, word, speech):
             match = _WORD.fullmatch(text)
             if match is None or _address_in(match).replace(" ", "").upper() != word.address:

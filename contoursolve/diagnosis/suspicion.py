@@ -12,8 +12,9 @@ from contoursolve.diagnosis.edits import Edit, EditKind
 from contoursolve.diagnosis.examine import LEADING, SUSPICIONS, Answer, problems
 from contoursolve.diagnosis.explain import context_of, report
 from contoursolve.diagnosis.fix_text import with_fixes
+from contoursolve.diagnosis.odd_points import aslant, open_end
 from contoursolve.diagnosis.outliers import other_taper, sharp_corner, taper_of
-from contoursolve.diagnosis.plausibility import Feature, oddities
+from contoursolve.diagnosis.plausibility import Feature, familiarity, numbers_of, oddities, rounding_of
 from contoursolve.diagnosis.slip_kinds import (
     COMPLEMENT,
     LETTER_ALIKE,
@@ -61,7 +62,7 @@ def suspect(answer: Answer, window: Window) -> Answer:
             finding = _told(answer, window, found[:MOST_FIXES], reason)
             return replace(answer, diagnostics=(*answer.diagnostics, finding))
     for reason, own, text, drafts in _unlike(answer, window):
-        found = [*_tried(answer, window, drafts, lambda _: True)][:1]
+        found = sorted(_tried(answer, window, drafts, lambda _: True), key=lambda repair: repair.cost)[:1]
         if found:
             finding = _told(answer, window, found, reason, own, text)
             return replace(answer, diagnostics=(*answer.diagnostics, finding))
@@ -76,12 +77,22 @@ def _unlike(answer: Answer, window: Window) -> Iterator[tuple[str, Sequence[Word
         taper = taper_of(word)
         reason = f"it is a taper of {angle_text(taper)}, and all others are {angle_text(90 - taper)}"
         yield reason, [word], "", [*_drafts(answer, window, (COMPLEMENT,), frozenset({word.span}))]
+    aside = "a line runs aslant there, and all others are parallel to an axis"
+    for reason, points in ((aside, aslant(answer)), ("the path does not end where it began", open_end(answer))):
+        if drafts := [_replaced(*each, window) for each in points]:
+            yield reason, (), "", drafts
     if sharp := sharp_corner(claim, window.blocks):
         block, word = sharp
         own, text = block.words[-1:], word.text.strip()
         edit = Edit(EditKind.ADD, word.address, text=text, line=block.line)
         reason = f"the corner behind it is sharp, and all others have {text}"
         yield reason, own, f"{own[0].text.strip()} {text}", [Candidate((edit,), (None,), ())]
+
+
+def _replaced(edit: Edit, slip: SlipKind, window: Window) -> Candidate:
+    """The draft that gives a word another number."""
+    familiar = (Feature.FAMILIAR, familiarity((edit,), numbers_of(window.blocks)))
+    return Candidate((edit,), (slip,), ((Feature.KIND, slip.cost), (Feature.ROUND, rounding_of(edit)), familiar))
 
 
 def _doubtful(answer: Answer, window: Window) -> Iterator[tuple[str, tuple[SlipKind, ...], frozenset[Span]]]:

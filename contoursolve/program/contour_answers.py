@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, Depth, examine, may_be_suspected
+from contoursolve.diagnosis import Answer, Depth, examine, may_be_suspected, may_have_odd_points
 from contoursolve.diagnostics import Diagnostic, Severity
 from contoursolve.gcode import Block
 from contoursolve.program.named_words import mark_trusted, with_named_words
@@ -64,11 +64,19 @@ def explained(
         from contoursolve.diagnosis import mend_points  # noqa: PLC0415
 
         answer = mend_points(answer, dialect)
-    if may_be_suspected(answer, lambda: window().blocks):
+    if may_be_suspected(answer, lambda: window().blocks) or _has_odd_points(answer):
         from contoursolve.diagnosis import suspect  # noqa: PLC0415 - few contours look odd
 
         answer = suspect(answer, window())
     return answer
+
+
+def _has_odd_points(answer: Answer) -> bool:
+    if not may_have_odd_points(answer):
+        return False
+    from contoursolve.diagnosis import has_odd_points  # noqa: PLC0415 - few contours are lines with few aslant
+
+    return has_odd_points(answer)
 
 
 def _window(
