@@ -225,7 +225,8 @@ class Trial(Struct, frozen=True, dict=True):
         if answer.contour.crossing is not None and self.codes == {each.code for each in rules if _is_crossing(each)}:
             return None
         repair = self.made(answer.contour, edits, replacement)
-        is_safe = repair.applicability is Applicability.SAFE and not any(_drops_more(edit, claim) for edit in edits)
+        is_more = any(_drops_more(edit, claim) or self.drops_corner(edit) for edit in edits)
+        is_safe = repair.applicability is Applicability.SAFE and not is_more
         return replace(
             repair,
             applicability=Applicability.SAFE if is_safe else Applicability.CHANGES_CONTOUR,
@@ -253,14 +254,17 @@ class Trial(Struct, frozen=True, dict=True):
         """The numbers of the blocks around."""
         return numbers_of(self.window.blocks if self.window else self.claim.blocks)
 
+    def drops_corner(self, edit: Edit) -> bool:
+        """Whether an edit leaves out a corner that the control does not leave out: it stands on the drawing."""
+        if edit.kind is not EditKind.DROP or self.is_spare:
+            return False
+        vocabulary = self.claim.vocabulary
+        return edit.address in {vocabulary[name][0] for name in self.claim.form.outline.shapes if name in vocabulary}
+
     def strangeness(self, edit: Edit) -> float:
         """The cost of a word that is added seldom: one that no block around has, or that counts from where
         the tool is; more likely one that the finding names."""
-        shapes = {
-            self.claim.vocabulary[name][0] for name in self.claim.form.outline.shapes if name in self.claim.vocabulary
-        }
-        if edit.kind is EditKind.DROP and edit.address in shapes and not self.is_spare:
-            # A corner stands on the drawing.
+        if self.drops_corner(edit):
             return 0.8
         if edit.kind is not EditKind.ADD or edit.address == "G":
             return 0.0
@@ -705,7 +709,9 @@ def repair_of(draft: Candidate, seen: Seen, answers: Sequence[Answer], trial: Tr
     )
     more = _of_others(trial.window, seen) if trial.window else ()
     evidence = (*_of_path(repair, seen, draft.evidence), *more)
-    return replace(repair, slips=draft.slips, evidence=evidence, beside=beside)
+    # What is beside the contour draws a path, too, or says how it is followed.
+    applicability = Applicability.CHANGES_CONTOUR if beside else repair.applicability
+    return replace(repair, applicability=applicability, slips=draft.slips, evidence=evidence, beside=beside)
 
 
 _MOST_MORE = 3
@@ -783,7 +789,7 @@ def _of_path(
         *known,
         *oddities(moves).items(),
         (Feature.POINTS, -round_points(contour)),
-        (Feature.SAME, -float(repair.applicability is Applicability.SAFE)),
+        (Feature.SAME, -float(contour is not None and repair.deviation <= AGREEMENT)),
         (Feature.EXACT, float(not repair.is_exact)),
         (Feature.WARNING, float(repair.warnings + len(_LEADING_ZERO.findall(repair.replacement)))),
         *(((Feature.SEEN, 0.0),) if seen is not None else ()),

@@ -48,6 +48,7 @@ def test_the_same_contour_is_the_same_contour(slip):
     for finding in result.diagnostics:
         lines = result.lines_of(finding)
         for fix in (each for each in finding.fixes if each.applicability is Applicability.SAFE):
+            assert not fix.beside
             after = changed("\n".join(slip["slip"]), changes_of(fix, lines, texts))
             options = {"control": slip["control"], "rules": "off"}
             one, two = (
@@ -107,6 +108,17 @@ def test_an_editor_changes_the_lines_beside_the_contour(case):
 def test_the_explorer_changes_the_lines_beside_the_contour():
     now = explore.begin(PLANE[1], control=PLANE[0])
     assert explore.apply_fix(now, 0, 0).text.splitlines() == MENDED[PLANE].splitlines()
+
+
+def test_a_corner_that_lacks_its_neighbour_is_left_out_only_after_a_question(tmp_path):
+    """The control stops there: there is no contour that stays the same without the corner."""
+    control, text, _ = FUNCTION
+    program = tmp_path / "part.nc"
+    program.write_text(text)
+    done = CliRunner().invoke(main, ["check", str(program), "--control", control, "--fix"])
+    assert done.exit_code == 1
+    assert done.output.splitlines()[-1].endswith("1 fix changes the contour (see --unsafe-fixes)")
+    assert program.read_text() == text
 
 
 def test_a_point_is_told_in_the_plane_of_the_fix():
