@@ -56,7 +56,7 @@ from contoursolve.diagnosis.slips_around import (
 from contoursolve.diagnosis.subsets import LARGEST_ROLE
 from contoursolve.diagnosis.window import Seen, Window, agrees, moves_of
 from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, NumberRange, OpenNumber, Severity, Span
-from contoursolve.gcode import Block, parse_block
+from contoursolve.gcode import Block, parse_block, spell
 from contoursolve.geometry import Profile, assemble
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, advance, leave, read
 from contoursolve.solving import (
@@ -202,7 +202,7 @@ class Trial(Struct, frozen=True, dict=True):
             return None
         replacement = edited(claim.blocks, edits)
         if any(edit.is_placeholder for edit in edits):
-            example, kind = self._example(edits), Applicability.PLACEHOLDER
+            example, kind = self._example(edits) or self._example_around(edits), Applicability.PLACEHOLDER
             return Repair(edits, replacement, kind, None, 0.0, example=example) if example else None
         answer = self.examine(edits)
         if answer is None:
@@ -399,11 +399,33 @@ class Trial(Struct, frozen=True, dict=True):
             return None
         return next((each for each in propose(found, profile, edits) if self.repair(each)), None)
 
+    def _example_around(self, edits: tuple[Edit, ...]) -> tuple[Edit, ...] | None:
+        """The place of an axis that is added, halfway between those before and behind it, with which the blocks around
+        are right: as several contours where the blocks were one. None for anything else."""
+        window, row = self.window, self.claim.lexicon.addresses.get(edits[0].address)
+        if window is None or len(edits) > 1 or row is None or not row.axis or row.is_increment:
+            return None
+        words = [word for block in window.blocks for word in block.words if word.address == edits[0].address]
+        before = [word.number for word in words if word.number is not None and word.span.line < edits[0].line]
+        behind = [word.number for word in words if word.number is not None and word.span.line > edits[0].line]
+        if not before or not behind:
+            return None
+        number = f"{(before[-1] + behind[0]) / 2:f}"
+        text = spell(edits[0].address, number if "." in number else f"{number}.")
+        example = (dataclasses.replace(edits[0], text=text),)
+        seen = window.after(example)
+        return example if seen is not None and seen.answers and window.mends(seen) else None
+
     def with_numbers(self, repair: Repair) -> Repair:
         """A repair with placeholders, with the numbers that they may be; where hardly one is left, with that."""
         open_ = tuple(OpenNumber(edit.text, edit.line) for edit in repair.edits if edit.is_placeholder)
         found = self.find(repair.example) if repair.example != repair.edits else None
         profile = self._stated(found) if found is not None else None
+        if found is None and repair.example != repair.edits:
+            # The blocks are several contours then.
+            texts = [edit.text for edit, old in zip(repair.example, repair.edits, strict=True) if old.is_placeholder]
+            tried = (replace(each, example=text) for each, text in zip(open_, texts, strict=True))
+            return replace(repair, numbers=tuple(tried))
         if found is None or profile is None:
             return replace(repair, numbers=open_)
 

@@ -54,7 +54,7 @@ _VALUE = re.compile(r"=\s*+(?P<number>[+-]?+(?>\d++\.?+\d*+|\.\d++))\s*+$")
 def further_drafts(answer: Answer, trial: Trial) -> Iterator[Iterable[tuple[Edit, ...]]]:
     """The stages of drafts, simplest first."""
     if answer.claim.form.is_general and answer.status is Status.REJECTED:
-        yield _lawful(answer, trial)
+        yield lawful(answer, trial)
     findings = [each for each in problems(answer) if each.about is not None]
     if not findings:
         return
@@ -259,7 +259,7 @@ def _shown(asked: AskedValue, word: Word, answer: Answer) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
-def _lawful(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
+def lawful(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     """A word that the rules ask for in a line that they refuse, or one that they refuse taken out."""
     claim = answer.claim
     offences = check(trial.dialect.rules, claim.form.roles, claim.stated())

@@ -133,7 +133,7 @@ def find_repairs(
     trial = replace(trial, is_missed=is_missed, is_round=is_round, is_spare=is_spare)
     conflicts = [each.facts for each in whole.conflicts]
     trial = replace(trial, prospects=Prospects.of(answer, dialect.rules, conflicts, reach, around))
-    repairs = choose_repairs(trial, (*_valued(answer, whole, trial), *spelled, *moved))
+    repairs = choose_repairs(trial, (*_valued(answer, whole, trial), *spelled, *moved, _lawful_alone(answer, trial)))
     is_complete = repairs.is_complete and drop_sets.is_complete and not has_faults(claim)
     return replace(repairs, is_complete=is_complete)
 
@@ -163,6 +163,14 @@ def _waits(answer: Answer) -> bool:
     """Whether something took the start away that it had: that is to be mended first."""
     before = answer.claim.before
     return any(before.axes[axis].value is None and before.axes[axis].span is not None for axis in before.plane.axes)
+
+
+def _lawful_alone(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
+    """Words that make a refused block legal only as it is read with them."""
+    if answer.status is Status.REJECTED and not has_faults(answer.claim) and len(answer.claim.blocks) > 1:
+        from contoursolve.diagnosis.drafts_beside_facts import lawful  # noqa: PLC0415
+
+        yield from (edits for edits in lawful(answer, trial) if edits[0].kind is EditKind.ADD)
 
 
 def _valued(answer: Answer, whole: "_Geometry", trial: Trial) -> Iterator[Iterator[tuple[Edit, ...]]]:

@@ -501,6 +501,22 @@ def _is_strange(word: Word, known: Collection[str]) -> bool:
 _NAME = re.compile(r"#?[A-Za-z]{2,}")
 
 
+def _references(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
+    """The block of a parallel line, from which a distance counts: the numbers of the lines before it."""
+    if "PAR" not in window.dialect.modes.lexicon.addresses:
+        return
+    lines, numbers = {block.line for block in blocks}, list[str]()
+    for block in window.own:
+        if block.line in lines and block.find("DP") and not block.find("PAR"):
+            yield from ((Edit(EditKind.ADD, "PAR", text=f"PAR {each}", line=block.line),) for each in numbers)
+        number = block.find("N")
+        if number is not None and any(plain_code(word.text) in _KLARTEXT_LINES for word in block.words):
+            numbers.append(number.text.strip())
+
+
+_KLARTEXT_LINES = ("FL", "FLT", "L", "LP", "LT")
+
+
 def _dropped(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
     for block in blocks:
         if block.line in window.lines:
@@ -553,6 +569,7 @@ SEVERAL = (
     SeveralKind(SlipKind("between", "", 0.0, _MEANING), _between),
     SeveralKind(SlipKind("blocks-swapped", "two blocks swapped", 3.2, _MEANING), _swapped_blocks),
     SeveralKind(SlipKind("other-block", "a word of the block beside", 4.2, _MEANING), _other_block),
+    SeveralKind(SlipKind("reference-lost", "", 1.8, _MEANING), _references),
     SeveralKind(SlipKind("too-many", "", 4.2, _MEANING), _dropped),
 )
 """Kinds of slips that are not of one word."""
