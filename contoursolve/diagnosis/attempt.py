@@ -423,8 +423,10 @@ class Trial(Struct, frozen=True, dict=True):
         profile = self._stated(found) if found is not None else None
         if found is None and repair.example != repair.edits:
             # The blocks are several contours then.
-            texts = [edit.text for edit, old in zip(repair.example, repair.edits, strict=True) if old.is_placeholder]
-            tried = (replace(each, example=text) for each, text in zip(open_, texts, strict=True))
+            found_texts = [
+                edit.text for edit, old in zip(repair.example, repair.edits, strict=True) if old.is_placeholder
+            ]
+            tried = (replace(each, example=text) for each, text in zip(open_, found_texts, strict=True))
             return replace(repair, numbers=tuple(tried))
         if found is None or profile is None:
             return replace(repair, numbers=open_)
