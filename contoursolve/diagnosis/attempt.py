@@ -43,7 +43,7 @@ from contoursolve.diagnosis.plausibility import (
     total,
 )
 from contoursolve.diagnosis.prospects import Prospects, keeps_address
-from contoursolve.diagnosis.reach import Reach
+from contoursolve.diagnosis.reach import Reach, is_of_codes
 from contoursolve.diagnosis.slip_kinds import FEW, OF_DIGITS, ROUND, SlipKind, number_in, partners, recognise
 from contoursolve.diagnosis.slips_around import (
     MOST_OF_DIGITS,
@@ -283,6 +283,8 @@ class Trial(Struct, frozen=True, dict=True):
         reference = self.contour
         deviation = contour.deviation(reference) if reference else float("inf")
         is_same = reference is not None and contour.is_alike(reference) and deviation <= AGREEMENT
+        # Another code does something else, whatever the path.
+        is_same = is_same and not any(edit.kind is EditKind.CHANGE and is_of_codes(edit) for edit in edits)
         # Hardly anybody means a path across the spindle axis, unless it was there before.
         is_across = contour.crossing is not None and (reference is None or reference.crossing is None)
         applicability = Applicability.SAFE if is_same else Applicability.CHANGES_CONTOUR

@@ -282,7 +282,8 @@ def _codes(window: Window, blocks: Iterable[Block], pairs: Sequence[tuple[str, s
                 continue
             name = plain_code(word.text)
             for typed, meant in pairs:
-                if name == typed and (meant in known or word.address != "G"):
+                is_code = meant in known or word.address != "G"
+                if name == typed and is_code and not _is_second(window, block, word, meant):
                     yield (change(word, _like(word, meant)),)
 
 
@@ -333,8 +334,16 @@ def _code_digits(window: Window, *, draws: bool) -> Iterator[Edits]:
                 continue
             for other in known:
                 is_code = other[:1] == "G" and other[1:].isdigit() and other[1:] != digits
-                if is_code and _is_near(word.text.strip()[1:], _like(word, other)[1:]):
+                is_like = is_code and _is_near(word.text.strip()[1:], _like(word, other)[1:])
+                if is_like and not _is_second(window, block, word, other):
                     yield (change(word, _like(word, other)),)
+
+
+def _is_second(window: Window, block: Block, word: Word, code: str) -> bool:
+    """Whether a code would be the second of its block that does what it does."""
+    effect = window.codes.get(code)
+    others = (plain_code(each.text) for each in block.words if each.address == "G" and each is not word)
+    return effect is not None and any(window.codes.get(other) is effect for other in others)
 
 
 _OF_PATHS = (Effect.MOTION, Effect.PLANE, Effect.CONTOUR, Effect.CORNER, Effect.ABSOLUTE, Effect.INCREMENTAL)

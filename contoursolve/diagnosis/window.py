@@ -1,6 +1,6 @@
 """The blocks around a contour, examined as a program is: as they are, and with edits that are tried."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import accumulate
 from math import atan2, degrees
@@ -14,7 +14,7 @@ from contoursolve.diagnosis.slip_kinds import plain_code
 from contoursolve.diagnostics import Diagnostic, LineChange, Severity
 from contoursolve.gcode import Block, parse_block
 from contoursolve.geometry import Unit
-from contoursolve.reading import Dialect, ReadIssue, State
+from contoursolve.reading import Dialect, Effect, ReadIssue, State
 from contoursolve.solving import ArcSegment, Contour, Point, opposes
 from contoursolve.tolerance import AGREEMENT
 
@@ -93,9 +93,9 @@ class Window(Struct, frozen=True, dict=True):
         return tuple(block.line for block in self.own)
 
     @cached_property
-    def codes(self) -> frozenset[str]:
-        """The codes of the control, without zeros that lead."""
-        return frozenset(plain_code(code.text) for code in self.dialect.modes.codes.values())
+    def codes(self) -> Mapping[str, Effect]:
+        """The codes of the control, without zeros that lead, and what each does."""
+        return {plain_code(code.text): code.effect for code in self.dialect.modes.codes.values()}
 
     @cached_property
     def before(self) -> Seen:
