@@ -75,7 +75,7 @@ def completions(
     Arguments and errors as for `solve`. A word whose number is still to be chosen ends with `?`.
 
     >>> [each.word for each in completions("G111 A135. B180. Z-40.", start="X40. Z0.")]
-    ['I?', 'K?', 'U?', 'X?']
+    ['I?', 'K?', 'X?', 'U?']
     """
     program = gcode.parse(block)
     dialect = choose(control, program)

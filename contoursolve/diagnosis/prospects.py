@@ -14,7 +14,7 @@ from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import Block
 from contoursolve.geometry import Fact, assemble
 from contoursolve.reading import ReadIssue, Rule
-from contoursolve.solving import RefusalKind, Topic, analyse, refusals_about
+from contoursolve.solving import NoteKind, RefusalKind, Topic, analyse, refusals_about
 
 _OF_WORDS = (
     ReadIssue.REPEATED_ADDRESS,
@@ -26,6 +26,7 @@ _OF_WORDS = (
     ReadIssue.CORNER_TWICE,
     ReadIssue.POSITION_UNKNOWN,
     ReadIssue.VARIABLE,
+    NoteKind.SEVERAL,
 )
 """Matters of a problem that rests on which words there are, whatever their numbers."""
 
@@ -47,6 +48,8 @@ class Prospects(Struct, frozen=True):
 
     is_of_words: bool
     """Whether something is wrong that no other number mends."""
+    is_of_choice: bool
+    """Whether all that is wrong is that no word chooses."""
     lines: tuple[frozenset[int], ...]
     """Of the lines of each, one has to be changed, unless a code in force is."""
     words: tuple[frozenset[Span], ...]
@@ -86,6 +89,7 @@ class Prospects(Struct, frozen=True):
         spans = (frozenset(words[fact.given].span for fact in facts if fact.given in words) for facts in conflicts)
         return cls(
             bool(of_words) or is_open,
+            bool(found) and all(each.about is NoteKind.SEVERAL for each in found),
             # A rule about a chain may mind a word anywhere in it.
             tuple(_lines_of(each, order) for each in of_words if each.about is None and not claim.form.is_general),
             tuple(frozenset(spans_of([each])) for each in of_words if each.about in _OF_A_BLOCK),
@@ -105,6 +109,8 @@ class Prospects(Struct, frozen=True):
         is_everywhere = any(map(is_lasting, edits))
         is_of_numbers = not is_of_code and all(map(keeps_address, edits))
         if self.is_of_words and is_of_numbers:
+            return False
+        if self.is_of_choice and not is_of_code and all(edit.kind is not EditKind.ADD for edit in edits):
             return False
         if self.lacking > _MOST_FACTS * len(edits) and not any(map(is_of_codes, edits)):
             return False
