@@ -108,17 +108,11 @@ class Prospects(Struct, frozen=True):
         is_of_code = any(edit.address == "G" for edit in edits)
         is_everywhere = any(map(is_lasting, edits))
         is_of_numbers = not is_of_code and all(map(keeps_address, edits))
-        if self.is_of_words and is_of_numbers:
+        if is_of_numbers and not self._is_number(edits):
             return False
         if self.is_of_choice and not is_of_code and all(edit.kind is not EditKind.ADD for edit in edits):
             return False
         if self.lacking > _MOST_FACTS * len(edits) and not any(map(is_of_codes, edits)):
-            return False
-        if is_of_numbers and not all(any(edit.span in spans for edit in edits) for spans in self.values):
-            return False
-        if is_of_numbers and all(edit.span in self.idle for edit in edits):
-            return False
-        if is_of_numbers and all(edit.span in self.sizes for edit in edits) and not any(map(_is_less, edits)):
             return False
         for spans in () if is_everywhere else self.words:
             # Elsewhere, it means nothing either.
@@ -133,6 +127,13 @@ class Prospects(Struct, frozen=True):
         if is_of_code or not touched <= self.own:
             return True
         return all(_is_about(edits, spans, is_of_numbers=is_of_numbers) for spans in self.conflicts)
+
+    def _is_number(self, edits: tuple[Edit, ...]) -> bool:
+        """Whether other numbers of these words may undo all that is wrong."""
+        is_in_each = all(any(edit.span in spans for edit in edits) for spans in self.values)
+        is_idle = all(edit.span in self.idle for edit in edits)
+        is_larger = all(edit.span in self.sizes for edit in edits) and not any(map(_is_less, edits))
+        return not self.is_of_words and is_in_each and not is_idle and not is_larger
 
 
 def _lacking(answer: Answer) -> int:
