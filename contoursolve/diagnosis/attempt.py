@@ -558,7 +558,8 @@ def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -
     length = len(trial.claim.blocks)
     most = MOST_TRIED if length <= LARGEST_ROLE else max(8, 2 * MOST_TRIED // length)
     considered = 0
-    for edits in chain.from_iterable(stages):
+    for draft in chain.from_iterable(stages):
+        edits = tuple(edit for edit in draft if edit.kind is not EditKind.CHANGE or edit.text != edit.old)
         considered += 1
         if len(tried) + spent > most or considered > MOST_CONSIDERED:
             break

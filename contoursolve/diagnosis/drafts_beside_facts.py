@@ -269,7 +269,7 @@ def lawful(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
         line, row = claim.blocks[index].line, claim.lexicon.addresses.get(address)
         if name in claim.words or line not in lines or row is None:
             continue
-        numbers = ("+1", "-1") if row.unit is Unit.SIGN else (PLACEHOLDER,)
+        numbers = ("1", "-1") if row.unit is Unit.SIGN else (PLACEHOLDER,)
         edits = (add(claim, name, spell(address, number)) for number in numbers)
         yield from ((edit,) for edit in edits if _is_lawful((edit,), trial))
     for each in offences:

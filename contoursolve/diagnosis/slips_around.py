@@ -270,8 +270,14 @@ def _all_points(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
         words = [word for word in block.words if word.number and not word.has_point]
         rows = {word: lexicon.addresses.get(word.address) for word in words}
         words = [word for word, row in rows.items() if row is not None and row.unit in (Unit.MM, Unit.DEGREE)]
-        if len(words) > 1:
-            yield tuple(change(word, f"{word.text.strip()}.") for word in words)
+        # Those with few digits are hardly increments, whatever the others are.
+        few = [word for word in words if abs(word.number or 0) < _FEW_INCREMENTS]
+        for some in (words, few) if len(few) < len(words) else (words,):
+            if len(some) > 1:
+                yield tuple(change(word, f"{word.text.strip()}.") for word in some)
+
+
+_FEW_INCREMENTS = 1000
 
 
 def _codes(window: Window, blocks: Iterable[Block], pairs: Sequence[tuple[str, str]]) -> Iterator[Edits]:
