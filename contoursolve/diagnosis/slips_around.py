@@ -271,7 +271,7 @@ def _all_points(window: Window, blocks: Sequence[Block]) -> Iterator[Edits]:
         rows = {word: lexicon.addresses.get(word.address) for word in words}
         words = [word for word, row in rows.items() if row is not None and row.unit in (Unit.MM, Unit.DEGREE)]
         # Those with few digits are hardly increments, whatever the others are.
-        few = [word for word in words if abs(word.number or 0) < _FEW_INCREMENTS]
+        few = [word for word in words if abs(float(word.number or 0)) < _FEW_INCREMENTS]
         for some in [words, few] if len(few) < len(words) else [words]:
             if len(some) > 1:
                 yield tuple(change(word, f"{word.text.strip()}.") for word in some)
