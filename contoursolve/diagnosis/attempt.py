@@ -225,11 +225,8 @@ class Trial(Struct, frozen=True, dict=True):
         if answer.contour.crossing is not None and self.codes == {each.code for each in rules if _is_crossing(each)}:
             return None
         repair = self.made(answer.contour, edits, replacement)
-        is_more = any(_drops_more(edit, claim) or self.drops_corner(edit) for edit in edits)
-        is_safe = repair.applicability is Applicability.SAFE and not is_more
         return replace(
             repair,
-            applicability=Applicability.SAFE if is_safe else Applicability.CHANGES_CONTOUR,
             warnings=sum(each.code not in self.codes for each in rules),
             is_exact=all(each.about is not NoteKind.RADIUS_DIFFERS for each in answer.diagnostics),
         )
@@ -287,7 +284,8 @@ class Trial(Struct, frozen=True, dict=True):
         is_same = is_same and not any(edit.kind is EditKind.CHANGE and is_of_codes(edit) for edit in edits)
         # Hardly anybody means a path across the spindle axis, unless it was there before.
         is_across = contour.crossing is not None and (reference is None or reference.crossing is None)
-        applicability = Applicability.SAFE if is_same else Applicability.CHANGES_CONTOUR
+        is_safe = is_same and not any(_does_more(edit, self.claim) or self.drops_corner(edit) for edit in edits)
+        applicability = Applicability.SAFE if is_safe else Applicability.CHANGES_CONTOUR
         return Repair(
             edits, replacement, applicability, contour, deviation, drawbacks=("across the spindle axis",) * is_across
         )
@@ -505,12 +503,13 @@ def _place(state: State) -> Point | None:
     return None if first is None or second is None else (float(first), float(second))
 
 
-def _drops_more(edit: Edit, claim: ParsedContour) -> bool:
-    """Whether a word is dropped that does something besides the contour, or moves an axis outside the plane: the
-    contour is the same, what the machine does is not."""
-    row = claim.lexicon.addresses.get(edit.address)
-    is_beside = row is not None and bool(row.axis) and row.axis not in claim.before.plane.axes
-    return edit.kind is EditKind.DROP and (is_beside or edit.errand is not None)
+def _does_more(edit: Edit, claim: ParsedContour) -> bool:
+    """Whether a word is dropped that does something besides the contour, or one is dropped or written that moves an
+    axis outside the plane: the contour is the same, what the machine does is not."""
+    written = re.match(r"[A-Za-z]+", edit.text.strip())
+    rows = (claim.lexicon.addresses.get(each) for each in {edit.address, written[0].upper() if written else ""})
+    is_beside = any(row is not None and row.axis and row.axis not in claim.before.plane.axes for row in rows)
+    return is_beside or (edit.kind is EditKind.DROP and edit.errand is not None)
 
 
 def _is_settled(answer: Answer, edits: tuple[Edit, ...]) -> bool:

@@ -130,7 +130,7 @@ def rounding_of(edit: Edit) -> float:
     if edit.kind is not EditKind.CHANGE or edit.why is Why.ROUNDED or edit.address == "G" or not number_in(edit.old):
         return 0.0
     typed, meant = (number_in(text).replace(".", "").strip("0") for text in (edit.old, edit.text))
-    if typed == meant and len(typed) > _SHORT:
+    if typed == meant and len(typed) > _SHORT - ("." not in edit.old):
         # A point in a long number is where it was.
         return 0.0
     less = roundness(edit.text) - roundness(edit.old)

@@ -79,9 +79,11 @@ class Prospects(Struct, frozen=True):
     ) -> "Prospects":
         """Those of a contour, with the facts of each contradiction in it; `blocks` are those around it."""
         claim = answer.claim
+        rules = tuple(rules)
         by_values = {rule.code for rule in rules if rule.when is not None and rule.when.reads_values}
+        of_geometry = by_values | {rule.code for rule in rules if rule.is_about_geometry}
         found = problems(answer)
-        of_words = [each for each in found if _is_of_words(each, by_values)]
+        of_words = [each for each in found if _is_of_words(each, of_geometry)]
         is_open = any(each.about is ReadIssue.UNDERDETERMINED for each in answer.diagnostics)
         is_round = all(each.about in _OF_RADII for each in found)
         order = [block.line for block in blocks or claim.blocks]
@@ -145,8 +147,8 @@ _MOST_FACTS = 3
 """Facts that one word, or the code of a block of Klartext, states at most: the centre and the radius of a circle."""
 
 
-def _is_of_words(finding: Diagnostic, by_values: Collection[str]) -> bool:
-    return finding.about in _OF_WORDS or (finding.about is None and finding.code not in by_values)
+def _is_of_words(finding: Diagnostic, of_geometry: Collection[str]) -> bool:
+    return finding.about in _OF_WORDS or (finding.about is None and finding.code not in of_geometry)
 
 
 def _lines_of(finding: Diagnostic, order: list[int]) -> frozenset[int]:
