@@ -75,6 +75,7 @@ from .references import (
 from .repairs import (
     find_repairs as find_repairs,
 )
+from .slip_kinds import mistyped_codes as mistyped_codes
 from .solutions import (
     DECIMALS as DECIMALS,
     Listed as Listed,
@@ -104,7 +105,6 @@ from .suspicion import (
     suspect as suspect,
 )
 from .typo_fixes import (
-    explain_codes as explain_codes,
     explain_commas as explain_commas,
     explain_letters as explain_letters,
 )

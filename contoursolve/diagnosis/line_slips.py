@@ -30,7 +30,7 @@ def mend_line(context: Context, findings: Sequence[Diagnostic], window: Window) 
         # With the digit it would be a contour, which has a slip more.
         open_ = None
     for each in findings:
-        yield replace(each, fixes=tuple(_fixes(each, findings, window))) if each is open_ else each
+        yield _mended(context, each, findings, window) if each is open_ else each
     if findings:
         return
     for word in _doubtful(block, window):
@@ -59,13 +59,21 @@ def _is_joined(window: Window, seen: Seen) -> bool:
     return any(line in answer.lines and answer.contour is not None for answer in seen.answers)
 
 
-def _fixes(finding: Diagnostic, findings: Sequence[Diagnostic], window: Window) -> Iterator[Fix]:
+def _mended(context: Context, finding: Diagnostic, findings: Sequence[Diagnostic], window: Window) -> Diagnostic:
+    """A finding with what was meant; of a code that the control has not, that it is another one, with which the block
+    draws something."""
     own = window.own[0]
     spans = frozenset(spans_of([finding]))
     torn = {each.span for each in own.faults}
     marked = Marked(frozenset(spans_of(findings)) | spans, frozenset({own.line}))
-    found = [fix for fix, _ in _tried(window, marked, FEW, None, torn)]
-    yield from found[:MOST_FIXES]
+    found = _tried(window, marked, FEW, None, torn)
+    words = [word for word in own.words if finding.about is ReadIssue.CODE_UNKNOWN and word.span == finding.span]
+    joined = [fix for fix, seen in found if _is_joined(window, seen)] if words else []
+    if joined:
+        meant = joined[0].description.split()[1]
+        told = report(context, ReadIssue.CODE_MISTYPED, Basis.RULE, words, meant=meant)
+        return replace(told, severity=finding.severity, fixes=tuple(joined[:MOST_FIXES]))
+    return replace(finding, fixes=tuple(fix for fix, _ in found[:MOST_FIXES]))
 
 
 def _tried(

@@ -87,22 +87,6 @@ def explain_commas(
             yield replace(finding, fixes=fixes)
 
 
-def explain_codes(
-    context: Context, dialect: Dialect, blocks: Sequence[Block], before: State, findings: Sequence[Diagnostic]
-) -> Iterator[Diagnostic]:
-    """G codes of a block, the first of some, that the control does not know and with which it is a contour that is
-    solved if one slip of their digits is mended, as in G110."""
-    yield from findings
-    for word in blocks[0].words:
-        for text in mistyped_codes(word, dialect.modes) if word.number not in dialect.modes.codes else ():
-            edit = change(word, text)
-            found, replacement = _read(dialect, blocks, [edit], before)
-            fixes = tuple(_tried(dialect, blocks[0], found, [edit], replacement))
-            if fixes:
-                finding = report(context, ReadIssue.CODE_MISTYPED, Basis.RULE, [word], meant=text)
-                yield replace(finding, fixes=fixes)
-
-
 def explain_letters(
     context: Context, dialect: Dialect, blocks: Sequence[Block], before: State, findings: Sequence[Diagnostic]
 ) -> Iterator[Diagnostic]:

@@ -247,15 +247,11 @@ def with_slips(
         from contoursolve.diagnosis import explain_commas  # noqa: PLC0415 - few programs need it
 
         found = [*found, *explain_commas(_context_of(asked, block), dialect, blocks[:NEAR], states, previous)]
-    if any(word.address == "G" and word.number is not None and word.number not in modes.codes for word in block.words):
-        from contoursolve.diagnosis import explain_codes  # noqa: PLC0415 - few programs need it
-
-        found = [*explain_codes(context, dialect, blocks[:NEAR], states[0], found)]
     if has_lookalike_code(block):
         found = with_letters(asked, dialect, blocks[:NEAR], states[0], found)
     own = [each for each in found if each.span.line == block.line]
     is_open = any(each.severity is not Severity.INFO for each in own) and not any(each.fixes for each in own)
-    is_near = is_open and any(map(_may_draw, blocks[:NEAR], repeat(dialect)))
+    is_near = is_open and (any(map(_may_draw, blocks[:NEAR], repeat(dialect))) or _is_like_contour(block, modes))
     if is_near or (not own and any(_is_doubtful(word, modes) for word in block.words)):
         from contoursolve.diagnosis import mend_line  # noqa: PLC0415 - few programs need it
 
@@ -263,6 +259,16 @@ def with_slips(
         others = [each for each in found if each.span.line != block.line]
         found = [*others, *mend_line(context, own, window)]
     return found
+
+
+def _is_like_contour(block: Block, modes: Modes) -> bool:
+    """Whether a code that the control has not is like that of a contour."""
+    words = [word for word in block.words if word.address == "G" and word.number not in modes.codes and word.number]
+    if not words:
+        return False
+    from contoursolve.diagnosis import mistyped_codes  # noqa: PLC0415 - few programs need it
+
+    return any(mistyped_codes(word, modes) for word in words)
 
 
 def _may_draw(block: Block, dialect: Dialect) -> bool:
