@@ -30,6 +30,7 @@ from contoursolve.diagnosis.plausibility import (
     OF_EDITS,
     ROUNDEST,
     Feature,
+    coarseness,
     Numbers,
     cost_of,
     distance,
@@ -752,7 +753,7 @@ def _weighed(repair: Repair, trial: Trial) -> Repair:
     kind += _SIGNED * sum(edit.why is Why.AGREES and _has_other_sign(edit) for edit in edits)
     lines = [edit.span.line if edit.span else edit.line for edit in edits]
     near = [distance(line, edit.span in marked.spans, marked.lines) for line, edit in zip(lines, edits, strict=True)]
-    rounding = sum(map(rounding_of, edits))
+    rounding = sum(map(rounding_of, edits)) * coarseness(trial.numbers)
     evidence = (
         (Feature.KIND, kind),
         (Feature.NEAR, min(near, default=0.0)),

@@ -159,6 +159,12 @@ def numbers_of(blocks: Iterable[Block]) -> Numbers:
     return found
 
 
+def coarseness(numbers: Numbers) -> float:
+    """The share of numbers that are round, to a tenth: where few are, a round one tells little."""
+    found = [number.normalize() for number, places in numbers.items() if number for _ in places]
+    return sum(each == round(each, 1) for each in found) / len(found) if found else 1.0
+
+
 def familiarity(edits: Iterable[Edit], numbers: Numbers) -> float:
     """The plausibility of new numbers that other words around have, the more with the same address; negative, as a
     cost."""

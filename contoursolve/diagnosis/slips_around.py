@@ -13,6 +13,7 @@ from contoursolve.diagnosis.plausibility import (
     FEATURES,
     Feature,
     Numbers,
+    coarseness,
     cost_of,
     distance,
     familiarity,
@@ -93,13 +94,14 @@ def drafts_around(
     the text; those of more than one word beside the `FEW` kinds."""
     found: dict[tuple[Edit, ...], Candidate] = {}
     numbers = numbers_of(window.blocks)
+    coarse = coarseness(numbers)
     trusted = claim.trusted if claim is not None else frozenset[Span]()
     kinds = tuple(kinds)
     several = _of_several(window, marked) if kinds != OF_DIGITS else iter(())
     for edits, slips, cost in chain(_of_words(window, marked, claim, kinds), several):
         if any(edit.span in trusted for edit in edits) or not may_mend(edits):
             continue
-        draft = _draft(numbers, marked, edits, slips, cost)
+        draft = _draft(numbers, coarse, marked, edits, slips, cost)
         known = found.get(draft.edits)
         if known is None or draft.cost < known.cost:
             found[draft.edits] = draft
@@ -118,7 +120,7 @@ def _place(draft: Candidate) -> tuple[object, ...]:
     return round(draft.cost, 6), places
 
 
-def _draft(numbers: Numbers, marked: Marked, edits: Edits, slips: Slips, cost: float) -> Candidate:
+def _draft(numbers: Numbers, coarse: float, marked: Marked, edits: Edits, slips: Slips, cost: float) -> Candidate:
     lines = [edit.span.line if edit.span else edit.line for edit in edits]
     near = [
         # What it says counts for all blocks behind it.
@@ -126,7 +128,7 @@ def _draft(numbers: Numbers, marked: Marked, edits: Edits, slips: Slips, cost: f
         for line, edit in zip(lines, edits, strict=True)
     ]
     # Of two words that are exchanged, one is enough.
-    rounding = sum(map(rounding_of, edits))
+    rounding = sum(map(rounding_of, edits)) * coarse
     evidence = (
         (Feature.KIND, cost),
         (Feature.NEAR, min(near, default=0.0)),
