@@ -421,6 +421,7 @@ OTHER_AXIS = SlipKind(
 COMPLEMENT = SlipKind(
     "complement", "the angle from the other axis", 2.9, _MEANING, lambda typed: _turned(typed, _complement), True, True
 )
+POINT_LOST_IN_FEW = SlipKind("point-lost-few", "a lost decimal point", 2.2, _TYPING, _point_lost_in_few, True, True)
 POINT_MOVED = SlipKind("point-moved", "the decimal point moved", 2.0, _SEEN, _point_moved, True, True)
 ZERO_LOST = SlipKind("zero-lost", "a lost zero", 2.3, _SEEN, _zero_lost, True, True)
 
@@ -434,7 +435,7 @@ FEW = (
     SIGN_ADDED,
     SlipKind("choice", "the other sign", 1.8, _MEANING, _sign_of_choice, is_of_numbers=True),
     SUPPLEMENT,
-    SlipKind("point-lost-few", "a lost decimal point", 2.2, _TYPING, _point_lost_in_few, True, True),
+    POINT_LOST_IN_FEW,
     POINT_MOVED,
     SlipKind("zero-added", "a zero too many", 2.0, _SEEN, _zero_added, True, True),
     ZERO_LOST,
