@@ -328,6 +328,23 @@ def test_what_lacks_many_words_is_not_asked_word_by_word(monkeypatch):
     assert asked(40) <= asked(20) <= 8
 
 
+@pytest.mark.parametrize("is_ahead", [True, False])
+def test_a_slip_costs_as_much_beside_many_contours_as_beside_few(is_ahead):
+    """What an edit cannot change is not examined again, and blocks far away are not looked at."""
+    start, taper = "G00 X40. Z0.\n", "G111 X100. A180. K-30. B120.{more}\n"
+
+    def steps(count: int) -> int:
+        others = (start + taper.format(more="")) * count
+        texts = [start + taper.format(more=more) for more in (" P90.", " P9.")]
+        wrong, right = (others + text if is_ahead else text + others for text in texts)
+        assert [each.code for each in check(wrong)] == ["g111-corner-too-large"]
+        return calls(lambda: check(wrong)) - calls(lambda: check(right))
+
+    steps(4)
+    few, many = steps(12), steps(48)
+    assert many <= 1.1 * few
+
+
 LOOPS = {
     "WHILE": ("WHILE R{n}<R{m}\n", "R{n}=R{n}+1\nENDWHILE\n"),
     "FOR": ("FOR R{n}=1 TO R{m}\n", "ENDFOR\n"),
