@@ -16,6 +16,7 @@ DECIDES = {
     Feature.KIND: ("ya-spindle-01", "write K-28. for I-28."),
     Feature.ROUND: ("nc-plate-02", "write ,R8 for ,R88"),
     Feature.NEAR: ("ya-flange-02", "write I15. for K15."),
+    Feature.FAMILIAR: ("fm-frame-02", "write Y65. for Y56."),
     Feature.TURNS_BACK: ("fl-full-03", "write Z-25. for Z-52."),
     Feature.INWARD: ("fl-cone-06", "write X70. for X7."),
     Feature.TURNING: ("nc-cam-03", "write I-40 for I40"),
@@ -51,3 +52,21 @@ def test_the_first_fix_is_the_same_in_whatever_order_words_stand(name):
     numbers = [[word for word in line[:1] if word.startswith("N")] for line in lines]
     turned = [" ".join((*number, *reversed(line[len(number) :]))) for number, line in zip(numbers, lines, strict=True)]
     assert first_fix(name, turned) == first_fix(name)
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("he-wing-01", "write FLT for FL"),
+        ("he-star-02", "add PA?"),
+        ("he-plate-02", "write RND for RDN"),
+        ("hm-slot-06", "write I25. for I85. (the centre counted from the start)"),
+        ("nc-hook-02", "write I10 for I0; write J0 for J-40"),
+        ("ya-bush-03", "write Z-70. for Z-7."),
+        ("fl-full-08", "write X46. for X-46. (a minus sign too many)"),
+        ("hl-axle-09", "write Z-52. for X-52."),
+        ("fm-bracket-01", "write G91 for G90"),
+    ],
+)
+def test_the_first_fix_undoes_the_slip(name, expected):
+    assert first_fix(name).startswith(expected)
