@@ -159,10 +159,15 @@ def numbers_of(blocks: Iterable[Block]) -> Numbers:
     return found
 
 
+_LEAST = 0.5
+
+
 def coarseness(numbers: Numbers) -> float:
-    """The share of numbers that are round, to a tenth: where few are, a round one tells little."""
+    """The share of numbers that are round, to a tenth, or half: where few are, a round one tells less."""
     found = [number.normalize() for number, places in numbers.items() if number for _ in places]
-    return sum(each == round(each, 1) for each in found) / len(found) if found else 1.0
+    share = sum(each == round(each, 1) for each in found) / len(found) if found else 1.0
+    # Those that are computed stand beside some that a drawing states.
+    return max(share, _LEAST)
 
 
 def familiarity(edits: Iterable[Edit], numbers: Numbers) -> float:

@@ -103,7 +103,7 @@ def drafts_around(
         if any(edit.span in trusted for edit in edits) or not may_mend(edits):
             continue
         # Where few numbers are round, one without a point has lost it.
-        cost -= _POINTED * (coarse < _FEW_ROUND and not {POINT_LOST, POINT_LOST_IN_FEW}.isdisjoint(slips))  # noqa: PLW2901
+        cost -= _POINTED * (coarse <= _FEW_ROUND and not {POINT_LOST, POINT_LOST_IN_FEW}.isdisjoint(slips))  # noqa: PLW2901
         draft = _draft(numbers, coarse, marked, edits, slips, cost)
         known = found.get(draft.edits)
         if known is None or draft.cost < known.cost:
@@ -112,7 +112,7 @@ def drafts_around(
 
 
 _POINTED, _FEW_ROUND = 0.8, 0.5
-"""By so much more plausible a lost point is where a smaller share of the numbers is round."""
+"""By so much more plausible a lost point is where no more than this share of the numbers is round."""
 
 
 def touches(edit: Edit, place: Span) -> bool:
