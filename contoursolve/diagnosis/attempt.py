@@ -167,6 +167,8 @@ class Trial(Struct, frozen=True, dict=True):
     """The parts that edits leave as they are."""
     window: Window | None = None
     """The blocks around it."""
+    is_searched: bool = False
+    """Whether several contours fit, which a search has found: each trial takes another one."""
     is_open: bool = False
     """Whether words are missing."""
     is_round: bool = False
@@ -628,7 +630,7 @@ def _slips_around(
                 if all(edit.span in trial.marked.spans for edit in each.edits)
                 and (sizes is None or all(edit.address in sizes for edit in each.edits))
             ]
-        most, tried = _fewer(most, len(claim.blocks)), 0
+        most, tried = 0 if trial.is_searched else _fewer(most, len(claim.blocks)), 0
         for draft in drafts:
             own = known.get(draft.edits)
             if own is not None and own.cost_of_edits <= draft.cost:

@@ -100,7 +100,9 @@ def find_repairs(
         place, blamed = next_place_of(answer.profile), frozenset(blamed_spans(answer))
         reach = Reach(answer)
         trial = Trial(claim, dialect, codes, answer.contour, place, blamed=blamed, reach=reach, window=window)
-        trial = replace(trial, is_open=is_open, told=told)
+        several = answer.alternatives if answer.status in (Status.AMBIGUOUS, Status.UNDECIDED) else None
+        is_searched = several is not None and several.reach is not None
+        trial = replace(trial, is_open=is_open, told=told, is_searched=is_searched)
         trial = replace(trial, prospects=Prospects.of(answer, dialect.rules, (), reach, around))
         repairs = choose_repairs(trial, further_drafts(answer, trial))
         return replace(repairs, is_complete=False)

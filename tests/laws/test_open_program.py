@@ -89,4 +89,4 @@ def test_random_edits(path: Path) -> None:
 @pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.name)
 @pytest.mark.parametrize("seed", range(2))
 def test_many_random_edits(path: Path, seed: int) -> None:
-    edit_at_random(path, 100 + seed, 30, is_named=bool(seed % 2))
+    edit_at_random(path, 100 + seed, 8, is_named=bool(seed % 2))

@@ -147,10 +147,10 @@ def test_a_word_without_its_number_is_offered_with_a_number_that_makes_a_contour
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("form", "blocks", "least"),
-    [("g111", 60, 240), ("g112", 60, 8), ("pair", 60, 8), ("cornered", 60, 8), ("chain", 60, 4)],
+    [("g111", 60, 240), ("g112", 60, 8), ("pair", 60, 6), ("cornered", 60, 8), ("chain", 60, 2)],
 )
 def test_a_word_without_its_number_is_offered_with_a_number_in_many_blocks(form, blocks, least):
-    """Of 60 chains, 5 lack a word, and one of these is no contour whatever it is."""
+    """Of 60 chains, 5 lack a word; one of these is no contour whatever it is, and two have one value left."""
     draw = random.Random(61)
     assert sum(check_placeholders(FORMS[form](draw)) for _ in range(blocks)) >= least
 

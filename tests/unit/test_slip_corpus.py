@@ -1,8 +1,15 @@
-"""The corpora of slips by hand and of right programs are well formed: columns, kinds, fills and names."""
+"""The corpora of slips by hand and of right programs are well formed: columns, kinds, fills and names; and how often
+the first fix undoes a slip."""
 
 import json
 import re
+from itertools import chain
 from pathlib import Path
+
+import pytest
+
+import contoursolve
+from contoursolve.program import changed, changes_of
 
 FOLDER = Path(__file__).parents[1] / "slips"
 SLIPS = json.loads((FOLDER / "by_hand.json").read_text())
@@ -52,3 +59,48 @@ def test_names_are_unique_and_every_control_takes_part():
     assert len({part for part, *_ in meant}) == len(meant) >= 35
     assert meant <= {(each["part"], each["control"], *each["lines"]) for each in RIGHT}
     assert {each["control"] for each in SLIPS} == {each["control"] for each in RIGHT} == CONTROLS
+
+
+# What fixes make of them ------------------------------------------------------------------------------------------
+
+
+def solved(entry: dict, lines: list[str]) -> contoursolve.Result:
+    settings = dict(each.split("=", 1) for each in entry["settings"])
+    return contoursolve.solve("\n".join(lines), control=entry["control"], settings=settings)
+
+
+def paths(result: contoursolve.Result) -> list[tuple[float, ...]] | None:
+    """All places of all contours, mm to a hundredth; None where one has no path."""
+    if not result.answers or any(each.contour is None for each in result.answers):
+        return None
+    elements = [each for answer in result.answers for each in answer.contour.elements]
+    return [tuple(round(value, 2) + 0.0 for value in (*each.start, *each.end)) for each in elements]
+
+
+def fixed(
+    entry: dict, result: contoursolve.Result, finding: contoursolve.Diagnostic, fix: contoursolve.Fix
+) -> list[str]:
+    old = dict(enumerate(entry["slip"], 1))
+    return changed("\n".join(entry["slip"]), changes_of(fix, result.lines_of(finding), old)).split("\n")
+
+
+@pytest.mark.parametrize(
+    ("slips", "first_share", "three_share"),
+    [pytest.param(SLIPS[::24], 0.7, 0.8, id="some"), pytest.param(SLIPS, 0.84, 0.89, id="all", marks=pytest.mark.slow)],
+)
+def test_the_first_fix_undoes_most_slips_by_hand(slips, first_share, three_share):
+    """Of those whose contour a fix can give back without asking for a number."""
+    first = among = count = 0
+    for entry in slips:
+        meant = [paths(solved(entry, lines)) for lines in (entry["right"], *entry.get("also", ()))]
+        if entry["expect"] != "first-fix" or meant[0] is None:
+            continue
+        count += 1
+        result = solved(entry, entry["slip"])
+        findings = sorted(result.diagnostics, key=lambda each: (each.severity.value != "error", each.span))
+        offered = list(chain.from_iterable(((each, fix) for fix in each.fixes) for each in findings))
+        good = [paths(solved(entry, fixed(entry, result, *each))) in meant for each in offered[:3]]
+        first += good[:1] == [True]
+        among += any(good)
+    assert first / count >= first_share, (first, among, count)
+    assert among / count >= three_share, (first, among, count)
