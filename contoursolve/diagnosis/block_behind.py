@@ -5,13 +5,14 @@ from msgspec.structs import replace
 from contoursolve.diagnosis.examine import Policy, examine
 from contoursolve.diagnosis.explain import Context, report
 from contoursolve.diagnosis.wording import angle_text, length_text, place_text
-from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix
+from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, LineChange
+from contoursolve.gcode import Block
 from contoursolve.geometry import FIRST, SECOND
 from contoursolve.reading import Behind, Rule
 
 
-def report_behind(found: Behind, rules: tuple[Rule, ...]) -> Diagnostic:
-    """One finding about the block behind a contour, with the block that is meant where that has a path."""
+def report_behind(found: Behind, rules: tuple[Rule, ...], blocks: tuple[Block, ...]) -> Diagnostic:
+    """One finding about the block behind a contour of some blocks, with the block that is meant where that has a path."""
     unit = found.state.unit
     context = Context(rules, unit, place=found.block.span)
     numbers = {
@@ -30,5 +31,7 @@ def report_behind(found: Behind, rules: tuple[Rule, ...]) -> Diagnostic:
             return finding
         end = {"end.0": answer.contour.end[FIRST], "end.1": answer.contour.end[SECOND]}
         advice = f"{advice} -> the contour ends at {place_text(answer.profile, end)}"
-    fix = Fix(advice, found.meant.text, Applicability.CHANGES_CONTOUR, replaced=found.block.text)
+    own = "\n".join(block.text for block in blocks)
+    beside = (LineChange(found.block.span, found.meant.text, found.block.text),)
+    fix = Fix(advice, own, Applicability.CHANGES_CONTOUR, replaced=own, beside=beside)
     return replace(finding, fixes=(fix,))

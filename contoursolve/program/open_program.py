@@ -475,9 +475,7 @@ class OpenProgram:
             if part.findings and part.answer is not None:
                 lines = part.answer.lines
                 now = tuple(line - lines[0] + start + 1 for line in lines)
-                for finding in part.findings:
-                    line = finding.span.line  # a contour tells of the block behind it, too
-                    yield finding, now if line <= start + part.count else (line,)
+                yield from ((finding, now) for finding in part.findings)
             start += part.count
         last = self._parts[-1]
         self._bring_up(last)

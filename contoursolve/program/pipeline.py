@@ -61,11 +61,9 @@ class Result(Shown, Struct, frozen=True):
         return any(each.is_error for each in self.diagnostics)
 
     def lines_of(self, finding: Diagnostic) -> tuple[int, ...]:
-        """The lines that a fix of a finding replaces: those of its contour, or its own; a contour tells of the block
-        behind it, too."""
+        """The lines that a fix of a finding replaces: those of its contour, or else its own."""
         own = next((each for each in self.answers if finding in each.diagnostics), None)
-        line = self.place(finding.span).line
-        return own.lines if own and line <= own.lines[-1] else (line,)
+        return own.lines if own else (self.place(finding.span).line,)
 
     def place(self, span: Span) -> Span:
         """The place itself, or for what was stated apart from the program the block that it is about."""

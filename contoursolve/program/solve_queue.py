@@ -213,7 +213,7 @@ class Queue:
         if dialect.follow is None:
             return ()
         found = dialect.follow(form, contour, left, each.view.lines(each.after), dialect.modes)
-        return tuple(report_behind(one, dialect.rules) for one in found)
+        return tuple(report_behind(one, dialect.rules, each.contour.blocks) for one in found)
 
     def leave(self, pending: Pending) -> State:
         """The state after a contour; where it ends follows when it is solved."""

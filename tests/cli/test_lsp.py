@@ -104,6 +104,8 @@ def test_findings_of_the_rules_examples_stand_where_solve_finds_them(served_for,
             ]
             lines = text.split("\n")
             for each, finding in zip(found, wanted.diagnostics, strict=True):
+                own = "\n".join(lines[line - 1] for line in wanted.lines_of(finding) if line <= len(lines))
+                assert all(fix.replaced == own for fix in finding.fixes), finding
                 if finding.span.line > 0:
                     marked = lines[finding.span.line - 1][finding.span.column - 1 : finding.span.end_column - 1]
                     assert stretch(text, each.range) == marked
@@ -124,12 +126,9 @@ def check_fix(text: str, action: types.CodeAction, control: str) -> None:
     result = solve(text, control=control)
     promised = re.search(r"ends at (.*?)(?: mm| in)? ", f"{action.title} ")
     if promised is not None and not action.title.endswith("..."):
-        first = min(edit.range.start.line for edit in edits_of(action)) + 1
         # What tells it apart from other fixes follows the end.
         told = re.findall(r"([XYZ])(-?\d+\.\d+)", action.title.rpartition("ends at ")[2].partition(", ")[0])
-        ends = [
-            re.findall(r"([XYZ])(-?\d+\.\d+)", end_text(each)) for each in result.answers if each.lines[-1] >= first
-        ]
+        ends = [re.findall(r"([XYZ])(-?\d+\.\d+)", end_text(each)) for each in result.answers]
         # Without its corner, a contour may be plain motions, which end where their words say.
         words = re.findall(r"([XYZ])=?(-?\d*\.?\d+)", text)
         is_stated = all(any(is_near([each], [word]) for word in words) for each in told)

@@ -690,13 +690,13 @@ def verdict(answer: Answer) -> dict[str, Any]:
     diagnosis = answer.diagnosis
     return {
         "status": answer.status,
-        # Moved by 2 m, a path crosses the spindle axis no more.
-        "codes": {finding.code for finding in answer.diagnostics} - {"axis-crossed"},
+        # Moved by 2 m, a path crosses the spindle axis no more, and other numbers are another one with its point moved.
+        "codes": {finding.code for finding in answer.diagnostics} - {"axis-crossed", "suspected"},
         "layers": diagnosis and verdicts(answer),
         "ties": diagnosis and {(frozenset(tie.addresses), tie.is_conflict) for tie in diagnosis.ties},
         "freedoms": diagnosis and {(each.point, each.direction is None) for each in diagnosis.freedoms},
         # How many there are depends on how numbers are written: slips of typing explain some of them.
-        "fixes": bool(fixes_of(answer)),
+        "fixes": bool([fix for each in answer.diagnostics if each.code != "suspected" for fix in each.fixes]),
     }
 
 
