@@ -12,7 +12,7 @@ from contoursolve.reading import Behind, Rule
 
 
 def report_behind(found: Behind, rules: tuple[Rule, ...], blocks: tuple[Block, ...]) -> Diagnostic:
-    """One finding about the block behind a contour of some blocks, with the block that is meant where that has a path."""
+    """One finding about what follows these blocks of a contour, with the block that is meant where that has a path."""
     unit = found.state.unit
     context = Context(rules, unit, place=found.block.span)
     numbers = {
