@@ -4,7 +4,16 @@ from collections.abc import Callable, Mapping
 
 from contoursolve.notebook import exploration as explorations
 from contoursolve.notebook.exploration import Exploration, words_of
-from contoursolve.notebook.exploration_view import Data, asked_now, frames_of, ghost_of, picture_of, range_of, view_of
+from contoursolve.notebook.exploration_view import (
+    Data,
+    asked_now,
+    frames_of,
+    ghost_of,
+    picture_of,
+    range_of,
+    section_of,
+    view_of,
+)
 
 _CHANGES: Mapping[str, Callable[[Exploration, Data], Exploration]] = {
     "move": lambda now, action: explorations.set_words(now, action["values"]),
@@ -27,8 +36,9 @@ class Conversation:
     """A contour whose words are moved: what it comes to (`exploration`), and all that a front end shows (`state`).
 
     The state is plain data. `view` is what `view_of` tells, `ranges` where each word has a contour, by its key, `ghost`
-    what a fix or another solution would draw, and `number` that of the last action. While a front end holds something
-    (`is_held`), the picture stands as it did, and all that is held becomes one change.
+    what a fix or another solution would draw, `sections` those that were opened, each with the text that it is `of`,
+    and `number` that of the last action. While a front end holds something (`is_held`), the picture stands as it did,
+    and all that is held becomes one change.
     """
 
     def __init__(self, exploration: Exploration) -> None:
@@ -44,15 +54,15 @@ class Conversation:
         self._solved = exploration
         """The contour as it was last solved."""
         self._drawn = picture_of(exploration.answer) if exploration.answer else None
-        self.state: Data = {"view": self._viewed(is_new=True), "ranges": {}, "ghost": {}, "number": 0}
+        self.state: Data = {"view": self._viewed(is_new=True), "ranges": {}, "ghost": {}, "sections": {}, "number": 0}
 
     def answer(self, action: Data) -> Data:
         """Do what a front end asks for; what changes of the state. Raises nothing: what goes wrong is said in it."""
-        kind = action.get("do")
-        if kind in ("range", "ghost"):
+        kind = str(action.get("do"))
+        if kind in _WONDERS:
             try:
-                changed = self._ranged(str(action["key"])) if kind == "range" else self._ghosted(action)
-            except Exception:  # there is no such word, fix or solution any more, or nothing to be told of it
+                changed = _WONDERS[kind](self, action)
+            except Exception:  # there is no such word, fix or solution any more
                 changed = {}
         else:
             changed = {"view": self._acted(action), "ghost": {}}
@@ -111,20 +121,30 @@ class Conversation:
             asks = asked_now(self.exploration, before, self._solved, example)
         return {**self._viewed(is_new=kind in _FITTED), "asks": asks}
 
-    def _ranged(self, key: str) -> Data:
+    def _ranged(self, action: Data) -> Data:
         """The ranges of one word with a contour. They are worked out when nothing else is to do, and kept while they
         hold."""
-        view, ranges = self.state["view"], self.state["ranges"]
+        key, view, ranges = str(action["key"]), self.state["view"], self.state["ranges"]
         fields = {field["key"]: field for field in view["fields"]}
         frame = view["frames"].get(key)
         if frame is None or key not in fields or ranges.get(key, {}).get("frame") == frame:
             return {}
-        return {"ranges": {**ranges, key: {"frame": frame, **range_of(self.exploration, fields[key])}}}
+        try:
+            found = range_of(self.exploration, fields[key])
+        except Exception:  # nothing is to be told of it, and the front end does not ask again
+            found = {}
+        return {"ranges": {**ranges, key: {"frame": frame, **found}}}
+
+    def _opened(self, action: Data) -> Data:
+        """A section that the reader has opened, for the block as it is now."""
+        name, text = str(action["name"]), self.exploration.text
+        made = {"of": text, "html": section_of(self.exploration, name)}
+        return {"sections": {**self.state["sections"], name: made}}
 
     def _ghosted(self, action: Data) -> Data:
         """The contour of a fix or of another solution, over the present picture."""
         now = self.exploration.answer
-        if action.get("do") != "ghost" or self._drawn is None or now is None:
+        if self._drawn is None or now is None:
             return {}
         of: Data = {name: action[name] for name in ("finding", "fix", "solution") if name in action}
         if action.get("of", self.exploration.text) != self.exploration.text:
@@ -147,6 +167,14 @@ class Conversation:
             "can_redo": bool(self._future),
             "frames": frames_of(self.exploration),
         }
+
+
+_WONDERS: Mapping[str, Callable[[Conversation, Data], Data]] = {
+    "range": Conversation._ranged,
+    "ghost": Conversation._ghosted,
+    "section": Conversation._opened,
+}
+"""Actions that change nothing of the block."""
 
 
 def _same_words(one: Exploration, other: Exploration) -> set[str]:

@@ -1,10 +1,11 @@
 """An exploration as plain data: what a front end shows, and where on its slider each word has a contour."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from decimal import Decimal
 from math import floor, log10
 from typing import Any
 
+import htpy as h
 from msgspec import to_builtins
 from msgspec.structs import replace
 
@@ -284,6 +285,40 @@ def snaps_of(exploration: Exploration, key: str) -> list[Data]:
             found += [{"value": value + turn, "text": f"in line with {short(word.text)}"} for turn in (-180, 0, 180)]
     return found
 
+
+# Sections that are made when they are opened ---------------------------------------------------------------------
+
+
+def section_of(exploration: Exploration, name: str) -> str:
+    """A section of the page as HTML: the `equations` of the contour, or its `calculation` by hand; the reason where
+    there is none. Raises KeyError for another name."""
+    make, lacking = _SECTIONS[name]
+    answer = exploration.answer
+    if answer is None:
+        return str(h.p["There is no contour."])
+    try:
+        nodes = [*make(answer)]
+    except Exception as error:  # what else is shown of the contour stays
+        return str(h.p[f"This cannot be shown: {type(error).__name__}: {error}"])
+    return str(h.div[nodes]) if nodes else str(h.p[lacking])
+
+
+def _equations(answer: Answer) -> Iterator[h.Node]:
+    from contoursolve.output import equations_of_contour  # noqa: PLC0415 - sympy is slow to import
+
+    return equations_of_contour(answer)
+
+
+def _calculation(answer: Answer) -> Iterator[h.Node]:
+    from contoursolve.output import calculation_of_contour  # noqa: PLC0415 - sympy is slow to import
+
+    return calculation_of_contour(answer)
+
+
+_SECTIONS: Mapping[str, tuple[Callable[[Answer], Iterator[h.Node]], str]] = {
+    "equations": (_equations, "The contour has no equations."),
+    "calculation": (_calculation, "There is nothing to calculate until the contour is solved."),
+}
 
 # Ranges ------------------------------------------------------------------------------------------------------
 

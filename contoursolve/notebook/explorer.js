@@ -13,6 +13,9 @@ const FAST = 10; // steps of a page key
 const SVG = "http://www.w3.org/2000/svg";
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1], PageUp: [0, -FAST], PageDown: [0, FAST] };
 const GONE = new Set(["dead", "terminating", "restarting", "autorestarting"]);
+const IDLE = new Set(["range", "ghost", "section"]); // actions that nobody waits for
+const SECTIONS = { equations: "The equations", calculation: "The calculation by hand" };
+const FOCUSED = "button:not(:disabled), pre[tabindex], summary, [role=group][tabindex]";
 const NAMES = ["word", "point", "element", "finding"];
 
 function make(kind, properties = {}, ...children) {
@@ -42,6 +45,11 @@ function picture(svg) {
   if (!svg) return null;
   const root = new DOMParser().parseFromString(svg, "image/svg+xml").documentElement;
   return root.localName === "svg" ? document.importNode(root, true) : null;
+}
+
+function page(html) {
+  // Made by Python, with every text escaped; what is parsed so runs nothing.
+  return document.importNode(new DOMParser().parseFromString(html, "text/html").body, true).childNodes;
 }
 
 function isDark(element) {
@@ -142,6 +150,7 @@ function render({ model, el }) {
   const findings = make("div", { class: "findings" });
   const solutions = make("div", { class: "solutions", role: "group", "aria-label": "All solutions" });
   const path = make("details", { class: "path" }, make("summary", { text: "The path as a table" }));
+  const sections = new Map(Object.entries(SECTIONS).map(([name, title]) => [name, section(name, title)]));
   const view = make(
     "div",
     // JupyterLab keeps Enter and the arrow keys to itself elsewhere.
@@ -150,7 +159,7 @@ function render({ model, el }) {
     make(
       "div",
       { class: "desk" },
-      make("div", { class: "sheet" }, drawing, make("div", { class: "block" }, text, copy, undo, redo, again, copied), path),
+      make("div", { class: "sheet" }, drawing, make("div", { class: "block" }, text, copy, undo, redo, again, copied), path, ...[...sections.values()].map((each) => each.node)),
       make("div", { class: "panel" }, status, words, solutions, findings),
     ),
   );
@@ -189,7 +198,7 @@ function render({ model, el }) {
     const last = queue.at(-1);
     // Of words that are held, only the last values count; ghosts and ranges that nobody waits for any more do not.
     const isSame = last?.is_held && action.is_held && Object.keys(last.values).join() === Object.keys(action.values).join();
-    if (last && (last.do === "ghost" || last.do === "range" || isSame)) queue.pop();
+    if (last && (IDLE.has(last.do) || isSame)) queue.pop();
     queue.push(action);
     watch(action);
     send();
@@ -205,8 +214,8 @@ function render({ model, el }) {
   }
 
   function watch(action) {
-    // Nobody waits for a range, which may take long, or for a ghost; but for what is asked behind them.
-    if (silence || action.do === "range" || action.do === "ghost") return;
+    // A range or a section may take long; but somebody waits for what is asked behind them.
+    if (silence || IDLE.has(action.do)) return;
     silence = setTimeout(() => tell("Python has not answered for two seconds. It is busy, or it is gone: then run the cell, or load the page, again."), SILENT);
   }
 
@@ -374,8 +383,10 @@ function render({ model, el }) {
     showTracks();
   }
 
-  function askForRange() {
+  function askForMore() {
     if (queue.length || asked > answered || held) return;
+    const lacking = [...sections.keys()].find((name) => sections.get(name).node.open && !freshSection(name));
+    if (lacking !== undefined) return act({ do: "section", name: lacking });
     const next = [...rows.keys()].find((key) => !known.has(key) && model.get("view").frames[key] !== undefined);
     if (next !== undefined) act({ do: "range", key: next });
   }
@@ -710,12 +721,12 @@ function render({ model, el }) {
 
   // What is shown anew would lose the keys that follow to the page.
   function placeIn(part) {
-    return [...part.querySelectorAll("button, pre")].findIndex((node) => node.matches(":focus"));
+    return [...part.querySelectorAll(FOCUSED)].findIndex((node) => node.matches(":focus"));
   }
 
   function focusAgain(part, place) {
     if (place < 0) return;
-    const nodes = [...part.querySelectorAll("button:not(:disabled), pre")];
+    const nodes = [...part.querySelectorAll(FOCUSED)];
     (nodes[Math.min(place, nodes.length - 1)] ?? handles).focus({ preventScroll: true });
   }
 
@@ -740,6 +751,40 @@ function render({ model, el }) {
         ),
       ),
     );
+  }
+
+  // Sections that are made when they are opened --------------------------------------------------------------------
+
+  function section(name, title) {
+    const content = make("div", { class: "content" });
+    const node = make("details", { class: `more ${name}` }, make("summary", { text: title }), content);
+    node.addEventListener("toggle", () => {
+      if (node.open && !freshSection(name)) askForMore();
+    });
+    return { node, content, shown: null };
+  }
+
+  function freshSection(name) {
+    const made = model.get("sections")?.[name];
+    return made && made.of === model.get("view").text ? made : null;
+  }
+
+  function showSections() {
+    for (const [name, each] of sections) {
+      const made = model.get("sections")?.[name];
+      const isFresh = Boolean(freshSection(name));
+      each.content.classList.toggle("stale", Boolean(made) && !isFresh);
+      each.content.setAttribute("aria-busy", String(!isFresh && each.node.open));
+      if (!made || made === each.shown) continue;
+      each.shown = made;
+      const place = placeIn(each.content);
+      const wereOpen = new Set([...each.content.querySelectorAll("details[open] > summary")].map((summary) => summary.textContent));
+      each.content.replaceChildren(...page(made.html));
+      for (const summary of each.content.querySelectorAll("details > summary")) {
+        summary.parentElement.open = wereOpen.has(summary.textContent);
+      }
+      focusAgain(each.content, place);
+    }
   }
 
   // One identity: what is pointed at is lit wherever it stands ---------------------------------------------------
@@ -832,9 +877,10 @@ function render({ model, el }) {
       showGhost();
     }
     showRanges();
+    showSections();
     clearTimeout(quiet);
     if (queue.length) send();
-    else quiet = setTimeout(askForRange, QUIET);
+    else quiet = setTimeout(askForMore, QUIET);
   }
 
   function followTheme() {
@@ -856,7 +902,7 @@ function render({ model, el }) {
     observer.observe(element, { attributes: true, attributeFilter: ["class", "style", "data-theme", "data-jp-theme-light", "data-jp-theme-name", "data-vscode-theme-kind"] });
   }
   // What one answer changes comes in one event each, in any order: it is shown when all of it is there.
-  const CHANGED = ["view", "ranges", "ghost", "number"].map((name) => `change:${name}`);
+  const CHANGED = ["view", "ranges", "ghost", "sections", "number"].map((name) => `change:${name}`);
   let isDue = false;
   const changed = () => {
     if (isDue) return;

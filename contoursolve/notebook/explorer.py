@@ -26,6 +26,7 @@ class Explorer(anywidget.AnyWidget):
     view = traitlets.Dict().tag(sync=True)
     ranges = traitlets.Dict().tag(sync=True)
     ghost = traitlets.Dict().tag(sync=True)
+    sections = traitlets.Dict().tag(sync=True)
     number = traitlets.Int(0).tag(sync=True)
     action = traitlets.Dict().tag(sync=True)
     """Last action of the reader; the other traits so far are the state of `Conversation`."""

@@ -25,7 +25,6 @@ from contoursolve.output import (
     check_table,
     checks_table,
     contribution_table,
-    derivation_element,
     figure,
     finding_element,
     form_text,
@@ -48,7 +47,6 @@ from contoursolve.output import (
     sources_of,
     spread_lines,
     summary_line,
-    system_element,
     table,
     table_of,
     tolerances_title,
@@ -202,6 +200,18 @@ def _sensitivity(found: Sensitivity) -> h.Node:
     return table_of(replace(slopes, caption=slopes.caption.capitalize()))
 
 
+def _system(system: EquationSystem) -> Iterator[h.Node]:
+    from contoursolve.output import system_element  # noqa: PLC0415 - sympy is slow to import
+
+    yield from system_element(system)
+
+
+def _derivation(derivation: Derivation) -> Iterator[h.Node]:
+    from contoursolve.output import derivation_element  # noqa: PLC0415 - sympy is slow to import
+
+    yield from derivation_element(derivation)
+
+
 _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Result: _result,
     Answer: _answer,
@@ -219,6 +229,6 @@ _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Sketch: _sketch,
     Drawings: _sketch,
     Drawn: _sketch,
-    EquationSystem: system_element,
-    Derivation: derivation_element,
+    EquationSystem: _system,
+    Derivation: _derivation,
 }

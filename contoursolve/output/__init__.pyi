@@ -41,6 +41,10 @@ from .exchange import (
     to_github as to_github,
     to_sarif as to_sarif,
 )
+from .explanation_html import (
+    calculation_of_contour as calculation_of_contour,
+    equations_of_contour as equations_of_contour,
+)
 from .families import (
     contribution_table as contribution_table,
     found_data as found_data,

@@ -6,18 +6,24 @@ from typing import Any
 import htpy as h
 from markupsafe import Markup
 
-from contoursolve.diagnosis import EquationSystem, SystemCondition
+from contoursolve.diagnosis import EquationSystem, SystemCondition, word_keys
+from contoursolve.gcode import FACT
 from contoursolve.numeric import symbolic
 from contoursolve.output.equations import large_lines, open_line, size_text, stated_pair, unknown_table, value_table
 from contoursolve.output.html import table, table_of
-from contoursolve.output.plain_text import printable
+from contoursolve.output.plain_text import NAMELESS, printable
 
 
 def system_element(system: EquationSystem) -> Iterator[h.Node]:
     """The same as HTML: each formula as MathML, which browsers draw and screen readers read out."""
     yield h.p[f"{size_text(system)}."]
     equations = [(*stated_pair(each), maths(each.equation)) for each in system.statements]
-    yield table("Equations", ("word", "what it says", "equation"), equations)
+    keys = word_keys(system.claim.words.values())
+    names = [
+        NAMELESS if word is None or word.address == FACT or word.span not in keys else ("word", keys[word.span])
+        for word in (each.source for each in system.statements)
+    ]
+    yield table("Equations", ("word", "what it says", "equation"), equations, names=names)
     if system.free:
         yield h.p[f"{open_line(system).capitalize()}."]
     if system.conditions:

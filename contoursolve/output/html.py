@@ -48,10 +48,10 @@ def table(
     names: Sequence[Name] = (),
     identity: str = "",
 ) -> h.Element:
-    """A table whose first column heads its rows; the columns named in `numbers` are aligned right. A row with a name is
-    a place on the page, to which its first cell leads."""
+    """A table whose first column heads its rows; the columns named in `numbers` are aligned right. A row with a name
+    says what it shows of a picture; with an `identity`, it is a place on the page, to which its first cell leads."""
     own = [*names, *[NAMELESS] * (len(rows) - len(names))]
-    places = [f"{identity}-{number}" if name != NAMELESS else None for number, name in enumerate(own, 1)]
+    places = [f"{identity}-{number}" if identity and name != NAMELESS else None for number, name in enumerate(own, 1)]
     kinds = ["number" if place in numbers else None for place in range(len(header))]
     return h.div(".scroll", tabindex="0", role="group", aria_label=caption)[
         h.table[

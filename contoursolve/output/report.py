@@ -13,7 +13,6 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, Policy, coordinates, count, status_text
 from contoursolve.diagnostics import Diagnostic, Evidence, Label, Severity, Span
 from contoursolve.gcode import Block
-from contoursolve.output.construction import construction_lines
 from contoursolve.output.contours import given_table, path_table
 from contoursolve.output.html import (
     checks_table,
@@ -223,16 +222,16 @@ def _contour(
 
 def _explained(answer: Answer) -> h.Element:
     """The equations of a contour as maths, its construction, and its calculation by hand."""
-    from contoursolve.output.derivation_html import derivation_element  # noqa: PLC0415 - sympy is slow to import
-    from contoursolve.output.equations_html import system_element  # noqa: PLC0415 - sympy is slow to import
+    from contoursolve.output.explanation_html import (  # noqa: PLC0415 - sympy is slow to import
+        calculation_of_contour,
+        equations_of_contour,
+    )
 
-    system = answer.system
+    calculation = [*calculation_of_contour(answer)]
     return h.section(".equations")[
         h.h4["Equations"],
-        *system_element(system),
-        h.h4["Construction"],
-        h.pre["\n".join(line[2:] for line in construction_lines(answer)[1:])],
-        [h.h4["Calculation by hand"], *derivation_element(system.derivation)] if system.solution else None,
+        *equations_of_contour(answer),
+        [h.h4["Calculation by hand"], *calculation] if calculation else None,
     ]
 
 

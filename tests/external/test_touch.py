@@ -381,3 +381,28 @@ def test_another_control_may_be_typed_where_nobody_chose_one(desk):
     assert desk.talk.exploration.result.control == "siemens-840d"
     assert desk.talk.state["view"]["status"]["text"] == "solved"
     desk.check()
+
+
+def test_sections_that_are_opened_show_the_equations_and_follow_each_word(desk, artefacts):
+    assert desk.talk.state["sections"] == {}
+    desk.page.locator("details.equations > summary").click()
+    section = desk.page.locator("details.equations .content")
+    section.locator("math").first.wait_for()
+    assert "0.866" in section.inner_text()
+    assert section.locator("math[alttext*='sin(B)']").count()
+    section.locator("summary", has_text="Unknowns and values").click()
+    field = desk.page.locator(".row[data-word='B'] input[type=number]")
+    field.fill("150")
+    field.press("Enter")
+    desk.page.wait_for_function("document.querySelector('details.equations').innerText.match(/B150[^]*\\b0\\.5\\b/)")
+    assert section.locator("details", has_text="Unknowns and values").get_attribute("open") is not None
+    desk.page.locator(".equations tr[data-word='B']").hover()
+    assert "lit" in desk.page.locator(".row[data-word='B']").get_attribute("class")
+    desk.page.locator("button[aria-label='free X']").click()
+    section.locator("text=Still open").first.wait_for()
+    desk.page.locator("button.undo").click()
+    desk.page.locator("details.calculation > summary").click()
+    desk.page.locator("details.calculation svg[aria-label^='triangle']").first.wait_for()
+    desk.page.screenshot(path=artefacts / "sections.png", full_page=True)
+    assert {*desk.talk.state["sections"]} == {"equations", "calculation"}
+    desk.check()

@@ -17,7 +17,7 @@ from examples import some_of
 import contoursolve
 from contoursolve import Status
 from contoursolve.notebook import exploration as explore
-from contoursolve.notebook.exploration_view import picture_of, range_of, view_of
+from contoursolve.notebook.exploration_view import picture_of, range_of, section_of, view_of
 
 WHOLE = "G111 X100. A180. K-30. B120. P5. Q5."
 START = {"start": "X40. Z0."}
@@ -413,3 +413,37 @@ def test_the_traits_of_the_widget_are_observed_and_set():
             setattr(widget, name, wrong)
         assert widget.text == "G111 X100. A180. K-30. B130. P5."
         assert widget.values["A"] == 180
+
+
+def test_sympy_is_imported_when_a_section_is_opened_and_not_before():
+    program = (
+        "import sys, contoursolve\n"
+        f"widget = contoursolve.explore({WHOLE!r}, start='X40. Z0.')\n"
+        "widget._repr_mimebundle_()\n"
+        "for number, asked in enumerate(\n"
+        "    ({'do': 'move', 'values': {'P': 60}}, {'do': 'free', 'key': 'X'}, {'do': 'undo'}, {'do': 'undo'},\n"
+        "     {'do': 'range', 'key': 'P'}, {'do': 'section', 'name': 'equations'}), 1):\n"
+        "    print('sympy' in sys.modules, end=' ')\n"
+        "    widget.action = {**asked, 'number': number}\n"
+        "print('sympy' in sys.modules, 'sin(B)' in widget.sections['equations']['html'])"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == [*["False"] * 6, "True", "True"]
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        (WHOLE, {"equations": "must not be parallel", "calculation": "right triangle"}),
+        ("G111 X100. A180. B120.", {"equations": "still open", "calculation": "nothing to calculate"}),
+        (f"{WHOLE} (contoursolve: X of V1 = 40)", {"equations": "the same", "calculation": "triangle"}),
+        ("G01 X50.", {"equations": "no contour", "calculation": "no contour"}),
+    ],
+    ids=["solved", "open", "tied", "none"],
+)
+def test_each_section_tells_what_the_block_comes_to(text, wanted):
+    now = explore.write(explore.begin(WHOLE, **START), text)
+    for name, words in wanted.items():
+        told = section_of(now, name)
+        assert words in told.lower(), told
+        assert 'words-"' not in told
