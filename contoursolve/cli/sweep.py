@@ -182,6 +182,12 @@ def size(count: float) -> str:
     type=click.Path(path_type=Path),
     help="Where to draw the contours of one word that varies, or the outcomes over two: FILE.svg or FILE.png.",
 )
+@click.option(
+    "--result",
+    metavar="NAME",
+    help="With --plot, colour the map of two words by a result, with lines of equal value: a column of FILE such as "
+    "V2.Z or 'line 1.room', the end of the path (end.Z), or its length.",
+)
 @theme_option
 @click.option(
     "--force",
@@ -203,6 +209,7 @@ def sweep_(
     is_paired: bool,
     output: str | None,
     picture: Path | None,
+    result: str | None,
     theme: str,
     is_forced: bool,
     workers: int | None,
@@ -230,6 +237,8 @@ def sweep_(
     """
     if workers is not None and dask is not None:
         raise click.UsageError("--workers are threads of this machine; with --dask, the cluster has its own workers")
+    if result is not None and picture is None:
+        raise click.UsageError("--result colours a map; name its file with --plot")
     target = _target(output, is_forced)
     if picture is not None:
         check_picture(picture, is_forced=is_forced)
@@ -241,12 +250,12 @@ def sweep_(
             check_extent(ready, parts, target, is_forced=is_forced)
             if picture is not None:
                 # What cannot be drawn is told before anything else is done.
-                bytes_of(draw_sweep(ready, theme=Theme(theme), title="not solved yet"), picture)
+                bytes_of(draw_sweep(ready, result=result, theme=Theme(theme), title="not solved yet"), picture)
             with open_cluster(dask) as executor, progress(ready.ranges.count, is_quiet=is_quiet) as advance:
                 _run(_tables(ready, parts, (workers, executor), tally, advance), parts, target, is_forced=is_forced)
             if picture is not None:
                 title = sweep_title(ready.ranges, summary_of(tally.counts.sum(axis=1)))
-                drawn = bytes_of(draw_sweep(ready, theme=Theme(theme), title=title), picture)
+                drawn = bytes_of(draw_sweep(ready, result=result, theme=Theme(theme), title=title), picture)
                 write_whole(picture, [drawn], keeps_backup=False)
             failures = failure_summary(ready, tally)
     except KeyboardInterrupt:

@@ -77,6 +77,7 @@ from .sampled_lines import (
     boundaries_of as boundaries_of,
     crossings_of as crossings_of,
     is_contour as is_contour,
+    level_line as level_line,
     outcomes_of as outcomes_of,
 )
 from .sensitivities import (

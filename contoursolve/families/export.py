@@ -17,6 +17,7 @@ from contoursolve.families.block_template import SweepSpec, Template
 from contoursolve.families.case_classes import asked_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.free_words import kind_of
+from contoursolve.families.results import find_result, lengths_of, names_of_results
 from contoursolve.families.word_values import Ranges
 from contoursolve.gcode import Word
 from contoursolve.geometry import Unit
@@ -124,6 +125,32 @@ class Family(Shown):
         """Mask of the rows with a contour: solved, or with words that agree; and nothing speaks against it."""
         is_solved = (self["status"] <= StatusCode.OVERDETERMINED) & (self["reason"] == 0)
         return numpy.asarray(is_solved)
+
+    @property
+    def results(self) -> tuple[str, ...]:
+        """The names that `result` takes."""
+        return tuple(self._columns_by_result())
+
+    def result(self, name: str) -> NDArray[numpy.float64]:
+        """One result of each contour, and NaN where there is none: any column of numbers, `end.Z` and `end.X` of the
+        path, and its `length`; mm, X of a lathe as radius. Raises FamilyError for a name that is none."""
+        known = self._columns_by_result()
+        column = known[find_result(name, known)]
+        values = self.columns[column] if column else lengths_of(self.columns, len(self))
+        return numpy.where(self.has_contour, values.reshape(self.shape), numpy.nan)
+
+    def measure_of(self, name: str) -> Measure:
+        """The unit of a result. Raises FamilyError for a name that is none."""
+        known = self._columns_by_result()
+        column = known[find_result(name, known)]
+        return self.measures()[column] if column else Measure("mm")
+
+    def full_name(self, name: str) -> str:
+        """The name of a result as `results` has it. Raises FamilyError for a name that is none."""
+        return find_result(name, self.results)
+
+    def _columns_by_result(self) -> dict[str, str]:
+        return names_of_results(self.spec.template(), self.ranges, self.columns)
 
     def summary(self) -> dict[Status, int]:
         """The number of rows with each status, without those that none has."""

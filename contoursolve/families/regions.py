@@ -16,6 +16,7 @@ from contoursolve.families.case_classes import CaseClass, FreeWords, premises_of
 from contoursolve.families.compiled_sweep import CompiledSweep
 from contoursolve.families.errors import ByRowError, FamilyError
 from contoursolve.families.evaluate import compile_sweep, solve_sweep
+from contoursolve.families.export import Family
 from contoursolve.families.free_words import are_compared, check_block
 from contoursolve.families.sampled_lines import (
     Boundary,
@@ -80,6 +81,16 @@ class Region(Shown, Struct, frozen=True, eq=False):
             for size in (self.cell, self.seen)
         )
         return f"sampled, edges within {cell}; what is narrower than {seen} may be missing"
+
+    def family(self, columns: int | None = None, rows: int | None = None) -> Family:
+        """The contours at evenly spaced values of both words, as many as `outcomes` has unless it is told: for
+        results, such as `region.family()["V2.Z"]`. Raises FamilyError for less than two values of a word."""
+        own = self.outcomes.shape
+        counts = own[0] if columns is None else columns, own[1] if rows is None else rows
+        if min(counts) < 2:  # noqa: PLR2004 - both ends
+            raise FamilyError(f"{counts[0]} by {counts[1]} values are no grid; take 2 or more of each word")
+        axes = (numpy.linspace(*ends, count) for ends, count in zip(self.within, counts, strict=True))
+        return solve_sweep(compile_sweep(self.spec, Ranges(dict(zip(self.words, axes, strict=True)), is_paired=False)))
 
 
 def region(

@@ -108,14 +108,36 @@ def boundaries_of(template: Template, outcomes: Outcomes, crossings: Crossings) 
             yield Boundary(points, reason, outside)
 
 
-def _links(crossings: Crossings, shape: tuple[int, ...]) -> dict[int, list[int]]:
-    """The crossings that each is joined with, through the cells between four nodes."""
+def level_line(axes: Sequence[Array], values: Array, level: float) -> Iterator[Array]:
+    """The lines on which a result has a value, between its values in a grid, by (first word, second word), as points of
+    shape (n, 2); none through cells of which a corner has no value (NaN)."""
+    is_above, found, points = values > level, [], []
+    for along in (0, 1):
+        other = tuple(slice(1, None) if axis == along else slice(None) for axis in (0, 1))
+        base = tuple(slice(None, -1) if axis == along else slice(None) for axis in (0, 1))
+        is_known = numpy.isfinite(values[base]) & numpy.isfinite(values[other])
+        here = numpy.argwhere((is_above[base] != is_above[other]) & is_known)
+        pairs = numpy.stack([here, here + numpy.eye(2, dtype=numpy.int64)[along]], axis=1)
+        one, two = (values[tuple(pairs[:, end].T)] for end in (0, 1))
+        share = ((level - one) / (two - one))[:, None]
+        low, high = (numpy.stack([axes[word][pairs[:, end, word]] for word in (0, 1)], axis=1) for end in (0, 1))
+        points.append(low + share * (high - low))
+        found.append(numpy.where((one > level)[:, None, None], pairs, pairs[:, ::-1]))
+    where = numpy.concatenate(points)
+    crossings = Crossings(numpy.concatenate(found), where, where)
+    yield from (where[path] for path in _paths(_links(crossings, values.shape, numpy.isfinite(values))))
+
+
+def _links(
+    crossings: Crossings, shape: tuple[int, ...], known: NDArray[numpy.bool_] | None = None
+) -> dict[int, list[int]]:
+    """The crossings that each is joined with, through the cells between four nodes, all of which are `known`."""
     cells: dict[tuple[int, int], list[int]] = {}
     low = crossings.nodes.min(axis=1)
     along = numpy.ptp(crossings.nodes, axis=1).argmax(axis=1)
     for number, ((i, j), axis) in enumerate(zip(low.tolist(), along.tolist(), strict=True)):
         for cell in ((i, j), (i, j - 1) if axis == 0 else (i - 1, j)):
-            if 0 <= cell[0] < shape[0] - 1 and 0 <= cell[1] < shape[1] - 1:
+            if 0 <= cell[0] < shape[0] - 1 and 0 <= cell[1] < shape[1] - 1 and (known is None or _holds(known, cell)):
                 cells.setdefault(cell, []).append(number)
     links: dict[int, list[int]] = {number: [] for number in range(len(low))}
     for _, own in sorted(cells.items()):
@@ -124,6 +146,11 @@ def _links(crossings: Crossings, shape: tuple[int, ...]) -> dict[int, list[int]]
             links[one].append(other)
             links[other].append(one)
     return links
+
+
+def _holds(known: NDArray[numpy.bool_], cell: tuple[int, int]) -> bool:
+    """Whether all four nodes of a cell are known."""
+    return bool(known[cell[0] : cell[0] + 2, cell[1] : cell[1] + 2].all())
 
 
 def _cut_off(crossings: Crossings, own: Sequence[int]) -> Iterator[list[int]]:

@@ -21,7 +21,7 @@ from contoursolve.output.contours import (
 from contoursolve.output.findings import Piece, finding_pieces
 from contoursolve.output.plain_text import NAMELESS, Name, Table, printable
 from contoursolve.output.premises import premise_texts
-from contoursolve.pictures import CHAINS, DARK_COLORS, LIGHT_COLORS, Drawable, Role, Theme, draw
+from contoursolve.pictures import CHAINS, DARK_COLORS, LEVELS, LIGHT_COLORS, Drawable, Role, Theme, draw
 
 WIDEST, LONGEST = 200, 400
 """Characters of a cell, and of a line."""
@@ -251,8 +251,11 @@ def _escaped(found: re.Match[str]) -> str:
 _SURFACES = {"light": {"shade": "#f3f4f6", "line": "#cbd0d8"}, "dark": {"shade": "#1b2230", "line": "#3a4454"}}
 """Colours that no picture has: behind texts, and of thin lines between rows."""
 
-LIGHT: Mapping[str, str] = {role.value: color for role, color in LIGHT_COLORS.items()} | _SURFACES["light"]
-DARK: Mapping[str, str] = {role.value: color for role, color in DARK_COLORS.items()} | _SURFACES["dark"]
+LIGHT, DARK = (
+    {role.value: color for role, color in colors.items() if role not in LEVELS} | _SURFACES[scheme]
+    for scheme, colors in (("light", LIGHT_COLORS), ("dark", DARK_COLORS))
+)
+"""Colours of a page, by their names; `map_style` has those of levels."""
 
 _NOTEBOOK_COLORS = {
     Role.INK.value: "--jp-content-font-color1, var(--vscode-editor-foreground, {})",

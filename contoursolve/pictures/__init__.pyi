@@ -44,6 +44,7 @@ from .sweeps import (
 from .theme import (
     CHAINS as CHAINS,
     DARK_COLORS as DARK_COLORS,
+    LEVELS as LEVELS,
     LIGHT_COLORS as LIGHT_COLORS,
     Role as Role,
     Theme as Theme,

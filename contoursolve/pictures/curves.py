@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from contoursolve.families import Boundary
 from contoursolve.numeric import Array
-from contoursolve.pictures.page import Spot, Stroke
+from contoursolve.pictures.page import Box, Spot, Stroke, Text
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.value_axes import HIGH, LEFT, TOP, WIDE, ValuePlane
 
@@ -20,19 +20,27 @@ _GIVE = 0.3
 """Pixels by which a point may be off a line that leaves it out."""
 
 
-class Curve(Struct, frozen=True, eq=False):
-    """A boundary on the page: its points, places on it a pixel apart, and the unit directions to its failing side
-    there."""
+class PageLine(Struct, frozen=True, eq=False):
+    """A line on the page: its points, and places on it a pixel apart."""
 
-    boundary: Boundary
     points: Array
     spots: Array
-    ways: Array
 
     @property
     def length(self) -> float:
         """Pixels."""
         return float(numpy.hypot(*numpy.diff(self.spots, axis=0).T).sum())
+
+    def stroke(self, role: Role, width: float) -> Stroke:
+        """The line as it is drawn."""
+        return Stroke(_spot(self.points[0]), tuple(map(_spot, self.points[1:])), role, width)
+
+
+class Curve(PageLine, frozen=True, eq=False):
+    """A boundary on the page, with the unit directions to its failing side at its places."""
+
+    boundary: Boundary
+    ways: Array
 
 
 def curves_of(boundaries: Iterable[Boundary], chart: ValuePlane) -> list[Curve]:
@@ -41,11 +49,18 @@ def curves_of(boundaries: Iterable[Boundary], chart: ValuePlane) -> list[Curve]:
     return sorted((each for each in found if each.length > 0), key=lambda each: -each.length)
 
 
-def _curve(boundary: Boundary, chart: ValuePlane) -> Curve:
-    rough = _thinned(chart.spots(numpy.array(boundary.points)))
+def line_on_page(points: Array, chart: ValuePlane) -> PageLine:
+    """A line through values of both words, of shape (n, 2), as it runs on the page."""
+    rough = _thinned(chart.spots(points))
     steps = numpy.concatenate([[0.0], numpy.cumsum(numpy.hypot(*numpy.diff(rough, axis=0).T))])
     along = numpy.linspace(0.0, steps[-1], max(2, int(steps[-1]) + 1))
     spots = numpy.stack([numpy.interp(along, steps, rough[:, axis]) for axis in (0, 1)], axis=1)
+    return PageLine(rough, spots)
+
+
+def _curve(boundary: Boundary, chart: ValuePlane) -> Curve:
+    line = line_on_page(numpy.array(boundary.points), chart)
+    spots = line.spots
     ways = numpy.gradient(spots, axis=0)
     sizes = numpy.hypot(ways[:, 0], ways[:, 1])
     ways = ways / numpy.where(sizes > 0, sizes, 1.0)[:, None]
@@ -55,7 +70,7 @@ def _curve(boundary: Boundary, chart: ValuePlane) -> Curve:
     nearest = int(numpy.argmin(numpy.hypot(*(spots - there[0]).T)))
     if float((there[1] - there[0]) @ normals[nearest]) < 0:
         normals = -normals
-    return Curve(boundary, rough, spots, normals)
+    return Curve(line.points, spots, boundary, normals)
 
 
 def _thinned(points: Array) -> Array:
@@ -76,12 +91,21 @@ def _thinned(points: Array) -> Array:
 
 def strokes(curves: Sequence[Curve]) -> list[Stroke]:
     """The lines."""
-    return [Stroke(_spot(each.points[0]), tuple(map(_spot, each.points[1:])), Role.INK, _LINE) for each in curves]
+    return [each.stroke(Role.INK, _LINE) for each in curves]
 
 
-def spots_of(curves: Sequence[Curve]) -> Array:
+def spots_of(curves: Sequence[PageLine]) -> Array:
     """Places a pixel apart on all lines."""
     return numpy.concatenate([numpy.empty((0, 2)), *(curve.spots for curve in curves)])
+
+
+def is_free(texts: Sequence[Text], boxes: Sequence[Box], spots: Array) -> bool:
+    """Whether texts are clear of others and of every line."""
+    for box in (each.box.grow(2.0) for each in texts):
+        inside = (spots[:, 0] > box.left) & (spots[:, 0] < box.right) & (spots[:, 1] > box.top)
+        if any(box.meets(other) for other in boxes) or bool((inside & (spots[:, 1] < box.bottom)).any()):
+            return False
+    return True
 
 
 def near(curves: Sequence[Curve], rows: int, columns: int) -> NDArray[numpy.bool_]:

@@ -106,17 +106,23 @@ def draw_family_fan(
 
 
 def draw_family_map(
-    family: Family, words: tuple[str, str] | None = None, *, theme: Theme = Theme.LIGHT, title: str | None = None
+    family: Family,
+    words: tuple[str, str] | None = None,
+    *,
+    result: str | None = None,
+    theme: Theme = Theme.LIGHT,
+    title: str | None = None,
 ) -> Picture:
     """The picture of what becomes of a block over two of its words: a field for each status, and the lines between the
     values with a contour and without, with what fails beyond them.
 
-    `words` go to the right and up; without them, the two words of the family. Raises ValueError where these are not
-    two words of a grid.
+    `words` go to the right and up; without them, the two words of the family. `result` colours the contours by one of
+    the family's `results`, with lines of equal value: `"V2.Z"`, `"line 1.room"`, `"length"`. Raises ValueError where
+    these are not two words of a grid, FamilyError for a result that is none.
     """
     from contoursolve.pictures.maps import lay_out_map  # noqa: PLC0415 - numpy
 
-    return finish(lay_out_map(family, words, title), theme)
+    return finish(lay_out_map(family, words, title, result=result), theme)
 
 
 def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
@@ -126,12 +132,14 @@ def draw_range(found: Feasible, *, theme: Theme = Theme.LIGHT, title: str | None
     return finish(lay_out_range(found, title), theme)
 
 
-def draw_region(region: Region, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+def draw_region(
+    region: Region, *, result: str | None = None, theme: Theme = Theme.LIGHT, title: str | None = None
+) -> Picture:
     """The picture of the values of two words with which a block has a contour: the lines that bound them, each with
-    what fails beyond it, and a field for each status, as they were sampled."""
+    what fails beyond it, and a field for each status, as they were sampled; with a `result`, as `draw_family_map`."""
     from contoursolve.pictures.maps import lay_out_region  # noqa: PLC0415 - as above
 
-    return finish(lay_out_region(region, title), theme)
+    return finish(lay_out_region(region, title, result), theme)
 
 
 def draw_drawings(drawings: Drawings | Drawn, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
@@ -144,17 +152,23 @@ def draw_drawings(drawings: Drawings | Drawn, *, theme: Theme = Theme.LIGHT, tit
     return finish(lay_out(scene), theme, str(drawings))
 
 
-def draw_sweep(ready: CompiledSweep, *, theme: Theme = Theme.LIGHT, title: str | None = None) -> Picture:
+def draw_sweep(
+    ready: CompiledSweep, *, result: str | None = None, theme: Theme = Theme.LIGHT, title: str | None = None
+) -> Picture:
     """The picture of a sweep: the fan of contours where one word varies, the map of outcomes where two do.
 
     Of too many values, some are drawn. The title counts all contours, and solves them for that; with a title of your
-    own, only those that are drawn. Raises FamilyError for paired words, and where none or more than two vary.
+    own, only those that are drawn. A map may show a `result`, as `draw_family_map`. Raises FamilyError for paired
+    words, where none or more than two vary, and for a result that is none, or of one word.
     """
+    from contoursolve.families import FamilyError  # noqa: PLC0415 - as above
     from contoursolve.pictures.maps import lay_out_map  # noqa: PLC0415 - as above
     from contoursolve.pictures.sweeps import count_statuses, solve_shown, sweep_title  # noqa: PLC0415 - as above
 
     shown = solve_shown(ready)
+    if result is not None and isinstance(shown, tuple):
+        raise FamilyError(f"a map of {result} takes two words that vary; this sweep has {shown[0]}")
     told = title if title is not None else sweep_title(ready.ranges, count_statuses(ready))
     if isinstance(shown, tuple):
         return draw_family_fan(*shown, theme=theme, title=told)
-    return finish(lay_out_map(shown, None, told, ready.ranges), theme)
+    return finish(lay_out_map(shown, None, told, ready.ranges, result), theme)

@@ -5,9 +5,8 @@ from itertools import product
 
 import numpy
 
-from contoursolve.families import Outcomes
-from contoursolve.numeric import Array
-from contoursolve.pictures.curves import Curve, near, spots_of
+from contoursolve.families import Outcomes, is_contour
+from contoursolve.pictures.curves import Curve, is_free, near, spots_of
 from contoursolve.pictures.fields import Mask, cell_at, cell_size, holds, role_of, words_of
 from contoursolve.pictures.page import SIZE, Anchor, Box, Spot, Text, TextRun, visible, width_of, wrap
 from contoursolve.pictures.theme import Role
@@ -33,15 +32,19 @@ Named = tuple[list[Text], list[str]]
 """Names where they stand, and those for which there is no room."""
 
 
-def name_all(shown: Outcomes, curves: Sequence[Curve], taken: Sequence[Box]) -> tuple[list[Text], list[str], list[str]]:
+def name_all(
+    shown: Outcomes, curves: Sequence[Curve], taken: Sequence[Box], *, has_values: bool = False
+) -> tuple[list[Text], list[str], list[str]]:
     """The names of fields and of lines where there is room beside what is taken, then those of fields and of lines
-    for which there is none. Fields come first, or lines where more names have room then."""
+    for which there is none. Fields come first, or lines where more names have room then. Where there is a contour, the
+    field needs no name if its values stand there."""
     off_lines = ~near(curves, *shown.shape)
-    fields = _name_fields(shown, off_lines, taken)
+    named = numpy.where(is_contour(shown), -1, shown) if has_values else shown
+    fields = _name_fields(named, off_lines, taken)
     lines = _name_lines(curves, shown, [*taken, *_boxes(fields)])
     if lines[1]:
         first = _name_lines(curves, shown, taken)
-        then = _name_fields(shown, off_lines, [*taken, *_boxes(first)])
+        then = _name_fields(named, off_lines, [*taken, *_boxes(first)])
         if len(first[1]) + len(then[1]) < len(lines[1]) + len(fields[1]):
             fields, lines = then, first
     return [*fields[0], *lines[0]], fields[1], lines[1]
@@ -56,7 +59,7 @@ def _name_fields(shown: Outcomes, off_lines: Mask, taken: Sequence[Box]) -> Name
     """The name of each field in cells of it that are off every line; of one in several parts, in each that has room."""
     items: list[Text] = []
     others: list[str] = []
-    counts = {int(each): int((shown == each).sum()) for each in numpy.unique(shown)}
+    counts = {int(each): int((shown == each).sum()) for each in numpy.unique(shown) if each >= 0}
     for outcome in sorted(counts, key=lambda each: -counts[each]):
         words, mask = words_of(outcome), shown == outcome
         free = mask & off_lines
@@ -186,12 +189,3 @@ def _field_beyond(curve: Curve, share: float, shown: Outcomes) -> Mask | None:
         return None
     outcome = int(shown[row, column])
     return None if role_of(outcome) is Role.SOLVED_FIELD else shown == outcome
-
-
-def is_free(texts: Sequence[Text], boxes: Sequence[Box], spots: Array) -> bool:
-    """Whether texts are clear of others and of every line."""
-    for box in (each.box.grow(2.0) for each in texts):
-        inside = (spots[:, 0] > box.left) & (spots[:, 0] < box.right) & (spots[:, 1] > box.top)
-        if any(box.meets(other) for other in boxes) or bool((inside & (spots[:, 1] < box.bottom)).any()):
-            return False
-    return True

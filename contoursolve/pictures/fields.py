@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from contoursolve.families import Outcomes, is_contour
 from contoursolve.pictures.curves import Curve, near
+from contoursolve.pictures.levels import Levels
 from contoursolve.pictures.page import Box, Item, Spot, Stroke
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.value_axes import HIGH, LEFT, TOP, WIDE
@@ -60,12 +61,16 @@ def holds(mask: Mask, box: Box) -> bool:
     return is_inside and bool(mask[top : bottom + 1, left : right + 1].all())
 
 
-def paint(shown: Outcomes) -> list[Item]:
-    """A rectangle for each run of outcomes of one colour in a row, of several rows where these are alike."""
+def paint(shown: Outcomes, levels: Levels | None = None, bands: Outcomes | None = None) -> list[Item]:
+    """A rectangle for each run of outcomes of one colour in a row, of several rows where these are alike; where there
+    is a contour, the colours are those of bands of a result if there are any (-1 for none)."""
     roles = list(Role)
     colors = numpy.zeros_like(shown)
     for outcome in numpy.unique(shown):
         colors[shown == outcome] = roles.index(role_of(int(outcome)))
+    if levels is not None and bands is not None:
+        for band in numpy.unique(bands[bands >= 0]):
+            colors[bands == band] = roles.index(levels.role(int(band)))
     wide, high = cell_size(shown)
     items: list[Item] = []
     begin = 0

@@ -33,7 +33,19 @@ class Role(Enum):
     REFUSED_FIELD = "refused-field"
     OTHER_FIELD = "other-field"
     """Fields of a map."""
+    LEVEL_1 = "level-1"
+    LEVEL_2 = "level-2"
+    LEVEL_3 = "level-3"
+    LEVEL_4 = "level-4"
+    LEVEL_5 = "level-5"
+    LEVEL_6 = "level-6"
+    LEVEL_7 = "level-7"
+    LEVEL_8 = "level-8"
+    """Fields of a map by the value of a result, from the least to the largest."""
 
+
+LEVELS = tuple(role for role in Role if role.value.startswith("level-"))
+"""Roles of values in maps alone."""
 
 CHAINS = (Role.DETERMINED, Role.SEVERAL, Role.OPEN)
 """Roles of elements of chains alone."""
@@ -68,7 +80,7 @@ DASHES: Mapping[Role, tuple[float, ...]] = {
 }
 """Pixels on and off of a role's thin lines; solid without. They tell the states apart without colour."""
 
-_COLORS: Mapping[Role, tuple[str, str]] = {
+_COLORS: dict[Role, tuple[str, ...]] = {
     Role.PAPER: ("#ffffff", "#10151f"),
     Role.INK: ("#111827", "#f3f4f6"),
     Role.MUTED: ("#5b6472", "#9aa5b5"),
@@ -88,6 +100,21 @@ _COLORS: Mapping[Role, tuple[str, str]] = {
     Role.OTHER_FIELD: ("#dccfee", "#3a2a55"),
 }
 """The colours of a role: light and dark."""
+
+
+def _between(low: str, high: str, share: float) -> str:
+    """A colour between two, by the share of the second."""
+    pairs = ((int(low[at : at + 2], 16), int(high[at : at + 2], 16)) for at in (1, 3, 5))
+    return "#" + "".join(f"{round(one + share * (other - one)):02x}" for one, other in pairs)
+
+
+_LEVEL_ENDS = ("#f4f8fe", "#86a6f0"), ("#13233c", "#2c4f8c")
+"""The least and the largest level, light and dark: ink can be read on all of them."""
+
+_COLORS |= {
+    role: tuple(_between(*ends, number / (len(LEVELS) - 1)) for ends in _LEVEL_ENDS)
+    for number, role in enumerate(LEVELS)
+}
 
 LIGHT_COLORS, DARK_COLORS = ({role: colors[number] for role, colors in _COLORS.items()} for number in (0, 1))
 

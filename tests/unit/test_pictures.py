@@ -40,7 +40,7 @@ from contoursolve.pictures.page import WIDTH, Box, Shape, Stroke, Sweep, Text
 from contoursolve.pictures.scene import Leader, Mark, MarkKind
 from contoursolve.pictures.subject import subject_of
 from contoursolve.pictures.svg import PIXELS
-from contoursolve.pictures.theme import DARK_COLORS, DASHES, LIGHT_COLORS, Role
+from contoursolve.pictures.theme import DARK_COLORS, DASHES, LEVELS, LIGHT_COLORS, Role
 from contoursolve.solving import StatusCode
 from contoursolve.solving.contour import ArcSegment
 
@@ -312,7 +312,7 @@ def contrast(one: str, other: str) -> float:
 
 @pytest.mark.parametrize("colors", [LIGHT_COLORS, DARK_COLORS], ids=["light", "dark"])
 def test_every_text_and_line_stands_out_from_its_ground(colors):
-    fields = {Role.SOLVED_FIELD, Role.REFUSED_FIELD, Role.OTHER_FIELD}
+    fields = {Role.SOLVED_FIELD, Role.REFUSED_FIELD, Role.OTHER_FIELD, *LEVELS}
     for role in set(Role) - fields - {Role.PAPER}:
         assert contrast(colors[role], colors[Role.PAPER]) >= 4.5
     for field in fields:
@@ -846,6 +846,9 @@ def test_sweep_draws_one_word_as_a_fan_and_two_as_a_map(tmp_path):
     status, output = sweep(*both, "--plot", tmp_path / "map.png")
     assert status == 0
     assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
+    assert sweep(*both, "--plot", tmp_path / "room.svg", "--result", "line 1.room")[0] == 0
+    assert "line 1.room [mm]: from " in (tmp_path / "room.svg").read_text()
+    assert "name its file with --plot" in sweep(*both, "--result", "V2.Z")[1]
     family = contoursolve.family(
         BLOCK, start=START, vary={"A": numpy.arange(120, 250.1, 2), "P": numpy.arange(1, 60.1, 0.5), "Q": [5.0]}
     )
@@ -855,6 +858,8 @@ def test_sweep_draws_one_word_as_a_fan_and_two_as_a_map(tmp_path):
         ((*both, "--vary", "X=90,100"), "has 3 words"),
         (("--vary", "A=170"), "has 0 words"),
         (("--vary", "A=170,180", "--vary", "P=1,2", "--paired"), "has paired words"),
+        ((*both, "--result", "V9.Z"), "there is no result V9.Z; did you mean"),
+        ((*one, "--result", "V2.Z"), "a map of V2.Z takes two words that vary"),
     ):
         status, output = sweep(*wrong, "--plot", tmp_path / "no.svg")
         assert status == 2
