@@ -45,11 +45,13 @@ from .families import (
     Region as Region,
     Sensitivity as Sensitivity,
     Tolerances as Tolerances,
+    WordTolerance as WordTolerance,
     family as family,
     feasible as feasible,
     find_word as find_word,
     region as region,
     sensitivity as sensitivity,
+    tolerance_for as tolerance_for,
     tolerances as tolerances,
 )
 from .gcode import (

@@ -1,9 +1,11 @@
 """The commands about a word of one block: which values it may have, which one is wanted, what it moves."""
 
+from collections.abc import Sequence
 from math import isfinite
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 from contoursolve.cli.block_options import (
     block_options,
@@ -16,7 +18,7 @@ from contoursolve.cli.block_options import (
 )
 from contoursolve.cli.options import FOUND_ERRORS
 from contoursolve.cli.printing import print_lines
-from contoursolve.families import feasible, find_word, region, tolerances
+from contoursolve.families import feasible, find_word, region, tolerance_for, tolerances
 from contoursolve.output import (
     found_data,
     found_lines,
@@ -26,6 +28,8 @@ from contoursolve.output import (
     region_lines,
     tolerances_data,
     tolerances_lines,
+    word_tolerance_data,
+    word_tolerance_lines,
 )
 
 
@@ -160,12 +164,35 @@ def find(
     help="By how much a word may be off to either side, in mm, inches or degrees; X is a diameter where that of the "
     "block is; may be repeated. A fact goes by what it gives the value of.",
 )
+@click.option(
+    "--keep",
+    "kept",
+    metavar="RESULT=VALUE",
+    help="Tell instead how far a word may be off until a result moves by VALUE, such as 'end Z=0.01'. RESULT is a "
+    "coordinate of a point, or what a fact gives the value of. VALUE is in mm, inches or degrees; X is a diameter "
+    "where that of the block is.",
+)
+@click.option(
+    "--word", "words", multiple=True, metavar="WORD", help="With --keep, the word; may be repeated; all without it."
+)
 @fact_option
-def sensitivity(allowed: tuple[str, ...], point: str, facts: tuple[str, ...], format_: str, **options: Any) -> None:
+@click.pass_context
+def sensitivity(
+    context: click.Context,
+    /,
+    allowed: tuple[str, ...],
+    point: str,
+    kept: str | None,
+    words: tuple[str, ...],
+    facts: tuple[str, ...],
+    format_: str,
+    **options: Any,
+) -> None:
     """Tell how far each word moves a point of a contour.
 
     A row for each word: per unit, by its tolerance, and by rounding to the control's least increment. Tolerances add up
     to first order, at worst and statistically (RSS); the block is also solved at all combinations of their limits.
+    With --keep it is the other way round: between which values a word may be, and what ends them.
 
     Exit status: 0 done, 2 could not run, or the block has no contour.
 
@@ -178,6 +205,14 @@ def sensitivity(allowed: tuple[str, ...], point: str, facts: tuple[str, ...], fo
         if name in given:
             raise click.UsageError(f"--tolerance names {name} twice")
         given[name] = number
+    if kept is not None:
+        is_other = given or context.get_parameter_source("point") is ParameterSource.COMMANDLINE
+        if is_other:
+            raise click.UsageError("--keep names the result itself; leave out --tolerance and --point")
+        _keep(kept, words, {"facts": facts, **read_options(options)}, format_)
+        return
+    if words:
+        raise click.UsageError("--word says for which words --keep asks; give --keep, such as 'end Z=0.01'")
     with usage():
         found = tolerances(allowed=given, point=point, facts=facts, **read_options(options))
     if format_ == "json":
@@ -186,12 +221,29 @@ def sensitivity(allowed: tuple[str, ...], point: str, facts: tuple[str, ...], fo
         print_lines(tolerances_lines(found))
 
 
+def _keep(text: str, words: Sequence[str], about: dict[str, Any], format_: str) -> None:
+    """Print how far words may be off so that a result stays."""
+    keep, within = _read_number("--keep", text, "RESULT=VALUE, such as 'end Z=0.01'")
+    with usage():
+        names = words or [each.word for each in tolerances(**about).effects]
+        found = [tolerance_for(word=each, keep=keep, within=within, **about) for each in names]
+    if format_ == "json":
+        print_json({"schema": "contoursolve/tolerance/1", "words": [word_tolerance_data(each) for each in found]})
+    else:
+        print_lines(line for each in found for line in word_tolerance_lines(each))
+
+
 def _read_tolerance(text: str) -> tuple[str, float]:
+    return _read_number("--tolerance", text, "WORD=VALUE, such as P=0.05")
+
+
+def _read_number(option: str, text: str, form: str) -> tuple[str, float]:
+    """A name and its number."""
     name, equals, value = text.rpartition("=")
     try:
         number = float(value)
     except ValueError:
         number = float("nan")
     if not equals or not isfinite(number):
-        raise click.UsageError(f"--tolerance {text}: write WORD=VALUE, such as P=0.05")
+        raise click.UsageError(f"{option} {text}: write {form}")
     return name.strip(), number

@@ -89,6 +89,10 @@ from .sensitivities import (
 from .variables import (
     with_numbers as with_numbers,
 )
+from .word_tolerance import (
+    WordTolerance as WordTolerance,
+    tolerance_for as tolerance_for,
+)
 from .word_values import (
     Ranges as Ranges,
     name_of as name_of,

@@ -10,13 +10,14 @@ from msgspec.structs import replace
 
 from contoursolve import gcode
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, Depth
+from contoursolve.diagnosis import Answer, Depth, join
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.word_values import START, name_of
 from contoursolve.gcode import FACT, Directive, Program, Word, call, spell
 from contoursolve.program import Request, Result, SolveOptions, UnknownControlError, choose, run
 from contoursolve.reading import Dialect, ReadIssue
+from contoursolve.solving import Point
 
 
 def errors_of(found: Answer | Result) -> list[Diagnostic]:
@@ -27,6 +28,17 @@ def errors_of(found: Answer | Result) -> list[Diagnostic]:
 def first_error(found: Answer | Result) -> str:
     """The message of the first error; empty without one."""
     return next((each.message for each in errors_of(found)), "")
+
+
+def first_message(found: Answer | Result) -> str:
+    """The message of the first finding; empty without one."""
+    return next((each.message for each in found.diagnostics), "")
+
+
+def _example(answer: Answer) -> str:
+    """A word of a contour with its line."""
+    word = next(word for block in answer.claim.blocks for word in block.words if word.address not in _NEVER)
+    return f"{word.span.line}:{word.address}"
 
 
 class RefusedError(FamilyError):
@@ -42,8 +54,8 @@ class RefusedError(FamilyError):
 
 
 class Template(Struct, frozen=True, eq=False):
-    """A program with one contour, how it is read, and its free words by the names that the user gave them: words of its
-    blocks, words of the start point, and facts whose value is free."""
+    """A program with one contour, or one of whose contours has the free words; how it is read, and its free words by
+    the names that the user gave them: words of its blocks, words of the start point, and facts whose value is free."""
 
     program: Program
     asked: Request
@@ -52,6 +64,8 @@ class Template(Struct, frozen=True, eq=False):
     """Variables that stand for a word: by their names, the line and the column of its value."""
     readings: dict[tuple[float | None, ...], Any] = field(default_factory=dict)
     """Rows that were read by themselves, until they are asked for again (see `traced_reading.read_alone`)."""
+    ends: dict[int, Point | None] = field(default_factory=dict)
+    """The ends of contours that no free word moves, by their first lines (see `end_of`)."""
 
     def with_words(self, names: Sequence[str]) -> "Template":
         """The same block with the words of these names free. Raises FamilyError as `find_words`."""
@@ -60,18 +74,41 @@ class Template(Struct, frozen=True, eq=False):
     def solve(self, values: Mapping[str, float]) -> Answer:
         """The answer of a single solve. Raises FamilyError where there is no single contour with a known start."""
         result = self.filled(values).examined(Depth.VERDICT)
-        if len(result.answers) != 1:
-            if not result.answers and result.has_errors:
-                raise self.refused(values)
-            reasons = [each.message for each in result.diagnostics]
-            told = f"the block has {len(result.answers)} contours; a family is about one"
-            raise FamilyError(reasons[0] if reasons and not result.answers else told)
-        answer = result.answers[0]
+        if not result.answers and result.has_errors:
+            raise self.refused(values)
+        answer = self.one_of(result)
         if not answer.start.is_known:
             if any(not each.span.line for each in errors_of(result)):
                 raise self.refused(values)
             raise FamilyError('the start point is not known; state it as the start, such as "X40. Z0."')
         return answer
+
+    def one_of(self, result: Result) -> Answer:
+        """The only contour of a result, or that of several which the free words are in. Raises FamilyError."""
+        answers = result.answers
+        if len(answers) > 1:
+            lines = {word.span.line for word in self.words.values()}
+            answers = tuple(each for each in answers if not lines.isdisjoint(each.lines))
+        if len(answers) == 1:
+            return answers[0]
+        if not result.answers:
+            told = first_message(result) or "the block has 0 contours; a family is about one"
+        elif answers:
+            told = f"{join(list(self.words))} are in {len(answers)} contours; a family is about one"
+        else:
+            lines_of = ", ".join(str(each.lines[0]) for each in result.answers)
+            told = (
+                f"the block has {len(result.answers)} contours (program lines {lines_of}); a family is about one: "
+                f"name a word of it with its line, such as {_example(result.answers[-1])}"
+            )
+        raise FamilyError(told)
+
+    def end_of(self, line: int) -> Point | None:
+        """The end of the contour that begins at a line, behind which the free words stand; None without one."""
+        if not self.ends:
+            for answer in self.examined(Depth.VERDICT).answers:
+                self.ends[answer.lines[0]] = answer.contour.end if answer.contour is not None else None
+        return self.ends.get(line)
 
     def refused(self, values: Mapping[str, float]) -> RefusedError:
         """The error that the block is refused: as it stands, or if it is not, with these values, which refuse it."""

@@ -3,6 +3,7 @@ words choose it, several where further facts, values that are asked for, or choi
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from enum import Enum
 from functools import lru_cache
 from itertools import product
 from math import inf
@@ -46,6 +47,9 @@ Bits = NDArray[numpy.bool_]
 GOAL = "goal:"
 """Prefix of the inputs for the goals of coordinates."""
 
+MOST = "most"
+"""The input for how far from there they may be."""
+
 _OF_FLOATS = (Stage.TOUCHING, Stage.EQUATIONS)
 """Checks that do not tell whether there is a contour, but what floats know of it."""
 
@@ -65,6 +69,12 @@ class Margins(Struct, frozen=True, eq=False):
     def is_apart(self) -> Bits:
         """Mask of the checks that are about being apart from zero, as a column."""
         return numpy.array([[each.test is Test.APART] for each in self.checks])
+
+    @property
+    def is_real(self) -> Bits:
+        """Mask of the checks without which there are no points: beyond them roots count as zero."""
+        stages = (each.stage is Stage.CONSTRUCTION and each.test is not Test.APART for each in self.checks)
+        return numpy.fromiter(stages, bool, len(self.checks))
 
     def failing(self, values: Array) -> Bits:
         """Mask of the checks that fail, by (check, place). NaN fails, and a margin that is just at its
@@ -111,9 +121,10 @@ class Branch(Struct, frozen=True, eq=False):
     fixed: tuple[float, ...]
     signs: tuple[tuple[str, float], ...] = ()
 
-    def target(self, goals: Mapping[str, tuple[int, float]]) -> tuple[Chart, list[float]]:
+    def target(self, goals: Mapping[str, tuple[int, float]], most: float | None = None) -> tuple[Chart, list[float]]:
         """The distance of a coordinate from its goal as a function of the word, or half the rate at which the square of
-        the distance of several grows; and the other inputs. See `goals.TargetCurve`."""
+        the distance of several grows; or with `most`, half of by how much the square of the distance is above its
+        square; and the other inputs. See `goals.TargetCurve`."""
         # Coordinates count from the start point inside, which may follow the word.
         starts = {f"{ORIGIN}{axis}": self.case.moves.get(axis) for axis, _ in goals.values()}
         rates = {
@@ -122,8 +133,9 @@ class Branch(Struct, frozen=True, eq=False):
         }
         follows = (*self.case.follows(), *rates.items())
         axes = tuple((name, axis) for name, (axis, _) in goals.items())
-        chart = _compile_target(self.case.system, follows, axes, is_closed=self.case.is_closed)
-        known = {**dict(self.signs), **dict.fromkeys(rates, 0.0)}
+        aim = _Aim.BAND if most is not None else _Aim.RATE if len(axes) > 1 else _Aim.DISTANCE
+        chart = _compile_target(self.case.system, follows, axes, aim, is_closed=self.case.is_closed)
+        known = {**dict(self.signs), **dict.fromkeys(rates, 0.0), MOST: most or 0.0}
         for name, (axis, goal) in goals.items():
             start = self.case.moves.get(axis)
             known[GOAL + name] = goal - (float(start.base) if start is not None else self.case.start(axis))
@@ -155,8 +167,10 @@ class Branch(Struct, frozen=True, eq=False):
         return self.at(numpy.random.default_rng(PLACES).uniform(low, high, PLACES))
 
     def find_level(self, low: float, high: float) -> Bits:
-        """Mask of the margins that are zero everywhere between two values of the word."""
-        found: Bits = numpy.max(numpy.abs(self.sample(low, high)), axis=1) <= LEVEL
+        """Mask of the margins that are zero everywhere between two values of the word, as far as there are points."""
+        values = self.sample(low, high)
+        exists = ~(values < self.margins.limits - LEVEL)[self.margins.is_real].any(axis=0)
+        found: Bits = numpy.logical_and((numpy.abs(values[:, exists]) <= LEVEL).all(axis=1), exists.any())
         return found
 
 
@@ -284,14 +298,25 @@ def _compile(system: System, follows: Follows, choices: tuple[Choice, ...]) -> t
     return form, Margins(tuple(each for each, _ in found), Chart(tape, outputs, dict(follows)))
 
 
+class _Aim(Enum):
+    """Aims for a distance from a goal: that it is zero, its least value, or that it has a given size."""
+
+    DISTANCE = 1
+    RATE = 2
+    BAND = 3
+
+
 @lru_cache(maxsize=256)
-def _compile_target(system: System, follows: Follows, axes: tuple[tuple[str, int], ...], *, is_closed: bool) -> Chart:
+def _compile_target(
+    system: System, follows: Follows, axes: tuple[tuple[str, int], ...], aim: _Aim, *, is_closed: bool
+) -> Chart:
     """The distance of outputs of a system from a goal as a function of one word (see `Branch.target`)."""
     tape = (compile_system(system) if is_closed else compile_branches(system)).tape.copy()
     away = [tape.expression(name) + tape.input(f"{ORIGIN}{axis}") - tape.input(GOAL + name) for name, axis in axes]
-    is_rate = len(away) > 1
-    output = sum(each**2 for each in away) / 2 if is_rate else away[0]
-    return Chart(tape, {"away": output}, dict(follows), is_rate=is_rate)
+    output = away[0] if aim is _Aim.DISTANCE else sum(each**2 for each in away) / 2
+    if aim is _Aim.BAND:
+        output -= tape.input(MOST) ** 2 / 2
+    return Chart(tape, {"away": output}, dict(follows), is_rate=aim is _Aim.RATE)
 
 
 def _conditions(form: Construction) -> Checks:

@@ -56,6 +56,8 @@ class Way(Enum):
     """By dividing a stretch outside of which it is proven that there is no end."""
     RULE = "rule"
     """A rule begins to refuse there, or the words are read in another way."""
+    MOVED = "moved"
+    """There a result has moved as far as it may (see `tolerance_for`)."""
     RANGE = "range"
     """The range that was asked about ends there; the contour goes on."""
 
@@ -164,14 +166,16 @@ def feasible(
         first, *rest = group
         if is_solved:
             last = rest[-1] if rest else first
-            intervals.append(Interval(_end(search, pieces, first, last, -1), _end(search, pieces, last, first, +1)))
+            intervals.append(
+                Interval(end_of_range(search, pieces, first, last, -1), end_of_range(search, pieces, last, first, +1))
+            )
     refusal = "" if is_open else first_error(search.answer)
     about = (search.word, search.unit, search.stated, (low, high))
     doubts = tuple(search.doubts)
     return Feasible(*about, tuple(intervals), doubts, refusal, search.diameters[0], is_open, search.premises)
 
 
-def _end(search: RangeSearch, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:
+def end_of_range(search: RangeSearch, pieces: Sequence[RangePiece], number: int, other: int, way: int) -> End:
     """The lower (-1) or upper (+1) end of a range from one piece to another, of which `number` is at this end."""
     value = pieces[number].low if way < 0 else pieces[number].high
     if not 0 <= number + way < len(pieces):

@@ -24,6 +24,7 @@ from contoursolve.diagnosis import (
 from contoursolve.diagnostics import Span
 from contoursolve.families.block_template import Template, first_error, is_same, with_value, write
 from contoursolve.families.branches import PLACES, Branch
+from contoursolve.families.case_classes import CaseClass, results_of
 from contoursolve.families.errors import FamilyError, NotMovedError
 from contoursolve.families.isolate import VOID, Fineness, Signs
 from contoursolve.gcode import Word, read_directive
@@ -103,10 +104,31 @@ def end_name(figure: Figure) -> str:
     return last.head if landing is None else f"{landing}.end"
 
 
+def outputs_at(goal: Goal, branch: Branch) -> dict[str, tuple[int, float]] | None:
+    """The outputs of a solution that are the coordinates of a goal, each with its axis and where it is wanted; None
+    where it has no such point."""
+    case, found = branch.case, dict[str, tuple[int, float]]()
+    results, point = results_of(case), end_name(case.system.figure) if goal.point == "end" else goal.point
+    for axis, wanted in enumerate(goal.place):
+        name = f"{point}.{case.profile.plane.axes[axis]}"
+        if wanted is not None and name not in results:
+            return None
+        if wanted is not None:
+            found[results[name][0]] = axis, wanted
+    return found
+
+
+def points_of(case: CaseClass) -> list[str]:
+    """The names of the points of a contour."""
+    letter = "." + case.profile.plane.axes[0]
+    return ["end", *(name.removesuffix(letter) for name in results_of(case) if name.endswith(letter))]
+
+
 class TargetCurve:
     """A function of the word whose zeros are sought, for one solution: a coordinate less its goal, or half the rate at
-    which the square of the distance to the goal grows. `goals` are the outputs that are coordinates, each with its axis
-    and its goal, mm. `within` are the values of the word between which the solution is the contour."""
+    which the square of the distance to the goal grows; or with `most`, a function that is above zero where the distance
+    is longer. `goals` are the outputs that are coordinates, each with its axis and its goal, mm. `within` are the
+    values of the word between which the solution is the contour."""
 
     fineness, finer = Fineness(16, 24, 1e-9), Fineness(4, 24, 1e-13)
     """Zeros that are closer than the first tells apart count as one."""
@@ -117,14 +139,15 @@ class TargetCurve:
         goals: Mapping[str, tuple[int, float]],
         within: tuple[float, float],
         *,
+        most: float | None = None,
         is_part: bool = False,
     ) -> None:
-        self.branch, self.goals, self.within, self.is_part = branch, goals, within, is_part
-        self.chart, self.fixed = branch.target(goals)
+        self.branch, self.goals, self.within, self.most, self.is_part = branch, goals, within, most, is_part
+        self.chart, self.fixed = branch.target(goals, most)
 
     def is_constant(self) -> bool:
         """Whether the word does not move the point."""
-        if len(self.goals) > 1:
+        if len(self.goals) > 1 or self.most is not None:
             return all(
                 TargetCurve(self.branch, {name: goal}, self.within).is_constant() for name, goal in self.goals.items()
             )
@@ -154,7 +177,7 @@ class TargetCurve:
 
     def part(self, _low: float, _high: float) -> "TargetCurve":
         """The same, with what is no contour left out."""
-        return TargetCurve(self.branch, self.goals, self.within, is_part=True)
+        return TargetCurve(self.branch, self.goals, self.within, most=self.most, is_part=True)
 
     def slopes(self, cells: Intervals) -> Intervals:
         """Bounds of the derivatives."""
@@ -173,15 +196,14 @@ def asked_values(template: Template, word: str, goal: Goal, answer: Answer) -> t
     unread = [each.message for each in result.diagnostics if each.about in _UNREAD]
     if unread:
         raise FamilyError(unread[0])
-    if len(result.answers) != 1:
-        raise FamilyError(first_error(result) or "the block is no single contour")
-    status = result.answers[0].status
+    found = template.one_of(result)
+    status = found.status
     if status is Status.UNDERDETERMINED and answer.contour is not None:
         # The goal says nothing of the word, which is open without its value.
         raise NotMovedError(f"{word} does not move {goal.point} in this direction")
     if status in (Status.UNDERDETERMINED, Status.REJECTED):
         raise FamilyError(first_error(result))
-    return list(_values(result.answers[0], typed)), list(_doubts(result.answers[0]))
+    return list(_values(found, typed)), list(_doubts(found))
 
 
 _UNREAD = (ReadIssue.FACT_UNREADABLE, ReadIssue.FACT_IMPOSSIBLE)

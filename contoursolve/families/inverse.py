@@ -12,7 +12,6 @@ from contoursolve.diagnosis import Answer, join, value_text, write_word
 from contoursolve.diagnostics import Shown
 from contoursolve.families.block_template import BlockOptions, Template, first_error, spec_of, with_value, write
 from contoursolve.families.branches import Branch
-from contoursolve.families.case_classes import results_of
 from contoursolve.families.errors import FamilyError, NotClosedError, NotMovedError
 from contoursolve.families.free_words import check_block
 from contoursolve.families.goals import (
@@ -21,7 +20,9 @@ from contoursolve.families.goals import (
     TargetCurve,
     asked_values,
     end_name,
+    outputs_at,
     place_of,
+    points_of,
     read_goal,
 )
 from contoursolve.families.isolate import Zero, isolate
@@ -318,22 +319,12 @@ class _TargetSearch:
 
     def _points(self, pieces: Sequence[RangePiece]) -> list[str]:
         """The names of the points of the contour."""
-        case = next(piece.case for piece in pieces if piece.case and piece.is_solved)
-        letter = "." + case.profile.plane.axes[0]
-        return ["end", *(name.removesuffix(letter) for name in results_of(case) if name.endswith(letter))]
+        return points_of(next(piece.case for piece in pieces if piece.case and piece.is_solved))
 
     def _curve(self, branch: Branch, within: tuple[float, float]) -> TargetCurve | None:
         """The curve of a solution; None where it has no such point."""
-        case = branch.case
-        results, axes = results_of(case), case.profile.plane.axes
-        point = end_name(case.system.figure) if self.goal.point == "end" else self.goal.point
-        goals: dict[str, tuple[int, float]] = {}
-        for axis, wanted in enumerate(self.goal.place):
-            if wanted is not None:
-                if f"{point}.{axes[axis]}" not in results:
-                    return None
-                goals[results[f"{point}.{axes[axis]}"][0]] = axis, wanted
-        return TargetCurve(branch, goals, within)
+        goals = outputs_at(self.goal, branch)
+        return TargetCurve(branch, goals, within) if goals is not None else None
 
     def hit(self, value: float, give: float = ARRIVED) -> Hit | None:
         """The hit at a value by its single solve, as a shorter number where rounding alone parts the two; None if it

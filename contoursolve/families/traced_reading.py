@@ -19,7 +19,7 @@ from contoursolve.gcode import FACT, Block, Word
 from contoursolve.geometry import assemble
 from contoursolve.numeric import Affine
 from contoursolve.program import attach
-from contoursolve.reading import Dialect, ParsedContour, advance, read
+from contoursolve.reading import Dialect, ParsedContour, advance, leave, reach_of, read
 from contoursolve.solving import analyse, joints_among
 
 
@@ -277,13 +277,19 @@ def _first_contour(
     state, first = dialect.initial_state(template.asked.unit), like.blocks[0].line
     for block in before:
         state = advance(state, block, dialect.modes)
-    for index, block in enumerate(blocks):
+    index, is_behind = 0, all(word.span.line >= first for word in template.words.values())
+    while index < len(blocks):
         found = dialect.find(blocks, index, state, dialect.modes)
-        if block.line == first:
+        if blocks[index].line == first:
             return found
-        if found is not None and found.form.is_contour:
+        if found is None or not found.form.is_contour:
+            state = advance(state, blocks[index], dialect.modes)
+            index += 1
+        elif is_behind:
+            index += reach_of(found, blocks, index)
+            state = leave(found, template.end_of(found.blocks[0].line), dialect.modes)
+        else:
             return None
-        state = advance(state, block, dialect.modes)
     return None
 
 

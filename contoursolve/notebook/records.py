@@ -8,7 +8,7 @@ from typing import Any
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, Derivation, EquationSystem, axis_labels, count
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown, Tie
-from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
+from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances, WordTolerance
 from contoursolve.gcode import Block, Program, Word
 from contoursolve.output import (
     Table,
@@ -24,6 +24,7 @@ from contoursolve.output import (
     region_lines,
     rule_lines,
     tolerances_lines,
+    word_tolerance_lines,
 )
 from contoursolve.program import Result
 from contoursolve.reading import Dialect, Lexicon, Rule
@@ -226,6 +227,7 @@ _LINES: dict[type, Callable[[Any], Iterable[str]]] = {
     Region: region_lines,
     Found: found_lines,
     Tolerances: tolerances_lines,
+    WordTolerance: word_tolerance_lines,
     Sensitivity: _sensitivity,
     Sketch: _sketch,
     EquationSystem: _system,

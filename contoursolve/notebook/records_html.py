@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, Derivation, EquationSystem, count
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown
-from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances
+from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances, WordTolerance
 from contoursolve.gcode import Block
 from contoursolve.notebook.records import (
     bounded,
@@ -50,6 +50,9 @@ from contoursolve.output import (
     table,
     table_of,
     tolerances_title,
+    word_tolerance_notes,
+    word_tolerance_table,
+    word_tolerance_title,
     words_table,
 )
 from contoursolve.program import Result
@@ -190,6 +193,12 @@ def _tolerances(found: Tolerances) -> Iterator[h.Node]:
     yield from (h.p[short(f"{line}.")] for line in spread_lines(found))
 
 
+def _word_tolerance(found: WordTolerance) -> Iterator[h.Node]:
+    yield h.p[short(word_tolerance_title(found))]
+    yield table_of(word_tolerance_table(found))
+    yield from (h.p[short(f"{note}.")] for note in word_tolerance_notes(found))
+
+
 def _sketch(record: Sketch | Drawings | Drawn) -> Iterator[h.Node]:
     yield figure(record)
     yield from _text(record)
@@ -225,6 +234,7 @@ _PARTS: dict[type, Callable[[Any], h.Node]] = {
     Region: _region,
     Found: _found,
     Tolerances: _tolerances,
+    WordTolerance: _word_tolerance,
     Sensitivity: _sensitivity,
     Sketch: _sketch,
     Drawings: _sketch,

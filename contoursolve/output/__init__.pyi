@@ -66,6 +66,11 @@ from .families import (
     tolerances_data as tolerances_data,
     tolerances_lines as tolerances_lines,
     tolerances_title as tolerances_title,
+    word_tolerance_data as word_tolerance_data,
+    word_tolerance_lines as word_tolerance_lines,
+    word_tolerance_notes as word_tolerance_notes,
+    word_tolerance_table as word_tolerance_table,
+    word_tolerance_title as word_tolerance_title,
 )
 from .findings import (
     EXPLAINING as EXPLAINING,

@@ -18,6 +18,8 @@ from contoursolve.families import (
     Reason,
     Region,
     Tolerances,
+    Way,
+    WordTolerance,
 )
 from contoursolve.geometry import Length
 from contoursolve.output.plain_text import Table
@@ -41,7 +43,7 @@ def range_notes(found: Feasible) -> Iterator[str]:
     yield from rest_lines(found)
 
 
-def rest_lines(found: Feasible | Region | Found | Tolerances | CompiledSweep | Family) -> Iterator[str]:
+def rest_lines(found: Feasible | Region | Found | Tolerances | WordTolerance | CompiledSweep | Family) -> Iterator[str]:
     """Lines of the premises of an answer: settings and assumptions beside the words."""
     yield from premise_texts(found.premises, found.premises.control)
 
@@ -326,4 +328,51 @@ def _effect_data(each: Contribution) -> dict[str, Any]:
         "value": each.stated,
         "slope": None if isnan(each.slope[0]) else list(each.slope),
         **members(each, f"tolerance moves_mm=moves increment {rounding}"),
+    }
+
+
+# How far a word may be off -----------------------------------------------------------------------------------
+
+
+def word_tolerance_lines(found: WordTolerance) -> Iterator[str]:
+    """The values between which a word may be, and what ends them."""
+    yield word_tolerance_title(found)
+    yield from word_tolerance_table(found).lines(is_headed=False)
+    yield from (f"  {note}" for note in word_tolerance_notes(found))
+
+
+def word_tolerance_title(found: WordTolerance) -> str:
+    """The word, and what it moves."""
+    most, proof = f"{found.most:g} {short_name(found.kept_unit)}", "proven" if found.is_complete else "not proven"
+    return f"{found.word}, now {written(found.stated, found.unit)}: {found.kept} moves by at most {most} ({proof})"
+
+
+def word_tolerance_table(found: WordTolerance) -> Table:
+    """A row for each end: the value, how far it is from that of the block, and what ends it."""
+    rows = []
+    for name, end, way, off in (("from", found.low, -1, -found.minus), ("to", found.high, 1, found.plus)):
+        value, text = _end_cells(end, found.unit, way)
+        sign = "+" if off > 0 else ""
+        rows.append((name, value, f"{sign}{written(off, found.unit, way)}", text))
+    return Table("How far it may be off", ("end", "value", "off by", "what ends it"), rows, left=(0, 3))
+
+
+def word_tolerance_notes(found: WordTolerance) -> Iterator[str]:
+    """The linear estimate, what is not proven, and the premises."""
+    if found.linear is not None:
+        yield f"to first order: +-{written(found.linear, found.unit)}"
+    elif Way.MOVED not in (found.low.way, found.high.way):
+        yield f"{found.word} does not move {found.kept} so far"
+    yield from (f"not proven: {each}" for each in found.doubts)
+    yield from rest_lines(found)
+
+
+def word_tolerance_data(found: WordTolerance) -> dict[str, Any]:
+    """The tolerance of a word as plain data, in the units in which it and what is kept are written."""
+    return {
+        **members(found, "word unit stated keep=kept keep_unit=kept_unit within=most linear"),
+        **members(found, "complete=is_complete doubts"),
+        **premise_data(found.premises),
+        "low": _end_data(found.low),
+        "high": _end_data(found.high),
     }

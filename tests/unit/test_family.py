@@ -226,7 +226,7 @@ def test_types_are_as_documented_and_reasons_have_names():
         (BLOCK, {"length of line 1": [180]}, "no fact says what length of line 1 is; there are none"),
         (BLOCK, {"start.U": [180]}, "the start point has no word U; its words are X, Z"),
         (BLOCK + " (contoursolve: length of line 1 = ?)", {"length of line 1": [1]}, "? is no number"),
-        (BLOCK + "\n" + BLOCK, {"1:A": [180]}, "2 contours"),
+        (BLOCK + "\n" + BLOCK, {"start.X": [40]}, "2 contours (program lines 1, 2); a family is about one: name"),
         (BLOCK + "\n" + BLOCK, {"A": [180]}, "the block has 2 words A; write 1:A or 2:A"),
     ],
 )

@@ -17,9 +17,9 @@ from test_family import CASES, filled, text_of
 import contoursolve
 from contoursolve.cli import main
 from contoursolve.diagnosis.solutions import list_solutions
-from contoursolve.families import FamilyError, family, find_word, inverse
+from contoursolve.families import FamilyError, Way, family, feasible, find_word, inverse, tolerance_for
 from contoursolve.families.block_template import spec_of
-from contoursolve.families.goals import place_of
+from contoursolve.families.goals import end_name, place_of
 
 BLOCK, START = "G111 X100. A180. K-30. B120. P5. Q5.", "X40. Z0."
 WORDS = [
@@ -442,3 +442,121 @@ def test_asked_for_the_end_that_it_has_each_word_finds_its_own_value(seed, quest
     rng, asked = Random(seed), 0
     while asked < questions:
         asked += ask_back(rng, 0.03)
+
+
+KEPT = [
+    ("G111, two roundings", "A", "end", 0.5),
+    ("G111, two roundings", "P", "corner 1.center X", 30.0),
+    ("G111, every start word", "A", "V1 Z", 0.02),
+    ("inches", "A", "corner 1.end X", 0.001),
+    ("circle-line", ",A", "P1", 1.0),
+    ("G112 landing beyond the centre", "R", "V2 Z", 0.1),
+    ("circle-circle", "2:R", "P1 X", 3.0),
+    ("chain of three with corners", "3:,A", "corner 2.end X", 0.05),
+]
+
+
+@pytest.mark.parametrize(("name", "word", "keep", "within"), fast(KEPT, *KEPT[:5]))
+def test_a_result_stays_near_between_the_ends_of_a_tolerance_and_not_beyond(name, word, keep, within):
+    """Every value of a fine grid, solved by itself as a family: the ends are where the result has moved, or is lost."""
+    block, options, _ = CASES[name]
+    found = tolerance_for(block, word, keep=keep, within=within, **options)
+    assert found.is_complete
+    point, _, letter = keep.rpartition(" ") if keep[-2:-1] == " " else (keep, "", "")
+    answer = solved(name, word, found.stated)
+    letters, in_mm = answer.plane.axes, float(answer.unit.in_mm)
+    point = end_name(answer.profile.figure) if point == "end" else point
+    width = max(found.plus, found.minus)
+    edges = [
+        found.low.value,
+        found.stated,
+        found.high.value,
+        found.low.value - width / 50,
+        found.high.value + width / 50,
+    ]
+    values = np.unique([*np.linspace(found.low.value, found.high.value, 801), *edges])
+    grid = family(block, vary={word: values}, **options)
+    here = np.flatnonzero(values == found.stated)[0]
+    off = [grid[f"{point}.{axis}"] - grid[f"{point}.{axis}"][here] for axis in letters if letter in ("", axis)]
+    scale = 2 if letter and answer.plane.diameters[letters.index(letter)] else 1
+    moved = np.hypot.reduce([*off, np.zeros(values.size)]) * scale / in_mm
+    inside = (values > found.low.value) & (values < found.high.value)
+    assert (moved[inside] <= within * (1 + 1e-9)).all()
+    for end, number in ((found.low, 0), (found.high, -1)):
+        assert end.is_verified
+        at = moved[np.flatnonzero(values == end.value)[0]]
+        if end.way is Way.MOVED:
+            assert at == pytest.approx(within, abs=1e-9)
+        else:
+            assert (end.reason is not None) is not (end.way is Way.RANGE)
+        assert not moved[number] <= within or end.way is Way.RANGE
+    assert Way.MOVED in (found.low.way, found.high.way)
+    if found.low.way is found.high.way:
+        assert found.linear == pytest.approx(min(found.plus, found.minus), rel=0.5)
+
+
+def test_a_word_of_one_of_several_contours_has_a_tolerance_of_its_own():
+    program = f"G00 X40. Z0.\n{BLOCK}\nG01 Z-100.\nG111 X140. A180. Z-130. B120. P5.\nG00 X200."
+    alone = tolerance_for("G111 X140. A180. Z-130. B120. P5.", "A", keep="V1 Z", within=0.01, start="X100. Z-100.")
+    found = tolerance_for(program, "4:A", keep="V1 Z", within=0.01)
+    assert (found.low.value, found.high.value) == (alone.low.value, alone.high.value)
+    assert (found.is_complete, found.linear) == (True, alone.linear)
+    one, two = (feasible(*each).intervals[0] for each in ((program, "2:P"), (f"G00 {START}\n{BLOCK}", "P")))
+    assert (one.low.value, one.high.value) == (two.low.value, two.high.value)
+    with pytest.raises(FamilyError, match=r"2 contours \(program lines 2, 4\); a family is about one: name a word"):
+        tolerance_for(program, "1:X", keep="V1 Z", within=0.01)
+
+
+def test_lengths_and_directions_are_kept_as_facts_name_them():
+    length = tolerance_for(BLOCK, "A", keep="length of line 2", within=0.01, start=START)
+    direction = tolerance_for(BLOCK, "B", keep="direction of line 2", within=0.1, start=START)
+    facts = ["straight part of line 2 = 20"]
+    asked = tolerance_for("G111 X100. A180. K-30. B120. P?", "X", keep="P", within=0.1, start=START, facts=facts)
+    assert (length.kept_unit, direction.kept_unit, asked.kept_unit) == ("mm", "deg", "mm")
+    assert [direction.minus, direction.plus] == pytest.approx([0.1, 0.1], abs=1e-8)
+    assert not length.is_complete
+    for found, subject, more in ((length, "length of line 2", ["length of line 2 = ?"]), (asked, "", facts)):
+        block = BLOCK if subject else "G111 X100. A180. K-30. B120. P?"
+        values = []
+        for value in (found.stated, found.low.value, found.high.value):
+            text = block.replace(f"{found.word}{found.stated:g}.", f"{found.word}{value!r}")
+            answers = contoursolve.solve(text, start=START, facts=more).answers[0].answers
+            values.append(answers[-1].value)
+        assert [abs(each - values[0]) for each in values[1:]] == pytest.approx([found.most] * 2, abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("word", "keep", "within", "told"),
+    [
+        ("A", "end Z", 0, "within is how far end Z may move, a number above 0, not 0"),
+        ("A", "V9 Z", 1, "the contour has no V9; there are end, S, V1, V2"),
+        ("A", "end Y", 1, "end Y: the axes of this contour are Z and X"),
+        ("W", "end Z", 1, "the block has no word W"),
+        ("A", "length of line 9", 1, "the fact cannot be read"),
+    ],
+)
+def test_what_has_no_tolerance_says_why(word, keep, within, told):
+    with pytest.raises(FamilyError) as caught:
+        tolerance_for(BLOCK, word, keep=keep, within=within, start=START)
+    assert told in str(caught.value)
+    assert "\n" not in str(caught.value)
+    with pytest.raises(FamilyError, match="as it stands, the block has no contour to keep: "):
+        tolerance_for(BLOCK.replace("P5.", "P80."), "A", keep="end Z", within=1, start=START)
+
+
+def test_a_range_of_a_free_contour_is_not_lost_where_roots_end():
+    """Places without any contour are most of what is looked at: that a length is zero there says nothing."""
+    chain = "FL X+10 Y+0\nFCT DR+ R5\nFLT X+30 Y+20"
+    found = feasible(chain, "R", start="X0 Y0", control="heidenhain")
+    (only,) = found.intervals
+    assert (only.low.value, only.high.value) == (0.001, pytest.approx(20, abs=1e-6))
+
+
+def test_the_command_line_tells_how_far_words_may_be_off():
+    asked = ["sensitivity", "--block", BLOCK, "--start", START, "--keep", "end Z=0.01", "--word", "B"]
+    ran = CliRunner().invoke(main, asked)
+    assert ran.exit_code == 0, ran.output
+    assert "  to    120.0156 deg  +0.0156 deg  end Z moves by 0.01 mm" in ran.output
+    document = json.loads(CliRunner().invoke(main, [*asked, "--format", "json"]).output)
+    assert (document["schema"], document["words"][0]["complete"]) == ("contoursolve/tolerance/1", True)
+    assert CliRunner().invoke(main, [*asked, "--point", "V1"]).exit_code == 2
