@@ -61,6 +61,7 @@ from .gcode import (
 )
 from .notebook import (
     explore as explore,
+    explore_map as explore_map,
 )
 from .output import (
     StatedWord as StatedWord,
@@ -68,6 +69,7 @@ from .output import (
     end_text as end_text,
     equations_of as equations_of,
     form_text as form_text,
+    map_page as map_page,
     path_table as path_table,
     report_page as report_page,
     rule_page as rule_page,

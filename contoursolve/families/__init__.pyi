@@ -1,7 +1,10 @@
 from .block_template import (
     RefusedError as RefusedError,
+    Template as Template,
     errors_of as errors_of,
+    first_error as first_error,
     unit_word as unit_word,
+    with_value as with_value,
     write as write,
 )
 from .case_classes import (

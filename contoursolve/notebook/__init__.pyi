@@ -1,2 +1,2 @@
 from . import mime_bundle as mime_bundle
-from .explore import explore as explore
+from .explore import explore as explore, explore_map as explore_map

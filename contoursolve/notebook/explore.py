@@ -4,12 +4,13 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from contoursolve.diagnostics import importing
-from contoursolve.families import with_numbers
+from contoursolve.families import Family, Region, with_numbers
 from contoursolve.notebook.exploration import begin
 from contoursolve.reading import Dialect
 
 if TYPE_CHECKING:
     from contoursolve.notebook.explorer import Explorer
+    from contoursolve.notebook.map_explorer import MapExplorer
 
 
 def explore(
@@ -39,3 +40,18 @@ def explore(
     if variables:
         block = with_numbers(block, control, settings, variables)
     return Explorer(begin(block, facts, **options))
+
+
+def explore_map(found: Family | Region, result: str | None = None) -> "MapExplorer":
+    """The map of a family over two words, or of a region, in a notebook: point at it, or press arrow keys, and the
+    contour of these values is drawn beside it. A click opens the contour below, as `explore` does.
+
+    `result` colours the map, as for `draw_family_map`. Without a kernel, as in exported HTML, the map still answers: it
+    holds at most 1,000 contours, and tells where they are. The traits are those of `explore`.
+
+    Raises ValueError for a family that is no grid of two words, FamilyError for a result that is none,
+    MissingExtraError without the packages of `contoursolve[notebook]`.
+    """
+    with importing("notebook", "exploring a map"):
+        from contoursolve.notebook.map_explorer import MapExplorer  # noqa: PLC0415 - needs an extra
+    return MapExplorer(found, result)

@@ -111,6 +111,16 @@ from .listing import (
     table_lines as table_lines,
     without_repeated as without_repeated,
 )
+from .map_frames import (
+    LiveMap as LiveMap,
+    map_path as map_path,
+)
+from .map_page import (
+    map_element as map_element,
+    map_page as map_page,
+    map_script as map_script,
+    map_style as map_style,
+)
 from .plain_text import (
     Table as Table,
     columns as columns,

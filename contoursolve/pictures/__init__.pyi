@@ -14,11 +14,16 @@ from .drawing import (
     draw_result as draw_result,
     draw_sweep as draw_sweep,
 )
+from .fields import words_of as words_of
 from .known_points import (
     Known as Known,
 )
 from .layout import (
     path_data as path_data,
+)
+from .maps import (
+    MapPlane as MapPlane,
+    plane_of as plane_of,
 )
 from .overview import (
     plain_trail as plain_trail,
@@ -49,11 +54,13 @@ from .theme import (
     Role as Role,
     Theme as Theme,
 )
+from .value_axes import MAP_BOX as MAP_BOX
 from .vectors import (
     SAME as SAME,
     along as along,
     direction as direction,
     distance as distance,
+    extent as extent,
     middle as middle,
     minus as minus,
 )

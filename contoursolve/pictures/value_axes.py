@@ -36,6 +36,9 @@ WIDE, HIGH = 610.0, 400.0
 LEFT, TOP, BELOW = 92.0, 56.0, 56.0
 """Pixels beside the plane: before it, above it with the title, below it with the values."""
 
+MAP_BOX = LEFT, TOP, WIDE, HIGH
+"""The plane on a page: its corner, and its size."""
+
 _TICKS = 6
 _NARROW = 36.0
 """Pixels for the name of the second word; a longer one is turned."""

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import secrets
 import socket
 import subprocess
@@ -154,6 +155,138 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
         explorer.locator(".trouble", has_text="The kernel is gone").wait_for()
         watched.check()
         page.close()
+
+
+REGION = f"""region = contoursolve.region({BLOCK!r}, ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")"""
+MAP = ".contoursolve.map"
+
+
+def region_here():
+    return contoursolve.region(BLOCK, ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")
+
+
+def point_at(page, share_across, share_up):
+    """Move the pointer to a place of a map, by shares of its plane: 610 by 400 of 760 pixels, from (92, 56)."""
+    box = page.locator(f"{MAP} .paper").bounding_box()
+    scale = box["width"] / 760
+    page.mouse.move(box["x"] + scale * (92 + 610 * share_across), box["y"] + scale * (56 + 400 * (1 - share_up)))
+
+
+def told(page):
+    """The values and the text of a map, as they stand on the page."""
+    values, *texts = page.locator(f"{MAP} .told").inner_text().split("\n")
+    return [float(each) for each in re.findall(r"-?[\d.]+(?= )", values)], texts
+
+
+def check_told(page):
+    """What a map tells is what single solves say of these values."""
+    (first, second), (state, *_) = told(page)
+    result = contoursolve.solve(BLOCK.replace("A180.", f"A{first}").replace("P5.", f"P{second}"), start="X40. Z0.")
+    answer = result.answers[0]
+    assert state.startswith(answer.status.value.replace("-", " "))
+    is_empty = page.locator(f"{MAP} .drawing.empty").count() == 1
+    assert is_empty == (answer.contour is None)
+    if answer.contour is not None:
+        assert state == f"solved, end {contoursolve.end_text(answer)}"
+    return first, second
+
+
+@pytest.mark.parametrize("kind", ["page", "output"])
+def test_a_map_answers_to_the_pointer_and_to_keys_without_a_kernel(browser, tmp_path, artefacts, kind):
+    region = region_here()
+    if kind == "page":
+        text = contoursolve.map_page(region, "line 1.room")
+    else:  # what a notebook that is exported has
+        text = contoursolve.explore_map(region, "line 1.room")._repr_mimebundle_()[0]["text/html"]
+        text = f"<!doctype html><meta charset=utf-8><title>x</title>{text * 2}"
+    (tmp_path / "map.html").write_text(text, encoding="utf-8")
+    for scheme in ("light", "dark"):
+        watched = Watched(browser, viewport={"width": 1240, "height": 760}, color_scheme=scheme)
+        page = watched.page
+        page.goto((tmp_path / "map.html").as_uri())
+        if kind == "output":  # shown twice, each is alive
+            assert page.locator(f"{MAP} .stage").count() == 2
+            page.evaluate("document.querySelectorAll('.contoursolve.map')[1].remove()")
+        assert check_told(page) == pytest.approx((180, 5), abs=1.5)
+        seen = []
+        for share_across, share_up in ((0.2, 0.3), (0.8, 0.2), (0.9, 0.95)):
+            point_at(page, share_across, share_up)
+            first, second = check_told(page)
+            assert first == pytest.approx(150 + 60 * share_across, abs=1)
+            assert second == pytest.approx(1 + 59 * share_up, abs=1.5)
+            seen.append(page.locator(f"{MAP} .small .path").get_attribute("d"))
+            page.screenshot(path=artefacts / f"map-{kind}-{scheme}-{len(seen)}.png")
+        assert len({*seen}) == 3
+        assert told(page)[1] == ["no solution: corner too large"]
+        stage = page.locator(f"{MAP} .stage")
+        stage.focus()
+        for _ in range(30):
+            stage.press("ArrowDown")
+        first, second = check_told(page)
+        assert second == 1
+        assert re.fullmatch(r"line 1.room [\d.]+ mm", told(page)[1][1])
+        stage.press("ArrowLeft")
+        assert check_told(page)[0] < first
+        assert "holds the contours of 40 by 25 values, the map has 305 by 201" in page.locator(MAP).inner_text()
+        page.set_viewport_size({"width": 400, "height": 800})
+        assert page.evaluate(OVERFLOW) == 0
+        watched.check()
+        page.close()
+
+
+@pytest.mark.slow
+def test_in_jupyterlab_a_map_is_solved_where_the_pointer_is_and_opens_the_explorer(browser, tmp_path, artefacts):
+    kind = {"cell_type": "code", "metadata": {}, "outputs": [], "execution_count": None, "id": "map"}
+    cell = {**kind, "source": f"import contoursolve\n{REGION}\ncontoursolve.explore_map(region, 'end.Z')"}
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    document = {"cells": [cell], "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
+    (tmp_path / "map.ipynb").write_text(json.dumps(document), encoding="utf-8")
+    with jupyterlab(tmp_path) as address:
+        watched = Watched(browser, viewport={"width": 1500, "height": 1900})
+        page = watched.page
+        page.goto(address("map.ipynb"))
+        page.wait_for_function(LOADED)
+        page.wait_for_function(IDLE)
+        page.evaluate("window.jupyterapp.commands.execute('notebook:run-all-cells')")
+        page.locator(f"{MAP} .stage").wait_for()
+        point_at(page, 0.213, 0.307)
+        page.wait_for_timeout(500)
+        (first, second), _ = told(page)
+        assert first == pytest.approx(150 + 60 * 0.213, abs=0.11)  # finer than the frames
+        assert second == pytest.approx(1 + 59 * 0.307, abs=0.16)
+        check_told(page)
+        point_at(page, 0.9, 0.95)
+        page.locator(f"{MAP} .told", has_text="corner 1 does not fit").wait_for()
+        assert page.locator(EXPLORER).count() == 0
+        point_at(page, 0.3, 0.2)
+        page.mouse.down()
+        page.mouse.up()
+        page.locator(f"{EXPLORER} .paper svg").wait_for()
+        (first, second), _ = told(page)
+        wanted = page.locator(f"{EXPLORER} textarea").input_value()
+        assert f"A{first:g}" in wanted
+        assert f"P{second:g}" in wanted
+        page.screenshot(path=artefacts / "jupyterlab-map.png")
+        stage = page.locator(f"{MAP} .stage")
+        stage.focus()
+        stage.press("ArrowUp")
+        stage.press("Enter")
+        page.wait_for_function(DIFFERS_VALUE, arg=[f"{EXPLORER} textarea", wanted])
+        slider = page.locator(f"{EXPLORER} input[type=range][aria-label^='P:']")
+        before = page.locator(f"{EXPLORER} textarea").input_value()
+        slider.focus()
+        slider.press("ArrowRight")
+        page.wait_for_function(DIFFERS_VALUE, arg=[f"{EXPLORER} textarea", before])
+        page.evaluate("window.jupyterapp.commands.execute('apputils:change-theme', {theme: 'JupyterLab Dark'})")
+        page.wait_for_selector("body[data-jp-theme-light='false']", state="attached")
+        page.wait_for_selector(f"[data-theme='dark'] > {MAP}")
+        page.locator(".jp-Splash, #jupyterlab-splash").first.wait_for(state="hidden")
+        page.screenshot(path=artefacts / "jupyterlab-map-dark.png")
+        watched.check()
+        page.close()
+
+
+DIFFERS_VALUE = "([selector, value]) => document.querySelector(selector).value !== value"
 
 
 SHOWING = "window.jupyterapp.shell.currentWidget.content.widgets.filter(cell => cell.model.outputs?.length)"

@@ -1,6 +1,11 @@
-"""Maps of a result over two words: each line of equal value is where single solves have that value."""
+"""Maps over two words: each line of equal value is where single solves have that value, and a map that answers to a
+pointer tells what single solves say.
+"""
 
+import json
 import re
+from html import unescape
+from html.parser import HTMLParser
 
 import numpy
 import pytest
@@ -128,3 +133,120 @@ def test_an_unknown_result_is_refused_with_those_that_are_like_it():
             draw_family_map(family, result=wrong)
     with pytest.raises(contoursolve.FamilyError, match="take 2 or more"):
         contoursolve.region(BLOCK, ("A", "P"), ((170, 190), (1, 9)), start=START).family(1, 5)
+
+
+# Maps that answer.
+
+
+class Scripts(HTMLParser):
+    """The scripts of a page, each with its attributes, and the names of all elements."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.scripts, self.kinds = [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.kinds.append(tag)
+        if tag == "script":
+            self.scripts.append([dict(attrs), ""])
+
+    def handle_data(self, data):
+        if self.kinds[-1] == "script":
+            self.scripts[-1][1] += data
+
+
+def data_of(page):
+    (attributes, text), _ = Scripts(page).scripts
+    assert attributes == {"type": "application/json"}
+    return json.loads(text)
+
+
+@pytest.mark.parametrize("name", BOXES)
+def test_each_frame_of_a_page_is_what_a_single_solve_says(name):
+    family = family_of(name, 13)
+    page = contoursolve.map_page(family, "length")
+    assert page == contoursolve.map_page(family, "length")
+    data = data_of(page)
+    assert data["note"] == "This page holds the contours of all 169 values of the map."
+    for axis, values in zip(data["axes"], family.ranges.values.values(), strict=True):
+        assert axis == pytest.approx(values, rel=1e-9)
+    places = [(one, two) for one in data["axes"][0] for two in data["axes"][1]]
+    for frame, place in zip(data["frames"], places, strict=True):
+        contour = solved_alone(family, place)
+        assert isinstance(frame, int) == (contour is None)
+        if contour is not None:
+            text, path = frame
+            assert float(re.search(r"length ([\d.]+) mm", text)[1]) == pytest.approx(
+                sum(each.length for each in contour.elements), abs=0.001
+            )
+            first, second = (float(each) for each in re.findall(r"-?[\d.]+", path)[-2:])
+            assert (first, -second) == pytest.approx(contour.end, abs=0.05)
+            assert path.count("L") + path.count("A") == len(contour.elements)
+
+
+def test_a_page_asks_no_other_host_and_lets_nothing_out_of_its_texts():
+    block = "G111 X100. A180. K-30. B120. P5. (</script><script>stolen=1</script><img src=x onerror=y>)"
+    vary = {"A": [170, 180, 190], "P": [2, 5]}
+    page = contoursolve.map_page(contoursolve.family(block, start=START, vary=vary), version="1")
+    shown = contoursolve.explore_map(contoursolve.family(block, start=START, vary=vary))._repr_mimebundle_()[0]
+    for text in (page, shown["text/html"]):
+        found = Scripts(text)
+        assert len(found.scripts) == 2
+        assert found.kinds.count("img") == (text is not page)  # the picture for whoever has no scripts
+        assert "stolen" not in "".join(told for _, told in found.scripts)
+        assert set(re.findall(r"https?://[^\"' )]+", text)) <= {"http://www.w3.org/2000/svg"}
+    assert "default-src 'none'" in unescape(page)
+
+
+@pytest.mark.slow
+def test_a_map_of_long_contours_holds_fewer_of_them():
+    steps = "\n".join(f"G1 X{number} Y{number % 2} ,R0.1" for number in range(1, 60))
+    chain = f"G17 G0 X0 Y0\n{steps}\nG1 X70 Y30"
+    vary = {"2:,R": numpy.linspace(0.01, 0.2, 60), "61:Y": numpy.linspace(20, 40, 60)}
+    data = data_of(contoursolve.map_page(contoursolve.family(chain, control="nct-99m", vary=vary)))
+    assert len(json.dumps(data["frames"])) <= 400_000
+    assert 20 <= len(data["frames"]) < 1000
+    assert f"of {len(data['columns'])} by {len(data['rows'])} values, the map has 60 by 60" in data["note"]
+
+
+@pytest.mark.parametrize("name", BOXES)
+def test_a_click_opens_the_block_with_these_values_in_the_explorer(name):
+    _, box, _ = BOXES[name]
+    shown = contoursolve.explore_map(family_of(name, 7))
+    low, high = ([ends[number] for ends in box.values()] for number in (0, 1))
+    heard = []
+    shown.observe(lambda change: heard.append(change["new"]), "text")
+    for share in (0.5, 0.7):
+        values = [one + share * (two - one) for one, two in zip(low, high, strict=True)]
+        shown.place = {"values": values, "number": 1, "is_open": True}
+        alone = solved_alone(family_of(name, 3), values)
+        assert shown.seen["is_open"]
+        assert bool(shown.seen["path"]) == (alone is not None)
+        if alone is not None:
+            assert shown.answer.contour.end == pytest.approx(alone.end, abs=1e-9)
+            assert shown.seen["text"].startswith(f"solved, end {contoursolve.end_text(shown.answer)}")
+        else:
+            assert shown.seen["text"] in [each.message for each in shown.answer.diagnostics]
+    assert heard
+    assert heard[-1] == shown.text
+    for wrong in ({"values": ["x", 1]}, {"values": [1]}, {}, {"values": [1e300, 1]}):
+        before = shown.text
+        shown.place = {"number": 2, "is_open": True, **wrong}
+        assert shown.text == before
+        assert shown.seen["text"]
+        assert not shown.seen["path"]
+
+
+def test_a_map_is_of_a_family_over_two_words_or_of_a_region():
+    one = contoursolve.family(BLOCK, start=START, vary={"A": [170, 180]})
+    for wrong, error, said in (
+        (one, ValueError, "a grid of two words"),
+        (contoursolve.solve(BLOCK, start=START), TypeError, "not of Result"),
+    ):
+        with pytest.raises(error, match=said):
+            contoursolve.map_page(wrong)
+        with pytest.raises(error, match=said):
+            contoursolve.explore_map(wrong)
+    with pytest.raises(contoursolve.FamilyError, match="did you mean length"):
+        contoursolve.explore_map(family_of("a taper", 3), "lenth")
