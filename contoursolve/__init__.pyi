@@ -62,6 +62,7 @@ from .gcode import (
 from .notebook import (
     explore as explore,
     explore_map as explore_map,
+    standing_alone as standing_alone,
 )
 from .output import (
     StatedWord as StatedWord,

@@ -1,7 +1,7 @@
 """The commands plot and report: pictures and pages as files."""
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -167,7 +167,10 @@ def _pictures(
             yield path, bytes_of(draw_answer(answer, theme=theme), target), _about(answer)
         return
     if line is not None:
-        answer = _at(result.answers, line)
+        try:
+            answer = result.contour_at(line)
+        except ValueError as error:
+            raise CouldNotRunError(str(error)) from error
         yield target, bytes_of(draw_answer(answer, theme=theme), target), _about(answer)
         return
     picture = draw_result(result, theme=theme, is_whole=is_whole)
@@ -176,16 +179,6 @@ def _pictures(
 
 def _about(answer: Answer) -> str:
     return f"program line {answer.lines[0]}, {status_text(answer.status)}"
-
-
-def _at(answers: Sequence[Answer], line: int) -> Answer:
-    """The contour to which a line of the program belongs."""
-    for answer in answers:
-        if answer.lines[0] <= line <= answer.lines[-1]:
-            return answer
-    have = ", ".join(str(answer.lines[0]) for answer in answers)
-    begin = "contours begin in program lines" if len(answers) > 1 else "the contour begins in program line"
-    raise CouldNotRunError(f"program line {line} belongs to no contour; {begin} {have}")
 
 
 def _drawings_for_cad(result: Result, target: Path) -> list[Written]:

@@ -1,6 +1,7 @@
 from .block_template import (
     RefusedError as RefusedError,
     Template as Template,
+    called as called,
     errors_of as errors_of,
     first_error as first_error,
     unit_word as unit_word,

@@ -7,13 +7,12 @@ from typing import Any
 from lsprotocol import types
 
 import contoursolve
-from contoursolve import Answer, Conversion, Dialect, Expansion, end_text, start_text, stated_words
+from contoursolve import Conversion, Expansion, standing_alone, stated_words
 from contoursolve.lsp.language_features import stretch
 from contoursolve.lsp.opened import Opened
 from contoursolve.pictures import Theme, draw_answer
 
 MOST_TOLD = 3
-_ABSOLUTE = 90
 NOT_OPEN = "the program is not open in this editor"
 Reply = Mapping[str, str | None]
 
@@ -123,7 +122,7 @@ def notebook_of(opened: Opened | None, line: int) -> Reply:
         return {"notebook": None, "message": "the start point of this contour is not known"}
     dialect = opened.program.dialect
     options = {"control": dialect.name, "units": answer.unit.value, "settings": dict(dialect.modes.settings)}
-    text = _alone(answer, dialect, options)
+    text = standing_alone(answer, control=dialect, units=answer.unit.value, settings=dialect.modes.settings)
     if not text:
         return {"notebook": None, "message": "this contour rests on lines before it, and cannot stand alone"}
     told = "".join(f", {name}={value!r}" for name, value in options.items() if value)
@@ -139,22 +138,6 @@ def notebook_of(opened: Opened | None, line: int) -> Reply:
     kernel = {"kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"}}
     notebook = {"cells": [cell], "metadata": kernel, "nbformat": 4, "nbformat_minor": 5}
     return {"notebook": json.dumps(notebook, indent=1, ensure_ascii=False), "message": ""}
-
-
-def _alone(answer: Answer, dialect: Dialect, options: Mapping[str, Any]) -> str:
-    """The blocks of a contour behind what leads to its start point and puts its modal codes in force; empty if that is
-    another contour."""
-    state, codes = answer.claim.before, dialect.modes.codes
-    selected = [code.text for code in codes.values() if code.plane is not None and code.plane.code == state.plane.code]
-    is_switched = _ABSOLUTE in codes and codes[_ABSOLUTE].effect.value == "absolute"
-    modes = [*selected[:1], *(["G90"] if is_switched else [])]
-    motion = f"G{state.motion:02}" if state.motion else ""
-    begin = " ".join((*modes, "G00", start_text(answer)))
-    forced = " ".join(filter(None, ("G91" if is_switched and state.is_incremental else "", motion)))
-    text = "\n".join((begin, *([forced] if forced else []), *(block.text.strip() for block in answer.claim.blocks)))
-    found = contoursolve.solve(text, **options).answers
-    is_same = len(found) == 1 and (found[0].status, end_text(found[0])) == (answer.status, end_text(answer))
-    return text if is_same else ""
 
 
 def file_of(opened: Opened | None, what: str, line: int) -> tuple[str, str | None]:

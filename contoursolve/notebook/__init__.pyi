@@ -1,2 +1,3 @@
 from . import mime_bundle as mime_bundle
 from .explore import explore as explore, explore_map as explore_map
+from .standing_alone import standing_alone as standing_alone

@@ -20,12 +20,13 @@ _CHANGES: Mapping[str, Callable[[Exploration, Data], Exploration]] = {
     "free": lambda now, action: explorations.free(now, str(action["key"])),
     "fix": lambda now, action: explorations.apply_fix(now, int(action["finding"]), int(action["fix"])),
     "select": lambda now, action: explorations.select(now, int(action["solution"])),
-    "write": lambda now, action: explorations.rewrite(now, str(action["text"])),
+    "write": lambda now, action: explorations.rewrite_block(now, str(action["text"])),
+    "program": lambda now, action: explorations.rewrite(now, str(action["text"])),
     "reset": lambda now, _: explorations.reset(now),
 }
 """Actions of the front end that change the block. Each can be undone."""
 
-_FITTED = ("write", "reset", "undo", "redo")
+_FITTED = ("write", "program", "reset", "undo", "redo")
 """After these the sliders are scaled anew."""
 
 MOST_PAST = 500
@@ -36,7 +37,7 @@ class Conversation:
     """A contour whose words are moved: what it comes to (`exploration`), and all that a front end shows (`state`).
 
     The state is plain data. `view` is what `view_of` tells, `ranges` where each word has a contour, by its key, `ghost`
-    what a fix or another solution would draw, `sections` those that were opened, each with the text that it is `of`,
+    what a fix or another solution would draw, `sections` those that were opened, each with the mark of the text,
     and `number` that of the last action. While a front end holds something (`is_held`), the picture stands as it did,
     and all that is held becomes one change.
     """
@@ -84,13 +85,13 @@ class Conversation:
         """Change the contour, or only what is shown of it."""
         kind, now, is_held = action["do"], self.exploration, bool(action.get("is_held"))
         if kind in _CHANGES:
-            if action.get("of", now.text) != now.text:
+            if self._is_old(action):
                 return  # it was meant for what the reader saw before
             changed = _CHANGES[kind](now, action)
             if changed.text != now.text and not (self._is_held and is_held):
                 self._begun = now, [*self._past], [*self._future]
                 self._past, self._future = [*self._past[-MOST_PAST:], now], []
-            if kind == "write":
+            if kind in ("write", "program"):
                 self._pinned &= _same_words(now, changed)
             self._is_held = is_held and (self._is_held or changed.text != now.text)
             self.exploration = changed
@@ -121,6 +122,11 @@ class Conversation:
             asks = asked_now(self.exploration, before, self._solved, example)
         return {**self._viewed(is_new=kind in _FITTED), "asks": asks}
 
+    def _is_old(self, action: Data) -> bool:
+        """Whether an action was meant for another text."""
+        mark = self.state["view"]["mark"]
+        return bool(action.get("of", mark) != mark)
+
     def _ranged(self, action: Data) -> Data:
         """The ranges of one word with a contour. They are worked out when nothing else is to do, and kept while they
         hold."""
@@ -137,8 +143,8 @@ class Conversation:
 
     def _opened(self, action: Data) -> Data:
         """A section that the reader has opened, for the block as it is now."""
-        name, text = str(action["name"]), self.exploration.text
-        made = {"of": text, "html": section_of(self.exploration, name)}
+        name, view = str(action["name"]), self.state["view"]
+        made = {"of": view["mark"], "html": section_of(self.exploration, name)}
         return {"sections": {**self.state["sections"], name: made}}
 
     def _ghosted(self, action: Data) -> Data:
@@ -147,14 +153,14 @@ class Conversation:
         if self._drawn is None or now is None:
             return {}
         of: Data = {name: action[name] for name in ("finding", "fix", "solution") if name in action}
-        if action.get("of", self.exploration.text) != self.exploration.text:
+        if self._is_old(action):
             return {}
         if "solution" in of:
             instead = shown = explorations.select(self.exploration, of["solution"])
         else:
             instead = explorations.apply_fix(self.exploration, of["finding"], of["fix"])
             shown = explorations.apply_fix(self.exploration, of["finding"], of["fix"], is_example=True)
-        return {"ghost": {**of, "text": instead.text, "paths": ghost_of(shown, now, self._drawn)}}
+        return {"ghost": {**of, "text": instead.block, "paths": ghost_of(shown, now, self._drawn)}}
 
     def _viewed(self, *, is_new: bool = False) -> Data:
         view = view_of(self.exploration, self._drawn, self._pinned, self._handle)

@@ -21,10 +21,13 @@ from contoursolve.diagnosis import (
     word_keys,
     write_word,
 )
-from contoursolve.gcode import FACT, Program, Word, number_of, parse, spell
+from contoursolve.diagnostics import Diagnostic
+from contoursolve.gcode import FACT, Word, number_of, parse, spell, split_lines
 from contoursolve.geometry import Pick, Unit
+from contoursolve.notebook.block_place import BlockPlace
 from contoursolve.output import stated_words
-from contoursolve.program import Result, UnknownControlError, changed, changes_of
+from contoursolve.program import Changes, Result, UnknownControlError, changed, changes_of
+from contoursolve.reading import Dialect
 from contoursolve.solving import Status
 
 SAME = 1e-3
@@ -44,7 +47,10 @@ class Exploration(Struct, frozen=True):
     options: Mapping[str, Any]
     """Options of the reading: the other arguments of `solve`."""
     result: Result
-    origin: str
+    origin: tuple[str, BlockPlace | None]
+    """The text and the place as they were first."""
+    place: BlockPlace | None = None
+    """The place of the block in a program of which it is a part; None where the text has nothing else to explore."""
     last: Mapping[str, str] = field(default_factory=dict)
     """Text of a word before it was freed, by its key."""
     is_recognised: bool = False
@@ -52,71 +58,136 @@ class Exploration(Struct, frozen=True):
 
     @property
     def answer(self) -> Answer | None:
-        """The contour; None while the text holds none."""
-        return self.result.answers[0] if self.result.answers else None
+        """The contour; None while the block holds none."""
+        return next(iter(self.answers), None)
+
+    @property
+    def answers(self) -> Sequence[Answer]:
+        """The contours of the block: one at most, but where a reader has typed more."""
+        return [each for each in self.result.answers if any(map(self.has, each.lines))]
+
+    @property
+    def block(self) -> str:
+        """The text of the block that is explored."""
+        blocks = self.result.program.blocks
+        return self.text if self.place is None else "\n".join(each.text for each in blocks if self.has(each.line))
+
+    def has(self, line: int) -> bool:
+        """Whether a line of the program is one of the block's."""
+        return self.place is None or self.place.has(line, len(self.result.program.blocks))
+
+    @property
+    def findings(self) -> Sequence[tuple[int, Diagnostic]]:
+        """The findings about the block, each with its number among those of the program."""
+        result, own = self.result, {id(found) for each in self.answers for found in each.diagnostics}
+        return [
+            (number, each)
+            for number, each in enumerate(result.diagnostics)
+            if id(each) in own or self.has(result.place(each.span).line)
+        ]
 
 
-def begin(text: str, facts: Iterable[str] = (), **options: Any) -> Exploration:
-    """An exploration of the only contour of a text. Facts are written into it as comments.
+def begin(text: str, facts: Iterable[str] = (), line: int | None = None, **options: Any) -> Exploration:
+    """An exploration of the only contour of a text, or of the one to which a line of it belongs. Facts are written into
+    it as comments.
 
-    Raises ValueError if the text has several contours, and as `solve`.
+    Raises ValueError if the text has several contours and no line chooses, or that belongs to none; and as `solve`.
     """
-    several = [facts] if isinstance(facts, str) else list(facts)
-    if several:
-        text = _with_facts(solve(text, **options).program, several)
-    result = solve(text, **options)
-    _check_single(result)
+    result, place = solve(text, **options), None
+    if line is not None:
+        lines = result.contour_at(line).lines
+        place = BlockPlace(lines[0] - 1, len(result.program.blocks) - lines[-1])
     # A reader may take out the word by which the control is recognised.
     is_recognised = options.get("control") is None
-    return Exploration(text, {**options, "control": result.control}, result, text, is_recognised=is_recognised)
+    kept = {**options, "control": options["control"] if isinstance(options.get("control"), Dialect) else result.control}
+    now = Exploration(text, kept, result, (text, place), place, is_recognised=is_recognised)
+    _check_single(now)
+    several = [facts] if isinstance(facts, str) else list(facts)
+    if several:
+        now = _edited(now, [_fact_edit(now, several)])
+    return replace(now, origin=(now.text, now.place))
 
 
-def _check_single(result: Result) -> None:
-    if len(result.answers) > 1:
-        lines = ", ".join(str(answer.lines[0]) for answer in result.answers)
+def _check_single(exploration: Exploration) -> None:
+    """Raise ValueError if a block makes several contours."""
+    answers = exploration.answers
+    if len(answers) < 2:  # noqa: PLR2004
+        return
+    lines = [str(answer.lines[0]) for answer in answers]
+    if len({*lines}) == 1:
         raise ValueError(
-            f"one contour can be explored at a time; this text has {len(result.answers)} (program lines {lines})"
+            f"program line {lines[0]} makes {len(answers)} contours, one each time it runs; explore its block alone, "
+            "with numbers for its variables"
         )
+    whole = "this text" if exploration.place is None else "this block"
+    advice = f"; choose one, such as line={lines[0]}" if exploration.place is None else ""
+    raise ValueError(
+        f"one contour can be explored at a time; {whole} has {len(answers)} (program lines {', '.join(lines)}){advice}"
+    )
 
 
-def _with_facts(program: Program, facts: Sequence[str]) -> str:
+def _fact_edit(exploration: Exploration, facts: Sequence[str]) -> Edit:
+    """The comment that states facts about a contour in its last block."""
+    program = exploration.result.program
     stated = "; ".join(facts).replace("(", "[").replace(")", "]")
-    blocks = program.blocks
-    last = max((block.line for block in blocks if block.words), default=1)
-    fact = program.syntax.remark.format(f"contoursolve: {stated}")
-    return "\n".join(apply_edits(blocks, [Edit(EditKind.ADD, FACT, text=fact, line=last)]))
+    last = max((each.line for each in program.blocks if each.words and exploration.has(each.line)), default=1)
+    return Edit(EditKind.ADD, FACT, text=program.syntax.remark.format(f"contoursolve: {stated}"), line=last)
 
 
 def write(exploration: Exploration, text: str) -> Exploration:
-    """The same contour with another text. Raises as `solve`."""
-    return _with_result(exploration, text, solve(text, **exploration.options))
+    """The same contour with another text of the whole program. Raises as `solve`."""
+    place = exploration.place.in_another(exploration.text, text) if exploration.place is not None else None
+    return _solved(exploration, text, place)
 
 
-def _with_result(exploration: Exploration, text: str, result: Result) -> Exploration:
-    now = replace(exploration, text=text, result=result)
+def _solved(exploration: Exploration, text: str, place: BlockPlace | None) -> Exploration:
+    return _with_result(exploration, text, place, solve(text, **exploration.options))
+
+
+def _with_result(exploration: Exploration, text: str, place: BlockPlace | None, result: Result) -> Exploration:
+    now = replace(exploration, text=text, place=place, result=result)
     words = words_of(now.answer) if now.answer is not None else {}
     return replace(now, last={key: old for key, old in now.last.items() if key in words and words[key].is_asked})
 
 
 def rewrite(exploration: Exploration, text: str) -> Exploration:
-    """Another text that a reader typed, perhaps for another control, if nobody chose one. Raises ValueError if it has
+    """Another text of the whole program, perhaps for another control, if nobody chose one. Raises ValueError if it has
     several contours, and as `solve`."""
-    now = write(exploration, text)
-    if exploration.is_recognised:
+    return _rewritten(write(exploration, text))
+
+
+def rewrite_block(exploration: Exploration, text: str) -> Exploration:
+    """Another text of the block, with all lines around it as they are; as `rewrite`."""
+    if exploration.place is None:
+        return rewrite(exploration, text)
+    lines = [each.line for each in exploration.result.program.blocks if exploration.has(each.line)]
+    if not lines:  # all of the block was taken out
+        around = split_lines(exploration.text)
+        around.insert(exploration.place.before, f"{text}\n")
+        whole = "".join(around)
+    else:
+        changes: dict[int, str | None] = dict.fromkeys(lines)
+        whole = changed(exploration.text, {**changes, lines[0]: text})
+    return _rewritten(_solved(exploration, whole, exploration.place))
+
+
+def _rewritten(now: Exploration) -> Exploration:
+    """Text that a reader typed, read for another control if it is for that one alone."""
+    if now.is_recognised:
         try:
-            other = solve(text, **{**exploration.options, "control": None})
+            other = solve(now.text, **{**now.options, "control": None})
         except UnknownControlError:
             other = None  # several read it, or none
-        if other is not None and other.answers and other.control != exploration.result.control:
-            options = {**exploration.options, "control": other.control}
-            now = _with_result(replace(exploration, options=options), text, other)
-    _check_single(now.result)
+        if other is not None and other.answers and other.control != now.result.control:
+            options = {**now.options, "control": other.control}
+            now = _with_result(replace(now, options=options), now.text, now.place, other)
+    _check_single(now)
     return now
 
 
 def reset(exploration: Exploration) -> Exploration:
     """The contour as it was first."""
-    return write(exploration, exploration.origin)
+    return _solved(exploration, *exploration.origin)
 
 
 def words_of(answer: Answer) -> dict[str, Word]:
@@ -146,7 +217,7 @@ def set_words(exploration: Exploration, values: Mapping[str, float | str]) -> Ex
     for key, value in values.items():
         answer, word = _find(exploration, key)
         edits.append(Edit(EditKind.CHANGE, word.address, word.span, word.text, _written(answer, word, value)))
-    return write(exploration, _text(exploration, edits))
+    return _edited(exploration, edits)
 
 
 def is_movable(answer: Answer, word: Word) -> bool:
@@ -182,8 +253,7 @@ def apply_fix(exploration: Exploration, finding: int, number: int, *, is_example
     if is_example:
         fix = replace(fix, replacement=fix.example or fix.replacement)
     old = {block.line: block.text for block in result.program.blocks}
-    changes = changes_of(fix, result.lines_of(findings[finding]), old)
-    return write(exploration, changed("\n".join(old.values()), changes))
+    return _changed(exploration, changes_of(fix, result.lines_of(findings[finding]), old))
 
 
 def select(exploration: Exploration, number: int) -> Exploration:
@@ -195,10 +265,10 @@ def select(exploration: Exploration, number: int) -> Exploration:
         raise ValueError(f"there is no solution {number}")
     wanted = listing.solutions[number]
     if wanted.picks:
-        return write(exploration, _text(exploration, _picking(answer, wanted.picks)))
+        return _edited(exploration, _picking(answer, wanted.picks))
     first = None
-    for text in islice(_selecting(exploration, answer, wanted), MOST_TRIED):
-        tried = write(exploration, text)
+    for edits in islice(_selecting(exploration, answer, wanted), MOST_TRIED):
+        tried = _edited(exploration, edits)
         first = first or tried
         if _is_chosen(tried, wanted, SAME):
             is_told_by_words = any(
@@ -227,8 +297,8 @@ def _picking(answer: Answer, picks: Sequence[Pick]) -> Iterator[Edit]:
         yield Edit(EditKind.ADD, word, text="\n" + spell(word, str(wanted[element])), line=line)
 
 
-def _selecting(exploration: Exploration, answer: Answer, wanted: Listed) -> Iterator[str]:
-    """The text with what selects a solution, in every block in which that can be written."""
+def _selecting(exploration: Exploration, answer: Answer, wanted: Listed) -> Iterator[Sequence[Edit]]:
+    """The edits that write what selects a solution, for every block in which that can be written."""
     ways = []
     for text in wanted.selects:
         address = next(
@@ -240,16 +310,25 @@ def _selecting(exploration: Exploration, answer: Answer, wanted: Listed) -> Iter
             [Edit(EditKind.CHANGE, address, word.span, word.text, text) for word in present]
             or [Edit(EditKind.ADD, address, text=text, line=line) for line in lines]
         )
-    for edits in product(*ways) if ways else ():
-        yield _text(exploration, edits)
+    yield from product(*ways) if ways else ()
 
 
-def _text(exploration: Exploration, edits: Iterable[Edit]) -> str:
-    return "\n".join(apply_edits(exploration.result.program.blocks, edits))
+def _edited(exploration: Exploration, edits: Iterable[Edit]) -> Exploration:
+    """The contour with edits of its blocks made."""
+    blocks = exploration.result.program.blocks
+    texts = zip(blocks, apply_edits(blocks, edits), strict=True)
+    return _changed(exploration, {block.line: text for block, text in texts if text != block.text})
+
+
+def _changed(exploration: Exploration, changes: Changes) -> Exploration:
+    """The contour with other texts of lines; those around keep every character."""
+    place = exploration.place
+    moved = place.after_changes(changes, len(exploration.result.program.blocks)) if place is not None else None
+    return _solved(exploration, changed(exploration.text, changes), moved)
 
 
 def _change(exploration: Exploration, word: Word, text: str) -> Exploration:
-    return write(exploration, _text(exploration, [Edit(EditKind.CHANGE, word.address, word.span, word.text, text)]))
+    return _edited(exploration, [Edit(EditKind.CHANGE, word.address, word.span, word.text, text)])
 
 
 def _find(exploration: Exploration, key: str) -> tuple[Answer, Word]:
@@ -292,11 +371,12 @@ def _signed(text: str, address: str, like: str) -> str:
 def _without_echoes(exploration: Exploration, wanted: Listed) -> Exploration:
     """The contour without the facts that only say what its words say: those by which a word was asked for, now that its
     value is written. It moves no farther than values that are filled in may move it."""
-    facts = [each for block in exploration.result.program.blocks for each in block.directives]
+    blocks = [block for block in exploration.result.program.blocks if exploration.has(block.line)]
+    facts = [each for block in blocks for each in block.directives]
     for fact in reversed(facts):
         if exploration.answer is None or exploration.answer.status is not Status.OVERDETERMINED:
             break
-        shorter = write(exploration, _text(exploration, [Edit(EditKind.DROP, FACT, fact.span, fact.text)]))
+        shorter = _edited(exploration, [Edit(EditKind.DROP, FACT, fact.span, fact.text)])
         if _is_chosen(shorter, wanted, FARTHEST):
             exploration = shorter
     return exploration

@@ -4,18 +4,20 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from decimal import Decimal
 from math import floor, log10
 from typing import Any
+from zlib import crc32
 
 import htpy as h
 from msgspec import to_builtins
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, AskedValue, inward, join, list_solutions, meaning_of, written
+from contoursolve.diagnosis import Answer, AskedValue, count, inward, join, list_solutions, meaning_of, written
 from contoursolve.diagnostics import Applicability
-from contoursolve.families import End, FamilyError, Feasible, Interval, Way, feasible
-from contoursolve.gcode import Word
+from contoursolve.families import End, FamilyError, Feasible, Interval, Way, called, feasible
+from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Question, Unit
 from contoursolve.notebook.exploration import Exploration, free, is_movable, words_of
 from contoursolve.notebook.handles import Handle, HandleKind, derivatives_of, handles_of, moving_of
+from contoursolve.notebook.standing_alone import standing_alone
 from contoursolve.output import (
     bounded,
     count_text,
@@ -71,8 +73,9 @@ def view_of(
     handles = handles_of(answer, drawn, motion, pinned, held) if answer is not None and drawn is not None else []
     moved = {key for handle in handles for key in handle.keys}
     return {
-        "text": exploration.text,
-        "is_changed": exploration.text != exploration.origin,
+        "text": exploration.block,
+        "mark": f"{crc32(exploration.text.encode()):08x}",
+        "is_changed": exploration.text != exploration.origin[0],
         "status": _status(exploration),
         "picture": drawn.svg if drawn is not None else "",
         "frame": _frame_of(drawn),
@@ -80,13 +83,14 @@ def view_of(
         "elements": to_builtins(moving_of(motion, drawn, moved)) if motion is not None and drawn is not None else [],
         "fields": list(_fields(answer, pinned)) if answer else [],
         "findings": list(_findings(exploration)),
+        "elsewhere": _elsewhere(exploration),
         "solutions": _solutions(answer) if answer else {"text": "", "items": []},
         "path": _path(answer) if answer else [],
     }
 
 
 def _status(exploration: Exploration) -> Data:
-    worst, answer = worst_of(exploration.result.diagnostics), exploration.answer
+    worst, answer = worst_of([each for _, each in exploration.findings]), exploration.answer
     if answer is None:
         return {"kind": worst, "text": "no contour"}
     return {"kind": worst, "text": answer.status.value, "form": short(form_text(answer))}
@@ -181,7 +185,7 @@ def _findings(exploration: Exploration) -> Iterator[Data]:
     result, answer = exploration.result, exploration.answer
     names = named_words(answer) if answer is not None else {}
     numbers = {id(each): str(number) for number, each in enumerate(answer.diagnostics, 1)} if answer is not None else {}
-    for number, finding in enumerate(result.diagnostics[:MOST_FINDINGS]):
+    for number, finding in exploration.findings[:MOST_FINDINGS]:
         # Fixes are buttons.
         lines = finding_pieces(replace(finding, fixes=()), "block", sources_of(result, finding))
         named = [about for label in finding.labels if (about := names.get(label.span)) is not None]
@@ -201,6 +205,20 @@ def _findings(exploration: Exploration) -> Iterator[Data]:
                 for place, fix in enumerate(finding.fixes[:MOST_FIXES])
             ],
         }
+
+
+def _elsewhere(exploration: Exploration) -> str:
+    """The errors in the rest of a program."""
+    result, own = exploration.result, {number for number, _ in exploration.findings}
+    lines = [
+        result.place(each.span).line
+        for number, each in enumerate(result.diagnostics)
+        if each.is_error and number not in own
+    ]
+    if not lines:
+        return ""
+    first = f", the first in program line {min(lines)}" if len(lines) > 1 else f" in program line {lines[0]}"
+    return f"The rest of the program has {count(len(lines), 'error')}{first}."
 
 
 def _solutions(answer: Answer) -> Data:
@@ -327,15 +345,19 @@ _MARGIN = 0.1
 
 
 def frames_of(exploration: Exploration) -> dict[str, str]:
-    """The text around each word with a value, by the word's key: its range stays as long as this does."""
+    """The text around each word with a value, by the word's key: its range stays as long as this does. Of the rest of a
+    program there is a mark."""
     answer = exploration.answer
     if answer is None:
         return {}
-    return {key: _frame(exploration, word) for key, word in words_of(answer).items() if word.number is not None}
-
-
-def _frame(exploration: Exploration, word: Word) -> str:
     blocks = exploration.result.program.blocks
+    rest = "\n".join(each.text for each in blocks if not exploration.has(each.line))
+    mark = f"{crc32(rest.encode()):08x}\n" if rest else ""
+    own = [each for each in blocks if exploration.has(each.line)]
+    return {key: mark + _frame(own, word) for key, word in words_of(answer).items() if word.number is not None}
+
+
+def _frame(blocks: Sequence[Block], word: Word) -> str:
     return "\n".join(
         block.text[: word.span.column - 1] + "\0" + block.text[word.span.end_column - 1 :]
         if block.line == word.span.line
@@ -347,12 +369,16 @@ def _frame(exploration: Exploration, word: Word) -> str:
 def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
     """The ranges of the word of a field, and the ends that its slider needs to show them; nothing for a word of which
     no range can be told."""
-    if any(finding.about is ReadIssue.UNDERDETERMINED for finding in exploration.result.diagnostics):
+    if any(each.about is ReadIssue.UNDERDETERMINED for _, each in exploration.findings):
         return {}  # whatever this word says, others are missing
     low, high = field["low"], field["high"]
     within = (low - (high - low) / 2, high + (high - low) / 2) if field["unit"] == "deg" else None
+    asked = _alone(exploration, field["key"])
+    if asked is None:
+        return {}
+    text, name, label, options = asked
     try:
-        found = feasible(exploration.text, field["key"], within=within, **exploration.options)
+        found = feasible(text, name, within=within, **options)
     except FamilyError:  # facts without a closed form, words that only choose
         return {}
     # An end that is far away on the scale of the contour is not worth a slider that is too coarse.
@@ -367,13 +393,37 @@ def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
         "stops": [
             [_stop(each.low, field, found.unit, 1), _stop(each.high, field, found.unit, -1)] for each in found.intervals
         ],
-        "ends": [[_end_text(each.low, found.unit), _end_text(each.high, found.unit)] for each in found.intervals],
+        "ends": [
+            [_end_text(each, found.unit).replace(called(name), label) for each in (one.low, one.high)]
+            for one in found.intervals
+        ],
         "low": max(low, found.within[0]),
         "high": min(high, found.within[1]),
         "note": _note(found, field["key"].rpartition(":")[2]),
-        "reason": "; ".join(_reasons(found)),
+        "reason": "; ".join(_reasons(found)).replace(called(name), label),
         "snaps": snaps_of(exploration, field["key"]),
     }
+
+
+def _alone(exploration: Exploration, key: str) -> tuple[str, str, str, Mapping[str, Any]] | None:
+    """The text, the word, its name for the reader, and the options, for a question about a contour by itself; None
+    where it rests on the rest of its program."""
+    answer, options = exploration.answer, exploration.options
+    if answer is None:
+        return None
+    word = words_of(answer)[key]
+    if exploration.place is None:
+        words = [each for block in exploration.result.program.blocks for each in block.words]
+        is_alone = sum(each.address == word.address for each in words) == 1
+        name = word.address if is_alone else f"{word.span.line}:{word.address}"
+        return exploration.text, name, called(key), options
+    reading: Data = {name: options[name] for name in ("control", "rules", "settings") if name in options}
+    reading["units"] = answer.unit.value
+    text = standing_alone(answer, is_exact=True, **reading)
+    blocks = answer.claim.blocks
+    first = text.count("\n") + 2 - len(blocks)
+    at = next(number for number, block in enumerate(blocks) if block.line == word.span.line)
+    return (text, f"{first + at}:{word.address}", called(key), reading) if text else None
 
 
 def _note(found: Feasible, name: str) -> str:

@@ -1,11 +1,11 @@
 """Opens the explorer of a contour, where its packages are installed."""
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from contoursolve.diagnostics import importing
 from contoursolve.families import Family, Region, with_numbers
-from contoursolve.notebook.exploration import begin
+from contoursolve.notebook.exploration import begin, rewrite_block
 from contoursolve.reading import Dialect
 
 if TYPE_CHECKING:
@@ -13,9 +13,10 @@ if TYPE_CHECKING:
     from contoursolve.notebook.map_explorer import MapExplorer
 
 
-def explore(
+def explore(  # noqa: PLR0913 - what `solve` takes
     block: str,
     *,
+    line: int | None = None,
     start: str | None = None,
     control: str | Dialect | None = None,
     units: str = "mm",
@@ -26,20 +27,25 @@ def explore(
 ) -> "Explorer":
     """A contour to move, in a notebook: a slider for each word, the picture, the findings and their fixes.
 
-    Arguments and errors as for `solve`; `block` may be several lines, with one contour. The widget's traits
-    `text` and `values` are the block as it is now, and may be set; `answer` and `result` are what it comes to, and can
-    be observed. Without a kernel the notebook shows the picture as it last was.
+    Arguments and errors as for `solve`; `block` may be several lines, with one contour. With `line`, it is a program,
+    and the contour is the one to which that line belongs; all other lines stay as they are, and each change goes back
+    into the program. The widget's traits `text` and `values` are what it is now, and may be set; `answer` and `result`
+    are what it comes to, and can be observed. Without a kernel the notebook shows the picture as it last was.
     Numbers take the place of variables, and the words that hold them have the sliders.
 
     Raises FamilyError for a variable without a value, MissingExtraError without the packages of
-    `contoursolve[notebook]`, ValueError for several contours.
+    `contoursolve[notebook]`, ValueError for several contours without `line`, and for a line that belongs to none.
     """
     with importing("notebook", "exploring a contour"):
         from contoursolve.notebook.explorer import Explorer  # noqa: PLC0415 - needs an extra
-    options = {"start": start, "control": control, "units": units, "rules": rules, "settings": settings}
+    options: dict[str, Any] = {"start": start, "control": control, "units": units, "rules": rules, "settings": settings}
+    if variables and line is not None:
+        now = begin(block, line=line, variables=variables, **options)
+        own = with_numbers(now.block, now.options["control"], settings, variables)
+        return Explorer(begin(rewrite_block(now, own).text, facts, line, variables=variables, **options))
     if variables:
         block = with_numbers(block, control, settings, variables)
-    return Explorer(begin(block, facts, **options))
+    return Explorer(begin(block, facts, line, **options))
 
 
 def explore_map(found: Family | Region, result: str | None = None) -> "MapExplorer":

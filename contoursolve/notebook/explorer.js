@@ -652,7 +652,7 @@ function render({ model, el }) {
   function haunt(node, of) {
     const begin = () => {
       haunted = of;
-      act({ do: "ghost", ...of, of: model.get("view").text });
+      act({ do: "ghost", ...of, of: model.get("view").mark });
     };
     const end = () => {
       haunted = null;
@@ -673,7 +673,7 @@ function render({ model, el }) {
     if (isWanted) hint.textContent = ghost.text;
   }
 
-  function showFindings(all, of) {
+  function showFindings(all, of, elsewhere) {
     const place = placeIn(findings);
     const items = all.map((finding) => {
       const lines = make("pre", { tabindex: "0" });
@@ -695,6 +695,7 @@ function render({ model, el }) {
       const about = { "data-finding": finding.name || null, "data-word": finding.words.join(" ") || null };
       return make("section", { class: `finding ${finding.kind}`, ...about }, lines, bar);
     });
+    if (elsewhere) items.push(make("p", { class: "elsewhere", text: elsewhere }));
     findings.replaceChildren(...items);
     focusAgain(findings, place);
   }
@@ -766,7 +767,7 @@ function render({ model, el }) {
 
   function freshSection(name) {
     const made = model.get("sections")?.[name];
-    return made && made.of === model.get("view").text ? made : null;
+    return made && made.of === model.get("view").mark ? made : null;
   }
 
   function showSections() {
@@ -843,8 +844,8 @@ function render({ model, el }) {
     const line = [make("strong", { class: now.status.kind, text: now.status.text }), now.status.form ? ` ${now.status.form}` : ""];
     status.replaceChildren(...line.filter(Boolean));
     if (now.trouble) status.append(make("span", { class: "error", text: ` ${now.trouble}` }));
-    showFindings(now.findings, now.text);
-    showSolutions(now.solutions, now.text);
+    showFindings(now.findings, now.mark, now.elsewhere);
+    showSolutions(now.solutions, now.mark);
     showPath(now.path);
     if (held && held.target) held.due ||= requestAnimationFrame(follow);
     const ask = now.asks?.[0];

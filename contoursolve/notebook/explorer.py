@@ -32,7 +32,7 @@ class Explorer(anywidget.AnyWidget):
     """Last action of the reader; the other traits so far are the state of `Conversation`."""
 
     text = traitlets.Unicode()
-    """The block as it is now; another one may be set."""
+    """The block as it is now, or the program of which it is one; another one may be set."""
     values = traitlets.Dict()
     """The values of its words as they are typed, by their keys; some or all may be set, `{"A": 120.0}`."""
     answer = traitlets.Instance(Answer, allow_none=True, read_only=True)
@@ -53,7 +53,7 @@ class Explorer(anywidget.AnyWidget):
     @traitlets.observe("text")
     def _write(self, change: Mapping[str, Any]) -> None:
         if not self._is_telling:
-            self._set({"do": "write", "text": change["new"]})
+            self._set({"do": "program", "text": change["new"]})
 
     @traitlets.observe("values")
     def _move(self, change: Mapping[str, Any]) -> None:

@@ -65,6 +65,17 @@ class Result(Shown, Struct, frozen=True):
         own = next((each for each in self.answers if finding in each.diagnostics), None)
         return own.lines if own else (self.place(finding.span).line,)
 
+    def contour_at(self, line: int) -> Answer:
+        """The contour to which a line of the program belongs. Raises ValueError if there is none."""
+        found = next((each for each in self.answers if each.lines[0] <= line <= each.lines[-1]), None)
+        if found is not None:
+            return found
+        if not self.answers:
+            raise ValueError(f"program line {line} belongs to no contour; the program has none")
+        have = ", ".join(dict.fromkeys(str(each.lines[0]) for each in self.answers))
+        begin = "contours begin in program lines" if len(self.answers) > 1 else "the contour begins in program line"
+        raise ValueError(f"program line {line} belongs to no contour; {begin} {have}")
+
     def place(self, span: Span) -> Span:
         """The place itself, or for what was stated apart from the program the block that it is about."""
         if span.line > 0:

@@ -340,7 +340,7 @@ def test_escape_and_second_clicks_leave_nothing_behind(browser, tmp_path):
     desk = Desk(browser, tmp_path, "G111 X100 A180 K-30 B120 P5 Q5", start="X40. Z0.")
     state = desk.talk.state
     first = state["view"]["findings"][0]["fixes"][0]
-    action = {"do": "fix", "finding": first["finding"], "fix": first["number"], "of": desk.text}
+    action = {"do": "fix", "finding": first["finding"], "fix": first["number"], "of": state["view"]["mark"]}
     desk.talk.answer({**action, "number": 1})
     once = desk.text
     desk.talk.answer({**action, "number": 2})

@@ -149,6 +149,85 @@ def test_one_contour_is_explored_at_a_time():
         explore.begin("G111 A180.\nG3 X-50 Y0 R50 Q-1\nG1 X-50 Y42.857 ,A171.87")
 
 
+def changed_lines(old, new):
+    """The lines of two programs that differ, by number; they have as many."""
+    pairs = list(zip(old.splitlines(keepends=True), new.splitlines(keepends=True), strict=True))
+    return {number: new for number, (old, new) in enumerate(pairs, 1) if old != new}
+
+
+@some_of(
+    ("name", "line", "key"),
+    [("shaft.nc", 68, "B"), ("roller.nc", 27, "K"), ("cover.nc", 16, "15:Y"), ("plate.nc", 64, ",A")],
+    one_in=2,
+)
+def test_a_line_takes_one_contour_out_of_a_program_and_changes_go_back_into_it(name, line, key):
+    text = (PROGRAMS / name).read_text().replace("\n", "\r\n")
+    now = explore.begin(text, line=line)
+    whole = contoursolve.solve(text)
+    assert now.answer.contour == whole.contour_at(line).contour
+    first, last = now.answer.lines[0], now.answer.lines[-1]
+    assert view_of(now)["text"].split("\n") == text.split("\r\n")[first - 1 : last]
+    each = field(now, key)
+    found = range_of(now, each)
+    assert "of block" not in found["reason"] or ":" in key
+    for stops, ends in zip(found["stops"], found["ends"], strict=True):
+        for value, told in zip(stops, ends, strict=True):
+            if told:
+                moved = explore.set_word(now, key, value)
+                assert moved.answer.contour is not None, (key, value)
+                assert moved.answer.lines == now.answer.lines
+                assert {*changed_lines(text, moved.text)} <= {*range(first, last + 1)}
+    broken = explore.rewrite_block(now, f"(LOOK)\n{view_of(now)['text']}\n(LOOKED)")
+    assert broken.text.split("\r\n")[first - 1] == "(LOOK)"
+    assert broken.answer.lines[0] == first + 1
+    assert explore.reset(broken).text == text
+    assert explore.rewrite(broken, text).answer.lines == now.answer.lines
+
+
+def test_a_contour_of_a_broken_program_has_its_own_findings_and_fixes():
+    text = (PROGRAMS / "shaft_broken.nc").read_text()
+    now = explore.begin(text, line=21)
+    view = view_of(now)
+    assert view["elsewhere"] == "The rest of the program has 4 errors, the first in program line 13."
+    (found,) = view["findings"]
+    fixed = explore.apply_fix(now, found["fixes"][0]["finding"], found["fixes"][0]["number"])
+    assert [*changed_lines(text, fixed.text)] == [21]
+    assert fixed.answer.status is Status.SOLVED
+    stated = explore.begin(text, ["straight part of line 1 = 5"], line=21)
+    assert changed_lines(text, stated.text)[21].endswith("(contoursolve: straight part of line 1 = 5)\n")
+    gone = explore.rewrite(now, "".join(each for each in text.splitlines(keepends=True) if "N310" not in each))
+    assert (gone.answer, gone.block) == (None, "")
+    assert explore.rewrite_block(gone, now.block).text == text
+
+
+def test_a_line_without_a_contour_of_its_own_is_told_in_one_sentence():
+    text = (PROGRAMS / "shaft.nc").read_text()
+    with pytest.raises(
+        ValueError, match=r"^program line 1 belongs to no contour; contours begin in program lines 53, 67"
+    ):
+        contoursolve.explore(text, line=1)
+    with pytest.raises(ValueError, match=r"^program line 1 belongs to no contour; the program has none$"):
+        contoursolve.explore("G00 X40. Z0.", line=1, control="fanuc-lathe")
+    loop = "#1=5\nWHILE [#1 LT 8] DO1\nG0 X40. Z0.\nG1 Z-30. ,R#1\nX100. ,A120.\n#1=#1+1\nEND1\nM30"
+    with pytest.raises(
+        ValueError, match=r"^program line 4 makes 3 contours, one each time it runs; explore its block alone"
+    ):
+        contoursolve.explore(loop, line=4, control="fanuc-lathe")
+    now = explore.begin(text, line=67)
+    with pytest.raises(ValueError, match=r"this block has 2 \(program lines 67, 68\)$"):
+        explore.rewrite_block(now, "\n".join(text.split("\n")[66:68]))
+
+
+def test_the_traits_of_a_line_are_those_of_the_program_and_variables_are_numbers():
+    text = "#100=40.\nG00 X#100 Z0.\nG111 X#101 A180. K-30. B120. P5.\nG111 A180. W-20. B90. U10."
+    widget = contoursolve.explore(text, line=3, control="yasnac-lx3", variables={"#101": 95})
+    assert widget.text == text.replace("#101", "95.")
+    widget.values = {"X": 100}
+    assert widget.text == text.replace("X#101", "X100.")
+    widget.text = text.replace("X#101", "X90.").replace("B90", "B100")
+    assert (widget.values["X"], widget.view["text"]) == (90, "G111 X90. A180. K-30. B120. P5.")
+
+
 def test_the_control_stays_when_what_shows_it_is_taken_out():
     now = explore.begin(f"{PAIR} Q-1")
     bare = explore.write(now, now.text.replace(",A171.87 Q-1", ""))
@@ -221,6 +300,8 @@ def test_a_range_on_a_slider_ends_where_single_solves_say_so():
                     assert explore.set_word(now, each["key"], end - inward * 0.002).answer.contour is None
     assert range_of(now, field(now, "P"))["note"] == "0 ≤ P ≤ 51.961"
     assert range_of(now, field(now, "A"))["note"] == "138.219 ≤ A ≤ 269.998"
+    beside = explore.begin("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5.")
+    assert range_of(beside, field(beside, "X"))["note"] == "X ≥ 45"
     freed = explore.free(now, "X")
     assert [range_of(freed, field(freed, key)) for key in "AKBP"] == [{}] * 4  # another word is missing
     assert range_of(explore.begin(f"{PAIR} Q-1"), {**field(explore.begin(f"{PAIR} Q-1"), "Q")}) == {}

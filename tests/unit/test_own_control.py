@@ -114,7 +114,9 @@ def test_every_door_takes_a_control_as_its_tables():
     slopes = contoursolve.sensitivity(line, start=start, control=MINE).slopes
     assert slopes["N1.Y"]["X"] == pytest.approx(1)
     assert contoursolve.feasible(line, "X", start=start, control=MINE).intervals[0].low.value == 0
-    assert contoursolve.explore(PAIR, control=MINE).result.control == "mine"
+    explorer = contoursolve.explore(PAIR, control=MINE)
+    explorer.values = {"Q": 1}
+    assert (explorer.result.control, explorer.text) == ("mine", PAIR.replace("Q-1", "Q1"))
 
 
 def test_its_contours_show_themselves_with_a_lexicon_of_their_own():
