@@ -4,6 +4,7 @@ from .choices import (
 from .display import (
     Renderer as Renderer,
     Shown as Shown,
+    plot_on as plot_on,
     register_renderer as register_renderer,
 )
 from .errors import (

@@ -13,6 +13,9 @@ class Renderer(Protocol):
     def bundle(self, record: "Shown") -> dict[str, str]:
         """Text, HTML and SVG of a record, by the types of data that a notebook knows."""
 
+    def plot(self, record: "Shown", ax: Any, **options: Any) -> Any:
+        """Draw a record on axes of matplotlib, and return them."""
+
 
 _load: list[Callable[[], Renderer]] = []
 
@@ -39,3 +42,8 @@ class Shown:
             return {"text/plain": repr(self)}
         wanted = set(include or bundle) - set(exclude or ())
         return {kind: text for kind, text in bundle.items() if kind in wanted}
+
+
+def plot_on(record: Shown, ax: Any, **options: Any) -> Any:
+    """A record on axes of matplotlib, or on the current ones without; returns them. Raises MissingExtraError."""
+    return _load[0]().plot(record, ax, **options)

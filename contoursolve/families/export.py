@@ -12,7 +12,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.diagnosis import Answer
-from contoursolve.diagnostics import Shown, need
+from contoursolve.diagnostics import Shown, need, plot_on
 from contoursolve.families.block_template import SweepSpec, Template
 from contoursolve.families.case_classes import asked_of
 from contoursolve.families.errors import FamilyError
@@ -159,6 +159,11 @@ class Family(Shown):
     def measures(self) -> dict[str, Measure]:
         """The unit of each array, by name."""
         return measures_of(self.spec.template(), self.ranges, self.columns)
+
+    def plot(self, ax: Any = None, *, words: tuple[str, str] | None = None, result: str | None = None) -> Any:
+        """Draw the map of two words on `ax`, axes of matplotlib, or on the current ones, and return them; see `plot` of
+        `Region`. Raises ValueError where these are not two words of a grid with two or more values each."""
+        return plot_on(self, ax, words=words, result=result)
 
     def to_arrow(self) -> Any:
         """A pyarrow.Table with a column for each array: `status` and `reason` in words, as dictionaries (no reason is

@@ -2,14 +2,14 @@
 
 from collections.abc import Sequence
 from math import ceil, floor, log10
-from typing import TypeVar, Unpack
+from typing import Any, TypeVar, Unpack
 
 import numpy
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import short_name
-from contoursolve.diagnostics import Shown
+from contoursolve.diagnostics import Shown, plot_on
 from contoursolve.families.block_template import BlockOptions, RefusedError, SweepSpec, Template, spec_of
 from contoursolve.families.branches import branches_of
 from contoursolve.families.case_classes import CaseClass, FreeWords, premises_of
@@ -81,6 +81,13 @@ class Region(Shown, Struct, frozen=True, eq=False):
             for size in (self.cell, self.seen)
         )
         return f"sampled, edges within {cell}; what is narrower than {seen} may be missing"
+
+    def plot(self, ax: Any = None, *, result: str | None = None) -> Any:
+        """Draw the region on `ax`, axes of matplotlib, or on the current ones, and return them: where the contour
+        exists, the lines that bound it, each labelled with what fails beyond it, and the values of the block. `result`
+        colours it, as for `draw_region`. Raises FamilyError for a result that is none, MissingExtraError without the
+        package of `contoursolve[plot]`."""
+        return plot_on(self, ax, result=result)
 
     def family(self, columns: int | None = None, rows: int | None = None) -> Family:
         """The contours at evenly spaced values of both words, as many as `outcomes` has unless it is told: for

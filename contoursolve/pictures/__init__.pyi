@@ -31,6 +31,7 @@ from .overview import (
 from .page import (
     About as About,
 )
+from .plots import plot_record as plot_record
 from .scene import (
     Viewport as Viewport,
 )

@@ -8,6 +8,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from contoursolve.families import (
+    Boundary,
     Family,
     Outcomes,
     Ranges,
@@ -150,14 +151,15 @@ def lay_out_map(
     if thinned:
         remarks.append((f"drawn: {' and '.join(thinned)}; the title counts all contours", Role.MUTED))
     named = title if title is not None else map_title(family.summary(), plane.words, field)
-    return _page(named, plane, _curves(family, plane), [], remarks, field)
+    curves = curves_of(boundaries_in(family, plane), plane.chart)
+    return _page(named, plane, curves, [], remarks, field)
 
 
 def lay_out_region(region: Region, title: str | None, result: str | None = None) -> Sheet:
     """The page of a region, with a result if one is named. Raises FamilyError for one that is none."""
     plane = plane_of(region)
     field = None if result is None else result_in(region, plane, result)
-    curves = curves_of(region.boundaries, plane.chart)
+    curves = curves_of(boundaries_in(region, plane), plane.chart)
     remarks: list[Remark] = [(region.fineness, Role.MUTED)]
     told = title if title is not None else _region_title(region, field)
     return _page(told, plane, curves, _stated(region, plane.chart, curves), remarks, field)
@@ -221,9 +223,11 @@ def _range_told(field: ResultField) -> str:
     return f"{field.name}: from {low} to {high}; lines of equal value {every}{between}"
 
 
-def _curves(family: Family, plane: MapPlane) -> list[Curve]:
+def boundaries_in(record: Family | Region, plane: MapPlane) -> Sequence[Boundary]:
     """The lines between the values that are drawn with a contour and without."""
-    words, fixed, values = plane.words, plane.fixed, family.ranges.values
+    if isinstance(record, Region):
+        return record.boundaries
+    family, words, fixed, values = record, plane.words, plane.fixed, record.ranges.values
     template = family.spec.template().filled(fixed).with_words(words)
 
     # Rows that are read one by one, or searched, take a thousand times as long.
@@ -239,7 +243,7 @@ def _curves(family: Family, plane: MapPlane) -> list[Curve]:
         return outcomes_of(found["status"], found["reason"])
 
     crossings = crossings_of(plane.axes, plane.outcomes, solve if is_quick else None)
-    return curves_of(boundaries_of(template, plane.outcomes, crossings), plane.chart)
+    return list(boundaries_of(template, plane.outcomes, crossings))
 
 
 def picks(values: Array, most: int) -> Places:

@@ -3,11 +3,11 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from math import acos, asin, atan2, ceil, cos, degrees, dist, hypot, pi, radians, sin, sqrt, tau
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from msgspec import Struct
 
-from contoursolve.diagnostics import Shown
+from contoursolve.diagnostics import Shown, plot_on
 from contoursolve.geometry import Corner, Line, Plane, Profile, Turn
 from contoursolve.solving.solution import Point, Solution
 from contoursolve.tolerance import AGREEMENT, LENGTH
@@ -99,6 +99,16 @@ class Contour(Shown):
             found += _along(element, chord_error) if isinstance(element, ArcSegment) else ()
             found.append(element.end)
         return found
+
+    def plot(self, ax: Any = None, *, chord_error: float = 0.01, **style: Any) -> Any:
+        """Draw the path on `ax`, axes of matplotlib, or on the current ones, and return them.
+
+        The path is one line through the points of `sample`; `style` goes to `Axes.plot`, such as `label="A170"`. Places
+        on the axes are mm with X of a lathe as radius, like everything here; the numbers along X are diameters, as the
+        machine has them. The aspect becomes equal. Raises MissingExtraError without the package of
+        `contoursolve[plot]`, ValueError for a chord error that is not positive.
+        """
+        return plot_on(self, ax, chord_error=chord_error, **style)
 
     def is_alike(self, other: "Contour") -> bool:
         """Whether the elements of two paths are of the same kinds and turn the same way, one by one."""
