@@ -75,7 +75,5 @@ def test_a_region_and_a_family_are_drawn_beside_what_is_there(ax):
 
 def test_without_matplotlib_its_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
-    with pytest.raises(
-        contoursolve.MissingExtraError, match=r'needs matplotlib; .* "contoursolve\[plot\]"'
-    ):
+    with pytest.raises(contoursolve.MissingExtraError, match=r'needs matplotlib; .* "contoursolve\[plot\]"'):
         contour_of(BLOCK, START).plot()
