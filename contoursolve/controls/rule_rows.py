@@ -19,6 +19,7 @@ def rule_row(  # noqa: PLR0913 - a row has these columns
     ignores: str = "",
     note: str = "",
     is_about_geometry: bool = False,
+    is_about_choice: bool = False,
 ) -> Rule:
     """A row of a control whose codes begin with a prefix; what is wrong is a program, or two texts of which the second
     stands for the first in the right one."""
@@ -36,4 +37,5 @@ def rule_row(  # noqa: PLR0913 - a row has these columns
         severity=severity,
         note=note,
         is_about_geometry=is_about_geometry,
+        is_about_choice=is_about_choice,
     )

@@ -2,7 +2,9 @@
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace as replace_fields
 from decimal import Decimal, InvalidOperation
+from enum import Enum
 from typing import Any, TypedDict
 
 from msgspec import Struct, field
@@ -255,6 +257,15 @@ def called(word: str) -> str:
     return f"{address} of block {line}" if line else address
 
 
+class Branches(Enum):
+    """The solutions that a family has of each row."""
+
+    CHOSEN = "chosen"
+    """The one that the words choose; none where they choose none."""
+    ALL = "all"
+    """All of them, in a dimension of their own."""
+
+
 class SweepSpec(Struct, frozen=True):
     """A block, the names of its free words, and how it is read: the arguments of `family`, but for the values."""
 
@@ -267,6 +278,7 @@ class SweepSpec(Struct, frozen=True):
     rules: str
     settings: tuple[tuple[str, str], ...]
     variables: tuple[tuple[str, float], ...] = ()
+    branches: Branches = Branches.CHOSEN
 
     def template(self) -> Template:
         """The block with its free words. Raises FamilyError for a word that is not there, UnknownControlError,
@@ -276,6 +288,8 @@ class SweepSpec(Struct, frozen=True):
                 raise TypeError(f"the {name} is a text (str), not {type(text).__name__}")
         program = gcode.parse(self.block, "<block>")
         dialect = choose(self.control, program, dict(self.settings))
+        if dialect is not None and self.branches is Branches.ALL:
+            dialect = replace_fields(dialect, rules=tuple(each for each in dialect.rules if not each.is_about_choice))
         told = SolveOptions(start=self.start, units=self.units, rules=self.rules, facts=self.facts, strict=True)
         asked = told.request(program.name, dialect)
         if dialect is None:
@@ -313,9 +327,11 @@ def spec_of(  # noqa: PLR0913 - what `family` takes
     rules: str = "enforce",
     settings: Mapping[str, str] | None = None,
     variables: Mapping[str, float] | None = None,
+    branches: Branches = Branches.CHOSEN,
 ) -> SweepSpec:
     """The spec of a block with the words of these names free; a text alone is one fact."""
     stated = (facts,) if isinstance(facts, str) else tuple(facts)
     options = tuple(sorted((settings or {}).items()))
     known = tuple((name.strip().upper(), float(value)) for name, value in (variables or {}).items())
-    return SweepSpec(block, tuple(map(name_of, names)), start, control, stated, units, rules, options, known)
+    names = tuple(map(name_of, names))
+    return SweepSpec(block, names, start, control, stated, units, rules, options, known, branches)

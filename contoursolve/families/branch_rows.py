@@ -7,6 +7,7 @@ row of a system without a closed form.
 from collections.abc import Container, Iterable, Mapping, Sequence
 from functools import lru_cache
 from itertools import product
+from math import inf
 from typing import Any
 
 import numpy
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 
 from contoursolve.families.branches import side_margins
 from contoursolve.families.case_classes import CaseClass, asked_of
+from contoursolve.families.errors import NotClosedError
 from contoursolve.families.word_values import Places, stretches
 from contoursolve.geometry import FIRST, SECOND, Choice, Fact, System, Unit, Values, scalar
 from contoursolve.numeric import (
@@ -39,10 +41,12 @@ from contoursolve.solving import (
     UNVERIFIED,
     Check,
     CheckOutputs,
+    Enumeration,
     Need,
     NoClosedFormError,
     RowOutcome,
     Solution,
+    Status,
     StatusCode,
     add_checks,
     at_origin,
@@ -51,10 +55,12 @@ from contoursolve.solving import (
     check_path,
     check_range,
     check_residuals,
+    choose,
     code_of,
     compile_branches,
     compile_path,
     enumerate_each,
+    find_alternatives,
     input_values,
     measured_figure,
     reason_of,
@@ -100,11 +106,25 @@ class RowSolutions(Struct, eq=False):
     again: Bits
 
 
-class BranchRows:
-    """The functions of a class whose rows may have several solutions, for one thread."""
+def count_solutions(case: CaseClass) -> int:
+    """The number of solutions that each row of a class may have. Raises NotClosedError without a closed form."""
+    if case.status is not None or case.is_closed or case.profile.picks:
+        return 1
+    branches = _compile(case.system, case.profile.choices)
+    if branches is None:
+        raise NotClosedError(
+            "without a closed form the solutions of a row are no branches; solve row by row, and list its solutions"
+        )
+    return 1 << len(branches.signs)
 
-    def __init__(self, case: CaseClass) -> None:
+
+class BranchRows:
+    """The functions of a class whose rows may have several solutions, for one thread. With `only`, each row has this
+    one of them or none, whatever else there is."""
+
+    def __init__(self, case: CaseClass, only: int | None = None) -> None:
         self.case = case
+        self.only = only
         self.system: System = case.system
         self.branches = _compile(self.system, case.profile.choices)
         self.construction = Columns(self.branches.function) if self.branches is not None else None
@@ -134,8 +154,42 @@ class BranchRows:
             rows_of = [{word: float(each[row]) for word, each in values.items()} for row in alone[first:last]]
             found = enumerate_each([self.case.at(each) for each in rows_of], self.system)
             for row, own, enumeration in zip(alone[first:last], rows_of, found, strict=True):
-                self._settle(self.case.solve(own, enumeration), [row], settled)
+                self._settle(self._solve_alone(own, enumeration), [row], settled)
         return settled
+
+    def _solve_alone(self, values: Mapping[str, float], enumeration: Enumeration | None = None) -> Solution:
+        """The single solve of a row; where one solution alone counts, that of all which lies nearest to it in floats
+        and to no other one nearer."""
+        if self.only is None:
+            return self.case.solve(values, enumeration)
+        profile = self.case.at(values)
+        items = choose(find_alternatives(profile, enumeration), profile.choices)
+        places = self._places_of(values)
+        apart = [
+            (off, number, place)
+            for number, at in enumerate(places)
+            for place, item in enumerate(items)
+            if (off := max((abs(at[name] - item.scalars[name]) for name in at), default=0.0)) < inf
+        ]
+        taken: dict[int, int] = {}
+        for _, number, place in sorted(apart):
+            if number not in taken and place not in taken.values():
+                taken[number] = place
+        if self.only in taken:
+            return items[taken[self.only]].solution
+        none = self.case.solve(values, enumeration) if not items else None
+        return none if none is not None and not none.scalars else Solution(Status.NO_SOLUTION)
+
+    def _places_of(self, values: Mapping[str, float]) -> list[dict[str, float]]:
+        """The unknowns in each of the solutions of a row, as floats have them."""
+        if self.branches is None or self.construction is None:
+            return []
+        given = self._given({word: numpy.array([value]) for word, value in values.items()})
+        found = []
+        for signs in self.branches.ways(None):
+            out = _run(self.construction, {**given, **signs}, 1)
+            found.append({name: float(out[name][0]) for name in self.system.unknowns})
+        return found
 
     def _given(self, values: Mapping[str, Array]) -> dict[str, Array]:
         """All that is known, row by row or as one number, by the names of the inputs."""
@@ -162,8 +216,7 @@ class BranchRows:
         """Every row with each of its solutions; rows without any that may be chosen are settled."""
         rows, found, ways = settled.status.size, list[RowCandidates](), list[Array]()
         is_chosen = numpy.zeros(rows, bool)
-        for numbers in product((1.0, -1.0), repeat=len(branches.signs)):
-            signs = {name: numpy.array([sign]) for name, sign in zip(branches.signs, numbers, strict=True)}
+        for signs in branches.ways(self.only):
             out = _run(function, {**given, **signs}, rows)
             settled.again |= out[_OPEN] > 0
             ways.append((2 * out[_PASSED] + out[_CHOSEN]).astype(numpy.int64))
@@ -180,7 +233,7 @@ class BranchRows:
         for kind in range(kinds.max(initial=-1) + 1):
             alike = rest[kinds == kind]
             middle = {word: float(each[alike[alike.size // 2]]) for word, each in values.items()}
-            solution = self.case.solve(middle)
+            solution = self._solve_alone(middle)
             if solution.scalars:
                 # Other facts were taken for those that are singular, or disagree: each row has points of its own.
                 settled.again[alike] = True
@@ -343,6 +396,12 @@ class _Branches(Struct, frozen=True, eq=False):
     function: ColumnFunction
     signs: tuple[str, ...]
     count: int
+
+    def ways(self, only: int | None) -> list[dict[str, Array]]:
+        """The signs of each solution, or of one alone."""
+        ways = [*product((1.0, -1.0), repeat=len(self.signs))]
+        chosen = ways if only is None else ways[only : only + 1]
+        return [{name: numpy.array([sign]) for name, sign in zip(self.signs, way, strict=True)} for way in chosen]
 
 
 @lru_cache(maxsize=64)

@@ -316,11 +316,11 @@ def case_in(answer: Answer, words: Mapping[str, Word], values: Mapping[str, floa
             raise FamilyError(f"{typed.text} cannot vary: the contour has no value of it")
         number = Decimal(repr(values[word]))
         free |= {given.name: Linear(word, factor_of(answer, typed, given, number)) for given in stated}
-    is_closed = status is not None or _has_one_function(profile)
+    is_closed = status is not None or has_one_function(profile)
     return CaseClass(profile, status, free, is_closed=is_closed, premises=answer.premises)
 
 
-def _has_one_function(profile: Profile) -> bool:
+def has_one_function(profile: Profile) -> bool:
     """Whether words choose all that is between two places, and each place has a closed form."""
     system, chosen = assemble(profile), {choice.point for choice in profile.choices}
     return not profile.is_extended and is_closed(system) and chosen.issuperset(points_with_two_solutions(system))

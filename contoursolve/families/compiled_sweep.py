@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from contoursolve.diagnosis import join
 from contoursolve.families.block_template import SweepSpec, Template, called
-from contoursolve.families.branch_rows import BLOCK, BranchRows
+from contoursolve.families.branch_rows import BLOCK, BranchRows, count_solutions
 from contoursolve.families.case_classes import (
     ORIGIN,
     Behind,
@@ -39,6 +39,7 @@ from contoursolve.numeric import ROWS, Array, ColumnFunction, Columns, compile_c
 from contoursolve.reading import Premises
 from contoursolve.solving import (
     RowOutcome,
+    Status,
     code_of,
     compile_checks,
 )
@@ -61,13 +62,15 @@ class CompiledSweep(Struct, eq=False):
     """The class of each example."""
     by_row: Mapping[int, ByRow] = {}
     """The way in which rows are read one by one, by their key."""
+    only: int | None = None
+    """Of several solutions of each row, the one that counts; what words choose without it."""
     local: threading.local = field(default_factory=threading.local)
 
     @property
     def is_one_function(self) -> bool:
         """Whether one function answers all rows."""
         case = self.cases[0]
-        return len(self.cases) == 1 and case.status is None and case.is_closed and not self.by_row
+        return len(self.cases) == 1 and case.status is None and case.is_closed and not (self.by_row or self.only)
 
     @property
     def premises(self) -> Premises:
@@ -129,12 +132,12 @@ class CompiledSweep(Struct, eq=False):
                 alone.setdefault(by_row.classes[reading.kind], []).append((row, reading.values))
         classes: list[_ClassRows] = self.local.__dict__.setdefault("classes", [])
         if not classes:
-            classes += map(_ClassRows, self.cases)
+            classes += [_ClassRows(case, self.only) for case in self.cases]
         for each, rows in enumerate(classes):
             # Where one function answers all rows, results are written in place.
             own = None if self.is_one_function else numpy.flatnonzero(number == each)
-            if rows.case.status is not None:
-                table["status"][own] = code_of(rows.case.status)
+            if rows.status is not None:
+                table["status"][own] = code_of(rows.status)
                 continue
             for begin, end in stretches(last - first if own is None else own.size, rows.most):
                 target = slice(begin, end) if own is None else own[begin:end]
@@ -146,8 +149,8 @@ class CompiledSweep(Struct, eq=False):
     def _solve_alone(self, rows: "_ClassRows", read: Sequence[tuple[int, Mapping[str, float]]], table: Results) -> None:
         """Fill in the results of rows of one class that were read one by one."""
         target = numpy.array([row for row, _ in read])
-        if rows.case.status is not None:
-            table["status"][target] = code_of(rows.case.status)
+        if rows.status is not None:
+            table["status"][target] = code_of(rows.status)
             return
         for begin, end in stretches(target.size, rows.most):
             part = {name: numpy.array([values[name] for _, values in read[begin:end]]) for name in read[0][1]}
@@ -162,8 +165,9 @@ NO_CLASS = -1
 class _ClassRows:
     """The rows of one class, and its functions, for one thread."""
 
-    def __init__(self, case: CaseClass) -> None:
-        self.case = case
+    def __init__(self, case: CaseClass, only: int | None) -> None:
+        self.case, self.only = case, only
+        self.status = case.status if not only or only < count_solutions(case) else Status.NO_SOLUTION
         self.ranges, self.inputs = Ranges({}, is_paired=True), dict[str, Input]()
         """The inputs that vary, and the values that they are for."""
         self.function: Columns | None = None
@@ -196,7 +200,7 @@ class _ClassRows:
 
     def _solve_several(self, values: Mapping[str, Array], target: Places, table: Results) -> None:
         """The rows of a class without one function for all of them."""
-        self.branches = self.branches or BranchRows(self.case)
+        self.branches = self.branches or BranchRows(self.case, None if self.case.profile.picks else self.only)
         settled = self.branches.solve(values)
         self._note(settled.is_path, settled.status, settled.reason, target, table)
         results = results_of(self.case) | {name: (name, None) for name in asked_of(self.case.profile)}

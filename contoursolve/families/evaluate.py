@@ -1,10 +1,12 @@
 """Solves a contour for many values of some of its words, with any executor, and tells why no row has a contour."""
 
 import pickle
+import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import AbstractContextManager, contextmanager
+from dataclasses import replace as replace_fields
 from functools import lru_cache, partial
 from typing import TypeVar, Unpack
 
@@ -13,11 +15,14 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 from numpy.typing import ArrayLike, NDArray
 
-from contoursolve.families.block_template import BlockOptions, SweepSpec, Template, errors_of, spec_of
+from contoursolve.diagnostics import choice_of
+from contoursolve.families.block_template import BlockOptions, Branches, SweepSpec, Template, errors_of, spec_of
+from contoursolve.families.branch_rows import count_solutions
 from contoursolve.families.compiled_sweep import CompiledSweep, Table, cases_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.export import Family
 from contoursolve.families.free_words import Examples, check_block, examples_of
+from contoursolve.families.solutions_of_rows import names_of_solutions, without_defaults
 from contoursolve.families.word_values import Ranges, ranges_of, stretches
 from contoursolve.numeric import Array
 from contoursolve.reading import Dialect
@@ -78,11 +83,12 @@ def sweep(
     *,
     vary: Mapping[str, ArrayLike],
     paired: bool = False,
+    branches: Branches = Branches.CHOSEN,
     **options: Unpack[BlockOptions],
 ) -> CompiledSweep:
     """A family that is ready to be evaluated; arguments and errors as for `family`."""
     ranges = ranges_of(vary, is_paired=paired)
-    return compile_sweep(spec_of(block, **options), ranges)
+    return compile_sweep(spec_of(block, branches=branches, **options), ranges)
 
 
 def compile_sweep(spec: SweepSpec, ranges: Ranges, before: CompiledSweep | None = None) -> CompiledSweep:
@@ -100,6 +106,8 @@ def compile_sweep(spec: SweepSpec, ranges: Ranges, before: CompiledSweep | None 
 
 def _compiled(spec: SweepSpec, examples: Examples, ranges: Ranges, template: Template) -> CompiledSweep:
     cases, numbers, by_row = cases_of(template, examples)
+    if spec.branches is Branches.ALL:
+        cases = tuple(map(without_defaults, cases))
     return CompiledSweep(spec, examples, ranges, template, cases, numbers, by_row)
 
 
@@ -117,6 +125,7 @@ def family(
     variables: Mapping[str, float] | None = None,
     workers: int | None = None,
     executor: Executor | None = None,
+    branches: str = "chosen",
 ) -> Family:
     """Solve a contour for many values of some of its words.
 
@@ -137,6 +146,8 @@ def family(
         workers: threads; with an executor, how many stretches of rows it has under way at once.
         executor: any `concurrent.futures.Executor` (processes, loky, Dask's `Client.get_executor()`); its workers get
             plain data and need this package.
+        branches: `chosen`, or `all`: each solution of every row, in a last dimension `solution`, where no word chooses
+            one; a block that lacks such a word is not refused then. See `Family.solutions`.
 
     Every row has the status, the branch and the contour that `solve` gives the block with these values; the result is
     the same, byte for byte, for any number of workers and any executor.
@@ -148,7 +159,8 @@ def family(
         UnknownControlError: the control is unknown, or the block does not tell it.
         FactPlaceError: facts for a program of several contours.
         SettingError: there is no such setting, or it has no such value.
-        ValueError: units or rules is none of its choices.
+        NotClosedError: a FamilyError; all branches are asked for, and there is no closed form that has them.
+        ValueError: units, rules or branches is none of its choices.
 
     >>> found = family("G111 X100. A180. K-30. B120. P5.", start="X40. Z0.", vary={"A": [180, 170], "P": [5, 20, 60]})
     >>> found["status"].tolist()
@@ -167,8 +179,25 @@ def family(
         rules=rules,
         settings=settings,
         variables=variables,
+        branches=choice_of(Branches, branches, "branches"),
     )
+    if ready.spec.branches is Branches.ALL:
+        return _solve_all(ready, workers, executor)
     return solve_sweep(ready, workers, executor)
+
+
+def _solve_all(ready: CompiledSweep, workers: int | None, executor: Executor | None) -> Family:
+    """All rows of a sweep, each with all of its solutions."""
+    count = max(map(count_solutions, ready.cases))
+    found = [
+        solve_sweep(replace(ready, only=number, local=threading.local()), workers, executor) for number in range(count)
+    ]
+    # Most signs of a root may belong to no contour.
+    found = [each for each in found if each.has_contour.any()] or found[:1]
+    names = names_of_solutions(ready, found)
+    found = [each for _, each in sorted(zip(names, found, strict=True), key=lambda each: each[0])]
+    columns = {name: numpy.stack([each.columns[name] for each in found], axis=-1) for name in found[0].columns}
+    return replace_fields(found[0], columns=columns, solutions=tuple(name for _, name in sorted(names)))
 
 
 def rows_of(ready: CompiledSweep) -> Iterator[tuple[int, int]]:
@@ -232,7 +261,7 @@ def solve_parts(
 def _pack(ready: CompiledSweep) -> bytes:
     """The data from which a family is made; functions of CasADi cannot be sent. Raises FamilyError."""
     try:
-        return pickle.dumps((ready.spec, ready.examples))
+        return pickle.dumps((ready.spec, ready.examples, ready.only))
     except (pickle.PicklingError, AttributeError, TypeError) as error:
         raise FamilyError(
             f"this control cannot be sent to an executor ({error}); its functions must stand in a module, by name"
@@ -248,8 +277,8 @@ def solve_rows(packed: bytes, values: dict[str, Array]) -> Table:
 @lru_cache(maxsize=16)
 def _unpack(packed: bytes) -> CompiledSweep:
     """A packed sweep, with no values."""
-    spec, examples = pickle.loads(packed)
-    return _compiled(spec, examples, Ranges({}, is_paired=True), spec.template())
+    spec, examples, only = pickle.loads(packed)
+    return replace(_compiled(spec, examples, Ranges({}, is_paired=True), spec.template()), only=only)
 
 
 def _solve(ready: CompiledSweep, first: int, last: int) -> Table:

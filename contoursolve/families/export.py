@@ -2,8 +2,8 @@
 needed only here.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -23,6 +23,9 @@ from contoursolve.gcode import Word
 from contoursolve.geometry import Unit
 from contoursolve.reading import Premises
 from contoursolve.solving import REASONS, Status, StatusCode
+
+SOLUTION = "solution"
+"""The axis of the solutions of each row."""
 
 
 class Measure(Struct, frozen=True):
@@ -88,6 +91,8 @@ class Family(Shown):
     * `line 1.room` (float64): what the corners leave of an element, below 0 if they do not fit; it has a value wherever
       the points have one;
     * `residual` (float64): by how much the solved equations are off at most, the corners' among them.
+
+    With all branches, each array has a last axis for the `solutions`, and `solution(name)` is the family of one alone.
     """
 
     ranges: Ranges
@@ -98,11 +103,21 @@ class Family(Shown):
     """Premises of its contours beside the words."""
     remark: str = field(default="", repr=False)
     """That rows are read one by one, and why; empty if they are not."""
+    solutions: tuple[str, ...] = ()
+    """The names of the solutions along the last axis, as `list_solutions` tells them apart; none without that axis. A
+    row that lacks one has no points there, and the status `no-solution`."""
 
     @property
     def shape(self) -> tuple[int, ...]:
         """The shape of every array."""
-        return self.ranges.shape
+        return (*self.ranges.shape, len(self.solutions)) if self.solutions else self.ranges.shape
+
+    def solution(self, name: str) -> "Family":
+        """The family of one of the solutions. Raises KeyError for a name that is none of theirs."""
+        if name not in self.solutions:
+            raise KeyError(f"{name}; there are {', '.join(self.solutions) or 'no solutions beside the chosen one'}")
+        place = self.solutions.index(name)
+        return replace(self, columns={key: each[:, place] for key, each in self.columns.items()}, solutions=())
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -114,8 +129,8 @@ class Family(Shown):
             return self.columns[name].reshape(self.shape)
         if name not in self.ranges.values:
             raise KeyError(f"{name}; there are {', '.join(self.names)}")
-        places = self.ranges.places(name, 0, self.ranges.count)
-        return self.ranges.values[name][places].reshape(self.shape)
+        values = self.ranges.values[name][self.ranges.places(name, 0, self.ranges.count)]
+        return values.repeat(len(self.solutions) or 1).reshape(self.shape)
 
     def __len__(self) -> int:
         return self.ranges.count
@@ -154,7 +169,7 @@ class Family(Shown):
 
     def summary(self) -> dict[Status, int]:
         """The number of rows with each status, without those that none has."""
-        return summary_of(numpy.bincount(self.columns["status"], minlength=len(StatusCode)))
+        return summary_of(numpy.bincount(self.columns["status"].reshape(-1), minlength=len(StatusCode)))
 
     def measures(self) -> dict[str, Measure]:
         """The unit of each array, by name."""
@@ -169,7 +184,16 @@ class Family(Shown):
         """A pyarrow.Table with a column for each array: `status` and `reason` in words, as dictionaries (no reason is
         null), and with each field its `unit` as metadata, for X of a lathe with the `measure` radius or diameter.
         Raises MissingExtraError without pyarrow."""
-        return to_arrow({name: self[name].reshape(-1) for name in self.names}, self.measures())
+        return to_arrow(self._table(), self.measures())
+
+    def _table(self) -> dict[str, NDArray[Any]]:
+        """The columns of a table: of several solutions, each in a row of its own, with its name."""
+        found = {name: self[name].reshape(-1) for name in self.ranges.values}
+        if self.solutions:
+            found[SOLUTION] = numpy.array(self.solutions, object)[
+                numpy.arange(self["status"].size) % len(self.solutions)
+            ]
+        return found | {name: self[name].reshape(-1) for name in self.columns}
 
     def __arrow_c_stream__(self, requested_schema: Any = None) -> Any:
         """The same as a stream of Arrow, by which pandas, polars and others take it: `polars.DataFrame(family)`."""
@@ -177,13 +201,15 @@ class Family(Shown):
 
     def to_parquet(self, path: str | Path) -> None:
         """Write that table to a Parquet file. Raises MissingExtraError without pyarrow."""
-        write_parquet(path, [{name: self[name].reshape(-1) for name in self.names}], self.measures())
+        write_parquet(path, [self._table()], self.measures())
 
     def to_xarray(self) -> Any:
         """An xarray.Dataset whose dimensions are the free words, or `row`; every variable has its `units` as an
         attribute, `status` and `reason` the meanings of their numbers. Raises MissingExtraError without xarray."""
         arrays = {name: self[name] for name in self.columns}
-        return to_xarray(dict(self.ranges.values), arrays, self.measures(), is_paired=self.ranges.is_paired)
+        return to_xarray(
+            dict(self.ranges.values), arrays, self.measures(), self.solutions, is_paired=self.ranges.is_paired
+        )
 
 
 def summary_of(counts: NDArray[Any]) -> dict[Status, int]:
@@ -224,10 +250,16 @@ def _in_words(arrow: Any, values: NDArray[Any], words: list[str | None]) -> Any:
 
 
 def to_xarray(
-    axes: Mapping[str, NDArray[Any]], arrays: Mapping[str, NDArray[Any]], measures: Measures, *, is_paired: bool
+    axes: Mapping[str, NDArray[Any]],
+    arrays: Mapping[str, NDArray[Any]],
+    measures: Measures,
+    solutions: Sequence[str] = (),
+    *,
+    is_paired: bool,
 ) -> Any:
-    """An xarray.Dataset: along the words of a grid, or along `row`; with `units` and `measure` as attributes, and for
-    `status` and `reason` what their numbers stand for, as the CF conventions name it."""
+    """An xarray.Dataset: along the words of a grid, or along `row`, and along `solution` if there are several; with
+    `units` and `measure` as attributes, and for `status` and `reason` what their numbers stand for, as the CF
+    conventions name it."""
     dims = ("row",) if is_paired else tuple(axes)
     attributes: dict[str, dict[str, Any]] = {name: each.attributes("units") for name, each in measures.items()}
     for name, words in _WORDS.items():
@@ -236,6 +268,8 @@ def to_xarray(
     coordinates = {
         word: (("row",) if is_paired else (word,), values, attributes.get(word, {})) for word, values in axes.items()
     }
+    if solutions:
+        dims, coordinates[SOLUTION] = (*dims, SOLUTION), ((SOLUTION,), numpy.array(solutions), {})
     variables = {name: (dims, each, attributes.get(name, {})) for name, each in arrays.items()}
     return need("xarray", "family", "a family as labelled arrays").Dataset(variables, coordinates)
 

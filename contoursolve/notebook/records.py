@@ -6,7 +6,7 @@ from math import isnan
 from typing import Any
 
 from contoursolve.controls import DIALECTS
-from contoursolve.diagnosis import Answer, Derivation, EquationSystem, axis_labels, count
+from contoursolve.diagnosis import Answer, Derivation, EquationSystem, axis_labels, count, join
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown, Tie
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances, WordTolerance
 from contoursolve.gcode import Block, Program, Word
@@ -151,6 +151,8 @@ def controls_of(rule: Rule) -> list[str]:
 
 def _family(family: Family) -> Iterator[str]:
     yield f"{count(len(family), 'contour')}, shape {' x '.join(map(str, family.shape))}"
+    if family.solutions:
+        yield f"  solutions: {join(list(family.solutions))}"
     for table in family_tables(family):
         yield from ("", *table.lines())
     yield ""
@@ -165,7 +167,9 @@ def family_tables(family: Family) -> tuple[Table, Table]:
         ends = (f"{values.min():.6g}", f"{values.max():.6g}") if values.size else ("", "")
         words.append((word, f"{values.size:,}", *ends))
     counts = family.summary()
-    statuses = [(status.value, f"{number:,}", f"{number / len(family):.1%}") for status, number in counts.items()]
+    statuses = [
+        (status.value, f"{number:,}", f"{number / family['status'].size:.1%}") for status, number in counts.items()
+    ]
     return (
         Table("Free words", ("word", "values", "least", "largest"), words),
         Table("What becomes of them", ("status", "contours", "share"), statuses),

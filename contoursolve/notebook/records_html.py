@@ -7,7 +7,7 @@ import htpy as h
 from markupsafe import Markup
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, Derivation, EquationSystem, count
+from contoursolve.diagnosis import Answer, Derivation, EquationSystem, count, join
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Shown
 from contoursolve.families import Family, Feasible, Found, Region, Sensitivity, Tolerances, WordTolerance
 from contoursolve.gcode import Block
@@ -154,11 +154,13 @@ def _examples(title: str, examples: Iterable[str]) -> Iterator[h.Node]:
 
 
 def _family(family: Family) -> Iterator[h.Node]:
-    if not family.ranges.is_paired and len(family.ranges.values) == MAP_WORDS:
+    if not (family.ranges.is_paired or family.solutions) and len(family.ranges.values) == MAP_WORDS:
         yield figure(family)
     yield from map(table_of, family_tables(family))
     title = f"{count(len(family.names), 'array')} of shape {' x '.join(map(str, family.shape))}"
     yield h.details[h.summary[title], ", ".join(family.names)]
+    if family.solutions:
+        yield h.p[short(f"Solutions: {join(list(family.solutions))}.")]
     yield from (h.p[short(note)] for note in (*filter(None, [family.remark]), *rest_lines(family)))
 
 

@@ -86,6 +86,8 @@ def plane_of(record: Family | Region, chosen: tuple[str, str] | None = None, who
         )
         chart = ValuePlane(_pair(texts), *(over_range(low, high) for low, high in record.within))
         return MapPlane(record.words, chart, _pair(axes), record.outcomes)
+    if record.solutions:
+        raise ValueError(f"a map shows one solution; draw family.solution({record.solutions[0]!r})")
     values, ranges = record.ranges.values, whole if whole is not None else record.ranges
     several = [word for word, each in ranges.values.items() if each.size > 1]
     words = chosen if chosen is not None else tuple(several or ranges.values)[:2]

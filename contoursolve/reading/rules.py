@@ -276,6 +276,8 @@ class Rule(Shown):
     """A further remark of the manual about the same thing, half a sentence without a full stop."""
     is_about_geometry: bool = False
     """True of a rule that refuses what could be written, but cannot be made."""
+    is_about_choice: bool = False
+    """True of a rule that refuses a block because no word chooses between two places."""
 
     def holds(self, own: Stated) -> bool:
         """Whether it finds something in what the blocks of its role state."""

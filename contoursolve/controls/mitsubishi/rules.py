@@ -172,7 +172,7 @@ _ROWS = (
          "choose: H0 is the shorter line, H1 the longer one", BOOK.assumed("not described"),
          some("1:center-first", "1:center-at-first", "2:center-first") & ~some("1:H", "2:H")
          & some("1:" + PICK_REQUIRED),
-         (LINE_CIRCLE, CIRCLE_LINE), _CROSSING),
+         (LINE_CIRCLE, CIRCLE_LINE), _CROSSING, is_about_choice=True),
 )  # fmt: skip
 
 

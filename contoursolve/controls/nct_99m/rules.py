@@ -98,6 +98,7 @@ COMBINATION_RULES = (
         source=_ASSUMED,
         roles=_CHOOSING,
         when=~some("2:Q"),
+        is_about_choice=True,
         accepted=(_GOOD, _TO_CIRCLE),
         rejected=(_START + _ARC + "G1 X-50 Y42.857 ,A171.87", _TO_CIRCLE.replace(" Q-1", "")),
     ),

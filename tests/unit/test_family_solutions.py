@@ -1,0 +1,127 @@
+"""Families with every solution of each row: a pair without the word that chooses, a fact that leaves two, a chain."""
+
+import re
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from msgspec.structs import replace
+
+import contoursolve
+from contoursolve.diagnosis.solutions import list_solutions
+from contoursolve.families import FamilyError, family
+from contoursolve.solving import StatusCode, choose, find_alternatives
+
+TURN = "G17 G90 G41 G0 X50 Y0\nG3 X-50 Y0 R50\n"
+FACT = {"start": "X40. Z0.", "facts": ["length of line 1 = 35."]}
+BLOCKS = {
+    "a line from a circle without Q": (TURN + "G1 X-50 Y42.857 ,A171.87", {}, ",A", (95, 200)),
+    "two circles without Q": (TURN + "G3 X-40 Y60 I-40 J20 R40", {}, "2:R", (51, 70)),
+    "an angle that is asked for": ("G111 X100. A? K-30. B120. P5.", FACT, "length of line 1", (25, 60)),
+    "a line to a circle without H": (
+        "G17 G90 G00 X0 Y0\nG01 A10.\nG02 X60. Y10. I-20. J-25.",
+        {"control": "mitsubishi", "settings": {"mitsubishi.h-default": "error"}},
+        "A",
+        (-40, 20),
+    ),
+}
+
+
+@pytest.mark.parametrize(("block", "options", "word", "within"), BLOCKS.values(), ids=BLOCKS)
+@pytest.mark.parametrize("rows", [6, pytest.param(100, marks=pytest.mark.slow)])
+def test_each_row_has_the_solutions_that_a_single_solve_lists(block, options, word, within, rows):
+    values = np.round(np.random.default_rng(rows).uniform(*within, rows), 3)
+    found = family(block, vary={word: values}, branches="all", **options)
+    seen = 0
+    for row, value in enumerate(values.tolist()):
+        if " " in word:
+            answer = contoursolve.solve(block, **{**options, "facts": [f"{word} = {value!r}"]}).answers[0]
+        else:
+            line, _, address = word.rpartition(":")
+            text = with_word(block, int(line or 0), address, value)
+            answer = open_answer(text, **options)
+        letters = answer.plane.axes
+        chosen = {item.name for item in choose(answer.alternatives, answer.profile.choices)}
+        listed = [each for each in list_solutions(answer).solutions if each.contour and each.name in chosen]
+        has = found.has_contour[row]
+        assert has.sum() == len(listed), (value, [each.name for each in listed])
+        for each in listed:
+            assert each.certificate.proof.value in ("exact", "unique", "verified")
+            places = [found.solutions.index(each.name)] if each.name in found.solutions else np.flatnonzero(has)
+            (place,) = places
+            for name, at in each.contour.points.items():
+                for letter, number in zip(letters, at, strict=True):
+                    assert found[f"{name}.{letter}"][row, place] == pytest.approx(number, abs=1e-9), (value, each.name)
+            seen += 1
+        for place in np.flatnonzero(~has):
+            assert all(np.isnan(found[f"{name}.{letters[0]}"][row, place]) for name in answer.profile.figure.points)
+            assert found["status"][row, place] > StatusCode.OVERDETERMINED
+    assert seen > rows / 2
+    assert len(found.solutions) == 2 == len({*found.solutions})
+
+
+def open_answer(text, **options):
+    """The answer of a block in which nothing chooses, not even what the control does without the word."""
+    (answer,) = contoursolve.solve(text, **options).answers
+    choices = tuple(each for each in answer.profile.choices if each.given in ("", *answer.profile.givens))
+    profile = replace(answer.profile, choices=choices)
+    return replace(answer, profile=profile, alternatives=find_alternatives(profile))
+
+
+def with_word(block, line, address, value):
+    lines = block.split("\n")
+    for number, text in enumerate(lines, 1):
+        if line in (0, number):
+            lines[number - 1] = re.sub(rf"{address}-?[\d.]+", f"{address}{value!r}", text)
+    return "\n".join(lines)
+
+
+def test_the_default_stays_one_solution_and_refuses_a_block_without_its_choice():
+    block, _, word, _ = BLOCKS["a line from a circle without Q"]
+    with pytest.raises(FamilyError, match="Q is missing"):
+        family(block, vary={word: [171.87]})
+    chosen = [family(f"{block} Q{sign}", vary={word: [171.87, 165.0]}) for sign in (1, -1)]
+    found = family(block, vary={word: [171.87, 165.0]}, branches="all")
+    assert found.solutions == ("P1 farther", "P1 nearer")
+    for name, one in zip(found.solutions, chosen, strict=True):
+        own = found.solution(name)
+        assert (own.shape, own.solutions) == ((2,), ())
+        for column in ("P1.X", "P1.Y", "N2.X"):
+            if column in own.names:
+                assert own[column] == pytest.approx(one[column], abs=1e-12)
+    alone = family(f"{block} Q1", vary={word: [171.87]}, branches="all")
+    assert (alone.solutions, alone["P1.X"].shape) == (("P1 farther",), (1, 1))
+    with pytest.raises(ValueError, match="branches"):
+        family(block, vary={word: [171.87]}, branches="both")
+    with pytest.raises(KeyError, match="there are P1 farther, P1 nearer"):
+        found.solution("P2")
+
+
+def test_solutions_are_a_dimension_of_arrays_tables_and_executors():
+    block, _, word, _ = BLOCKS["a line from a circle without Q"]
+    vary = {word: np.linspace(60, 200, 8), "3:Y": [42.857, 35.0]}
+    found = family(block, vary=vary, branches="all")
+    assert found.shape == found["status"].shape == found[word].shape == (8, 2, 2)
+    assert sum(found.summary().values()) == 8 * 2 * 2
+    with ThreadPoolExecutor(2) as executor:
+        other = family(block, vary=vary, branches="all", executor=executor)
+    for name in found.names:
+        assert found[name].tobytes() == other[name].tobytes(), name
+    data = found.to_xarray()
+    assert data["P1.X"].dims == (word, "3:Y", "solution")
+    assert data.sel(solution="P1 nearer")["P1.X"].shape == (8, 2)
+    table = found.to_arrow()
+    assert table.num_rows == found["status"].size
+    assert table.column("solution").to_pylist()[:2] == list(found.solutions)
+    paired = family(block, vary={word: [171.87, 165.0], "3:Y": [42.857, 40.0]}, paired=True, branches="all")
+    assert paired["P1.X"].shape == (2, 2)
+    assert "solutions: P1 nearer and P1 farther" in str(found)
+    with pytest.raises(ValueError, match="a map shows one solution"):
+        contoursolve.pictures.draw_family_map(found)
+    assert contoursolve.pictures.draw_family_map(found.solution("P1 nearer")).svg
+
+
+def test_a_chain_without_closed_form_says_that_it_has_no_branches():
+    block = "FL X+10 Y+0\nFCT DR+ R5\nFLT X+30 Y+20"
+    found = family(block, start="X0 Y0", control="heidenhain", vary={"R": [5.0, 6.0, 25.0]}, branches="all")
+    assert (found.solutions, found.has_contour[:, 0].tolist()) == (("the only one",), [True, True, False])
