@@ -196,7 +196,7 @@ class Family(Shown):
         return found | {name: self[name].reshape(-1) for name in self.columns}
 
     def __arrow_c_stream__(self, requested_schema: Any = None) -> Any:
-        """The same as a stream of Arrow, by which pandas, polars and others take it: `polars.DataFrame(family)`."""
+        """The same as a stream of Arrow, by which polars, pyarrow and others take it: `polars.DataFrame(family)`."""
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def to_parquet(self, path: str | Path) -> None:
