@@ -12,11 +12,12 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, AskedValue, count, inward, join, list_solutions, meaning_of, written
 from contoursolve.diagnostics import Applicability
-from contoursolve.families import End, FamilyError, Feasible, Interval, Way, called, feasible
+from contoursolve.families import End, FamilyError, Feasible, Way, called, feasible
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Question, Unit
 from contoursolve.notebook.exploration import Exploration, free, is_movable, words_of
 from contoursolve.notebook.handles import Handle, HandleKind, derivatives_of, handles_of, moving_of
+from contoursolve.notebook.range_text import range_texts
 from contoursolve.notebook.standing_alone import standing_alone
 from contoursolve.output import (
     bounded,
@@ -204,21 +205,24 @@ def _findings(exploration: Exploration) -> Iterator[Data]:
                 }
                 for place, fix in enumerate(finding.fixes[:MOST_FIXES])
             ],
+            "left": f"and {count(left, 'more fix', 'more fixes')}" if (left := len(finding.fixes) - MOST_FIXES) > 0 else "",
         }
 
 
 def _elsewhere(exploration: Exploration) -> str:
-    """The errors in the rest of a program."""
+    """The findings that are not shown, and the errors in the rest of a program."""
+    left = len(exploration.findings) - MOST_FINDINGS
+    told = [f"{count(left, 'more finding')} of the block: contoursolve check lists all."] if left > 0 else []
     result, own = exploration.result, {number for number, _ in exploration.findings}
     lines = [
         result.place(each.span).line
         for number, each in enumerate(result.diagnostics)
         if each.is_error and number not in own
     ]
-    if not lines:
-        return ""
-    first = f", the first in program line {min(lines)}" if len(lines) > 1 else f" in program line {lines[0]}"
-    return f"The rest of the program has {count(len(lines), 'error')}{first}."
+    if lines:
+        first = f", the first in program line {min(lines)}" if len(lines) > 1 else f" in program line {lines[0]}"
+        told.append(f"The rest of the program has {count(len(lines), 'error')}{first}.")
+    return " ".join(told)
 
 
 def _solutions(answer: Answer) -> Data:
@@ -235,7 +239,8 @@ def _solutions(answer: Answer) -> Data:
         }
         for number, (each, (name, label, where, selects, _)) in enumerate(solution_rows(answer, listing))
     ]
-    return {"text": count_text(listing), "items": items[:MOST_SOLUTIONS]}
+    left = f"; the first {MOST_SOLUTIONS} are shown" if len(items) > MOST_SOLUTIONS else ""
+    return {"text": count_text(listing) + left, "items": items[:MOST_SOLUTIONS]}
 
 
 def _path(answer: Answer) -> list[Sequence[str]]:
@@ -388,6 +393,7 @@ def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
         if field["value"] in each:
             low = min(low, each.low.value - margin) if each.low.value > near[0] else low
             high = max(high, each.high.value + margin) if each.high.value < near[1] else high
+    note, whole = range_texts(found, field["key"].rpartition(":")[2], field["value"])
     return {
         "intervals": [[each.low.value, each.high.value] for each in found.intervals],
         "stops": [
@@ -399,7 +405,8 @@ def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
         ],
         "low": max(low, found.within[0]),
         "high": min(high, found.within[1]),
-        "note": _note(found, field["key"].rpartition(":")[2]),
+        "note": note,
+        "whole": whole,
         "reason": "; ".join(_reasons(found)).replace(called(name), label),
         "snaps": snaps_of(exploration, field["key"]),
     }
@@ -426,31 +433,6 @@ def _alone(exploration: Exploration, key: str) -> tuple[str, str, str, Mapping[s
     return (text, f"{first + at}:{word.address}", called(key), reading) if text else None
 
 
-def _note(found: Feasible, name: str) -> str:
-    """The ranges in a line, such as `0 ≤ P ≤ 51.961`."""
-    shown = " or ".join(filter(None, (_interval(each, name, found.unit) for each in found.intervals)))
-    known = "" if found.is_complete else " (at least)"
-    if not found.intervals:
-        return f"no contour for any {name}{known}"
-    return f"{shown or f'any {name}'}{known}"
-
-
-def _interval(interval: Interval, name: str, unit: str) -> str:
-    least, most = (
-        inward(Decimal(repr(each.value)), unit, way) for each, way in ((interval.low, -1), (interval.high, 1))
-    )
-    if least > most or interval.low.value == interval.high.value:
-        # No value of the control's increment lies between them.
-        return f"{name} = {(interval.low.value + interval.high.value) / 2:.9g}"
-    low, high = _end(interval.low, least, -1), _end(interval.high, most, 1)
-    if not low and high:
-        return f"{name} {high}"
-    if low and not high:
-        value, _, sign = low.rpartition(" ")
-        return f"{name} {'>' if sign == '<' else '≥'} {value}"
-    return f"{low} {name} {high}" if low and high else ""
-
-
 def _stop(end: End, field: Mapping[str, Any], unit: str, way: int) -> float:
     """The first value at an end of a range that belongs to it, a whole number of increments."""
     value = inward(Decimal(repr(end.value)), unit, -way)
@@ -464,15 +446,6 @@ def _end_text(end: End, unit: str) -> str:
     if end.way is Way.RANGE:
         return ""
     return end.reason.text if end.reason is not None else written(end.value, unit)
-
-
-def _end(end: End, rounded: Decimal, way: int) -> str:
-    """An end rounded into its range, with the sign that says whether it belongs to it."""
-    if end.way is Way.RANGE:
-        return ""
-    sign = "<" if rounded == Decimal(repr(end.value)) and not end.is_included else "≤"
-    text = f"{rounded.normalize() + 0:f}"
-    return f"{text} {sign}" if way < 0 else f"{sign} {text}"
 
 
 def _reasons(found: Feasible) -> list[str]:

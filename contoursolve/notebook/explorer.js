@@ -361,7 +361,7 @@ function render({ model, el }) {
       if (found) known.add(key);
       row.band.replaceChildren();
       row.range.textContent = row.text || (found && found.note) || "";
-      row.range.title = (found && found.reason) || "";
+      row.range.title = [found?.whole, found?.reason].filter(Boolean).join("; ");
       row.range.classList.toggle("nowhere", !row.text && Boolean(found && found.intervals?.length === 0));
       row.slider.setAttribute("aria-description", [row.range.textContent, row.range.title].filter(Boolean).join("; "));
       if (!found || !row.scale || !found.intervals) continue;
@@ -691,7 +691,7 @@ function render({ model, el }) {
           { finding: fix.finding, fix: fix.number },
         ),
       );
-      const bar = fixes.length ? make("div", { class: "fixes", role: "group", "aria-label": "Fixes" }, ...fixes) : null;
+      const bar = fixes.length ? make("div", { class: "fixes", role: "group", "aria-label": "Fixes" }, ...fixes, finding.left && make("span", { text: finding.left })) : null;
       const about = { "data-finding": finding.name || null, "data-word": finding.words.join(" ") || null };
       return make("section", { class: `finding ${finding.kind}`, ...about }, lines, bar);
     });

@@ -363,6 +363,39 @@ def test_where_a_drag_stops_there_is_a_contour(text, options):
     assert count
 
 
+@some_of(
+    ("name", "line", "key", "short", "whole"),
+    [
+        ("roller.nc", 27, "K", "-9 ≤ K ≤ 9 but 0", ""),
+        ("roller.nc", 25, "X", "X ≤ 8 or X ≥ 16", ""),
+        ("plate.nc", 20, ",A", "-7.88 ≤ ,A ≤ 51.483 but about 14.62", ""),
+        (
+            "plate.nc",
+            25,
+            "J",
+            "-96 ≤ J ≤ 3 or J ≥ 786 (at least)",
+            "-96.146 ≤ J ≤ 3.334 or J ≥ 785.876 (at least)",
+        ),
+        (
+            "plate.nc",
+            64,
+            "64:Z",
+            "-28.643 ≤ Z ≤ -28.374 or 4.68 ≤ Z ≤ 6.56 and 1 more",
+            "-28.643 ≤ Z ≤ -28.374 or 4.675 ≤ Z ≤ 6.561 or 40.623 ≤ Z ≤ 40.643",
+        ),
+    ],
+    one_in=2,
+)
+def test_many_ranges_are_told_in_a_line_and_nothing_is_left_out_silently(name, line, key, short, whole):
+    now = explore.begin((PROGRAMS / name).read_text(), line=line)
+    found = range_of(now, field(now, key))
+    assert (found["note"], found["whole"]) == (short, whole)
+    inside = [float(each) for each in re.findall(r"-?[\d.]+(?= ≤ \w)|(?<= ≤ )-?[\d.]+|(?<= ≥ )-?[\d.]+", short)]
+    assert inside
+    for value in inside:
+        assert explore.set_word(now, key, value).answer.contour is not None, value
+
+
 def test_a_value_at_which_the_other_words_agree_is_one_to_catch():
     now = explore.begin("G18 G1 X40. Z0.\nG1 X50. ,A170. ,R3.\n,A120. Z-60. X80.\nX80. Z-90.", control="fanuc-lathe")
     assert now.answer.contour is None
