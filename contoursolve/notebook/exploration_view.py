@@ -205,7 +205,9 @@ def _findings(exploration: Exploration) -> Iterator[Data]:
                 }
                 for place, fix in enumerate(finding.fixes[:MOST_FIXES])
             ],
-            "left": f"and {count(left, 'more fix', 'more fixes')}" if (left := len(finding.fixes) - MOST_FIXES) > 0 else "",
+            "left": f"and {count(left, 'more fix', 'more fixes')}"
+            if (left := len(finding.fixes) - MOST_FIXES) > 0
+            else "",
         }
 
 
