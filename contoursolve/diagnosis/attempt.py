@@ -25,7 +25,7 @@ from contoursolve.diagnosis.edits import (
     with_plus,
 )
 from contoursolve.diagnosis.examine import LEADING, Answer, Depth, Policy, examine, problems
-from contoursolve.diagnosis.examples import numbers_for, propose, sampled
+from contoursolve.diagnosis.examples import MOST_OPEN, numbers_for, propose, sampled
 from contoursolve.diagnosis.plausibility import (
     OF_EDITS,
     ROUNDEST,
@@ -424,8 +424,8 @@ class Trial(Struct, frozen=True, dict=True):
         open_ = tuple(OpenNumber(edit.text, edit.line) for edit in repair.edits if edit.is_placeholder)
         found = self.find(repair.example) if repair.example != repair.edits else None
         profile = self._stated(found) if found is not None else None
-        if found is None and repair.example != repair.edits:
-            # The blocks are several contours then.
+        if repair.example != repair.edits and (found is None or len(open_) > MOST_OPEN):
+            # The blocks are several contours then, or a range would say little: it holds for the others' examples only.
             found_texts = [
                 edit.text for edit, old in zip(repair.example, repair.edits, strict=True) if old.is_placeholder
             ]
@@ -736,15 +736,12 @@ def repair_of(draft: Candidate, seen: Seen, answers: Sequence[Answer], trial: Tr
     beside = (
         tuple(each for each in trial.window.changes(draft.edits) if each.span.line not in own) if trial.window else ()
     )
-    more = _of_others(trial.window, seen) if trial.window else ()
-    evidence = (*_of_path(repair, seen, draft.evidence), *more)
+    evidence = _of_path(repair, seen, draft.evidence)
+    if trial.window is not None:
+        evidence = (*evidence, (Feature.BREAKS_BEHIND, float(trial.window.breaks_behind(seen))))
     # What is beside the contour draws a path, too, or says how it is followed.
     applicability = Applicability.CHANGES_CONTOUR if beside else repair.applicability
     return replace(repair, applicability=applicability, slips=draft.slips, evidence=evidence, beside=beside)
-
-
-_MOST_MORE = 3
-"""Problems elsewhere that count."""
 
 
 def _weighed(repair: Repair, trial: Trial) -> Repair:
@@ -794,16 +791,8 @@ def _seen(repair: Repair, trial: Trial) -> Repair:
         return repair
     kept = [each for each in repair.evidence if each[0] in OF_EDITS]
     new = (Feature.SEEN, float(not window.mends(seen)))
-    more = _of_others(window, seen)
-    return replace(repair, evidence=(*_of_path(repair, seen, tuple(kept)), new, *more))
-
-
-def _of_others(window: Window, seen: Seen) -> tuple[tuple[Feature, float], ...]:
-    """The features of the contours around it."""
-    return (
-        (Feature.MENDS_MORE, -float(min(window.gain(seen), _MOST_MORE))),
-        (Feature.BREAKS_BEHIND, float(window.breaks_behind(seen))),
-    )
+    behind = (Feature.BREAKS_BEHIND, float(window.breaks_behind(seen)))
+    return replace(repair, evidence=(*_of_path(repair, seen, tuple(kept)), new, behind))
 
 
 def _of_path(

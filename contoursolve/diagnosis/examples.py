@@ -38,6 +38,9 @@ MOST_RANGES, MOST_FAR, MOST_TRIED = 3, 20, 10
 """Ranges of one number that are told, the nearest to its example; lengths beyond the reach on either side; and numbers
 on either side that are tried one by one, where no one function tells."""
 
+MOST_OPEN = 2
+"""Open numbers of one repair whose ranges are looked for."""
+
 SEED = 1
 """Of the combinations that are looked through."""
 
@@ -189,11 +192,16 @@ def _end(
     def at(number: int) -> float:
         return last - side * step * number
 
+    def is_good(number: int) -> bool:
+        return number >= len(steps) - 1 or accepts(_text(claim, name, at(number)))
+
     if accepts(_text(claim, name, at(0))):
         is_size = name in _sizes(profile) and side < 0
         is_length = profile.givens[name].unit is not Unit.DEGREE
         return side * inf if is_edge and is_length and not is_size else at(0)
-    return at(bisect_left(steps, True, 1, len(steps) - 1, key=lambda each: accepts(_text(claim, name, at(each)))))
+    # Rules refuse the last few, if any: steps that double find how many sooner than halves of all would.
+    far = next((2**power for power in range(len(steps).bit_length()) if is_good(2**power)), len(steps) - 1)
+    return at(bisect_left(steps, True, far // 2 + 1, min(far, len(steps) - 1), key=is_good))
 
 
 def _sizes(profile: Profile) -> set[str]:

@@ -119,7 +119,7 @@ def _numbers(numbers: Sequence[OpenNumber]) -> str:
         return "no number was tried"
     if len(known) == 1:
         return f"such as {known[0].example}{_ranges(known[0], ', ')}"
-    return "such as " + " and ".join(each.example + _ranges(each, " (", ")") for each in known)
+    return f"such as {join([each.example + _ranges(each, ' (', ')') for each in known])}"
 
 
 def _ranges(number: OpenNumber, before: str, behind: str = "") -> str:

@@ -40,7 +40,6 @@ class Feature(Enum):
     WARNING = "warning"
     SEEN = "seen"
     BREAKS_BEHIND = "breaks-behind"
-    MENDS_MORE = "mends-more"
 
 
 FEATURES: dict[Feature, tuple[float, str]] = {
@@ -65,7 +64,6 @@ FEATURES: dict[Feature, tuple[float, str]] = {
     Feature.WARNING: (1.0, "a rule warns of the block then"),
     Feature.SEEN: (3.0, "the blocks around it have an error or a warning then that they had not"),
     Feature.BREAKS_BEHIND: (2.0, "the contour that begins where it ends has an error then"),
-    Feature.MENDS_MORE: (1.0, "the blocks around it lose an error or a warning, too: one slip explains several"),
 }
 """The cost of each unit of evidence, and why it counts."""
 

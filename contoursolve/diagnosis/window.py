@@ -156,12 +156,6 @@ class Window(Struct, frozen=True, dict=True):
             if text != block.text:
                 yield LineChange(block.span, text, block.text)
 
-    def gain(self, seen: Seen) -> int:
-        """The number of problems elsewhere that are gone then, besides those of blocks that only wait."""
-        own = {*self.lines}
-        old = {(each.code, each.span.line) for each in self.before.problems if each.about not in _FOLLOWING}
-        return len({each for each in old if each[1] not in own} - seen.keys)
-
     @cached_property
     def _waiting(self) -> frozenset[int]:
         """The lines of contours of which nobody knows where they begin."""
