@@ -2,12 +2,9 @@
 
 import dataclasses
 import re
-from bisect import insort
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Iterator, Sequence
 from decimal import Decimal
 from functools import cached_property
-from itertools import chain
-from math import log2
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -20,43 +17,24 @@ from contoursolve.diagnosis.edits import (
     apply_edits,
     edit_facts,
     edited,
-    has_plus,
-    signed,
-    with_plus,
 )
-from contoursolve.diagnosis.examine import LEADING, Answer, Depth, Policy, examine, problems
+from contoursolve.diagnosis.examine import Answer, Depth, Policy, examine, problems
 from contoursolve.diagnosis.examples import MOST_OPEN, numbers_for, propose, sampled
 from contoursolve.diagnosis.plausibility import (
     OF_EDITS,
-    ROUNDEST,
     Feature,
     Numbers,
-    coarseness,
-    cost_of,
-    distance,
-    familiarity,
-    length_of,
     numbers_of,
-    oddities,
-    round_points,
-    rounding_of,
-    size_of,
     total,
 )
-from contoursolve.diagnosis.prospects import Prospects, keeps_address
+from contoursolve.diagnosis.prospects import Prospects
 from contoursolve.diagnosis.reach import Reach, is_of_codes
-from contoursolve.diagnosis.slip_kinds import FEW, OF_DIGITS, ROUND, SlipKind, number_in, partners, recognise
+from contoursolve.diagnosis.slip_kinds import ROUND, SlipKind, partners, recognise
 from contoursolve.diagnosis.slips_around import (
-    MOST_OF_DIGITS,
-    MOST_TRIED as MOST_AROUND,
-    Candidate,
     Marked,
-    drafts_around,
-    touches,
 )
-from contoursolve.diagnosis.subsets import LARGEST_ROLE
-from contoursolve.diagnosis.window import Seen, Window, agrees, moves_of
-from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, NumberRange, OpenNumber, Severity, Span
+from contoursolve.diagnosis.window import Window, agrees
+from contoursolve.diagnostics import Applicability, Diagnostic, LineChange, OpenNumber, Severity, Span
 from contoursolve.gcode import Block, parse_block, spell
 from contoursolve.geometry import Profile, assemble
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, State, advance, leave, read
@@ -73,16 +51,6 @@ from contoursolve.solving import (
     is_closed,
 )
 from contoursolve.tolerance import AGREEMENT
-
-MOST_TRIED = 60
-"""Changed blocks that are tried for one contour, fewer for a chain, whose every trial takes longer; beyond it the list
-is not called complete."""
-
-MOST_SEEN = 16
-"""Repairs of one contour that are looked at with the blocks around it."""
-
-MOST_CONSIDERED = 2_000
-"""Changed blocks that are looked at for one contour; most of them contain a repair that was found before."""
 
 EASY_STEP, LARGEST_STEP = 4, 12
 """Unknowns of one step: up to the first it takes milliseconds; beyond the second a search can take a minute, and a
@@ -245,7 +213,7 @@ class Trial(Struct, frozen=True, dict=True):
             own += [block for block in arcs if block.line in lines] or arcs
         if self.is_missed:
             own += [block for block in self.claim.blocks if block.find(self.dialect.modes.radius)]
-        own += self.claim.blocks if self.is_open and len(self.claim.blocks) <= _SHORT else ()
+        own += self.claim.blocks if self.is_open and len(self.claim.blocks) <= SHORT else ()
         spans = {word.span for block in own for word in block.words}
         return Marked(self.blamed | spans, lines | {block.line for block in own}, self.told)
 
@@ -544,337 +512,9 @@ def _parted(blocks: list[Block], edits: tuple[Edit, ...]) -> tuple[list[Block], 
     return blocks[:first], blocks[first:last], blocks[last:]
 
 
-_SHORT = 12
+SHORT = 12
 """Blocks of a contour in all of which a word may be missing."""
 
-
-# Ranking -------------------------------------------------------------------------------------------------------------
-
-
-def choose_repairs(trial: Trial, stages: Iterable[Iterable[tuple[Edit, ...]]]) -> Repairs:
-    """The drafts that are repairs, none of which contains another one, and the slips around the contour that explain
-    it; the most plausible first."""
-    found: list[Repair] = []
-    tried: set[tuple[Edit, ...]] = set()
-    spent = 0
-    length = len(trial.claim.blocks)
-    most = MOST_TRIED if length <= LARGEST_ROLE else max(8, 2 * MOST_TRIED // length)
-    considered = 0
-    for draft in chain.from_iterable(stages):
-        edits = tuple(edit for edit in draft if edit.kind is not EditKind.CHANGE or edit.text != edit.old)
-        considered += 1
-        if len(tried) + spent > most or considered > MOST_CONSIDERED:
-            break
-        if edits not in tried and not any(set(other.edits) <= set(edits) for other in found):
-            tried.add(edits)
-            repair = trial.repair(edits)
-            found += [repair] if repair else []
-            spent += trial.extra(edits)
-    is_complete = len(tried) + spent <= most and considered <= MOST_CONSIDERED
-    found = [_weighed(each, trial) for each in found]
-    # With the blocks around them, as slips are.
-    found = [_seen(each, trial) if at < _ENOUGH else each for at, each in enumerate(sorted(found, key=_order))]
-    known = {each.edits: each for each in found}
-    for each in _slips_around(trial, known.copy(), tried - known.keys()):
-        other = known.get(each.edits)
-        if other is None or each.cost_of_edits < other.cost_of_edits:
-            known[each.edits] = each
-    found = [*known.values()]
-    found = [
-        each
-        for each in found
-        if not any(set(other.edits) < set(each.edits) and other.cost <= each.cost for other in found)
-    ]
-    found = [_seen(each, trial) if at < MOST_SEEN else each for at, each in enumerate(sorted(found, key=_order))]
-    found = _usual_marked(_large_marked(found, trial.contour))
-    found.sort(key=_order)
-    found = [each for at, each in enumerate(found) if not any(_is_again(each, other) for other in found[:at])]
-    farthest = found[0].cost + _FARTHEST if found else 0.0
-    found = [each for at, each in enumerate(found) if at < _ENOUGH or each.cost <= farthest or not any(each.slips)]
-    found = [styled(trial.with_numbers(each) if each.example else each, trial) for each in found]
-    added = frozenset((edit.address, edit.line) for edits in tried for edit in edits if edit.kind is EditKind.ADD)
-    return Repairs(tuple(found), is_complete, has_tried_all=is_complete, tried=added)
-
-
-def _slips_around(
-    trial: Trial, known: Mapping[tuple[Edit, ...], Repair], refused: Set[tuple[Edit, ...]]
-) -> Iterator[Repair]:
-    """The slips of a contour and of the blocks around it that explain what is wrong: those of digits where no other
-    one does."""
-    window, claim = trial.window, trial.claim
-    if window is None or not trial.marked.lines:
-        return
-    ranked = sorted(each.cost for each in known.values())
-    paths = [_USUAL, *(_cost_of_path(each, trial) for each in known.values())]
-    best = min(map(_doubt, known.values()), default=None)
-    # What cannot be read is an error until an edit touches it.
-    torn = {each.span for block in window.own for each in block.faults}
-
-    def may_mend(edits: tuple[Edit, ...]) -> bool:
-        is_whole = all(any(touches(edit, span) for edit in edits) for span in torn)
-        return is_whole and (trial.prospects is None or trial.prospects.has(edits))
-
-    for kinds in (FEW, OF_DIGITS):
-        is_likely = best is not None and best < _LIKELY
-        if kinds is OF_DIGITS and is_likely and not trial.is_crossing_curves:
-            return
-        drafts = drafts_around(window, trial.marked, claim, kinds, may_mend)
-        most = MOST_AROUND if kinds is FEW else MOST_OF_DIGITS
-        if kinds is OF_DIGITS and is_likely:
-            # The sizes of circles that are missed, which few other slips explain.
-            sizes = {*"IJK", window.dialect.modes.radius} if trial.is_missed else None
-            most = MOST_AROUND if sizes else most
-            drafts = [
-                each
-                for each in drafts
-                if all(edit.span in trial.marked.spans for edit in each.edits)
-                and (sizes is None or all(edit.address in sizes for edit in each.edits))
-            ]
-        most, tried = 0 if trial.is_searched else _fewer(most, len(claim.blocks)), 0
-        for draft in drafts:
-            own = known.get(draft.edits)
-            if own is not None and own.cost_of_edits <= draft.cost:
-                continue
-            if draft.edits in refused and all(map(keeps_address, draft.edits)):
-                continue
-            if tried >= most or draft.cost + min(paths) - _PATH > _bound(ranked):
-                break
-            tried += 1
-            seen = window.after(draft.edits)
-            if seen is None or not window.mends(seen):
-                continue
-            lines = {*window.lines}
-            answers = [each for each in seen.answers if lines.intersection(each.lines)]
-            # Without a word, plain blocks may be left.
-            is_plain = not answers and all(edit.kind is EditKind.DROP for edit in draft.edits)
-            if not is_plain and (not answers or any(each.contour is None for each in answers)):
-                continue
-            repair = repair_of(draft, seen, answers, trial)
-            best = _doubt(repair) if best is None else min(best, _doubt(repair))
-            insort(ranked, repair.cost)
-            paths.append(_cost_of_path(repair, trial))
-            yield repair
-
-
-def _fewer(most: int, length: int) -> int:
-    """The number of drafts that are tried of a contour of so many blocks: fewer of a long one, whose every trial takes
-    longer."""
-    return most if length <= _SHORT else max(_FEWEST, most * _SHORT // length)
-
-
-def _bound(costs: Sequence[float]) -> float:
-    """The cost beyond which a further repair would hardly be among the first ones."""
-    return min([*costs[_ENOUGH - 1 : _ENOUGH], *(each + _BEHIND for each in costs[:1])], default=float("inf"))
-
-
-_FEWEST = 8
-"""Drafts that are tried of the longest contours."""
-
-
-def _cost_of_path(repair: Repair, trial: Trial) -> float:
-    """The cost of its path; of curves that cross, with intersections that come out round."""
-    path = dict(each for each in repair.evidence if each[0] not in OF_EDITS)
-    if trial.is_crossing_curves:
-        path[Feature.POINTS] = -ROUNDEST
-    return total(path.items())
-
-
-def _doubt(repair: Repair) -> float:
-    """The cost of its edits; with that of a path which hardly anybody means."""
-    return repair.cost_of_edits + total(each for each in repair.evidence if each[0] is Feature.ACROSS)
-
-
-_FARTHEST = 5.0
-"""Slips that are so much less plausible than the best repair are not told behind some others."""
-
-_LIKELY = 4.0
-"""The cost of the edits of a repair beside which wrong digits are not looked for."""
-
-_MARGIN = 2.5
-"""By so much less plausible than the best one, repairs tell nothing of sizes."""
-
-_USUAL = 2.0
-"""The cost of a usual path, where those that are known are odd."""
-
-_ENOUGH, _BEHIND, _PATH = 3, 1.0, 0.2
-"""Repairs that are read, and by how much less plausible than the first one they may be; by so much another path may
-cost less than the least of those that are known."""
-
-
-def styled(repair: Repair, trial: Trial) -> Repair:
-    """A repair whose words have their signs as those around have them."""
-    window, blocks = trial.window, trial.claim.blocks
-    around = window.blocks if window is not None else blocks
-    edits, example = signed(repair.edits, around), signed(repair.example, around)
-    if (edits, example) == (repair.edits, repair.example) and not (repair.numbers and has_plus(around)):
-        return repair
-    own = {block.line for block in blocks}
-    beside = (
-        tuple(each for each in window.changes(edits) if each.span.line not in own) if repair.beside and window else ()
-    )
-    numbers = tuple(
-        replace(
-            each,
-            example=with_plus(each.example),
-            ranges=tuple(NumberRange(with_plus(ends.low), with_plus(ends.high)) for ends in each.ranges),
-        )
-        for each in repair.numbers
-    )
-    replacement = edited(blocks, [edit for edit in edits if edit.place in own or edit.place <= 0])
-    return replace(repair, edits=edits, example=example, replacement=replacement, beside=beside, numbers=numbers)
-
-
-def repair_of(draft: Candidate, seen: Seen, answers: Sequence[Answer], trial: Trial) -> Repair:
-    """A draft that was tried, with what it makes of the contour; of plain blocks, none is left."""
-    contour = answers[0].contour if answers else None
-    own = {block.line for block in trial.claim.blocks}
-    within = [edit for edit in draft.edits if (edit.span.line if edit.span else edit.line) in own]
-    replacement = edited(trial.claim.blocks, within)
-    repair = Repair(draft.edits, replacement, Applicability.CHANGES_CONTOUR, None, 0.0)
-    if contour is not None:
-        repair = trial.made(contour, draft.edits, replacement)
-    beside = (
-        tuple(each for each in trial.window.changes(draft.edits) if each.span.line not in own) if trial.window else ()
-    )
-    evidence = _of_path(repair, seen, draft.evidence)
-    if trial.window is not None:
-        evidence = (*evidence, (Feature.BREAKS_BEHIND, float(trial.window.breaks_behind(seen))))
-    # What is beside the contour draws a path, too, or says how it is followed.
-    applicability = Applicability.CHANGES_CONTOUR if beside else repair.applicability
-    return replace(repair, applicability=applicability, slips=draft.slips, evidence=evidence, beside=beside)
-
-
-def _weighed(repair: Repair, trial: Trial) -> Repair:
-    """A repair with what is known of it without the blocks around it."""
-    edits, marked = repair.edits, trial.marked
-    kind = sum(cost_of(edit, slip) + trial.strangeness(edit) for edit, slip in zip(edits, repair.slips, strict=True))
-    kind += _NAUGHT * sum(_is_naught(edit) for edit in edits)
-    kind += _SIGNED * sum(edit.why is Why.AGREES and _has_other_sign(edit) for edit in edits)
-    lines = [edit.span.line if edit.span else edit.line for edit in edits]
-    near = [distance(line, edit.span in marked.spans, marked.lines) for line, edit in zip(lines, edits, strict=True)]
-    rounding = sum(map(rounding_of, edits)) * coarseness(trial.numbers)
-    evidence = (
-        (Feature.KIND, kind),
-        (Feature.NEAR, min(near, default=0.0)),
-        (Feature.ROUND, rounding),
-        (Feature.FAMILIAR, familiarity(edits, trial.numbers)),
-    )
-    return replace(repair, evidence=_of_path(repair, None, evidence))
-
-
-_NAUGHT = 1.5
-"""The cost of another value for a 0, which nobody types by mistake."""
-
-
-def _is_naught(edit: Edit) -> bool:
-    return edit.why is Why.AGREES and not number_in(edit.old).strip("0.")
-
-
-_SIGNED = 0.8
-"""The cost of a sign that changes with the value, which the others would have as well with the old sign."""
-
-
-def _has_other_sign(edit: Edit) -> bool:
-    return ("-" in edit.text) is not ("-" in edit.old)
-
-
-def _seen(repair: Repair, trial: Trial) -> Repair:
-    """A repair with what the blocks around it tell."""
-    window, edits = trial.window, repair.edits if repair.contour is not None else repair.example
-    if window is None or any(each[0] is Feature.SEEN for each in repair.evidence) or not edits:
-        return repair
-    if any(edit.is_placeholder for edit in edits):
-        # Without its number, nothing says where the path leads.
-        return replace(repair, evidence=(*repair.evidence, (Feature.SEEN, 0.0)))
-    seen = window.after(edits)
-    if seen is None:
-        return repair
-    kept = [each for each in repair.evidence if each[0] in OF_EDITS]
-    new = (Feature.SEEN, float(not window.mends(seen)))
-    behind = (Feature.BREAKS_BEHIND, float(window.breaks_behind(seen)))
-    return replace(repair, evidence=(*_of_path(repair, seen, tuple(kept)), new, behind))
-
-
-def _of_path(
-    repair: Repair, seen: Seen | None, known: tuple[tuple[Feature, float], ...]
-) -> tuple[tuple[Feature, float], ...]:
-    """The features that are known, and those of the path."""
-    contour = repair.contour
-    if contour is None and seen is None:
-        return known
-    moves = seen.moves if seen is not None else tuple(moves_of(contour)) if contour else ()
-    return (
-        *known,
-        *oddities(moves).items(),
-        (Feature.POINTS, -round_points(contour)),
-        (Feature.SAME, -float(contour is not None and repair.deviation <= AGREEMENT)),
-        (Feature.EXACT, float(not repair.is_exact)),
-        (Feature.WARNING, float(repair.warnings + len(_LEADING_ZERO.findall(repair.replacement)))),
-        *(((Feature.SEEN, 0.0),) if seen is not None else ()),
-    )
-
-
-_LEADING_ZERO = re.compile(LEADING.pattern + r"\d*+\.")
-"""A word that is left with a number that begins with a zero, of which a suspicion would be told."""
-
-
-def _large_marked(found: list[Repair], before: Contour | None) -> list[Repair]:
-    """Repairs, those that make the contour more than twice as large as it was, or as the smallest of the more plausible
-    ones makes it, with that as a drawback."""
-    best = min((each.cost for each in found if each.contour), default=0.0)
-    sizes = [size_of(each.contour) for each in found if each.contour and each.cost <= best + _MARGIN]
-    if not sizes:
-        return found
-    least = max(size_of(before) if before else 0.0, min(sizes), AGREEMENT)
-    shortest = min(length_of(each.contour) for each in found if each.contour and each.cost <= best + _MARGIN)
-    marked = []
-    for each in found:
-        times = log2(size_of(each.contour) / least) - 1 if each.contour and size_of(each.contour) else 0.0
-        if each.contour and shortest:
-            longer = max(log2(max(length_of(each.contour), AGREEMENT) / shortest), 0.0)
-            each = replace(each, evidence=(*each.evidence, (Feature.LONG, longer)))  # noqa: PLW2901
-        if times > 0:
-            evidence = (*each.evidence, (Feature.LARGE, max(times - 1, 0.0)))
-            each = replace(each, drawbacks=(*each.drawbacks, _LARGE), evidence=evidence)  # noqa: PLW2901
-        marked.append(each)
-    return marked
-
-
-def _usual_marked(found: list[Repair]) -> list[Repair]:
-    """Repairs; those whose path nobody knows turn as the most plausible one of the others does."""
-    known = (dict(each.evidence) for each in found if each.contour or each.example != each.edits)
-    turning = next((each[Feature.TURNING] for each in known if Feature.TURNING in each), _USUAL_TURNING)
-    return [
-        each if any(one[0] is Feature.TURNING for one in each.evidence) else
-        replace(each, evidence=(*each.evidence, (Feature.TURNING, turning)))
-        for each in found
-    ]  # fmt: skip
-
-
-_USUAL_TURNING = 1.0
-"""Half turns of a usual path."""
-
-
-def _order(repair: Repair) -> tuple[object, ...]:
-    """The most plausible first; of those alike the smallest change."""
-    size = size_of(repair.contour) if repair.contour else 0.0
-    return (
-        repair.cost,
-        round(repair.deviation, 6),
-        len(repair.edits),
-        round(size, 6),
-        [(edit.span or Span(edit.line, 0, 0), edit.text) for edit in repair.edits],
-    )
-
-
-def _is_again(repair: Repair, other: Repair) -> bool:
-    """Whether a repair writes another value in the same words for the same contour, as R-50 for R50."""
-    is_same = repair.contour is not None and repair.contour == other.contour
-    changes = all(edit.kind is EditKind.CHANGE for edit in (*repair.edits, *other.edits))
-    return is_same and changes and [edit.span for edit in repair.edits] == [edit.span for edit in other.edits]
-
-
-_LARGE = "more than twice as large"
 
 _FIXED = 0.05
 """mm or degrees: a number that may differ by so much is fixed by the others, as closely as the control looks."""

@@ -10,7 +10,7 @@ from math import copysign, sqrt
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.attempt import Repairs, Trial, choose_repairs
+from contoursolve.diagnosis.attempt import Repairs, Trial
 from contoursolve.diagnosis.drafts import (
     OF_CORNERS,
     commas,
@@ -27,6 +27,7 @@ from contoursolve.diagnosis.edits import AT_LEAST, Edit, EditKind, Why, add, cha
 from contoursolve.diagnosis.examine import MOST_CHOICES, Answer, Policy, count_choices, examine, problems
 from contoursolve.diagnosis.explain import SINGULAR, spans_of
 from contoursolve.diagnosis.prospects import Prospects
+from contoursolve.diagnosis.ranking import choose_repairs
 from contoursolve.diagnosis.reach import Reach
 from contoursolve.diagnosis.slip_kinds import explained
 from contoursolve.diagnosis.spelling import torn_codes

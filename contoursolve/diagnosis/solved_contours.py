@@ -5,10 +5,11 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.attempt import Repair, Trial, choose_repairs
+from contoursolve.diagnosis.attempt import Repair, Trial
 from contoursolve.diagnosis.examine import Answer
 from contoursolve.diagnosis.explain import spans_of
 from contoursolve.diagnosis.fix_text import with_fixes
+from contoursolve.diagnosis.ranking import choose_repairs
 from contoursolve.diagnosis.window import Window
 from contoursolve.diagnostics import Diagnostic, Severity, Span
 from contoursolve.reading import ReadIssue

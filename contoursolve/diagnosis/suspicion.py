@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from msgspec.structs import replace
 
-from contoursolve.diagnosis.attempt import Repair, Trial, repair_of, styled
+from contoursolve.diagnosis.attempt import Repair, Trial
 from contoursolve.diagnosis.edits import Edit, EditKind
 from contoursolve.diagnosis.examine import LEADING, SUSPICIONS, Answer, problems
 from contoursolve.diagnosis.explain import context_of, report
@@ -15,6 +15,7 @@ from contoursolve.diagnosis.fix_text import with_fixes
 from contoursolve.diagnosis.odd_points import aslant, open_end
 from contoursolve.diagnosis.outliers import other_taper, sharp_corner, taper_of
 from contoursolve.diagnosis.plausibility import Feature, familiarity, numbers_of, oddities, rounding_of
+from contoursolve.diagnosis.ranking import repair_of, styled
 from contoursolve.diagnosis.slip_kinds import (
     COMPLEMENT,
     LETTER_ALIKE,
