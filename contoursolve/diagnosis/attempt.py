@@ -78,8 +78,6 @@ class Repair(Struct, frozen=True):
     """The edits with numbers for the placeholders that make a contour."""
     numbers: tuple[OpenNumber, ...] = ()
     """The numbers that it leaves open."""
-    is_exact: bool = True
-    """Whether its circles pass through their points, and do not only miss them by less than a control minds."""
     slips: tuple[SlipKind | None, ...] = ()
     """The slip that explains each edit."""
     drawbacks: tuple[str, ...] = ()
@@ -196,11 +194,7 @@ class Trial(Struct, frozen=True, dict=True):
         if answer.contour.crossing is not None and self.codes == {each.code for each in rules if _is_crossing(each)}:
             return None
         repair = self.made(answer.contour, edits, replacement)
-        return replace(
-            repair,
-            warnings=sum(each.code not in self.codes for each in rules),
-            is_exact=all(each.about is not NoteKind.RADIUS_DIFFERS for each in answer.diagnostics),
-        )
+        return replace(repair, warnings=sum(each.code not in self.codes for each in rules))
 
     @cached_property
     def marked(self) -> Marked:

@@ -35,11 +35,9 @@ class Feature(Enum):
     ACROSS = "across"
     LARGE = "large"
     LONG = "long"
-    EXACT = "exact"
     SAME = "same"
     WARNING = "warning"
     SEEN = "seen"
-    BREAKS_BEHIND = "breaks-behind"
 
 
 FEATURES: dict[Feature, tuple[float, str]] = {
@@ -59,11 +57,9 @@ FEATURES: dict[Feature, tuple[float, str]] = {
         "the path becomes four times as large as another repair makes it, and larger",
     ),
     Feature.LONG: (0.15, "the path becomes twice as long as another repair makes it"),
-    Feature.EXACT: (1.5, "a circle misses its point by less than the control minds"),
     Feature.SAME: (0.8, "the path stays as it is"),
     Feature.WARNING: (1.0, "a rule warns of the block then"),
     Feature.SEEN: (3.0, "the blocks around it have an error or a warning then that they had not"),
-    Feature.BREAKS_BEHIND: (2.0, "the contour that begins where it ends has an error then"),
 }
 """The cost of each unit of evidence, and why it counts."""
 

@@ -246,8 +246,6 @@ def repair_of(draft: Candidate, seen: Seen, answers: Sequence[Answer], trial: Tr
         tuple(each for each in trial.window.changes(draft.edits) if each.span.line not in own) if trial.window else ()
     )
     evidence = _of_path(repair, seen, draft.evidence)
-    if trial.window is not None:
-        evidence = (*evidence, (Feature.BREAKS_BEHIND, float(trial.window.breaks_behind(seen))))
     # What is beside the contour draws a path, too, or says how it is followed.
     applicability = Applicability.CHANGES_CONTOUR if beside else repair.applicability
     return replace(repair, applicability=applicability, slips=draft.slips, evidence=evidence, beside=beside)
@@ -300,8 +298,7 @@ def _seen(repair: Repair, trial: Trial) -> Repair:
         return repair
     kept = [each for each in repair.evidence if each[0] in OF_EDITS]
     new = (Feature.SEEN, float(not window.mends(seen)))
-    behind = (Feature.BREAKS_BEHIND, float(window.breaks_behind(seen)))
-    return replace(repair, evidence=(*_of_path(repair, seen, tuple(kept)), new, behind))
+    return replace(repair, evidence=(*_of_path(repair, seen, tuple(kept)), new))
 
 
 def _of_path(
@@ -317,7 +314,6 @@ def _of_path(
         *oddities(moves).items(),
         (Feature.POINTS, -round_points(contour)),
         (Feature.SAME, -float(contour is not None and repair.deviation <= AGREEMENT)),
-        (Feature.EXACT, float(not repair.is_exact)),
         (Feature.WARNING, float(repair.warnings + len(_LEADING_ZERO.findall(repair.replacement)))),
         *(((Feature.SEEN, 0.0),) if seen is not None else ()),
     )

@@ -161,12 +161,6 @@ class Window(Struct, frozen=True, dict=True):
         """The lines of contours of which nobody knows where they begin."""
         return frozenset(each.span.line for each in self.before.problems if each.about in _FOLLOWING)
 
-    def breaks_behind(self, seen: Seen) -> bool:
-        """Whether the first contour that waits for its own has an error once it begins somewhere."""
-        line = min((line for line in self._waiting if line > self.lines[-1]), default=0)
-        wrong = (each for each in seen.problems if each.is_error and each.about not in _FOLLOWING)
-        return line not in seen.changed and any(each.span.line == line for each in wrong)
-
     def mends(self, seen: Seen) -> bool:
         """Whether nothing of its own is wrong then, and nothing new elsewhere. What is wrong with contours that waited
         for it shows only then."""

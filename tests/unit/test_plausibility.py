@@ -12,29 +12,50 @@ plausibility = import_module("contoursolve.diagnosis.plausibility")
 Feature, FEATURES = plausibility.Feature, plausibility.FEATURES
 SLIPS = {each["id"]: each for each in json.loads((Path(__file__).parents[1] / "slips" / "by_hand.json").read_text())}
 
+PROGRAMS = {
+    "centre": ("fanuc-mill", "G17 G90|G00 X0. Y0.|G01 X60. ,R4. F300|G02 X60. Y50. I15. J-25. ,R4.|G01 X0.|Y0."),
+    "two corners": ("nct-99m", "G17 G90|G0 X0 Y0|G1 X55 ,R6 F200|Y35 ,C3 ,R1|X0 Y12"),
+    "circle": ("nct-99m", "G17 G0 X90 Y0|G42 G1 X50 D0|G3 X-50 Y0 R55|G1 X-50 Y42.857 ,A171.87 Q-1|G40 G0 Y70"),
+    "turn": ("yasnac-lx3", "G00 X40. Z0.|G111 A400. K-30. B120. X100."),
+}
+"""Controls and programs, besides those of the corpus."""
+
 DECIDES = {
     Feature.KIND: ("ya-spindle-01", "write K-28. for I-28."),
     Feature.ROUND: ("nc-plate-02", "write ,R8 for ,R88"),
     Feature.NEAR: ("ya-flange-02", "write I15. for K15."),
     Feature.FAMILIAR: ("fm-frame-02", "write Y65. for Y56."),
+    Feature.POINTS: ("circle", "write R50 for R55"),
     Feature.TURNS_BACK: ("fl-full-03", "write Z-25. for Z-52."),
     Feature.INWARD: ("fl-cone-06", "write X70. for X7."),
     Feature.TURNING: ("nc-cam-03", "write I-40 for I40"),
+    Feature.WIDE: ("centre", "write J25. for J-25."),
+    Feature.ACROSS: ("turn", "write A200. for A400."),
+    Feature.LARGE: ("two corners", "delete ,R1"),
     Feature.LONG: ("nc-hook-08", "write X10 for X-10"),
     Feature.SAME: ("mi-lever-02", "write A350. for A170."),
 }
-"""The slip by hand, and its first fix, for each feature that some first fix of the corpus hangs on."""
+"""A slip, and its first fix, for each feature that decides which fix comes first."""
+
+DECIDES_BEHIND = {Feature.BEHIND_START, Feature.WARNING, Feature.SEEN}
+"""Those that order only the fixes behind the first one, as far as the corpora of slips tell; the first of them also
+tells what is suspected."""
 
 
 def first_fix(name: str, lines: list[str] | None = None) -> str:
-    entry = SLIPS[name]
-    settings = dict(each.split("=", 1) for each in entry["settings"])
-    found = solve("\n".join(lines or entry["slip"]) + "\n", control=entry["control"], settings=settings).diagnostics
+    if name in PROGRAMS:
+        control, text = PROGRAMS[name]
+        found = solve(text.replace("|", "\n"), control=control).diagnostics
+    else:
+        entry = SLIPS[name]
+        settings = dict(each.split("=", 1) for each in entry["settings"])
+        text = "\n".join(lines or entry["slip"])
+        found = solve(f"{text}\n", control=entry["control"], settings=settings).diagnostics
     return next((fix.description for each in found for fix in each.fixes), "")
 
 
 def test_every_feature_has_a_weight_above_zero_and_a_reason():
-    assert FEATURES.keys() == set(Feature)
+    assert FEATURES.keys() == set(Feature) == DECIDES.keys() | DECIDES_BEHIND
     assert all(weight > 0 and reason for weight, reason in FEATURES.values())
 
 
