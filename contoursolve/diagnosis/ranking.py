@@ -123,7 +123,7 @@ def _slips_around(
         is_whole = all(any(touches(edit, span) for edit in edits) for span in torn)
         return is_whole and (trial.prospects is None or trial.prospects.has(edits))
 
-    for kinds in (FEW, OF_DIGITS):
+    for kinds in (FEW, OF_DIGITS)[: 1 if trial.is_solved else 2]:
         is_likely = best is not None and best < _LIKELY
         if kinds is OF_DIGITS and is_likely and not trial.is_crossing_curves:
             return
@@ -140,6 +140,8 @@ def _slips_around(
                 and (sizes is None or all(edit.address in sizes for edit in each.edits))
             ]
         most, tried = 0 if trial.is_searched else _fewer(most, len(claim.blocks)), 0
+        if trial.is_solved:
+            most = _FEWEST
         for draft in drafts:
             own = known.get(draft.edits)
             if own is not None and own.cost_of_edits <= draft.cost:

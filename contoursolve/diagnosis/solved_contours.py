@@ -48,4 +48,4 @@ def mend_behind(answer: Answer, findings: Sequence[Diagnostic], window: Window) 
 def _repairs(answer: Answer, window: Window, marked: frozenset[Span], told: str) -> tuple[Repair, ...]:
     """The slips that explain a finding about a contour that is solved, the most plausible first."""
     trial = Trial(answer.claim, window.dialect, frozenset(), answer.contour, blamed=marked, window=window, told=told)
-    return choose_repairs(trial, ()).repairs
+    return choose_repairs(replace(trial, is_solved=True), ()).repairs

@@ -26,7 +26,7 @@ def long_program(lines: int) -> str:
             f"N{number % 9999:04d} G00 X40. Z0.",
             f"G111 X100. A180. K-{draw.uniform(20, 40):.3f} B120. P5. Q5. F0.2",
         ]
-        rows += [f"G01 X120. Z-{draw.uniform(50, 80):.3f}", f"X{draw.uniform(100, 150):.3f}", f"(COMMENT {number})"]
+        rows += [f"G01 Z-{draw.uniform(70, 90):.3f}", f"X{draw.uniform(100, 150):.3f}", f"(COMMENT {number})"]
     return "\n".join(rows) + "\n"
 
 
