@@ -139,9 +139,7 @@ def _slips_around(
                 if all(edit.span in trial.marked.spans for edit in each.edits)
                 and (sizes is None or all(edit.address in sizes for edit in each.edits))
             ]
-        most, tried = 0 if trial.is_searched else _fewer(most, len(claim.blocks)), 0
-        if trial.is_solved:
-            most = _FEWEST
+        most, tried = _tries(most, trial), 0
         for draft in drafts:
             own = known.get(draft.edits)
             if own is not None and own.cost_of_edits <= draft.cost:
@@ -167,9 +165,14 @@ def _slips_around(
             yield repair
 
 
-def _fewer(most: int, length: int) -> int:
-    """The number of drafts that are tried of a contour of so many blocks: fewer of a long one, whose every trial takes
-    longer."""
+def _tries(most: int, trial: Trial) -> int:
+    """The number of drafts that are tried: fewer of a long contour, whose every trial takes longer, and of one that is
+    solved, which few slips explain; none where each takes a search."""
+    length = len(trial.claim.blocks)
+    if trial.is_searched:
+        return 0
+    if trial.is_solved:
+        return _FEWEST
     return most if length <= SHORT else max(_FEWEST, most * SHORT // length)
 
 
@@ -179,7 +182,7 @@ def _bound(costs: Sequence[float]) -> float:
 
 
 _FEWEST = 8
-"""Drafts that are tried of the longest contours."""
+"""Drafts that are tried of the longest contours, and of those that are solved."""
 
 
 def _cost_of_path(repair: Repair, trial: Trial) -> float:
