@@ -54,6 +54,8 @@ class Conversation:
         """The handle that is held, with the words that it changes."""
         self._solved = exploration
         """The contour as it was last solved."""
+        self._calm = exploration if explorations.is_calm(exploration) else None
+        """The contour as it was when nothing was found about it."""
         self._drawn = picture_of(exploration.answer) if exploration.answer else None
         self.state: Data = {"view": self._viewed(is_new=True), "ranges": {}, "ghost": {}, "sections": {}, "number": 0}
 
@@ -114,6 +116,7 @@ class Conversation:
         kind, is_held = action["do"], bool(action.get("is_held"))
         self._handle = action.get("handle", {}) if is_held else {}
         answer = self.exploration.answer
+        self._calm = self.exploration if explorations.is_calm(self.exploration) else self._calm
         self._solved = self.exploration if answer is not None and answer.contour is not None else self._solved
         self._drawn = picture_of(answer, self._drawn if is_held else None) if answer else None
         asks: list[Data] = []
@@ -163,7 +166,7 @@ class Conversation:
         return {"ghost": {**of, "text": instead.block, "paths": ghost_of(shown, now, self._drawn)}}
 
     def _viewed(self, *, is_new: bool = False) -> Data:
-        view = view_of(self.exploration, self._drawn, self._pinned, self._handle)
+        view = view_of(self.exploration, self._drawn, self._pinned, self._handle, self._calm)
         return {
             **view,
             "trouble": "",

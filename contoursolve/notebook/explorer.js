@@ -685,7 +685,7 @@ function render({ model, el }) {
       }
       const fixes = finding.fixes.map((fix) =>
         haunt(
-          button(`${fix.text} [${fix.effect}]`, () => act({ do: "fix", finding: fix.finding, fix: fix.number, of }), {
+          button(`${fix.text} [${[fix.effect, fix.alone].filter(Boolean).join("; ")}]`, () => act({ do: "fix", finding: fix.finding, fix: fix.number, of }), {
             class: fix.is_safe ? "fix safe" : "fix",
           }),
           { finding: fix.finding, fix: fix.number },

@@ -17,6 +17,7 @@ from examples import some_of
 import contoursolve
 from contoursolve import Status
 from contoursolve.notebook import exploration as explore
+from contoursolve.notebook.conversation import Conversation
 from contoursolve.notebook.exploration_view import picture_of, range_of, section_of, view_of
 
 WHOLE = "G111 X100. A180. K-30. B120. P5. Q5."
@@ -561,3 +562,36 @@ def test_each_section_tells_what_the_block_comes_to(text, wanted):
         told = section_of(now, name)
         assert words in told.lower(), told
         assert 'words-"' not in told
+
+
+def fixes_after(text, values, **options):
+    """The fixes of the first finding after words were moved."""
+    talk = Conversation(explore.begin(text, **options))
+    talk.answer({"do": "move", "values": values, "number": 1})
+    return talk, talk.state["view"]["findings"][0]["fixes"]
+
+
+@pytest.mark.parametrize(("key", "value"), [("A", 100), ("B", 200), ("X", 30)])
+def test_what_the_reader_has_just_changed_is_the_first_to_be_changed_again(key, value):
+    talk, (first, *others) = fixes_after(WHOLE, {key: value}, **START)
+    assert first["alone"] == ""
+    assert first["text"].startswith(f"write {key}")
+    assert any(fix["alone"] == "changes B120., which you left alone" or key == "B" for fix in others)
+    assert {fix["number"] for fix in (first, *others)} == {*range(len(others) + 1)}
+    talk.answer({"do": "fix", "finding": first["finding"], "fix": first["number"], "number": 2})
+    words = [text.split() for text in (talk.exploration.block, WHOLE)]
+    assert {word[0] for word, old in zip(*words, strict=True) if word != old} == {key}
+    assert talk.exploration.answer.contour is not None
+
+
+def test_a_fix_of_a_word_that_was_left_alone_says_so():
+    text = (PROGRAMS / "shaft.nc").read_text()
+    _, (only,) = fixes_after(text, {"Z": -60}, line=69)
+    assert only["alone"] == "changes B135., which you left alone"
+    _, fixes = fixes_after(
+        "G18 G1 X40. Z0.\nG1 Z-20. ,R2.\nX70. Z-35. ,C1.\nZ-60.", {"X": 40}, control="fanuc-lathe", **START
+    )
+    beside = [fix for fix in fixes if "program line 1" in fix["text"]]
+    assert {fix["alone"] for fix in beside} == {"changes X40., which you left alone"}
+    broken = explore.begin("G111 X100. A180. K-30. B120. P60.", **START)
+    assert {fix["alone"] for each in view_of(broken)["findings"] for fix in each["fixes"]} == {""}
