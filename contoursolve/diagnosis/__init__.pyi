@@ -6,6 +6,7 @@ from .additions import (
     words_to_add as words_to_add,
 )
 from .block_behind import report_behind as report_behind
+from .chosen_solution import chosen_solution as chosen_solution
 from .diagnose import (
     diagnose as diagnose,
     mend_points as mend_points,

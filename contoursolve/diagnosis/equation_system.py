@@ -9,6 +9,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
+from contoursolve.diagnosis.chosen_solution import Chosen, chosen_solution
 from contoursolve.diagnosis.equation_records import (
     CornerSystem,
     Equation,
@@ -46,28 +47,22 @@ from contoursolve.solving import (
     ConstructionStep,
     Determinacy,
     Group,
-    Solution,
     StepCondition,
     StepKind,
     TypedValues,
     analyse,
+    axes_of,
     build_function,
-    choose,
     circuits_of,
     conditions_of,
     corner_equations,
     ends_somewhere,
     find_alternatives,
-    is_closed,
     is_known,
     is_searched,
     jacobian_of,
-    pick,
-    points_with_two_solutions,
     rank_of,
     rows_of,
-    scalars_of,
-    solve,
     steps_of,
     symbolic_values,
     tie_of,
@@ -244,12 +239,12 @@ class EquationSystem(Shown):
 
         Raises ValueError without a contour.
         """
-        if self._solved is None:
+        chosen = self._chosen
+        if chosen is None:
             raise ValueError("there is no contour at the values of the words that could be calculated")
-        scalars, solution = self._solved
         profile, system, symbols = self.profile, self._system, self._symbols
         places = {corner.name: self._places(corner) for corner in system.figure.corners}
-        hand = HandCalculation(profile, system, symbols, self.values, scalars, solution.corners, places)
+        hand = HandCalculation(profile, system, symbols, self.values, chosen.scalars, chosen.solution.corners, places)
         return Derivation(tuple(hand.steps()))
 
     # What can be done with it ------------------------------------------------------------------------------------
@@ -296,13 +291,15 @@ class EquationSystem(Shown):
 
         It follows the solution that the control takes at the values of the words, in closed form where there is one,
         else by Newton's method from there on. It checks nothing: a contour is right where `room` is not negative,
-        `residuals` are zero and no line runs backwards. Raises ValueError where there is no contour to follow.
+        `residuals` are zero and no line runs backwards. The side to which an arc bends that only touches the element
+        before stays, too, although the control may then read it otherwise. Raises ValueError where there is no contour
+        to follow.
         """
-        if self._solved is None:
+        chosen = self._chosen
+        if chosen is None:
             raise ValueError("there is no contour at the values of the words that a function could follow")
         inputs, typed = self._inputs()
-        scalars, _ = self._solved
-        return build_function(self.profile, name, inputs, typed, self._conditions_of, scalars)
+        return build_function(self.profile, name, inputs, typed, self._conditions_of, (self.inputs, chosen.scalars))
 
     @property
     def inputs(self) -> dict[str, float]:
@@ -337,10 +334,8 @@ class EquationSystem(Shown):
         for given in self._typed_words():
             name = self._names[given.name]
             inputs[name] = symbol(name)
-            scale = self._scale_of(given)
-            # A word may count from another one that stays.
-            rest = float(given.value - self._read(given))
-            givens[given.name] = inputs[name] * float(scale) + rest if rest else inputs[name] * float(scale)
+            scale, rest = self._following(given)
+            givens[given.name] = inputs[name] * float(scale) + float(rest) if rest else inputs[name] * float(scale)
         for given in profile.givens.values():
             if given.follows in givens:
                 moved = float(given.value - profile.givens[given.follows].value)
@@ -395,28 +390,17 @@ class EquationSystem(Shown):
         return analyse(system) if is_known(system) else rank_of(system, self._symbols, self.jacobian)
 
     @cached_property
-    def _solved(self) -> tuple[Mapping[str, float], Solution] | None:
-        """The values of all unknowns, mm, and the solution, that the control takes."""
-        profile = self.profile
-        if not profile.start.is_known or not self.is_determined:
-            return None
-        if is_closed(self._system):
-            chosen = {choice.point for choice in profile.choices}
-            if not chosen.issuperset(points_with_two_solutions(self._system)):
-                return None
-            found = solve(profile)
-            scalars = {**scalars_of(found.points), **found.radii, **found.scalars}
-            return (scalars, found) if found.points else None
-        paths = [item for item in choose(find_alternatives(profile), profile.choices) if item.is_path]
-        meant = pick(paths, profile)[0] if profile.picks else paths
-        return (meant[0].scalars, meant[0].solution) if len(meant) == 1 else None
+    def _chosen(self) -> Chosen | None:
+        """The solution that the control takes."""
+        is_ready = self.profile.start.is_known and self.is_determined
+        return chosen_solution(self.profile) if is_ready else None
 
     def _unknown(self, name: str) -> SystemUnknown:
         thing, _, part = name.rpartition(".")
         meaning = f"{self.profile.plane.axes[int(part)]} of {thing}" if part.isdigit() else _MEANINGS.get(part, "")
         meaning = meaning.format(thing) or unknowns_text([name], self.profile)
         unit = "" if part in ("cos", "sin") else "mm"
-        value = self._solved[0].get(name) if self._solved else None
+        value = self._chosen.scalars.get(name) if self._chosen else None
         return SystemUnknown(self._symbols.scalar(name), meaning, unit, value, self._names[name])
 
     def _stated(self) -> list[Given]:
@@ -484,7 +468,7 @@ class EquationSystem(Shown):
         told = corner_equations(
             corner, self._system.figure, at, self._symbols.scalar(size), *(pairs[place] for place in CORNER_PLACES)
         )
-        solved = self._solved[1].corners.get(corner.name) if self._solved else None
+        solved = self._chosen.solution.corners.get(corner.name) if self._chosen else None
         shown = CORNER_PLACES if corner.shape is CornerShape.FILLET else CORNER_PLACES[:2]
         unknowns = []
         for place in shown:
@@ -506,12 +490,12 @@ class EquationSystem(Shown):
 
     def _turned(self) -> dict[Any, Any]:
         """The angles of lines whose direction is an unknown, by their symbols."""
-        solved = self._solved
-        if solved is None:
+        if self._chosen is None:
             return {}
+        scalars = self._chosen.scalars
         lines = self._system.figure.carriers
         return {
-            symbolic().symbol(self._names[line]): atan2(solved[0][f"{line}.sin"], solved[0][f"{line}.cos"])
+            symbolic().symbol(self._names[line]): atan2(scalars[f"{line}.sin"], scalars[f"{line}.cos"])
             for line in lines
         }
 
@@ -536,8 +520,16 @@ class EquationSystem(Shown):
             number = Decimal(repr(typed) if isinstance(typed, float) else str(typed))
         except InvalidOperation:
             raise ValueError(f"{typed!r} is no number") from None
-        scale = self._scale_of(given)
-        return number * scale + given.value - self._read(given)
+        scale, rest = self._following(given)
+        return number * scale + rest
+
+    def _following(self, given: Given) -> tuple[Decimal, Decimal]:
+        """The mm or degrees for each unit of the word that states a value, and what there is besides: it may count from
+        another one that stays, and of a size the sign may say something else."""
+        read, scale = self._read(given), self._scale_of(given)
+        if read and given.unit is Unit.MM and given.value == -read and given.name not in axes_of(self._system):
+            return -scale, Decimal(0)
+        return scale, given.value - read
 
     def _scale_of(self, given: Given) -> Decimal:
         """The mm (radius) or degrees of one unit of a word with a decimal point."""

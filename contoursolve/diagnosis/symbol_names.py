@@ -13,15 +13,19 @@ def symbol_names(claim: ParsedContour, profile: Profile, system: System) -> Mapp
     """The name of the symbol of every value and unknown of a system, by its name there: letters, digits and single
     underscores, each once.
 
-    A word goes by its letters, with the line where several have them (`A`, `A_2`); a coordinate by the axis and the
-    point (`Z_V1`); of a line whose direction is unknown, `c`, `s` and `d` are its cosine, its sine and its place.
+    A word goes by its letters, with the line where several have them (`A`, `A_2`), and `,R` beside R as `comma_R`; a
+    coordinate by the axis and the point (`Z_V1`); of a line whose direction is unknown, `c`, `s` and `d` are its
+    cosine, its sine and its place.
     """
     keys = word_keys(claim.words.values())
+    letters = {word.address for word in claim.words.values()}
     called: dict[str, str] = {}
     for name, given in profile.givens.items():
         is_word = given.word is not None and given.word.address != FACT
         key = keys.get(given.word.span, "") if is_word and given.word is not None else ""
         line, _, address = key.rpartition(":")
+        if address.startswith(",") and address[1:] in letters:
+            address = f"comma_{address[1:]}"
         called[name] = f"{address}_{line}" if line else address or name.rpartition(":")[2]
     axes, figure = profile.plane.axes, system.figure
     for point in (figure.start, *figure.points, *figure.places):

@@ -11,6 +11,10 @@ Rows = Sequence[Sequence[Any]]
 """Expressions and numbers by row and column."""
 
 
+STEPS = 8
+"""Of the inputs, from those whose unknowns are known."""
+
+
 def _matrix(rows: Rows) -> Any:
     """A dense matrix of CasADi; of no rows, one of none."""
     parts = [[each.sx if isinstance(each, Expression) else each for each in row] for row in rows]
@@ -45,18 +49,24 @@ def implicit_function(
     inputs: Mapping[str, Expression],
     unknowns: Sequence[Expression],
     residuals: Sequence[Expression],
-    guess: Sequence[float],
+    known: tuple[Sequence[float], Sequence[float]],
     outputs: Mapping[str, Rows],
 ) -> Any:
-    """The same where unknowns follow from residuals that are zero: by Newton's method from a guess on, with derivatives
-    by the implicit function theorem. `outputs` are of inputs and unknowns."""
+    """The same where unknowns follow from residuals that are zero: by Newton's method from `known` inputs and unknowns
+    on, in steps, so that it stays with the solution; with derivatives by the implicit function theorem. `outputs` are
+    of inputs and unknowns. Where it finds none, the residuals among them are not zero."""
     given, sought = _column([*inputs.values()]), _column(unknowns)
     equations = casadi.Function("equations", [sought, given], [_column(residuals)])
     # A square system of full rank: as fine as floats are.
-    finder = casadi.rootfinder("solution", "newton", equations, {"abstol": 1e-12, "abstolStep": 1e-12, "max_iter": 50})
+    finder = casadi.rootfinder(
+        "solution", "newton", equations, {"abstol": 1e-12, "abstolStep": 1e-12, "max_iter": 50, "error_on_fail": False}
+    )
     measure = casadi.Function("measure", [sought, given], [_matrix(rows) for rows in outputs.values()])
     scalars = [casadi.MX.sym(each) for each in inputs]
     values = casadi.vertcat(*scalars) if scalars else casadi.MX(0, 1)
-    found = measure(finder(casadi.DM([*guess]), values), values)
+    base, at = (casadi.MX(casadi.DM([*each])) for each in known)
+    for number in range(1, STEPS + 1):
+        at = finder(at, base + (values - base) * (number / STEPS))
+    found = measure(at, values)
     results = [found] if len(outputs) == 1 else list(found)
     return casadi.Function(name, scalars, results, [*inputs], [*outputs])

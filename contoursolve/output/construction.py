@@ -2,19 +2,23 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from contoursolve.diagnosis import Answer, fact_text, join, length_text, list_alternatives, unknowns_text
+from contoursolve.diagnosis import (
+    Answer,
+    chosen_solution,
+    fact_text,
+    join,
+    length_text,
+    list_alternatives,
+    unknowns_text,
+)
 from contoursolve.geometry import Profile, System, assemble
 from contoursolve.output.plain_text import printable
 from contoursolve.solving import (
     ARCS,
-    Alternatives,
     ConstructionStep,
     Group,
     analyse,
-    choose,
     is_searched,
-    scalars_of,
-    solve,
     spare_of,
     steps_of,
 )
@@ -42,7 +46,8 @@ def construction_lines(answer: Answer) -> list[str]:
     verdict = analyse(system)
     if not verdict.is_determined:
         return [f"  construction: still open: {unknowns_text(verdict.free, profile)}"]
-    scalars, sides = _found(answer)
+    chosen = chosen_solution(profile, list_alternatives(answer)) if answer.contour is not None else None
+    scalars, sides = (chosen.scalars, chosen.sides) if chosen is not None else ({}, {})
     lines = ["  construction:"]
     for number, group in enumerate(_joined(steps_of(system)), 1):
         facts = join(
@@ -58,26 +63,6 @@ def construction_lines(answer: Answer) -> list[str]:
         lines += [f"       -> {place}"] if place else []
     words = join([printable(word.text) for word in profile.words_of(spare_of(system))])
     return [*lines, f"    checked besides: {words}"] if words else lines
-
-
-def _found(answer: Answer) -> tuple[Mapping[str, float], Mapping[str, str]]:
-    """Values (mm) and sides of the contour that was solved; empty without one."""
-    if answer.contour is None:
-        return {}, {}
-    alternatives = list_alternatives(answer)
-    if alternatives is None:
-        solution = solve(answer.profile)
-        sides = {choice.point: choice.side.value for choice in answer.profile.choices}
-        return {**scalars_of(solution.points), **solution.radii}, sides
-    return _of_chosen(alternatives, answer.profile)
-
-
-def _of_chosen(alternatives: Alternatives, profile: Profile) -> tuple[Mapping[str, float], Mapping[str, str]]:
-    chosen = [item for item in choose(alternatives, profile.choices) if item.is_path]
-    if not chosen:
-        return {}, {}
-    differing = {key for key in chosen[0].sides if len({each.sides.get(key) for each in alternatives.items}) > 1}
-    return chosen[0].scalars, {key: side for key, side in chosen[0].sides.items() if key in differing}
 
 
 def _joined(steps: Iterable[ConstructionStep]) -> Iterator[Group]:

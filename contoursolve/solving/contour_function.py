@@ -55,10 +55,10 @@ def build_function(
     inputs: Mapping[str, Expression],
     typed: TypedValues,
     conditions: Callable[[Mapping[str, Any]], list[Any]],
-    guess: Mapping[str, float],
+    followed: tuple[Mapping[str, float], Mapping[str, float]],
 ) -> Any:
     """The function of `inputs` to the outputs that `EquationSystem.function` describes. `conditions` are made of the
-    values of unknowns, of the start and of givens; `guess` are the unknowns at the solution that it follows."""
+    values of unknowns, of the start and of givens; `followed` are inputs and unknowns of a solution."""
     system = assemble(profile)
     if is_closed(system):
         unknowns = _closed(profile, system, typed)
@@ -68,7 +68,9 @@ def build_function(
     residuals = _stated(system, {**known, **unknowns}, lambda fact, at: fact.equation(at), basis_of(system))
     outputs = _outputs(profile, system, typed, unknowns, conditions)
     sought = [unknowns[each] for each in system.unknowns]
-    return implicit_function(name, inputs, sought, residuals, [guess[each] for each in system.unknowns], outputs)
+    base, scalars = followed
+    begin = [base[each] for each in inputs], [scalars[each] for each in system.unknowns]
+    return implicit_function(name, inputs, sought, residuals, begin, outputs)
 
 
 def _stated(
