@@ -1,4 +1,5 @@
 from .block_template import (
+    Branches as Branches,
     RefusedError as RefusedError,
     Template as Template,
     called as called,

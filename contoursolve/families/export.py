@@ -151,7 +151,7 @@ class Family(Shown):
         path, and its `length`; mm, X of a lathe as radius. Raises FamilyError for a name that is none."""
         known = self._columns_by_result()
         column = known[find_result(name, known)]
-        values = self.columns[column] if column else lengths_of(self.columns, len(self))
+        values = self.columns[column] if column else lengths_of(self.columns)
         return numpy.where(self.has_contour, values.reshape(self.shape), numpy.nan)
 
     def measure_of(self, name: str) -> Measure:

@@ -45,10 +45,10 @@ def _key(name: str) -> str:
     return "".join(name.split()).lower()
 
 
-def lengths_of(columns: Columns, rows: int) -> Array:
-    """The lengths of paths, mm: what the corners leave of each element, and the corners, each chord or arc of which is
-    less than half a turn."""
-    total = numpy.zeros(rows)
+def lengths_of(columns: Columns) -> Array:
+    """The lengths of paths, mm, in the shape of the columns: what the corners leave of each element, and the corners,
+    each chord or arc of which is less than half a turn."""
+    total = numpy.zeros(next(iter(columns.values())).shape)
     for name, column in columns.items():
         if name.endswith(".room"):
             total += _without_gaps(column)

@@ -12,6 +12,7 @@ from msgspec import Struct
 
 from contoursolve.diagnosis import Answer
 from contoursolve.families import (
+    Branches,
     CompiledSweep,
     Family,
     Ranges,
@@ -78,6 +79,11 @@ class LiveMap:
     def __init__(self, record: Family | Region, result: str | None = None) -> None:
         if not isinstance(record, Family | Region):
             raise TypeError(f"a map is of a family over two words or of a region, not of {type(record).__name__}")
+        if record.spec.branches is not Branches.CHOSEN:
+            raise ValueError(
+                "a map to point at shows the solution that the words choose; "
+                "write the word that chooses, or draw the map with draw_family_map"
+            )
         self.plane: MapPlane = plane_of(record)
         self.spec = record.spec
         self.template: Template = record.spec.template()

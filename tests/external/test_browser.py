@@ -234,6 +234,22 @@ def test_a_map_answers_to_the_pointer_and_to_keys_without_a_kernel(browser, tmp_
         page.close()
 
 
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_page_of_a_map_is_accessible(axe, browser, tmp_path, scheme):
+    (tmp_path / "map.html").write_text(contoursolve.map_page(region_here(), "end.Z"), encoding="utf-8")
+    for width in (1240, 390):
+        watched = Watched(browser, viewport={"width": width, "height": 900}, color_scheme=scheme)
+        watched.page.goto((tmp_path / "map.html").as_uri())
+        assert axe(watched.page) == []
+        watched.page.locator(f"{MAP} .stage").focus()
+        for _ in range(40):
+            watched.page.keyboard.press("ArrowUp")
+        watched.page.locator(f"{MAP} .nothing").wait_for()
+        assert axe(watched.page) == []
+        watched.check()
+        watched.page.close()
+
+
 @pytest.mark.slow
 def test_in_jupyterlab_a_map_is_solved_where_the_pointer_is_and_opens_the_explorer(browser, tmp_path, artefacts):
     kind = {"cell_type": "code", "metadata": {}, "outputs": [], "execution_count": None, "id": "map"}

@@ -121,6 +121,24 @@ def test_a_map_of_a_result_says_what_it_shows_and_only_then_has_its_colours():
     assert "V2.X [mm, radius]" in draw_family_map(family, result="V2.X").title
 
 
+def test_each_solution_of_a_row_has_its_results_and_its_map():
+    free = CHAIN.replace("Q-1", "").replace("Q1", "")
+    vary = {"2:,A": numpy.linspace(150, 200, 5), ",R": numpy.linspace(1, 9, 4)}
+    family = contoursolve.family(free, vary=vary, branches="all")
+    lengths = family.result("length")
+    assert lengths.shape == (5, 4, len(family.solutions))
+    chosen = contoursolve.family(CHAIN, vary=vary).result("length")
+    is_made = numpy.isfinite(chosen)
+    assert is_made.any()
+    assert numpy.nanmin(numpy.abs(lengths - chosen[..., None])[is_made], axis=1).max() < 1e-9
+    for place, name in enumerate(family.solutions):
+        own = family.solution(name)
+        assert numpy.array_equal(own.result("length"), lengths[..., place], equal_nan=True)
+        assert "length [mm]" in draw_family_map(own, result="length").title
+        with pytest.raises(ValueError, match="write the word that chooses"):
+            contoursolve.explore_map(own)
+
+
 def test_an_unknown_result_is_refused_with_those_that_are_like_it():
     family = family_of("a taper", 4)
     for wrong, said in (
