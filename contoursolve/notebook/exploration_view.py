@@ -26,6 +26,7 @@ from contoursolve.output import (
     finding_pieces,
     form_text,
     found_value,
+    html_text,
     path_table,
     short,
     solution_rows,
@@ -349,12 +350,12 @@ def section_of(exploration: Exploration, name: str) -> str:
     make, lacking = _SECTIONS[name]
     answer = exploration.answer
     if answer is None:
-        return str(h.p["There is no contour."])
+        return html_text(h.p["There is no contour."])
     try:
         nodes = [*make(answer)]
     except Exception as error:  # what else is shown of the contour stays
-        return str(h.p[f"This cannot be shown: {type(error).__name__}: {error}"])
-    return str(h.div[nodes]) if nodes else str(h.p[lacking])
+        return html_text(h.p[f"This cannot be shown: {type(error).__name__}: {error}"])
+    return html_text(h.div[nodes] if nodes else h.p[lacking])
 
 
 def _equations(answer: Answer) -> Iterator[h.Node]:

@@ -159,8 +159,9 @@ function render({ model, el }) {
     make(
       "div",
       { class: "desk" },
-      make("div", { class: "sheet" }, drawing, make("div", { class: "block" }, text, copy, undo, redo, again, copied), path, ...[...sections.values()].map((each) => each.node)),
+      make("div", { class: "sheet" }, drawing, make("div", { class: "block" }, text, copy, undo, redo, again, copied)),
       make("div", { class: "panel" }, status, words, solutions, findings),
+      make("div", { class: "below" }, path, ...[...sections.values()].map((each) => each.node)),
     ),
   );
   const theme = make("div", {}, view);

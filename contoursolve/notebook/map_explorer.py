@@ -12,7 +12,7 @@ from contoursolve.notebook.exploration import Exploration, begin
 from contoursolve.notebook.explorer import Explorer
 from contoursolve.notebook.mime_bundle import text_of
 from contoursolve.notebook.records import bounded
-from contoursolve.output import LiveMap, map_element, map_path, map_script, map_style
+from contoursolve.output import LiveMap, html_text, map_element, map_path, map_script, map_style
 
 _LAST = "export default { render };"
 """The last line of the explorer's front end, in whose place that of the map stands."""
@@ -96,7 +96,7 @@ class MapExplorer(Explorer):
         data, metadata = super()._repr_mimebundle_(**options)
         shown = {
             "text/plain": bounded(text_of(self._record)),
-            "text/html": str(map_element(self._live)),
+            "text/html": html_text(map_element(self._live)),
             "image/svg+xml": self._live.picture.svg,
         }
         return {**data, **shown}, metadata

@@ -30,6 +30,7 @@ from contoursolve.output import (
     form_text,
     found_table,
     found_title,
+    html_text,
     listed,
     notebook_style,
     path_element,
@@ -69,7 +70,7 @@ MAP_WORDS = 2
 def html_of(record: Shown) -> str:
     """A record as one element with its style."""
     parts = next((parts for kind, parts in _PARTS.items() if isinstance(record, kind)), _text)
-    return str(h.div(".contoursolve")[h.style[Markup(notebook_style())], parts(record)])
+    return html_text(h.div(".contoursolve")[h.style[Markup(notebook_style())], parts(record)])
 
 
 def _text(record: Shown) -> Iterator[h.Node]:

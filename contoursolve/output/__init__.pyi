@@ -85,6 +85,7 @@ from .html import (
     checks_table as checks_table,
     figure as figure,
     finding_element as finding_element,
+    html_text as html_text,
     notebook_style as notebook_style,
     path_element as path_element,
     remarks as remarks,

@@ -29,6 +29,12 @@ WIDEST, LONGEST = 200, 400
 MOST_ROWS = 200
 """Rows of a table on a page."""
 
+
+def html_text(element: h.Element) -> str:
+    """An element as a plain `str`: marimo sends a subclass, which htpy makes, as an object."""
+    return str.__str__(str(element))
+
+
 # Tables ------------------------------------------------------------------------------------------------------
 
 

@@ -482,6 +482,25 @@ def test_without_a_kernel_the_picture_is_there(widget):
     assert any(b"corner 1" in picture for picture in pictures)
 
 
+def strings(data):
+    """All texts in plain data."""
+    if isinstance(data, str):
+        return [data]
+    items = [*data.keys(), *data.values()] if isinstance(data, dict) else data if isinstance(data, list | tuple) else []
+    return [text for each in items for text in strings(each)]
+
+
+def test_a_notebook_gets_plain_texts(widget):
+    """marimo sends a subclass of str, such as markupsafe's, as an object, and shows an error in its place."""
+    for number, name in enumerate(("equations", "calculation"), 1):
+        widget.action = {"do": "section", "name": name, "number": number}
+    shown = [widget._repr_mimebundle_()[0], widget.view, widget.sections]
+    shown += [each._repr_mimebundle_() for each in (widget.result, widget.answer, widget.answer.system)]
+    shown.append(contoursolve.solve("G111 X100. A180. K-30. B120. P60.", **START).diagnostics[0]._repr_mimebundle_())
+    assert {type(text) for each in shown for text in strings(each)} == {str}
+    assert sum("<table" in text for each in shown for text in strings(each)) > 4
+
+
 def test_without_a_picture_the_tables_are_there(widget, monkeypatch):
     monkeypatch.setattr("contoursolve.pictures.drawing.draw_answer", None)
     data, _ = widget._repr_mimebundle_()
