@@ -278,7 +278,8 @@ class EquationSystem(Shown):
         """The contour as a function of CasADi, for `map`, `jacobian`, `nlpsol` and whatever else that has.
 
         Inputs are the start point and the words with a value, a scalar each, by the names of their symbols and as they
-        are typed with a decimal point: X of a lathe as a diameter, inches in an inch program, degrees.
+        are typed with a decimal point: X of a lathe as a diameter, inches in an inch program, degrees. By name, one
+        that is left out has the value that it has in the block.
 
         Outputs, mm and X as radius, are matrices; `rows` has the names of their rows:
 

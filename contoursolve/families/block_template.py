@@ -204,6 +204,9 @@ def _only(address: str, words: Sequence[Word], where: str, line: str) -> Word:
         if len({word.span.line for word in same}) == len(same) > 1:
             which = " or ".join(call(word, words) for word in same)
             raise FamilyError(f"{where} has {len(same)} words {address}; write {which}")
+        beside = [each for each in words if each.address == f",{address}"]
+        if not same and len(beside) == 1:
+            raise FamilyError(f"{where} has no word {address}; write {call(beside[0], words)}")
         told = f"{len(same)} words {address}" if same else f"no word {address}"
         raise FamilyError(
             f"{where} has {told}{f' in program line {line}' if line else ''}; its words are {have or 'none'}"

@@ -28,7 +28,7 @@ from contoursolve.families.case_classes import CaseClass, results_of
 from contoursolve.families.errors import FamilyError, NotMovedError
 from contoursolve.families.isolate import VOID, Fineness, Signs
 from contoursolve.gcode import Word, read_directive
-from contoursolve.geometry import Figure, Length, Plane, Unit
+from contoursolve.geometry import Arc, Figure, Length, Plane, Unit
 from contoursolve.numeric import Array, Intervals
 from contoursolve.reading import Lexicon, ReadIssue, WithoutPoint
 from contoursolve.solving import Contour, Point, Status
@@ -108,7 +108,7 @@ def outputs_at(goal: Goal, branch: Branch) -> dict[str, tuple[int, float]] | Non
     """The outputs of a solution that are the coordinates of a goal, each with its axis and where it is wanted; None
     where it has no such point."""
     case, found = branch.case, dict[str, tuple[int, float]]()
-    results, point = results_of(case), end_name(case.system.figure) if goal.point == "end" else goal.point
+    results, point = results_of(case), point_name(goal.point, case.system.figure)
     for axis, wanted in enumerate(goal.place):
         name = f"{point}.{case.profile.plane.axes[axis]}"
         if wanted is not None and name not in results:
@@ -122,6 +122,23 @@ def points_of(case: CaseClass) -> list[str]:
     """The names of the points of a contour."""
     letter = "." + case.profile.plane.axes[0]
     return ["end", *(name.removesuffix(letter) for name in results_of(case) if name.endswith(letter))]
+
+
+def point_name(name: str, figure: Figure) -> str:
+    """The name that a family has for a point, such as `end`, or the begin, the end or the center of an element."""
+    if name == "end":
+        return end_name(figure)
+    own, _, part = name.rpartition(".")
+    element = next((each for each in figure.path if each.name == own), None)
+    if element is None:
+        return name
+    before = next((each.name for each in figure.corners if own in (each.after, each.lands_on)), "")
+    behind = next((each.name for each in figure.corners if each.before == own), "")
+    if part == "begin":
+        return f"{before}.end" if before else element.tail
+    if part == "end":
+        return f"{behind}.begin" if behind else element.head
+    return element.center if part == "center" and isinstance(element, Arc) else name
 
 
 class TargetCurve:

@@ -26,7 +26,7 @@ from contoursolve.families.goals import (
     read_goal,
 )
 from contoursolve.families.isolate import Zero, isolate
-from contoursolve.families.range_pieces import LEAST_GAP, RangePiece, RangeSearch, short
+from contoursolve.families.range_pieces import LEAST_GAP, NARROW, RangePiece, RangeSearch, short
 from contoursolve.families.sensitivities import slopes_of
 from contoursolve.gcode import FACT
 from contoursolve.geometry import FIRST, SECOND, Length, Plane, Unit, assemble
@@ -189,6 +189,13 @@ def _turned(angle: float, low: float, high: float) -> list[float]:
     return [angle + number * TURN for number in range(first, last + 1)]
 
 
+def _width_in(zero: Zero, piece: RangePiece) -> float:
+    """The width of what is not decided about a zero; of what lies at the end of a piece, nothing that is one value."""
+    low, high = max(zero.before, piece.low), min(zero.after, piece.high)
+    is_at_end = (zero.before, zero.after) != (low, high)
+    return 0.0 if is_at_end and high - low <= NARROW * max(1.0, abs(zero.value)) else zero.width
+
+
 class _Candidate(Struct, frozen=True):
     """A value that may meet the goal, how far from it the point may be all the same (mm), and why the list is not
     complete if it does not; empty where the value alone is in question, which a single solve decides."""
@@ -290,7 +297,7 @@ class _TargetSearch:
         is_inside, doubt = piece.low < zero.value < piece.high, ""
         if is_proven and is_inside:
             doubt = "there is a value, and single solves do not confirm it"
-        elif is_inside and zero.width > UNDECIDED * max(1.0, abs(zero.value)):
+        elif is_inside and _width_in(zero, piece) > UNDECIDED * max(1.0, abs(zero.value)):
             doubt = f"{self.goal.point} may be there, or comes as near as rounding can tell"
         give = ARRIVED
         if is_proven and not self.goal.is_nearest:

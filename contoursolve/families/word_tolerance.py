@@ -121,6 +121,7 @@ def tolerance_for(
     """
     if isinstance(within, bool) or not isinstance(within, (int, float)) or not 0 < within < inf:
         raise FamilyError(f"within is how far {keep} may move, a number above 0, not {within!r}")
+    keep = _ROOM.sub(r"straight part of \1", keep)
     spec = spec_of(block, (word,), **options)
     template = spec.template()
     check_block(template)
@@ -194,6 +195,9 @@ def _read_kept(text: str, answer: Answer) -> _Kept | None:
     place = (at[FIRST] if FIRST in axes else None, at[SECOND] if SECOND in axes else None)
     return _Kept(f"{name} {letter}".strip(), answer.unit.value, at, Goal(name, place), scale)
 
+
+_ROOM = re.compile(r"^\s*(line\s?\d*)\.room\s*$", re.IGNORECASE)
+"""The name that a family has for what the corners leave of a line."""
 
 _OF_FACTS = re.compile(r"\sof\s|^\s*angle\s", re.IGNORECASE)
 """Subjects of facts."""

@@ -38,10 +38,13 @@ def put_in(tape: Tape, names: Sequence[str], inputs: Mapping[str, Any]) -> dict[
     return {name: Expression(found[number]) for number, name in enumerate(names)}
 
 
-def closed_function(name: str, inputs: Mapping[str, Expression], outputs: Mapping[str, Rows]) -> Any:
-    """The function of scalars to matrices, in closed form."""
+def closed_function(
+    name: str, inputs: Mapping[str, Expression], known: Sequence[float], outputs: Mapping[str, Rows]
+) -> Any:
+    """The function of scalars to matrices, in closed form; an input that is left out is as it is `known`."""
     symbols = [each.sx for each in inputs.values()]
-    return casadi.Function(name, symbols, [_matrix(rows) for rows in outputs.values()], [*inputs], [*outputs])
+    results = [_matrix(rows) for rows in outputs.values()]
+    return casadi.Function(name, symbols, results, [*inputs], [*outputs], {"default_in": [*known]})
 
 
 def implicit_function(
@@ -69,4 +72,4 @@ def implicit_function(
         at = finder(at, base + (values - base) * (number / STEPS))
     found = measure(at, values)
     results = [found] if len(outputs) == 1 else list(found)
-    return casadi.Function(name, scalars, results, [*inputs], [*outputs])
+    return casadi.Function(name, scalars, results, [*inputs], [*outputs], {"default_in": [*known[0]]})

@@ -59,17 +59,17 @@ def build_function(
 ) -> Any:
     """The function of `inputs` to the outputs that `EquationSystem.function` describes. `conditions` are made of the
     values of unknowns, of the start and of givens; `followed` are inputs and unknowns of a solution."""
-    system = assemble(profile)
+    system, (base, scalars) = assemble(profile), followed
+    stated = [base[each] for each in inputs]
     if is_closed(system):
         unknowns = _closed(profile, system, typed)
-        return closed_function(name, inputs, _outputs(profile, system, typed, unknowns, conditions))
+        return closed_function(name, inputs, stated, _outputs(profile, system, typed, unknowns, conditions))
     unknowns = {each: symbol(each) for each in system.unknowns}
     known = _values(profile, system, typed, typed.start)
     residuals = _stated(system, {**known, **unknowns}, lambda fact, at: fact.equation(at), basis_of(system))
     outputs = _outputs(profile, system, typed, unknowns, conditions)
     sought = [unknowns[each] for each in system.unknowns]
-    base, scalars = followed
-    begin = [base[each] for each in inputs], [scalars[each] for each in system.unknowns]
+    begin = stated, [scalars[each] for each in system.unknowns]
     return implicit_function(name, inputs, sought, residuals, begin, outputs)
 
 

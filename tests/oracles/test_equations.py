@@ -289,6 +289,7 @@ def test_a_function_is_differentiated_and_optimised_by_casadi():
 
     system = contoursolve.system(SHAFT, start=START)
     function = system.function()
+    assert function(K=-20)["points"][0, 0] == -20 == function(**{**system.inputs, "K": -20})["points"][0, 0]
     inputs = {name: casadi.MX.sym(name) for name in function.name_in()}
     points = function(**inputs)["points"]
     slope = casadi.Function("slope", [*inputs.values()], [casadi.jacobian(points[0, 0], inputs["K"])])

@@ -113,6 +113,7 @@ def test_solutions_are_a_dimension_of_arrays_tables_and_executors():
     table = found.to_arrow()
     assert table.num_rows == found["status"].size
     assert table.column("solution").to_pylist()[:2] == list(found.solutions)
+    assert np.nanmin(found.result("length")) > 0
     paired = family(block, vary={word: [171.87, 165.0], "3:Y": [42.857, 40.0]}, paired=True, branches="all")
     assert paired["P1.X"].shape == (2, 2)
     assert "solutions: P1 nearer and P1 farther" in str(found)

@@ -507,6 +507,24 @@ def test_a_word_of_one_of_several_contours_has_a_tolerance_of_its_own():
         tolerance_for(program, "1:X", keep="V1 Z", within=0.01)
 
 
+def test_places_of_elements_are_those_of_the_points_and_corners_that_end_them():
+    block, options = "G01 Z-30. ,R5.\nX60. ,A150.\nZ-80.", {"start": START, "control": "fanuc-lathe"}
+    for one, other in (
+        ("line 2.end Z", "N2 Z"),
+        ("line 1.end Z", "corner 1.begin Z"),
+        ("line 2.begin X", "corner 1.end X"),
+    ):
+        found = [tolerance_for(block, ",A", keep=each, within=0.01, **options) for each in (one, other)]
+        assert (found[0].low.value, found[0].high.value) == (found[1].low.value, found[1].high.value)
+        assert found[0].is_complete
+    room = tolerance_for(block, ",A", keep="line 2.room", within=0.01, **options)
+    assert room.kept == "straight part of line 2"
+    # At 179 degrees a rounding is left out: what jumps there is no value in doubt.
+    assert find_word(block, ",A", "corner 1.end Z-40.", **options).is_complete
+    with pytest.raises(FamilyError, match="the block has no word A; write ,A"):
+        tolerance_for(block, "A", keep="N2 Z", within=0.01, **options)
+
+
 def test_lengths_and_directions_are_kept_as_facts_name_them():
     length = tolerance_for(BLOCK, "A", keep="length of line 2", within=0.01, start=START)
     direction = tolerance_for(BLOCK, "B", keep="direction of line 2", within=0.1, start=START)
