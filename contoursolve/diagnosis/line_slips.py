@@ -1,6 +1,6 @@
 """Findings about a block outside contours, with what it was probably meant to be."""
 
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterator, Sequence, Set
 
 from msgspec.structs import replace
 
@@ -12,12 +12,10 @@ from contoursolve.diagnosis.slip_kinds import FEW, LETTER_ALIKE, SlipKind
 from contoursolve.diagnosis.slips_around import MOST_TRIED, Candidate, Marked, drafts_around, is_lasting, touches
 from contoursolve.diagnosis.window import Seen, Window
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, Severity, Span
-from contoursolve.gcode import Block, Word
-from contoursolve.reading import Code, ReadIssue
+from contoursolve.gcode import Word
+from contoursolve.reading import ReadIssue, doubtful_words
 
 MOST_FIXES = 3
-_WHOLE_NUMBERS = "STMHD"
-"""Addresses of numbers that have no decimal point."""
 
 
 def mend_line(context: Context, findings: Sequence[Diagnostic], window: Window) -> Iterator[Diagnostic]:
@@ -33,24 +31,14 @@ def mend_line(context: Context, findings: Sequence[Diagnostic], window: Window) 
         yield _mended(context, each, findings, window) if each is open_ else each
     if findings:
         return
-    for word in _doubtful(block, window):
+    for word, reason in doubtful_words(block, window.dialect.modes):
         marked = Marked(frozenset({word.span}), frozenset({block.line}))
         fixes = [fix for fix, seen in _tried(window, marked, (LETTER_ALIKE,), word) if _is_joined(window, seen)]
         if fixes:
-            about = ReadIssue.CODE_MISTYPED if word.address == "G" else ReadIssue.SUSPECTED
+            about = ReadIssue.SUSPECTED if reason else ReadIssue.CODE_MISTYPED
             meant = fixes[0].description.split()[1]
-            reason = "its number has no decimal point"
             finding = report(context, about, Basis.RULE, [word], meant=meant, reason=reason)
             yield replace(finding, fixes=tuple(fixes[:MOST_FIXES]))
-
-
-def _is_odd(word: Word, codes: Mapping[int, Code]) -> bool:
-    is_code = word.address == "G" and word.number is not None and word.number not in codes
-    return is_code or (word.address in _WHOLE_NUMBERS and word.has_point and word.number is not None)
-
-
-def _doubtful(block: Block, window: Window) -> Iterator[Word]:
-    yield from (word for word in block.words if _is_odd(word, window.dialect.modes.codes))
 
 
 def _is_joined(window: Window, seen: Seen) -> bool:

@@ -46,6 +46,7 @@ from contoursolve.reading import (
     State,
     apply_modes,
     codes_of,
+    doubtful_words,
 )
 
 NEAR = 8
@@ -252,7 +253,7 @@ def with_slips(
     own = [each for each in found if each.span.line == block.line]
     is_open = any(each.severity is not Severity.INFO for each in own) and not any(each.fixes for each in own)
     is_near = is_open and (any(map(_may_draw, blocks[:NEAR], repeat(dialect))) or _is_like_contour(block, modes))
-    if is_near or (not own and any(_is_doubtful(word, modes) for word in block.words)):
+    if is_near or (not own and any(doubtful_words(block, modes))):
         from contoursolve.diagnosis import mend_line  # noqa: PLC0415 - few programs need it
 
         window = window_of(ahead, (block,), blocks[1:NEAR], states[0], dialect, parts)
@@ -275,17 +276,6 @@ def _may_draw(block: Block, dialect: Dialect) -> bool:
     """Whether a block has, or almost has, a word by which contours are known."""
     is_long = any(len(word.address) > 1 for word in block.words) or "," in block.text
     return is_long or bool(dialect.signs(block))
-
-
-_WHOLE_NUMBERS = "STMHD"
-"""Addresses of numbers that have no decimal point."""
-
-
-def _is_doubtful(word: Word, modes: Modes) -> bool:
-    """Whether a word is a code that the control has not, or a number with a point where none belongs."""
-    if word.address == "G":
-        return word.number is not None and word.number not in modes.codes
-    return word.address in _WHOLE_NUMBERS and word.has_point
 
 
 def with_letters(

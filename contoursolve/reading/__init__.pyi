@@ -26,6 +26,7 @@ from .dialect import (
     Dialect as Dialect,
     Taken as Taken,
 )
+from .doubtful_words import doubtful_words as doubtful_words
 from .follow import (
     ContourBlock as ContourBlock,
     End as End,
