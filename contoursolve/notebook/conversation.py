@@ -14,6 +14,7 @@ from contoursolve.notebook.exploration_view import (
     section_of,
     view_of,
 )
+from contoursolve.notebook.reader_edits import ReaderEdits, is_calm
 
 _CHANGES: Mapping[str, Callable[[Exploration, Data], Exploration]] = {
     "move": lambda now, action: explorations.set_words(now, action["values"]),
@@ -54,7 +55,7 @@ class Conversation:
         """The handle that is held, with the words that it changes."""
         self._solved = exploration
         """The contour as it was last solved."""
-        self._calm = exploration if explorations.is_calm(exploration) else None
+        self._edits = ReaderEdits(exploration) if is_calm(exploration) else None
         """The contour as it was when nothing was found about it."""
         self._drawn = picture_of(exploration.answer) if exploration.answer else None
         self.state: Data = {"view": self._viewed(is_new=True), "ranges": {}, "ghost": {}, "sections": {}, "number": 0}
@@ -116,7 +117,10 @@ class Conversation:
         kind, is_held = action["do"], bool(action.get("is_held"))
         self._handle = action.get("handle", {}) if is_held else {}
         answer = self.exploration.answer
-        self._calm = self.exploration if explorations.is_calm(self.exploration) else self._calm
+        if is_calm(self.exploration):
+            self._edits = ReaderEdits(self.exploration)
+        if self._edits is not None and kind in _CHANGES:
+            self._edits = ReaderEdits(self._edits.calm, is_pulled=is_held)
         self._solved = self.exploration if answer is not None and answer.contour is not None else self._solved
         self._drawn = picture_of(answer, self._drawn if is_held else None) if answer else None
         asks: list[Data] = []
@@ -166,7 +170,7 @@ class Conversation:
         return {"ghost": {**of, "text": instead.block, "paths": ghost_of(shown, now, self._drawn)}}
 
     def _viewed(self, *, is_new: bool = False) -> Data:
-        view = view_of(self.exploration, self._drawn, self._pinned, self._handle, self._calm)
+        view = view_of(self.exploration, self._drawn, self._pinned, self._handle, self._edits)
         return {
             **view,
             "trouble": "",

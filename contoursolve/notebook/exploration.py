@@ -1,6 +1,5 @@
 """A contour that is being explored: the block's text, and every way to change it. Nothing here knows a notebook."""
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal, InvalidOperation
 from itertools import islice, product
@@ -22,7 +21,7 @@ from contoursolve.diagnosis import (
     word_keys,
     write_word,
 )
-from contoursolve.diagnostics import Diagnostic, Fix, Severity
+from contoursolve.diagnostics import Diagnostic
 from contoursolve.gcode import FACT, Word, number_of, parse, spell, split_lines
 from contoursolve.geometry import Pick, Unit
 from contoursolve.notebook.block_place import BlockPlace
@@ -255,37 +254,6 @@ def apply_fix(exploration: Exploration, finding: int, number: int, *, is_example
         fix = replace(fix, replacement=fix.example or fix.replacement)
     old = {block.line: block.text for block in result.program.blocks}
     return _changed(exploration, changes_of(fix, result.lines_of(findings[finding]), old))
-
-
-Typed = tuple[int, str]
-"""The line of a word, and its text."""
-
-
-def changed_by(exploration: Exploration, finding: Diagnostic, fix: Fix) -> tuple[list[Typed], list[Typed]]:
-    """The words that a fix takes out, and those that it writes."""
-    result = exploration.result
-    old = {block.line: block.text for block in result.program.blocks}
-    syntax, taken, written = result.program.syntax, list[Typed](), list[Typed]()
-    for line, new in changes_of(fix, result.lines_of(finding), old).items():
-        before, after = (
-            Counter(word.text for block in parse(text, syntax=syntax).blocks for word in block.words)
-            for text in (old[line], new or "")
-        )
-        taken += [(line, text) for text in before - after]
-        written += [(line, text) for text in after - before]
-    return taken, written
-
-
-def is_calm(exploration: Exploration) -> bool:
-    """Whether a contour is solved, and neither an error nor a warning is found."""
-    answer = exploration.answer
-    is_solved = answer is not None and answer.contour is not None
-    return is_solved and all(each.severity is Severity.INFO for _, each in exploration.findings)
-
-
-def typed_words(exploration: Exploration) -> set[Typed]:
-    """The words of the program."""
-    return {(block.line, word.text) for block in exploration.result.program.blocks for word in block.words}
 
 
 def select(exploration: Exploration, number: int) -> Exploration:

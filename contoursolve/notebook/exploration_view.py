@@ -1,6 +1,6 @@
 """An exploration as plain data: what a front end shows, and where on its slider each word has a contour."""
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from decimal import Decimal
 from math import floor, log10
 from typing import Any
@@ -15,9 +15,10 @@ from contoursolve.diagnostics import Applicability, Diagnostic
 from contoursolve.families import End, FamilyError, Feasible, Way, called, feasible
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Question, Unit
-from contoursolve.notebook.exploration import Exploration, Typed, changed_by, free, is_movable, typed_words, words_of
+from contoursolve.notebook.exploration import Exploration, free, is_movable, words_of
 from contoursolve.notebook.handles import Handle, HandleKind, derivatives_of, handles_of, moving_of
 from contoursolve.notebook.range_text import range_texts
+from contoursolve.notebook.reader_edits import MOST_FIXES, ArrangedFix, ReaderEdits, arranged
 from contoursolve.notebook.standing_alone import standing_alone
 from contoursolve.output import (
     bounded,
@@ -47,10 +48,7 @@ from contoursolve.pictures import (
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import Point, lookup, scalars_of
 
-MOST_FINDINGS, MOST_FIXES, MOST_SOLUTIONS = 12, 8, 24
-
-NEAR = 4
-"""Fixes of a finding that are hardly less plausible than the first."""
+MOST_FINDINGS, MOST_SOLUTIONS = 12, 24
 
 TURN = 90.0
 """Degrees on both sides of an angle that its slider covers."""
@@ -69,10 +67,10 @@ def view_of(
     drawn: Picture | None = None,
     pinned: Collection[str] = (),
     held: Mapping[str, Sequence[str]] | None = None,
-    calm: Exploration | None = None,
+    edits: ReaderEdits | None = None,
 ) -> Data:
     """Everything that is shown but the ranges in which words have a contour; with a picture that is drawn already, the
-    words that no handle changes, those of a handle that is held, and the contour when nothing was found about it."""
+    words that no handle changes, those of a handle that is held, and what the reader has changed."""
     answer = exploration.answer
     drawn = drawn if drawn is not None or answer is None else picture_of(answer)
     motion = derivatives_of(answer) if answer is not None and drawn is not None else None
@@ -88,7 +86,7 @@ def view_of(
         "handles": [_handle(handle) for handle in handles],
         "elements": to_builtins(moving_of(motion, drawn, moved)) if motion is not None and drawn is not None else [],
         "fields": list(_fields(answer, pinned)) if answer else [],
-        "findings": list(_findings(exploration, calm)),
+        "findings": list(_findings(exploration, edits)),
         "elsewhere": _elsewhere(exploration),
         "solutions": _solutions(answer) if answer else {"text": "", "items": []},
         "path": _path(answer) if answer else [],
@@ -186,7 +184,7 @@ def _round_up(size: float) -> float:
     return next(power * each for each in (1.0, 2.0, 5.0, 10.0) if power * each >= size)
 
 
-def _findings(exploration: Exploration, calm: Exploration | None) -> Iterator[Data]:
+def _findings(exploration: Exploration, edits: ReaderEdits | None) -> Iterator[Data]:
     """Findings as the terminal prints them, each with its fixes."""
     result, answer = exploration.result, exploration.answer
     names = named_words(answer) if answer is not None else {}
@@ -200,45 +198,23 @@ def _findings(exploration: Exploration, calm: Exploration | None) -> Iterator[Da
             "name": numbers.get(id(finding), ""),
             "words": list(dict.fromkeys(about.word for about in named if about.word)),
             "lines": [[list(piece) for piece in bounded(line)] for line in lines if line],
-            "fixes": _fixes(exploration, number, finding, calm),
+            "fixes": [_fix(number, each, finding) for each in arranged(exploration, finding, edits)],
             "left": f"and {count(left, 'more fix', 'more fixes')}"
             if (left := len(finding.fixes) - MOST_FIXES) > 0
             else "",
         }
 
 
-def _fixes(exploration: Exploration, number: int, finding: Diagnostic, calm: Exploration | None) -> list[Data]:
-    """The fixes of a finding. Each says which words it changes that the reader has left alone since nothing was found;
-    among the first ones, one that changes only what the reader has changed is the first."""
-    old, now = (typed_words(each) if each is not None else set() for each in (calm, exploration))
-    # Where lines came in or went, the text alone tells words apart.
-    is_by_line = calm is not None and len(calm.result.program.blocks) == len(exploration.result.program.blocks)
-
-    def known(words: Iterable[Typed]) -> set[Typed]:
-        return {(line if is_by_line else 0, text) for line, text in words}
-
-    typed = known(old)
-    is_edited = calm is not None and not known(now) <= typed
-    shown, own = list[Data](), list[tuple[bool, int]]()
-    for place, fix in enumerate(finding.fixes[:MOST_FIXES]):
-        words, written = changed_by(exploration, finding, fix) if is_edited else ([], [])
-        alone = [word[1] for word in words if known([word]) <= typed]
-        shown.append(
-            {
-                "finding": number,
-                "number": place,
-                "text": short(fix.description),
-                "effect": effect_of(fix, finding),
-                "alone": short(f"changes {join(alone)}, which you left alone") if alone else "",
-                "is_safe": fix.applicability is Applicability.SAFE,
-            }
-        )
-        is_whole = len(words) == len(written) and fix.applicability is not Applicability.PLACEHOLDER
-        if words and not alone and is_whole and place < NEAR:
-            own.append((not known(written) <= typed, place))  # what takes it back comes before what changes it again
-    if own and not shown[0]["is_safe"]:
-        shown.insert(0, shown.pop(min(own)[1]))
-    return shown
+def _fix(finding: int, arranged: ArrangedFix, told: Diagnostic) -> Data:
+    fix, alone = arranged.fix, arranged.alone
+    return {
+        "finding": finding,
+        "number": arranged.number,
+        "text": short(fix.description),
+        "effect": effect_of(fix, told),
+        "alone": short(f"changes {join(alone)}, which you left alone") if alone else "",
+        "is_safe": fix.applicability is Applicability.SAFE,
+    }
 
 
 def _elsewhere(exploration: Exploration) -> str:

@@ -603,6 +603,14 @@ def test_what_the_reader_has_just_changed_is_the_first_to_be_changed_again(key, 
     assert talk.exploration.answer.contour is not None
 
 
+def test_a_number_that_was_pulled_is_no_slip_of_a_typist():
+    for is_held, wanted in ((True, "write P51.961 for P60."), (False, "write P6. for P60. (a zero too many)")):
+        talk = Conversation(explore.begin(WHOLE, **START))
+        talk.answer({"do": "move", "values": {"P": 60}, "is_held": is_held, "number": 1})
+        talk.answer({"do": "release", "number": 2})
+        assert talk.state["view"]["findings"][0]["fixes"][0]["text"].startswith(wanted)
+
+
 def test_a_fix_of_a_word_that_was_left_alone_says_so():
     text = (PROGRAMS / "shaft.nc").read_text()
     _, (only,) = fixes_after(text, {"Z": -60}, line=69)
