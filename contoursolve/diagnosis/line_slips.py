@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence, Set
 from msgspec.structs import replace
 
 from contoursolve.diagnosis.edits import signed
+from contoursolve.diagnosis.examine import SUSPICIONS
 from contoursolve.diagnosis.explain import Context, report, spans_of
 from contoursolve.diagnosis.fix_text import told
 from contoursolve.diagnosis.plausibility import oddities, total
@@ -31,7 +32,10 @@ def mend_line(context: Context, findings: Sequence[Diagnostic], window: Window) 
         yield _mended(context, each, findings, window) if each is open_ else each
     if findings:
         return
+    is_quiet = window.dialect.modes.settings.get(SUSPICIONS) == "off"
     for word, reason in doubtful_words(block, window.dialect.modes):
+        if reason and is_quiet:
+            continue
         marked = Marked(frozenset({word.span}), frozenset({block.line}))
         fixes = [fix for fix, seen in _tried(window, marked, (LETTER_ALIKE,), word) if _is_joined(window, seen)]
         if fixes:
