@@ -23,7 +23,7 @@ FIXES = [
         5,
         "add #CHR=2 to program line 5",
     ),
-    ("isg", "G17 G90\nG0 X0 Y0\nG1 X70 F400\nG310 I5\nG1 Y45 #CHR=2\nX0", 4, "write G301 for G310"),
+    ("isg", "G17 G90\nG0 X0 Y0\nG1 X70 F400\nG302 I2\nG1 Y45\nG310 I5\nX10", 6, "write G301 for G310"),
     ("siemens-840d", CONES, 8, "write ANG=150 for ANG=120"),
     (
         "yasnac-lx3",
