@@ -55,7 +55,7 @@ def explore_map(found: Family | Region, result: str | None = None) -> "MapExplor
     `result` colours the map, as for `draw_family_map`. Without a kernel, as in exported HTML, the map still answers: it
     holds at most 1,000 contours, and tells where they are. The traits are those of `explore`.
 
-    Raises ValueError for a family that is no grid of two words, FamilyError for a result that is none,
+    Raises ValueError for a family that is no grid of two words, and FamilyError for a result that is none. Raises
     MissingExtraError without the packages of `contoursolve[notebook]`.
     """
     with importing("notebook", "exploring a map"):

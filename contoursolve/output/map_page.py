@@ -65,11 +65,11 @@ def map_element(live: LiveMap, *, is_inline: bool = False) -> h.Element:
 
 
 def map_page(record: Family | Region, result: str | None = None, *, version: str = "") -> str:
-    """A page of HTML with the map of a family over two words, or of a region, that answers to the pointer and to arrow
-    keys: it draws the contour there, and tells its values. `result` colours it, as for `draw_family_map`.
+    """A page of HTML with the map of a family over two words, or of a region. Pointer and arrow keys choose values, and
+    the page draws their contour. `result` colours the map, as for `draw_family_map`.
 
     The page asks no other host for anything. It holds at most 1,000 contours, and 400 kB of them; it says where they
-    are. Raises ValueError for a family that is no grid of two words, FamilyError for a result that is none,
+    are. Raises ValueError for a family that is no grid of two words, and FamilyError for a result that is none. Raises
     MissingExtraError without the package of `contoursolve[report]`.
     """
     live = LiveMap(record, result)
