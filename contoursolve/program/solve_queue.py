@@ -144,6 +144,8 @@ class Queue:
             if behind:
                 told = replace(told, diagnostics=(*told.diagnostics, *self.mend(told, behind, each)))
             each.step = Step(step.blocks, step.before, told, step.findings)
+            # Who waits for its end would keep all that was before it.
+            each.ahead = ()
 
     def _check_on(self, each: Pending, answer: Answer) -> tuple[Answer, Answer]:
         """The answer to a contour whose start is not known, with what is found if it begins where the best fix of the
