@@ -33,8 +33,9 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     are what it comes to, and can be observed. Without a kernel the notebook shows the picture as it last was.
     Numbers take the place of variables, and the words that hold them have the sliders.
 
-    Raises FamilyError for a variable without a value, MissingExtraError without the packages of
-    `contoursolve[notebook]`, ValueError for several contours without `line`, and for a line that belongs to none.
+    Raises FamilyError for a variable without a value, and MissingExtraError without the packages of
+    `contoursolve[notebook]`. Raises ValueError for several contours without `line`, and for a line that belongs to
+    none.
     """
     with importing("notebook", "exploring a contour"):
         from contoursolve.notebook.explorer import Explorer  # noqa: PLC0415 - needs an extra
