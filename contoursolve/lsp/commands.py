@@ -121,10 +121,14 @@ def notebook_of(opened: Opened | None, line: int) -> Reply:
     if not answer.start.is_known:
         return {"notebook": None, "message": "the start point of this contour is not known"}
     dialect = opened.program.dialect
-    options = {"control": dialect.name, "units": answer.unit.value, "settings": dict(dialect.modes.settings)}
+    options: dict[str, Any] = {
+        "control": dialect.name,
+        "units": answer.unit.value,
+        "settings": dict(dialect.modes.settings),
+    }
     text = standing_alone(answer, control=dialect, units=answer.unit.value, settings=dialect.modes.settings)
-    if not text:
-        return {"notebook": None, "message": "this contour rests on lines before it, and cannot stand alone"}
+    if not text:  # it rests on lines before it: they come along
+        text, options = opened.program.text, {"line": line + 1, **options}
     told = "".join(f", {name}={value!r}" for name, value in options.items() if value)
     code = f"import contoursolve\n\ncontoursolve.explore({text!r}{told})"
     cell: dict[str, object] = {

@@ -146,6 +146,10 @@ def _solved(exploration: Exploration, text: str, place: BlockPlace | None) -> Ex
 
 def _with_result(exploration: Exploration, text: str, place: BlockPlace | None, result: Result) -> Exploration:
     now = replace(exploration, text=text, place=place, result=result)
+    if place is not None and now.answer is not None:  # a contour may take in the lines beside it
+        lines, count = now.answer.lines, len(result.program.blocks)
+        widened = BlockPlace(min(place.before, lines[0] - 1), min(place.behind, count - lines[-1]))
+        now = replace(now, place=widened)
     words = words_of(now.answer) if now.answer is not None else {}
     return replace(now, last={key: old for key, old in now.last.items() if key in words and words[key].is_asked})
 

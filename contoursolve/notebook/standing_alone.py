@@ -2,16 +2,20 @@
 
 from collections.abc import Mapping
 from decimal import Decimal
+from math import dist
 
 from contoursolve.api import solve
 from contoursolve.diagnosis import Answer
-from contoursolve.output import end_text, start_text
+from contoursolve.output import start_text
 from contoursolve.program import configure, find_dialect
 from contoursolve.reading import Dialect
 
 _ABSOLUTE, _ON_THE_PATH = 90, 40
 
 _EXACT = Decimal("1e-9")
+
+_ROUNDED = 0.005
+"""mm. What the rounding of a start point may move the end."""
 
 
 def standing_alone(
@@ -47,14 +51,21 @@ def standing_alone(
     is_switched = _ABSOLUTE in codes and codes[_ABSOLUTE].effect.value == "absolute"
     is_beside = state.compensation != _ON_THE_PATH and state.compensation in codes
     compensated = [codes[state.compensation].text] if is_beside else []
-    modes = [*selected[:1], *(["G90"] if is_switched else []), *compensated]
+    counting = [code.text for code in codes.values() if code.diameter is not None and code.diameter is state.diameter]
+    modes = [*selected[:1], *(["G90"] if is_switched else []), *counting[:1], *compensated]
     motion = f"G{state.motion:02}" if state.motion else ""
     begin = " ".join((*modes, "G00", _exact_start(answer) if is_exact else start_text(answer)))
     forced = " ".join(filter(None, ("G91" if is_switched and state.is_incremental else "", motion)))
     text = "\n".join((begin, *([forced] if forced else []), *(block.text.strip() for block in answer.claim.blocks)))
     found = solve(text, control=control, units=units, rules=rules, settings=settings).answers
-    is_same = len(found) == 1 and (found[0].status, end_text(found[0])) == (answer.status, end_text(answer))
-    return text if is_same else ""
+    return text if len(found) == 1 and _is_same(found[0], answer) else ""
+
+
+def _is_same(one: Answer, other: Answer) -> bool:
+    """Whether two contours end at the same place, to the rounding of the start point, or neither is one."""
+    if one.status is not other.status or one.contour is None or other.contour is None:
+        return one.status is other.status and one.contour is other.contour
+    return dist(one.contour.end, other.contour.end) < _ROUNDED
 
 
 def _exact_start(answer: Answer) -> str:

@@ -14,6 +14,8 @@ import contoursolve
 from contoursolve import DIALECTS, Severity, end_text, solve
 from contoursolve.gcode import split_lines
 
+RIGHT = Path(__file__).parents[1] / "slips" / "right.json"
+
 PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
 BROKEN = (PROGRAMS / "shaft_broken.nc").read_text()
 SHAFT = "file:///programs/shaft.nc"
@@ -340,6 +342,24 @@ def test_a_notebook_explores_the_contour_with_the_modal_codes_before_it(served):
         (answer,) = solve(eval(text), **options).answers
         (wanted,) = solve(INCREMENTAL, control="fanuc-mill").answers
         assert end_text(answer) == end_text(wanted) == "X5.00000 Y6.00000"
+
+    served(use)
+
+
+WITH_A_POLE = "\n".join(
+    next(each for each in json.loads(RIGHT.read_text(encoding="utf-8")) if each["id"] == "right-042")["lines"]
+)
+
+
+def test_a_notebook_has_all_of_the_program_where_a_contour_cannot_stand_alone(served):
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, WITH_A_POLE)
+        found = await run(editor, "explore", SHAFT, 5)
+        code = json.loads(found["notebook"])["cells"][0]["source"]
+        text, told = re.search(r"explore\(('.*?'), (.*)\)", code, re.DOTALL).groups()
+        explorer = contoursolve.explore(eval(text), **eval(f"dict({told})"))
+        assert (explorer.answer.lines, explorer.view["status"]["text"]) == (tuple(range(4, 10)), "solved")
+        assert explorer.text == WITH_A_POLE
 
     served(use)
 
