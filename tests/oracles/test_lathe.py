@@ -419,8 +419,10 @@ def test_the_fix_for_a_forgotten_code_is_the_block_with_it_and_only_if_that_is_a
     start = "G00 X40. Z0.\nG111 X100. A180. K-30. B120.\n"
     (finding,) = solve(start + "N5 X160. A180. K-30. B120.").diagnostics
     (fix,) = finding.fixes
-    assert fix.replacement == "N5 G111 X160. A180. K-30. B120."
-    assert codes(solve(start + fix.replacement)) == []
+    (behind,) = fix.beside
+    assert (fix.replacement, behind.span.line) == (fix.replaced, 3)
+    assert behind.text == "N5 G111 X160. A180. K-30. B120."
+    assert codes(solve(start + behind.text)) == []
     (finding,) = solve(start + "X160. B120.").diagnostics
     assert (finding.code, finding.fixes) == ("g111-forgotten", ())
 
@@ -531,4 +533,4 @@ def test_a_forgotten_code_is_the_first_fix_and_no_help_tells_to_delete_what_it_r
     assert [each.help for each in unknown] == ["add G111", "add G111"]
     assert unknown[0].fixes[0].replacement == "G111 X160. A180. K-30. B120."
     behind = next(each for each in result.diagnostics if each.code == "g111-forgotten")
-    assert behind.fixes[0].replacement == unknown[0].fixes[0].replacement
+    assert behind.fixes[0].beside[0].text == unknown[0].fixes[0].replacement
