@@ -30,6 +30,7 @@ from contoursolve.solving.alternatives import find_alternatives
 from contoursolve.solving.ambiguity import restrict, settle
 from contoursolve.solving.determinacy import analyse
 from contoursolve.solving.events import Status
+from contoursolve.solving.numbers import sizes_of
 from contoursolve.solving.picks import Alternatives
 from contoursolve.solving.solution import Point
 from contoursolve.tolerance import LENGTH
@@ -110,7 +111,7 @@ def place_cuts(profile: Profile, open_: Sequence[str]) -> tuple[Profile, tuple[s
 
     A cut is free if it may be put in several places between its neighbours, and no other point moves.
     """
-    found = _cuts(profile, open_) if profile.start.is_known else None
+    found = _cuts(profile, open_) if profile.start.is_known and not _has_open_corner(profile) else None
     if found is None:
         return profile, ()
     cuts, known = found
@@ -130,6 +131,12 @@ def place_cuts(profile: Profile, open_: Sequence[str]) -> tuple[Profile, tuple[s
         if not _is_path(placed, places, known):
             return profile, ()
     return placed, tuple(cuts)
+
+
+def _has_open_corner(profile: Profile) -> bool:
+    """Whether nothing states, or asks for by a fact, how large a corner is."""
+    sizes, unknowns = sizes_of(profile), assemble(profile).unknowns
+    return any(each.size not in sizes and f"{each.name}.radius" not in unknowns for each in profile.figure.corners)
 
 
 def _cuts(profile: Profile, open_: Sequence[str]) -> tuple[list[str], Mapping[str, float]] | None:

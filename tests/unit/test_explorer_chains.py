@@ -166,3 +166,19 @@ def test_whatever_the_reader_does_goes_without_trouble(text, times):
         # A fix may delete the only corner between plain moves, which leaves no contour.
         is_left = any(word in talk.exploration.text for word in ("FL", "FC", "FPOL", "RND", "CHF", "CT"))
         assert view["picture"] or not is_left, action
+
+
+def test_a_corner_whose_size_is_freed_beside_points_that_are_open_is_told():
+    """A path whose corner has no size cannot be measured: no other point is tried as a cut."""
+    text = (
+        "0 BEGIN PGM HEART MM\n1 L X+0 Y-40 RR F300\n2 FL X+35 Y+5\n3 RND R6\n4 FL X+20 Y+30\n5 RND R8\n"
+        "6 FL X+0 Y+15\n7 FL X-20 Y+30\n8 RND R8\n9 FL X-35 Y+5\n10 RND R6\n11 FL X+0 Y-40\n12 L Y-60 R0 FMAX\n"
+        "13 END PGM HEART MM"
+    )
+    now = begin(text)
+    corners = [key for key, word in explore.words_of(now.answer).items() if word.text.endswith("R6")]
+    assert len(corners) == 2
+    for key in corners:
+        freed = explore.free(now, key)
+        assert "open" in freed.result.diagnostics[0].message
+        assert explore.free(freed, key).text == text
