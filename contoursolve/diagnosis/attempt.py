@@ -133,8 +133,8 @@ class Trial(Struct, frozen=True, dict=True):
     """The parts that edits leave as they are."""
     window: Window | None = None
     """The blocks around it."""
-    is_solved: bool = False
-    """Whether the contour is solved, and only hardly meant: few slips are tried then."""
+    is_frequent: bool = False
+    """Whether each contour of a program may have the same finding: fewer slips are tried then."""
     is_searched: bool = False
     """Whether several contours fit, which a search has found: each trial takes another one."""
     is_open: bool = False

@@ -123,7 +123,7 @@ def _slips_around(
         is_whole = all(any(touches(edit, span) for edit in edits) for span in torn)
         return is_whole and (trial.prospects is None or trial.prospects.has(edits))
 
-    for kinds in (FEW, OF_DIGITS)[: 1 if trial.is_solved else 2]:
+    for kinds in (FEW, OF_DIGITS)[: 1 if trial.is_frequent else 2]:
         is_likely = best is not None and best < _LIKELY
         if kinds is OF_DIGITS and is_likely and not trial.is_crossing_curves:
             return
@@ -166,13 +166,13 @@ def _slips_around(
 
 
 def _tries(most: int, trial: Trial) -> int:
-    """The number of drafts that are tried: fewer of a long contour, whose every trial takes longer, and of one that is
-    solved, which few slips explain; none where each takes a search."""
+    """The number of drafts that are tried: fewer of a long contour, whose every trial takes longer, and where each
+    contour may have the same finding; none where each takes a search."""
     length = len(trial.claim.blocks)
     if trial.is_searched:
         return 0
-    if trial.is_solved:
-        return _FEWEST
+    if trial.is_frequent:
+        return _FEW
     return most if length <= SHORT else max(_FEWEST, most * SHORT // length)
 
 
@@ -181,8 +181,8 @@ def _bound(costs: Sequence[float]) -> float:
     return min([*costs[_ENOUGH - 1 : _ENOUGH], *(each + _BEHIND for each in costs[:1])], default=float("inf"))
 
 
-_FEWEST = 8
-"""Drafts that are tried of the longest contours, and of those that are solved."""
+_FEWEST, _FEW = 8, 16
+"""Drafts that are tried of the longest contours, and of those that may all have the same finding."""
 
 
 def _cost_of_path(repair: Repair, trial: Trial) -> float:

@@ -41,11 +41,14 @@ def mend_behind(answer: Answer, findings: Sequence[Diagnostic], window: Window) 
         is_open = answer.contour is not None and each.severity is not Severity.INFO and not each.fixes
         # The contour leads there.
         marked = frozenset({*spans_of([each]), answer.claim.blocks[-1].words[0].span})
-        found = _repairs(answer, window, marked, each.message) if is_open else ()
+        # A habit of a program, which a rule warns of at each contour, costs little.
+        found = _repairs(answer, window, marked, each.message, is_frequent=True) if is_open else ()
         yield with_fixes(each, answer, found[:MOST_FIXES]) if found else each
 
 
-def _repairs(answer: Answer, window: Window, marked: frozenset[Span], told: str) -> tuple[Repair, ...]:
+def _repairs(
+    answer: Answer, window: Window, marked: frozenset[Span], told: str, *, is_frequent: bool = False
+) -> tuple[Repair, ...]:
     """The slips that explain a finding about a contour that is solved, the most plausible first."""
     trial = Trial(answer.claim, window.dialect, frozenset(), answer.contour, blamed=marked, window=window, told=told)
-    return choose_repairs(replace(trial, is_solved=True), ()).repairs
+    return choose_repairs(replace(trial, is_frequent=is_frequent), ()).repairs
