@@ -41,7 +41,7 @@ from contoursolve.pictures import (
 )
 from contoursolve.solving import ArcSegment, Contour, Point, Segment
 
-MOST_FRAMES, MOST_SLOW_FRAMES = 1_000, 250
+MOST_FRAMES, MOST_SLOW_FRAMES = 800, 250
 """Contours that a map has for a reader without Python; fewer where each is searched for."""
 
 MOST_BYTES = 400_000
