@@ -53,7 +53,7 @@ MOST_TRIED = 60
 """Changed blocks that are tried for one contour, fewer for a chain, whose every trial takes longer; beyond it the list
 is not called complete."""
 
-MOST_SEEN = 16
+MOST_SEEN = 6
 """Repairs of one contour that are looked at with the blocks around it."""
 
 MOST_CONSIDERED = 2_000

@@ -102,6 +102,7 @@ def start(*arguments, cwd):
     )
 
 
+@pytest.mark.slow
 def test_a_part_that_is_cut_off_is_solved_again_and_leaves_no_file_open(tmp_path):
     ready = sweep(BLOCK, vary={"P": np.linspace(0, 60, 100)}, start="X40. Z0.")
     parts = parts_of(tmp_path / "rows.csv", ready)

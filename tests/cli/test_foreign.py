@@ -99,6 +99,7 @@ def test_what_is_meant_for_a_contour_is_told_without_one(line):
     assert contoursolve.check(f"{START}\n{line}", control=control)[-1].code != "no-contour"
 
 
+@pytest.mark.slow
 def test_a_program_for_another_control_is_one_line_whatever_its_size():
     text = "".join(f"{number} L X+{number} Y-2 R0 FMAX M3\n" for number in range(1, 4_000))
     for control in ("yasnac-lx3", "siemens-840d"):

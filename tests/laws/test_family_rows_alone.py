@@ -255,6 +255,7 @@ def test_rows_that_are_read_one_by_one_are_told():
     assert found.remark == "each value of Y of block 2 decides how its row is read"
 
 
+@pytest.mark.slow
 def test_a_range_over_all_that_is_searched_is_what_single_solves_say():
     """An arc turns over between the stated value and the limit of a rule at 0, far from both."""
     block = TURNED.rpartition("\n")[0]

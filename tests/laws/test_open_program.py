@@ -82,7 +82,7 @@ def edit_at_random(path: Path, seed: int, edits: int, *, is_named: bool) -> None
 
 @pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.name)
 def test_random_edits(path: Path) -> None:
-    edit_at_random(path, 1, 6, is_named=path.name in CONTROLS)
+    edit_at_random(path, 1, 3, is_named=path.name in CONTROLS)
 
 
 @pytest.mark.slow

@@ -129,6 +129,7 @@ def _are_near(one: list[tuple[float, float]], other: list[tuple[float, float]]) 
     )
 
 
+@pytest.mark.slow
 def test_a_search_looks_at_no_more_intervals_than_it_may(monkeypatch: pytest.MonkeyPatch) -> None:
     from contoursolve.solving import enumerate as enumerating  # noqa: PLC0415
 

@@ -341,6 +341,7 @@ def test_a_path_on_one_side_of_the_spindle_axis_is_no_crossing():
         assert "axis-crossed" not in codes(solve(text)), text
 
 
+@pytest.mark.slow
 def test_contours_that_are_solved_together_cross_the_axis_as_each_by_itself():
     """The columns of `solve` and the patterns of `expand` tell the same as one contour by itself."""
     blocks = [f"G111 I1.766 Z-4.662 A90. B-{60 + number / 4:.2f}" for number in range(40)]

@@ -185,6 +185,7 @@ def test_a_line_takes_one_contour_out_of_a_program_and_changes_go_back_into_it(n
     assert explore.rewrite(broken, text).answer.lines == now.answer.lines
 
 
+@pytest.mark.slow
 def test_a_contour_of_a_broken_program_has_its_own_findings_and_fixes():
     text = (PROGRAMS / "shaft_broken.nc").read_text()
     now = explore.begin(text, line=21)

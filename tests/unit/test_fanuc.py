@@ -429,6 +429,7 @@ def test_a_corner_within_the_guard_is_left_out_with_a_warning_that_tells_the_ang
     assert found == [pytest.approx((first, second * share)) for first, second in places]
 
 
+@pytest.mark.slow
 def test_a_corner_on_a_tangent_arc_is_left_out_and_the_others_are_cut():
     text = "G17 G90 G00 X0 Y0\nG01 X30. ,R5.\nG03 X40. Y10. R10. ,C2.\nG01 X60. Y20. ,C3.\nX80. Y30.2"
     result = solve(text, control=MILL)
@@ -441,6 +442,7 @@ def test_a_corner_on_a_tangent_arc_is_left_out_and_the_others_are_cut():
     assert len(many.diagnostics) == 40
 
 
+@pytest.mark.slow
 def test_verify_tells_corners_that_are_left_out_from_those_that_are_forgotten():
     lines = [f"G01 X{20 * each}. Y{each % 3 / 10} ,C2." for each in range(1, 10)]
     text = "\n".join(("G17 G90 G00 X0 Y0", *lines, "X200. Y30."))

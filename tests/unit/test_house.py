@@ -124,22 +124,27 @@ def test_no_file_stands_in_a_circle():
     order.prepare()  # raises CycleError, which names the files
 
 
-@pytest.mark.parametrize("module", MODULES, ids=lambda module: str(module.relative_to(HOUSE)))
-def test_nothing_is_imported_past_what_a_package_lists(module):
-    own = room_of(module)
+def test_nothing_is_imported_past_what_a_package_lists():
     past = []
-    for node in ast.walk(ast.parse(module.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("contoursolve."):
-            _, room, *deeper = node.module.split(".")
-            past += [node.module] * bool(room != own and deeper)
+    for module in MODULES:
+        own = room_of(module)
+        for node in ast.walk(ast.parse(module.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("contoursolve."):
+                _, room, *deeper = node.module.split(".")
+                past += [(str(module), node.module)] * bool(room != own and deeper)
     assert past == []
 
 
-@pytest.mark.parametrize("module", MODULES, ids=lambda module: str(module.relative_to(HOUSE)))
-def test_a_room_imports_only_from_lower_floors(module):
-    own = room_of(module)
-    assert own in FLOOR_OF, f"the room {own} has no floor"
-    assert [room for room in rooms(module) if room != own and FLOOR_OF[room] >= FLOOR_OF[own]] == []
+def test_a_room_imports_only_from_lower_floors():
+    owns = {module: room_of(module) for module in MODULES}
+    assert {*owns.values()} <= FLOOR_OF.keys()
+    above = [
+        (str(module), room)
+        for module, own in owns.items()
+        for room in rooms(module)
+        if room != own and FLOOR_OF[room] >= FLOOR_OF[own]
+    ]
+    assert above == []
 
 
 def test_the_language_server_knows_what_the_package_exports():
@@ -163,6 +168,7 @@ def test_only_numeric_imports_sympy_casadi_and_flint():
     assert outside == []
 
 
+@pytest.mark.slow
 def test_what_may_print_or_never_return_is_called_behind_one_door():
     """Of NumPy's linear algebra, what iterates: LAPACK prints on standard output or hangs at what is not finite."""
     eliminating = {"inv", "solve", "det", "norm", "LinAlgError"}
@@ -215,6 +221,7 @@ def test_no_name_that_a_package_lists_is_that_of_another_of_its_modules():
         assert {name: home for name, home in of_modules.items() if name in PATHS and home != name} == {}
 
 
+@pytest.mark.slow
 def test_no_public_class_name_has_two_meanings():
     homes: dict[str, list[str]] = {}
     for module in MODULES:
@@ -224,6 +231,7 @@ def test_no_public_class_name_has_two_meanings():
     assert {name: files for name, files in homes.items() if len(files) > 1} == {}
 
 
+@pytest.mark.slow
 def test_no_control_stands_in_where_none_is_named():
     """Who needs one says which; where nothing tells it, what holds for all of them counts."""
     by_name = [
@@ -250,6 +258,7 @@ def described(tree: ast.Module) -> Iterator[tuple[str, bool]]:
                 yield text if isinstance(text, str) else "", is_bool
 
 
+@pytest.mark.slow
 def test_a_docstring_opens_with_the_thing_or_the_verb():
     """Not with a question about it; "whether" is right for a predicate alone."""
     again = list[str]()
@@ -261,6 +270,7 @@ def test_a_docstring_opens_with_the_thing_or_the_verb():
     assert again == []
 
 
+@pytest.mark.slow
 def test_what_a_package_and_the_page_of_the_house_say_to_begin_with_is_there():
     lost = []
     for name, path in PATHS.items():
@@ -276,6 +286,7 @@ def test_what_a_package_and_the_page_of_the_house_say_to_begin_with_is_there():
     assert lost == []
 
 
+@pytest.mark.slow
 def test_one_builder_makes_parsed_contours():
     """Of all controls: what their readers share is written once."""
     made = [
@@ -312,6 +323,7 @@ def code_lines(module: Path) -> list[str]:
     ]
 
 
+@pytest.mark.slow
 def test_no_two_places_share_more_than_twelve_equal_lines():
     places: dict[tuple[str, ...], list[str]] = {}
     for module in MODULES:
@@ -340,6 +352,7 @@ MOST_NAMING, MOST_ASKING = 1.9, 0.3
 which kind one is. Both fall with each question that becomes a field of the kind, and never rise."""
 
 
+@pytest.mark.slow
 def test_what_others_ask_of_a_constraint_is_a_field_of_its_kind():
     """Of which kind it is, few files ask."""
     defined = (node for path in KINDS for node in ast.parse(path.read_text(encoding="utf-8")).body)

@@ -507,6 +507,7 @@ def test_a_word_of_one_of_several_contours_has_a_tolerance_of_its_own():
         tolerance_for(program, "1:X", keep="V1 Z", within=0.01)
 
 
+@pytest.mark.slow
 def test_places_of_elements_are_those_of_the_points_and_corners_that_end_them():
     block, options = "G01 Z-30. ,R5.\nX60. ,A150.\nZ-80.", {"start": START, "control": "fanuc-lathe"}
     for one, other in (

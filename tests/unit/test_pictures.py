@@ -532,6 +532,7 @@ def check_radii(answer):
     return count
 
 
+@pytest.mark.slow
 def test_radii_point_through_their_centres_and_no_text_lies_on_the_mark_of_one():
     answers = [answer for path in PROGRAMS for answer in contoursolve.solve_file(path).answers]
     assert sum(map(check_radii, [*answers, *(answer for name in KINDS for answer in answers_of(name))])) > 30
@@ -731,6 +732,7 @@ def assert_names_stand_in_their_fields(picture, block, within, options):
             assert solved.all() if text.words == "solved" else not solved.any(), text
 
 
+@pytest.mark.slow
 def test_names_of_maps_stand_in_their_fields_and_never_where_there_is_a_contour():
     for block, within, options in REGIONS.values():
         for across, up in ((61, 61), (140, 90)):

@@ -69,6 +69,7 @@ def _constants(tree: ast.AST) -> Iterator[str]:
             yield from _constants(node)
 
 
+@pytest.mark.slow
 def test_sentences_are_short_and_plain() -> None:
     found = [(place, faults(text)) for place, text in shown() if not place.startswith(SOLVER)]
     assert len(found) > 1_000

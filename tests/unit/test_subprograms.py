@@ -232,6 +232,7 @@ def test_what_calls_itself_twice_is_not_run_at_every_depth():
     assert result.answers[0].lines == (3,)
 
 
+@pytest.mark.slow
 def test_each_pass_of_a_loop_is_told_with_its_own_values_and_the_first_ones_are_explained():
     passes = 120
     text = f"#1=1\nWHILE [#1 LE {passes}] DO1\nG00 X40. Z0.\nG01 X60. Z-[#1*0.5] ,A170.\n#1=#1+1\nEND1\nM30"
