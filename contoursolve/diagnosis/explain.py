@@ -412,6 +412,8 @@ def explain_result(
         "free": unknowns_text(event.subject.split(","), profile),
         "things": join(things) if len(things) <= MOST_THINGS else "contour",
         "together": " together" if len(words) > 1 else "",
+        # Of a line whose direction no word states.
+        "expected": "180 deg from that",
     }
     is_word = event.kind in OF_A_WORD
     compared = [name for name in ("limit", "expected", "actual") if name in values]
@@ -441,7 +443,7 @@ def explain_result(
         far = length_text(alternatives.reach, profile.unit) if is_near and alternatives.reach is not None else ""
         fields |= {"within": f" within {far} of the start point", "does": "lies farther away"} if far else {}
         fields = {"within": "", "does": "fits", **fields}
-    labels = [f"expected {fields['expected']}"] if "expected" in fields else []
+    labels = [f"expected {fields['expected']}"] if "expected" in compared else []
     if event.kind is RefusalKind.RADIUS_TOO_SMALL:
         fields["limit"] = value_text(float(length_limit(values["limit"], context.unit, -1)), context.unit.value)
     if "fits" in event.kind.event.needs and isinstance(event, Refusal):

@@ -9,6 +9,8 @@ from decimal import Decimal
 from enum import Enum
 from itertools import groupby, pairwise
 
+from msgspec import Struct
+
 from contoursolve.diagnosis.edits import Edit, EditKind, Why
 from contoursolve.diagnosis.examine import LEADING
 from contoursolve.diagnosis.slip_kinds import SlipKind, number_in
@@ -139,18 +141,25 @@ _SHORT = 4
 """Digits of a number in which the place of the point tells how round it is."""
 
 
-Numbers = Mapping[Decimal, Sequence[tuple[Span, str, bool]]]
-"""The words that have each number, whatever its sign: their places, addresses, and whether they are negative."""
+class Numbers(Struct, frozen=True):
+    """The numbers of the words around a finding: the places and addresses that have each, whatever its sign; and how
+    many words of each address are above and below zero."""
+
+    places: Mapping[Decimal, Sequence[tuple[Span, str]]]
+    signs: Mapping[str, tuple[int, int]]
 
 
 def numbers_of(blocks: Iterable[Block]) -> Numbers:
     """The numbers of the words of some blocks, without those of codes and of what is no length and no angle."""
-    found: dict[Decimal, list[tuple[Span, str, bool]]] = {}
+    places, signs = dict[Decimal, list[tuple[Span, str]]](), dict[str, tuple[int, int]]()
     for block in blocks:
         for word in block.words:
             if word.number and word.address not in "GMNFST":
-                found.setdefault(abs(word.number), []).append((word.span, word.address.strip(",#"), word.number < 0))
-    return found
+                address = word.address.strip(",#")
+                places.setdefault(abs(word.number), []).append((word.span, address))
+                above, below = signs.get(address, (0, 0))
+                signs[address] = (above + (word.number > 0), below + (word.number < 0))
+    return Numbers(places, signs)
 
 
 _LEAST = 0.5
@@ -158,7 +167,7 @@ _LEAST = 0.5
 
 def coarseness(numbers: Numbers) -> float:
     """The share of numbers that are round, to a tenth, or half: where few are, a round one tells less."""
-    found = [number.normalize() for number, places in numbers.items() if number for _ in places]
+    found = [number.normalize() for number, places in numbers.places.items() for _ in places]
     share = sum(each == round(each, 1) for each in found) / len(found) if found else 1.0
     # Those that are computed stand beside some that a drawing states.
     return max(share, _LEAST)
@@ -172,7 +181,7 @@ def familiarity(edits: Iterable[Edit], numbers: Numbers) -> float:
     for edit in changes.values():
         new, old = number_in(edit.text), number_in(edit.old)
         if new and edit.text != edit.old and (number := Decimal(new)):
-            letters = {address for span, address, _ in numbers.get(number, ()) if span not in changes}
+            letters = {address for span, address in numbers.places.get(number, ()) if span not in changes}
             is_same = edit.address.strip(",#") in letters
             if new != old:
                 found -= 0.7 if is_same else 0.3 if letters else 0.0
@@ -186,13 +195,16 @@ def familiarity(edits: Iterable[Edit], numbers: Numbers) -> float:
     return found / len(pairs) if is_exchanged and any(new != old for new, old in pairs) else found
 
 
-def _sign_cost(edit: Edit, changes: Collection[Span | None], numbers: Numbers) -> float:
+def _sign_cost(edit: Edit, changes: Mapping[Span | None, Edit], numbers: Numbers) -> float:
     """The cost of another sign: less if all other words of the address have it, more if all have the old one."""
-    own = (each for places in numbers.values() for each in places if each[1] == edit.address.strip(",#"))
-    signs = [is_negative for span, _, is_negative in own if span not in changes]
-    if len(signs) < _SEVERAL or len({*signs}) > 1:
+    own = edit.address.strip(",#")
+    counts = [*numbers.signs.get(own, (0, 0))]
+    for each in changes.values():
+        if each.address.strip(",#") == own and number_in(each.old).strip("0."):
+            counts["-" in each.old] -= 1
+    if sum(counts) < _SEVERAL or min(counts) > 0:
         return 0.0
-    return -_SIGN if signs[0] is ("-" in edit.text) else _SIGN
+    return -_SIGN if ("-" in edit.text) is (counts[1] > 0) else _SIGN
 
 
 _SEVERAL, _SIGN = 3, 0.4

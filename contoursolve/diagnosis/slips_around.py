@@ -177,8 +177,9 @@ def _of_words(
     read = {word.span for word in claim.words.values()} if claim else set[Span]()
     for block in near_blocks(window, marked):
         stated = frozenset(word.address for word in block.words)
+        last = {word.address: at for at, word in enumerate(block.words)}
+        pointless = sum(map(_is_pointless, block.words))
         for at, word in enumerate(block.words):
-            later = block.words[at + 1 :]
             if word.address in "GNOMF" or word.is_asked:
                 continue
             for kind in kinds:
@@ -192,10 +193,9 @@ def _of_words(
                         is_read = word.span in read or (block.line not in lines and outside.is_axis(word))
                         cost += _letter_cost(word, text, speech, marked, is_read=is_read)
                     # One point is seldom lost alone beside others.
-                    others = (*block.words[:at], *later)
-                    cost += _OTHER_POINTS * (kind is POINT_LOST and any(map(_is_pointless, others)))
+                    cost += _OTHER_POINTS * (kind is POINT_LOST and pointless > _is_pointless(word))
                     # Of two words for one corner, the later one is that of the corner behind.
-                    cost += _EARLIER * (kind is NEIGHBOUR and word.address in {each.address for each in later})
+                    cost += _EARLIER * (kind is NEIGHBOUR and last[word.address] > at)
                     cost += _NEGATIVE * (kind is SIGN_LOST and speech.is_angle(word))
                     cost += _ACROSS * (kind is SIGN_LOST and speech.is_diameter(word))
                     cost += _SIZE * (kind is SIGN_LOST and word.address.strip(",") in _SIZES)

@@ -126,9 +126,9 @@ class _Lines(Sequence[Block]):
             block = self._read[index] = parse_block(self.texts[index].rstrip("\r\n"), index + 1, self.syntax)
         return block
 
-    def between(self, first: int, last: int) -> list[Block]:
-        """Those from an index on to before another one."""
-        return self[first:last]
+    def between(self, first: int, last: int) -> Iterator[Block]:
+        """Those from an index on to before another one, each read when it is asked for."""
+        return map(self.__getitem__, range(first, min(last, len(self))))
 
     def spell(self, syntax: Syntax) -> None:
         """Read them in this syntax from now on."""

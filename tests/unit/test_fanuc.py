@@ -842,7 +842,9 @@ def test_many_contours_of_a_program_come_out_as_each_alone(settings, count):
     for text, answer in zip(blocks, together, strict=True):
         (alone,) = solve(text, control=LATHE, settings=named).answers
         assert (answer.status, elements(answer)) == (alone.status, elements(alone)), text
-        assert [each.code for each in answer.diagnostics] == [each.code for each in alone.diagnostics], text
+        # What is hardly meant depends on the contours beside.
+        one, other = ([each.code for each in found.diagnostics] for found in (answer, alone))
+        assert [code for code in one if code != "suspected"] == [code for code in other if code != "suspected"], text
 
 
 def test_a_corner_in_a_thread_behind_a_contour_is_told():

@@ -298,7 +298,7 @@ def test_a_chamfer_is_measured_as_its_word_says():
         ("G1 X30 #RND 3\nX50", "isg-corner-straight", "G1 X30\nX50"),
         ("G1 X30 #RND=2\nG2 X40 Y10", "isg-circle-undefined", "G1 X30 #RND=2\nG2 X40 Y10 R?"),
         ("G1 #ANG=30\nX60 Y20 #ANG=-45 #RND=5\nM30", "isg-corner-without-next", "G1 #ANG=30\nX60 Y20 #ANG=-45"),
-        ("G1 X-40 #ANG=30", "isg-line-reversed", "G1 X40 #ANG=30"),
+        ("G1 X-40 #ANG=30", "isg-line-reversed", "G1 X-40 #ANG=150"),
     ],
     one_in=2,
 )

@@ -394,7 +394,7 @@ def test_each_setting_has_an_effect():
         ("G1 X40 Y20 ANG=62", "siemens-angle-redundant", "G1 X40 Y20"),
         ("G1 X=IC(5) Y=IC(5) ANG=40", "siemens-angle-redundant", "G1 X=IC(5) Y=IC(5)"),
         ("G1 X30 RND=300\nY40", "siemens-corner-too-large", "G1 X30 RND=30\nY40"),
-        ("G1 X=IC(30) CHR=35\nY=IC(40)", "siemens-corner-too-large", "G1 X=IC(30) CHR=3.5\nY=IC(40)"),
+        ("G1 X=IC(30) CHR=35\nY=IC(40)", "siemens-corner-too-large", "G1 X=IC(30) CHR=30\nY=IC(40)"),
         ("G1 X30 CHR=2 RND=3\nY40", "siemens-chr-ignored", "G1 X30 RND=3\nY40"),
         ("G1 X30 RND=-3\nY40", "siemens-corner-negative", "G1 X30 RND=3\nY40"),
         ("G1 X=IC(30) RND=3\nX=IC(20)", "siemens-corner-straight", "G1 X=IC(30)\nX=IC(20)"),
