@@ -1007,7 +1007,7 @@ KINDS = {
 """What every contour with a path claims."""
 
 
-@few_and_many(1, 8)
+@few_and_many(1, 4)
 @pytest.mark.parametrize("control", DIALECTS)
 def test_what_is_tampered_with_is_caught_for_every_control(control, count):
     """Every kind of number, in the contour alone and with its like in the list of solutions, and contours that are

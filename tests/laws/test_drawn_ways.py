@@ -302,7 +302,7 @@ _OPEN = {"position-unknown", "mode-unknown"}
     ("control", "seed"),
     [
         pytest.param(control, seed, marks=[pytest.mark.slow] if seed or number % 3 else [])
-        for seed in range(16)
+        for seed in range(8)
         for number, control in enumerate(SPELLINGS)
     ],
 )

@@ -116,7 +116,7 @@ def holds(text: str, control: str, step: int) -> bool:
     return True
 
 
-@pytest.mark.parametrize(("seed", "count"), [(0, 300), pytest.param(1, 2_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("seed", "count"), [(0, 300), pytest.param(1, 800, marks=pytest.mark.slow)])
 def test_a_formatted_program_is_read_as_before(seed: int, count: int) -> None:
     rng, numbered = random.Random(seed), 0
     for number in range(count):
@@ -178,7 +178,7 @@ def draw_jumps(rng: random.Random, control: str) -> Drawn:
     return Drawn(lines, own, [line for line, (_, words) in enumerate(kinds, 1) if words is WORDS or line in own])
 
 
-@few_and_many(40, 2_000)
+@few_and_many(40, 800)
 @pytest.mark.parametrize("control", JUMPS)
 def test_jumps_lead_to_the_same_blocks(control: str, count: int) -> None:
     rng = random.Random(count)

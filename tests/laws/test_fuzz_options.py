@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 from contoursolve.cli import main
 
-OPTIONS = 30_000
+OPTIONS = 15_000
 SHARDS = 6
 """A failing shard names its seed, so that one failure is repeated in seconds."""
 

@@ -57,7 +57,7 @@ def findings(blocks: list[tuple[str, str]], *folders: Path) -> list:
     return json.loads(done.stdout)
 
 
-@pytest.mark.parametrize("count", [8, pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [8, pytest.param(40, marks=pytest.mark.slow)])
 def test_with_the_stand_in_for_casadi_blocks_come_to_the_same(count: int) -> None:
     blocks = random_blocks(Random(20), count)
     (casadi, *wanted), (stand_in, *found) = findings(blocks), findings(blocks, STAND_INS)
