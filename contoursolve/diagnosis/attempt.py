@@ -23,7 +23,7 @@ from contoursolve.diagnosis.examples import MOST_OPEN, numbers_for, propose, sam
 from contoursolve.diagnosis.plausibility import (
     OF_EDITS,
     Feature,
-    Numbers,
+    NumbersAround,
     numbers_of,
     total,
 )
@@ -214,7 +214,7 @@ class Trial(Struct, frozen=True, dict=True):
         return Marked(self.blamed | spans, lines | {block.line for block in own}, self.told)
 
     @cached_property
-    def numbers(self) -> Numbers:
+    def numbers(self) -> NumbersAround:
         """The numbers of the blocks around."""
         return numbers_of(self.window.blocks if self.window else self.claim.blocks)
 

@@ -141,7 +141,7 @@ _SHORT = 4
 """Digits of a number in which the place of the point tells how round it is."""
 
 
-class Numbers(Struct, frozen=True):
+class NumbersAround(Struct, frozen=True):
     """The numbers of the words around a finding: the places and addresses that have each, whatever its sign; and how
     many words of each address are above and below zero."""
 
@@ -149,7 +149,7 @@ class Numbers(Struct, frozen=True):
     signs: Mapping[str, tuple[int, int]]
 
 
-def numbers_of(blocks: Iterable[Block]) -> Numbers:
+def numbers_of(blocks: Iterable[Block]) -> NumbersAround:
     """The numbers of the words of some blocks, without those of codes and of what is no length and no angle."""
     places, signs = dict[Decimal, list[tuple[Span, str]]](), dict[str, tuple[int, int]]()
     for block in blocks:
@@ -159,13 +159,13 @@ def numbers_of(blocks: Iterable[Block]) -> Numbers:
                 places.setdefault(abs(word.number), []).append((word.span, address))
                 above, below = signs.get(address, (0, 0))
                 signs[address] = (above + (word.number > 0), below + (word.number < 0))
-    return Numbers(places, signs)
+    return NumbersAround(places, signs)
 
 
 _LEAST = 0.5
 
 
-def coarseness(numbers: Numbers) -> float:
+def coarseness(numbers: NumbersAround) -> float:
     """The share of numbers that are round, to a tenth, or half: where few are, a round one tells less."""
     found = [number.normalize() for number, places in numbers.places.items() for _ in places]
     share = sum(each == round(each, 1) for each in found) / len(found) if found else 1.0
@@ -173,7 +173,7 @@ def coarseness(numbers: Numbers) -> float:
     return max(share, _LEAST)
 
 
-def familiarity(edits: Iterable[Edit], numbers: Numbers) -> float:
+def familiarity(edits: Iterable[Edit], numbers: NumbersAround) -> float:
     """The plausibility of new numbers that other words around have, the more with the same address; negative, as a
     cost."""
     changes = {edit.span: edit for edit in edits if edit.kind is EditKind.CHANGE}
@@ -195,7 +195,7 @@ def familiarity(edits: Iterable[Edit], numbers: Numbers) -> float:
     return found / len(pairs) if is_exchanged and any(new != old for new, old in pairs) else found
 
 
-def _sign_cost(edit: Edit, changes: Mapping[Span | None, Edit], numbers: Numbers) -> float:
+def _sign_cost(edit: Edit, changes: Mapping[Span | None, Edit], numbers: NumbersAround) -> float:
     """The cost of another sign: less if all other words of the address have it, more if all have the old one."""
     own = edit.address.strip(",#")
     counts = [*numbers.signs.get(own, (0, 0))]

@@ -12,7 +12,7 @@ from contoursolve.diagnosis.edits import Edit, EditKind, change, drop
 from contoursolve.diagnosis.plausibility import (
     FEATURES,
     Feature,
-    Numbers,
+    NumbersAround,
     coarseness,
     cost_of,
     distance,
@@ -127,7 +127,7 @@ def _place(draft: Candidate) -> tuple[object, ...]:
     return round(draft.cost, 6), places
 
 
-def _draft(numbers: Numbers, coarse: float, marked: Marked, edits: Edits, slips: Slips, cost: float) -> Candidate:
+def _draft(numbers: NumbersAround, coarse: float, marked: Marked, edits: Edits, slips: Slips, cost: float) -> Candidate:
     lines = [edit.span.line if edit.span else edit.line for edit in edits]
     near = [
         # What it says counts for all blocks behind it.
