@@ -1,4 +1,4 @@
-"""NumbersAround for words that a repair adds without one: some with which there is a contour."""
+"""Numbers for words that a repair adds without one: some with which there is a contour."""
 
 import dataclasses
 from bisect import bisect_left
@@ -17,10 +17,10 @@ from contoursolve.reading import ParsedContour
 from contoursolve.solving import agreement_rows, passed_rows
 
 MOST_PROPOSED = 8
-"""NumbersAround that are proposed for a repair; a few, because a rule may refuse what the equations accept."""
+"""Numbers that are proposed for a repair; a few, because a rule may refuse what the equations accept."""
 
 FEW_PROPOSED = 4
-"""NumbersAround that are proposed where none has room around it."""
+"""Numbers that are proposed where none has room around it."""
 
 MOST_VARIED = 400
 """Combinations among which the proposed ones are chosen."""
@@ -29,7 +29,7 @@ MOST_PLACES = 4
 """Places about which words may agree that are looked at closely."""
 
 ROWS = 4_000
-"""NumbersAround, or combinations of several, that are looked through."""
+"""Numbers, or combinations of several, that are looked through."""
 
 FAR = 2_000.0
 """mm from the start, or from zero: drawings have nothing farther away, and numbers up to there are looked through."""
