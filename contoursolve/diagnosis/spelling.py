@@ -351,7 +351,7 @@ def explain_skippable(context: Context, claim: ParsedContour) -> Iterator[Diagno
         yield report(context, ReadIssue.SKIPPABLE_START, Basis.RULE, [])
 
 
-# NumbersAround without a decimal point: the control counts them in least increments, which is seldom what was meant ---
+# Numbers without a decimal point: the control counts them in least increments, which is seldom what was meant ---
 
 _FULL_TURN, _MANY_INCREMENTS = 360, 1_000
 """A number that is no larger says a direction in degrees, or a length under 1 mm in least increments."""
