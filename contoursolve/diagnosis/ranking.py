@@ -111,7 +111,8 @@ def _slips_around(
     """The slips of a contour and of the blocks around it that explain what is wrong: those of digits where no other
     one does."""
     window, claim = trial.window, trial.claim
-    if window is None or not trial.marked.lines:
+    # Where each trial takes a search, no slip is tried.
+    if window is None or not trial.marked.lines or trial.is_searched:
         return
     ranked = sorted(each.cost for each in known.values())
     paths = [_USUAL, *(_cost_of_path(each, trial) for each in known.values())]
@@ -167,12 +168,10 @@ def _slips_around(
 
 def _tries(most: int, trial: Trial) -> int:
     """The number of drafts that are tried: fewer of a long contour, whose every trial takes longer, and where each
-    contour may have the same finding; none where each takes a search."""
+    contour may have the same finding."""
     length = len(trial.claim.blocks)
-    if trial.is_searched:
-        return 0
     if trial.is_frequent:
-        return _FEW
+        return _FREQUENT
     return most if length <= SHORT else max(_FEWEST, most * SHORT // length)
 
 
@@ -181,7 +180,7 @@ def _bound(costs: Sequence[float]) -> float:
     return min([*costs[_ENOUGH - 1 : _ENOUGH], *(each + _BEHIND for each in costs[:1])], default=float("inf"))
 
 
-_FEWEST, _FEW = 8, 16
+_FEWEST, _FREQUENT = 8, 16
 """Drafts that are tried of the longest contours, and of those that may all have the same finding."""
 
 
