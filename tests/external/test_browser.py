@@ -86,6 +86,21 @@ def write_notebook(path):
 BROKEN = "contoursolve.solve('N310 G111 A180. K-20. P4. B90. X66. D0.5', start='X60. Z-55.')"
 LOADED = "window.jupyterapp?.shell.currentWidget?.content?.widgets?.length > 0"
 IDLE = "window.jupyterapp.shell.currentWidget.sessionContext.session?.kernel?.status === 'idle'"
+
+
+@contextmanager
+def opened(browser, notebook, width, height):
+    """A page of JupyterLab with a notebook whose kernel waits; in the end, nothing may have gone wrong in it."""
+    with jupyterlab(notebook.parent) as address:
+        watched = Watched(browser, viewport={"width": width, "height": height})
+        watched.page.goto(address(notebook.name))
+        watched.page.wait_for_function(LOADED)
+        watched.page.wait_for_function(IDLE)
+        yield watched.page
+        watched.check()
+        watched.page.close()
+
+
 DIFFERS = "([selector, before]) => document.querySelector(selector).innerHTML !== before"
 READS = "([selector, value]) => document.querySelector(selector).value === value"
 EXPLORER = ".contoursolve.explorer"
@@ -94,12 +109,7 @@ EXPLORER = ".contoursolve.explorer"
 @pytest.mark.slow
 def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(browser, tmp_path, artefacts):
     write_notebook(tmp_path / "explore.ipynb")
-    with jupyterlab(tmp_path) as address:
-        watched = Watched(browser, viewport={"width": 1400, "height": 1500})
-        page = watched.page
-        page.goto(address("explore.ipynb"))
-        page.wait_for_function(LOADED)
-        page.wait_for_function(IDLE)
+    with opened(browser, tmp_path / "explore.ipynb", 1400, 1500) as page:
         page.evaluate("window.jupyterapp.commands.execute('notebook:run-all-cells')")
         explorer = page.locator(".contoursolve.explorer").first
         explorer.locator(".paper svg").wait_for()
@@ -156,8 +166,6 @@ def test_in_jupyterlab_a_slider_moves_the_path_and_a_finding_comes_and_goes(brow
 
         page.evaluate("window.jupyterapp.shell.currentWidget.sessionContext.shutdown()")
         explorer.locator(".trouble", has_text="The kernel is gone").wait_for()
-        watched.check()
-        page.close()
 
 
 REGION = f"""region = contoursolve.region({BLOCK!r}, ("A", "P"), ((150, 210), (1, 60)), start="X40. Z0.")"""
@@ -264,12 +272,7 @@ def test_in_jupyterlab_a_map_is_solved_where_the_pointer_is_and_opens_the_explor
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
     document = {"cells": [cell], "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
     (tmp_path / "map.ipynb").write_text(json.dumps(document), encoding="utf-8")
-    with jupyterlab(tmp_path) as address:
-        watched = Watched(browser, viewport={"width": 1500, "height": 1900})
-        page = watched.page
-        page.goto(address("map.ipynb"))
-        page.wait_for_function(LOADED)
-        page.wait_for_function(IDLE)
+    with opened(browser, tmp_path / "map.ipynb", 1500, 1900) as page:
         page.evaluate("window.jupyterapp.commands.execute('notebook:run-all-cells')")
         page.locator(f"{MAP} .stage").wait_for()
         point_at(page, 0.213, 0.307)
@@ -305,8 +308,6 @@ def test_in_jupyterlab_a_map_is_solved_where_the_pointer_is_and_opens_the_explor
         page.wait_for_selector(f"[data-theme='dark'] > {MAP}")
         page.locator(".jp-Splash, #jupyterlab-splash").first.wait_for(state="hidden")
         page.screenshot(path=artefacts / "jupyterlab-map-dark.png")
-        watched.check()
-        page.close()
 
 
 DIFFERS_VALUE = "([selector, value]) => document.querySelector(selector).value !== value"
@@ -327,12 +328,7 @@ def test_in_jupyterlab_a_notebook_that_nobody_trusts_or_runs_shows_its_pictures(
     pictures = sum("image/svg+xml" in data for data in outputs)
     assert pictures >= 4
     (tmp_path / "unknown.ipynb").write_text(json.dumps(document), encoding="utf-8")
-    with jupyterlab(tmp_path) as address:
-        watched = Watched(browser, viewport={"width": 1400, "height": 1500})
-        page = watched.page
-        page.goto(address("unknown.ipynb"))
-        page.wait_for_function(LOADED)
-        page.wait_for_function(IDLE)
+    with opened(browser, tmp_path / "unknown.ipynb", 1400, 1500) as page:
         assert page.evaluate(f"{SHOWING}.map(cell => cell.model.trusted)") == [False] * len(outputs)
         images = page.locator(".jp-OutputArea-output img")
         images.last.wait_for()
@@ -340,8 +336,6 @@ def test_in_jupyterlab_a_notebook_that_nobody_trusts_or_runs_shows_its_pictures(
         assert page.locator(".jp-OutputArea-output svg").count() == 0
         images.last.scroll_into_view_if_needed()
         page.screenshot(path=artefacts / "jupyterlab-untrusted.png")
-        watched.check()
-        page.close()
 
 
 def write_report(name, target):
