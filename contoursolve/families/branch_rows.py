@@ -375,7 +375,7 @@ class _Verdict(Struct, frozen=True, eq=False):
 def _compile_verdict(system: System, sizes: frozenset[str]) -> _Verdict:
     """The checks of a system; `sizes` are those of corners that are stated."""
     basis, spare, tape = basis_of(system), spare_of(system), Tape()
-    at = input_values(system, tape, {})
+    at = input_values(system.headed, tape, {})
     residuals = {f"residual:{number}": fact.residual(at) for number, fact in enumerate(basis)}
     for name, residual in residuals.items():
         tape.output(name, residual)

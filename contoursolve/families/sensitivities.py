@@ -261,7 +261,7 @@ def _compile(system: System, givens: frozenset[str], outputs: tuple[str, ...]) -
     tape = Tape()
     for name in system.unknowns:
         tape.input(name)
-    at = input_values(system, tape, {})
+    at = input_values(system.headed, tape, {})
     basis = basis_of(system)
     for row, fact in enumerate(basis):
         tape.output(f"{row}", fact.residual(at))

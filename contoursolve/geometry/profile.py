@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from enum import Enum
+from functools import cached_property
 
 from msgspec import Struct
 
@@ -132,7 +133,7 @@ class Layout(Struct, frozen=True, eq=False):
     facts: tuple[Fact, ...]
 
 
-class Profile(Struct, frozen=True):
+class Profile(Struct, frozen=True, dict=True):
     """One contour, partly unknown.
 
     The layout's facts are what the words state and the control uses; `ignored` are facts that the
@@ -162,7 +163,7 @@ class Profile(Struct, frozen=True):
         """The drawing without its values."""
         return self.layout.figure
 
-    @property
+    @cached_property
     def increments(self) -> dict[str, float]:
         """The least increments of the control, mm (radius) or degrees: those of coordinates by `increment:0` and
         `increment:1`, those of values by `increment:` and their names; 0 for a value that no word states."""

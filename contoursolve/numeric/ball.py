@@ -72,6 +72,24 @@ def is_exact(value: Number) -> bool:
     return isinstance(value, fmpq)
 
 
+class SameNumbers:
+    """Some numbers, for caches: equal to others that are exact and equal, or the very same balls. Balls have no
+    equality; one that is kept here has its identity for itself."""
+
+    __slots__ = ("_hash", "_key", "numbers")
+
+    def __init__(self, numbers: Iterable[Number]) -> None:
+        self.numbers = tuple(numbers)
+        self._key = tuple(each if isinstance(each, fmpq) else (id(each),) for each in self.numbers)
+        self._hash = hash((self._key, flint.ctx.prec))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, SameNumbers) and self._hash == other._hash and self._key == other._key
+
+    def __hash__(self) -> int:
+        return self._hash
+
+
 def sign(value: Number) -> int | None:
     """-1, 0 or 1; None for a ball that holds zero."""
     if isinstance(value, fmpq):

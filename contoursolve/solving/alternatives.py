@@ -18,7 +18,7 @@ from contoursolve.geometry import (
     assemble,
     scalar,
 )
-from contoursolve.numeric import COSINE, SINE, Number, ball, direction
+from contoursolve.numeric import COSINE, SINE, Created, Number, ball, direction
 from contoursolve.solving.checks import MeasuredFigure, unverified
 from contoursolve.solving.compare import compare_fact, increments_of
 from contoursolve.solving.compile import compile_path
@@ -213,11 +213,11 @@ def _compare(
     """Every original equation in exact arithmetic; what was not needed must agree as well as words can."""
     refusals: list[Refusal] = []
     remarks: list[Note] = []
-    basis = analyse(system).basis
+    basis = frozenset(analyse(system).basis)
     floats = Values(
         {**scalars, **{name: ball.middle(value) for name, value in at.scalars.items()}},
         {name: ball.middle(value) for name, value in at.amounts.items()},
-        {name: (ball.middle(pair[0]), ball.middle(pair[1])) for name, pair in at.directions.items()},
+        Created(lambda name: tuple(map(ball.middle, at.directions[name]))),
         at.headed,
         at.signs,
     )

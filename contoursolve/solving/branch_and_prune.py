@@ -126,7 +126,7 @@ def conditions_of(system: System, group: Group) -> Conditions:
     tape = Tape()
     for name in group.unknowns:
         tape.input(name)
-    at = input_values(system, tape, {})
+    at = input_values(system.headed, tape, {})
     zeros = [
         *(fact.equation(at) for fact in group.facts),
         *consequences(group.facts, basis_of(system), system.headed, at),
@@ -136,7 +136,7 @@ def conditions_of(system: System, group: Group) -> Conditions:
         tape.output(str(number), expression)
     slopes = Tape()
     unknowns = [slopes.input(name) for name in group.unknowns]
-    equations = [fact.equation(input_values(system, slopes, {})) for fact in group.facts]
+    equations = [fact.equation(input_values(system.headed, slopes, {})) for fact in group.facts]
     slopes.output("equations and slopes", expressions.with_slopes(equations, unknowns)[0])
     return Conditions(
         group.unknowns,

@@ -144,7 +144,7 @@ def measured_figure(
     system: System, tape: Tape, known: Mapping[str, Any], path: PathOutputs = NO_PATH
 ) -> MeasuredFigure:
     """The expressions of a tape, whose outputs measure a path; scalars that are not `known` are inputs."""
-    at = input_values(system, tape, known)
+    at = input_values(system.headed, tape, known)
     return MeasuredFigure(system.figure, at, path.read(tape.expression), lambda name: tape.input(INCREMENT_OF + name))
 
 

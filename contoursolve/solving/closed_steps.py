@@ -17,7 +17,7 @@ from contoursolve.solving.construction import Builder, ConstructionStep, NoClose
 from contoursolve.solving.elimination import Root, has_closed_form
 from contoursolve.solving.inputs import input_values
 from contoursolve.solving.partition import Group
-from contoursolve.solving.step_equations import Kernel, make_kernel, polynomials_of
+from contoursolve.solving.step_equations import Kernel, Local, make_kernel, polynomials_of
 
 
 class ClosedStep(Struct, frozen=True, eq=False):
@@ -74,11 +74,12 @@ def _root(values: Sequence[Number], *, is_double: bool) -> Root:
 
 
 @lru_cache(maxsize=8192)
-def close_step(system: System, group: Group) -> ClosedStep | None:
+def close_step(local: Local) -> ClosedStep | None:
     """The closed form of a group; None if it has none."""
-    if len(group.facts) == len(group.unknowns) == 1 and (kernel := make_kernel(system, group)).is_affine:
+    group = local.group
+    if len(group.facts) == len(group.unknowns) == 1 and (kernel := make_kernel(local)).is_affine:
         return ClosedStep(kernel.arguments[1:], 1, has_root=False, function=_quotient_of(kernel))
-    builder = _StepBuilder(system, touching=0.0)
+    builder = _StepBuilder(local.system, touching=0.0)
     try:
         builder.run(ConstructionStep(StepKind.GENERAL, group.facts, group.unknowns))
     except NoClosedFormError:
@@ -107,7 +108,7 @@ class _StepBuilder(Builder):
     """A builder of one step, to which everything else is known."""
 
     def at(self, symbols: Mapping[str, Any] | None = None) -> Values:
-        return input_values(self.system, self.tape, {**self.scalars, **(symbols or {})})
+        return input_values(self.system.headed, self.tape, {**self.scalars, **(symbols or {})})
 
     def _spread(self, discriminant: Any, _is_touching: Any) -> Any:
         return sqrt(discriminant)
@@ -115,7 +116,8 @@ class _StepBuilder(Builder):
 
 def is_searched(system: System, group: Group) -> bool:
     """Whether the solutions of a group are searched for, because it has no closed form."""
-    if close_step(system, group) is not None:
+    local = Local(system, group)
+    if close_step(local) is not None:
         return False
-    step = polynomials_of(system, group)
+    step = polynomials_of(local)
     return step is None or not has_closed_form(step)

@@ -139,7 +139,6 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
             return Note(NoteKind.RADIUS_DIFFERS, circle.point, givens_of(fact, system), values)
         return None
     name = fact.statement
-    givens = (name,) if name else givens_of(fact, system)
     values = compare(fact, profile, at) if fact.given else {"off_by_mm": off}
     is_word = fact.reach(at, increments_of(profile)) is not None
     gap = inf if is_word else abs(values.get("expected", inf) - values.get("actual", inf))
@@ -148,7 +147,8 @@ def compare_fact(fact: Fact, off: float, profile: Profile, system: System, at: V
     # So is one part of a radius along one of its axes.
     is_against = is_opposite or (fact.is_half and opposes(values, Unit.DEGREE))
     if not is_against and (_agrees(fact, off, profile, at) or gap <= AGREEMENT):
-        return Note(NoteKind.WORDS_AGREE, fact.given, givens, values) if fact.given else None
+        return Note(NoteKind.WORDS_AGREE, fact.given, (name or fact.given,), values) if fact.given else None
+    givens = (name,) if name else givens_of(fact, system)
     kind = RefusalKind.WORDS_DISAGREE if "expected" in values else RefusalKind.FACT_DISAGREES
     return Refusal(kind, name, givens, values)
 

@@ -271,7 +271,8 @@ def _is_affine(fact: Fact, unknowns: set[str], system: System) -> bool:
         tail, *others = (not unknowns.isdisjoint(both(point)) for point in fact.collinear)
         return not tail and not all(others)
     tape = Tape()
-    return is_affine([fact.residual(input_values(system, tape, {}))], [tape.input(name) for name in sorted(unknowns)])
+    residual = fact.residual(input_values(system.headed, tape, {}))
+    return is_affine([residual], [tape.input(name) for name in sorted(unknowns)])
 
 
 Measured = tuple[Sequence[Any], StepOutputs]

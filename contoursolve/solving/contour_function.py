@@ -78,7 +78,7 @@ def _stated(
 ) -> list[Any]:
     """Facts evaluated at values."""
     tape = Tape()
-    at = input_values(system, tape, {})
+    at = input_values(system.headed, tape, {})
     for number, fact in enumerate(facts):
         tape.output(str(number), evaluate(fact, at))
     return [*put_in(tape, [*tape.outputs], values).values()] if facts else []

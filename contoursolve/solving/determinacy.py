@@ -3,7 +3,7 @@ values."""
 
 import json
 import pkgutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -18,35 +18,37 @@ from contoursolve.numeric import (
     SINE,
     ExactRank,
     Residue,
-    Row,
     draw,
     draw_direction,
     modular_rank,
 )
-from contoursolve.solving.inputs import input_values, symbolic_values
+from contoursolve.solving.inputs import Headed, headed_of, input_values, symbolic_values
 from contoursolve.solving.partition import Group, order
 
 
 def generic_rank(system: System) -> ExactRank:
     """The rank of the facts' derivatives by the unknowns, at random values modulo a prime."""
     columns = {name: number for number, name in enumerate(system.unknowns)}
-    rows = [_gradient(system, fact, columns) for fact in system.facts]
+    slopes = (_slopes(fact, headed_of(system, [fact]), system.unknowns_of(fact)) for fact in system.facts)
+    rows = [{columns[name]: slope for name, slope in each.items()} for each in slopes]
     return modular_rank.exact_rank(rows, len(columns))
 
 
 class _Witnesses(NamedTuple):
     """Random values of all inputs, some of which are unknowns."""
 
-    unknowns: Mapping[str, int]
+    unknowns: Collection[str]
 
     def input(self, name: str) -> Residue:
         """The value of an input; the derivative of an unknown by itself is 1."""
         return Residue(witness_of(name), {name: 1} if name in self.unknowns else {})
 
 
-def _gradient(system: System, fact: Fact, columns: Mapping[str, int]) -> Row:
-    value = fact.equation(input_values(system, _Witnesses(columns), {}, RESIDUES))
-    return {columns[name]: slope for name, slope in value.slopes.items() if slope}
+@lru_cache(maxsize=8192)
+def _slopes(fact: Fact, headed: Headed, unknowns: tuple[str, ...]) -> Mapping[str, int]:
+    """The derivatives of a fact by the unknowns that it reads, those that are not zero: the same in every system."""
+    value = fact.equation(input_values(dict(headed), _Witnesses(unknowns), {}, RESIDUES))
+    return {name: slope for name, slope in value.slopes.items() if slope}
 
 
 def witness_of(name: str, signs: Mapping[str, int] | None = None) -> int:
@@ -111,7 +113,7 @@ def basis_of(system: System) -> tuple[Fact, ...]:
 
 def spare_of(system: System) -> tuple[Fact, ...]:
     """The facts beside the basis: they say what others say already."""
-    basis = analyse(system).basis
+    basis = frozenset(analyse(system).basis)
     return tuple(fact for index, fact in enumerate(system.facts) if index not in basis)
 
 

@@ -1,14 +1,14 @@
 """All solutions of a determined system, step by step, with proof of their number or an honest doubt."""
 
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from itertools import product
 from typing import TypeVar
 
 from msgspec import Struct
 
 from contoursolve.geometry import Fact, Profile, System
-from contoursolve.numeric import Number, ball
+from contoursolve.numeric import SIDE, Number, ball
 from contoursolve.solving.branch_and_prune import Division, Task, conditions_of, divide, settle
 from contoursolve.solving.closed_steps import close_step
 from contoursolve.solving.determinacy import groups_of, witness_of
@@ -16,7 +16,7 @@ from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Roo
 from contoursolve.solving.exact_inputs import Ground, ground_of
 from contoursolve.solving.partition import Group
 from contoursolve.solving.senses import Sense, senses_of
-from contoursolve.solving.step_equations import Coefficient, Kernel, make_kernel, polynomials_of
+from contoursolve.solving.step_equations import Coefficient, Kernel, Local, make_kernel, polynomials_of
 
 
 class Effort(Struct, frozen=True):
@@ -163,6 +163,11 @@ class _Search:
         self.left = effort.intervals
         self.near, self.far = ground.nearby(system), ground.farthest(system)
         self.senses = [sense for sense in senses_of(system) if unsensed.isdisjoint(sense.facts)]
+        self.sensing: dict[str, list[int]] = {}
+        """By unknown or side, the senses that read it."""
+        for number, sense in enumerate(self.senses):
+            for name in sense.reads | sense.sides:
+                self.sensing.setdefault(name, []).append(number)
 
     def run(self) -> _Steps[Enumeration]:
         """Everything but the steps without a closed form, which are left to whoever runs it."""
@@ -193,15 +198,16 @@ class _Search:
         return ExactSolution(state.scalars, signs, state.doubles)
 
     def _advance(self, states: Sequence[ExactSolution], group: Group) -> _Steps[list[ExactSolution]]:
-        kernel = make_kernel(self.system, group)
+        local = Local(self.system, group)
+        kernel = make_kernel(local)
         cases = [
             ExactSolution(state.scalars, signs, state.doubles) for state in states for signs in _choices(state, kernel)
         ]
-        solved = self._solve_each(group, cases)
+        solved = self._solve_each(local, cases)
         unsolved = [case for case, roots in zip(cases, solved, strict=True) if roots is None]
         searched = iter((yield from self._search(group, kernel, unsolved)) if unsolved else [])
-        new = {*kernel.unknowns, *kernel.sides}
-        senses = [sense for sense in self.senses if not new.isdisjoint(sense.reads | sense.sides)]
+        numbers = {number for name in (*kernel.unknowns, *kernel.sides) for number in self.sensing.get(name, ())}
+        senses = [self.senses[number] for number in sorted(numbers)]
         found: list[ExactSolution] = []
         for case, roots in zip(cases, solved, strict=True):
             for root in next(searched) if roots is None else roots:
@@ -212,43 +218,25 @@ class _Search:
                     found.append(after)
         return found
 
-    def _solve_each(self, group: Group, cases: Sequence[ExactSolution]) -> list[list[Root] | None]:
+    def _solve_each(self, local: Local, cases: Sequence[ExactSolution]) -> list[list[Root] | None]:
         """All solutions of a step for each case. Cases that differ elsewhere alone have the very same numbers here, and
         are solved once."""
-        solved: dict[tuple[int, ...], list[Root] | None] = {}
-        closed = close_step(self.system, group)
-        step = closed if closed is not None else polynomials_of(self.system, group)
+        closed = close_step(local)
+        step = closed if closed is not None else polynomials_of(local)
         if step is None:
             return [None] * len(cases)
-        given = [self._numbers(step.parameters, case) for case in cases]
-        keys = [tuple(map(id, numbers)) for numbers in given]
-        for key, numbers, case in zip(keys, given, cases, strict=True):
-            if key not in solved:
-                found = closed.solve(numbers) if closed is not None else None
-                solved[key] = roots = self._eliminate(group, case) if found is None else found
-                doubles = (each for root in roots or () if root.is_double for each in root.values.values())
-                if not all(map(ball.is_exact, doubles)):
-                    self.doubts.append(Doubt(group.unknowns, Obstacle.TOUCHING))
-        return [solved[key] for key in keys]
+        given = [ball.SameNumbers(self._numbers(step.parameters, case)) for case in cases]
+        for numbers in dict.fromkeys(given):
+            roots, obstacle = _roots_of(local, numbers, self.close)
+            doubles = (each for root in roots or () if root.is_double for each in root.values.values())
+            if obstacle is None and not all(map(ball.is_exact, doubles)):
+                obstacle = Obstacle.TOUCHING
+            if obstacle is not None:
+                self.doubts.append(Doubt(local.group.unknowns, obstacle))
+        return [_roots_of(local, numbers, self.close)[0] for numbers in given]
 
     def _numbers(self, names: Sequence[str], case: ExactSolution) -> list[Number]:
         return [self.ground.number(name, case.scalars, case.signs) for name in names]
-
-    def _eliminate(self, group: Group, case: ExactSolution) -> list[Root] | None:
-        """All solutions of a step that the construction does not close, or that is a special one at these values; None
-        if it has no closed form."""
-        step = polynomials_of(self.system, group)
-        if step is None:
-            return None
-        witnesses = (witness_of(name, case.signs) for name in step.parameters)
-        numbers = map(Coefficient, self._numbers(step.parameters, case), witnesses)
-        try:
-            return solve_step(step, list(numbers), self.close)
-        except ObstacleError as error:
-            if error.obstacle is Obstacle.NO_CLOSED_FORM:
-                return None
-            self.doubts.append(Doubt(group.unknowns, error.obstacle))
-            return []
 
     def _search(self, group: Group, kernel: Kernel, cases: Sequence[ExactSolution]) -> _Steps[list[list[Root]]]:
         """All solutions of a step without a closed form, for each case; all cases are searched together, and those that
@@ -304,6 +292,24 @@ class _Search:
             at = self.ground.values(state.scalars, state.signs, self.system)
             for sense in complete:
                 yield from sense.values(at)
+
+
+@lru_cache(maxsize=8192)
+def _roots_of(local: Local, numbers: ball.SameNumbers, close: Close) -> tuple[list[Root] | None, Obstacle | None]:
+    """All solutions of a step at these values of its parameters, None if it has no closed form; and why it could not be
+    solved. What is tried on a chain leaves most of its steps as they are."""
+    closed, step = close_step(local), None
+    found = closed.solve(numbers.numbers) if closed is not None else None
+    if found is not None or (step := polynomials_of(local)) is None:
+        return found, None
+    # What the construction does not close, or is a special one at these values.
+    values = dict(zip((closed or step).parameters, numbers.numbers, strict=True))
+    sides = {name.removeprefix(SIDE): int(value) for name, value in values.items() if name.startswith(SIDE)}
+    coefficients = [Coefficient(values[name], witness_of(name, sides)) for name in step.parameters]
+    try:
+        return solve_step(step, coefficients, close), None
+    except ObstacleError as error:
+        return (None, None) if error.obstacle is Obstacle.NO_CLOSED_FORM else ([], error.obstacle)
 
 
 def _choices(state: ExactSolution, kernel: Kernel) -> Iterator[dict[str, int]]:

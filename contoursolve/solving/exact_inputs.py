@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from contoursolve.geometry import FIRST, SECOND, Given, Profile, System, Unit, Values, scalar
-from contoursolve.numeric import COSINE, SIDE, Functions, Number, ball
+from contoursolve.numeric import COSINE, SIDE, Created, Functions, Number, ball
 from contoursolve.solving.numbers import axes_of
 
 REACH = 4.0
@@ -33,7 +33,7 @@ class Ground:
 
     def values(self, scalars: Mapping[str, Number], signs: Mapping[str, int], system: System) -> Values:
         """A lookup of exact numbers and balls for the facts of a system."""
-        directions = {name: ball.direction(given.value) for name, given in self.angles.items()}
+        directions = Created(lambda name: ball.direction(self.angles[name].value))
         return Values({**self.scalars, **scalars}, self.amounts, directions, system.headed, signs, BALLS)
 
     def nearby(self, system: System) -> float:

@@ -1,10 +1,10 @@
 """A lookup whose values are inputs by name: of a CasADi function under construction, or numbers that stand for them."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, Protocol
 
-from contoursolve.geometry import System, Values
+from contoursolve.geometry import Fact, System, Values
 from contoursolve.numeric import COSINE, SIDE, SINE, Created, Functions, expressions
 
 EXPRESSIONS = Functions(
@@ -38,15 +38,28 @@ def given_directions(tape: InputSource) -> Created:
     return Created(lambda name: (tape.input(name + COSINE), tape.input(name + SINE)))
 
 
+Headed = frozenset[tuple[str, tuple[str, str]]]
+"""Lines of given direction, each with that given and with a point of the line."""
+
+
+def headed_of(system: System, facts: Iterable[Fact]) -> Headed:
+    """The lines of given direction that some facts of a system read."""
+    lines = {name.rpartition(".")[0] for fact in facts for name in fact.reads()}
+    return frozenset((line, system.headed[line]) for line in lines if line in system.headed)
+
+
 def input_values(
-    system: System, tape: InputSource, symbols: Mapping[str, Any], functions: Functions = EXPRESSIONS
+    headed: Mapping[str, tuple[str, str]],
+    tape: InputSource,
+    symbols: Mapping[str, Any],
+    functions: Functions = EXPRESSIONS,
 ) -> Values:
-    """A lookup whose values are symbols, or inputs of a tape."""
+    """A lookup whose values are symbols, or inputs of a tape; `headed` are the lines of given direction."""
     return Values(
         named_inputs(tape, symbols),
         named_inputs(tape),
         given_directions(tape),
-        system.headed,
+        headed,
         named_inputs(tape, prefix=SIDE),
         functions,
     )

@@ -2,13 +2,14 @@
 
 from collections.abc import Mapping, Sequence
 from enum import Enum
+from functools import lru_cache
 
 from contoursolve.geometry import System
 from contoursolve.numeric import Number, ball, expressions
 from contoursolve.solving.exact_inputs import Ground
 from contoursolve.solving.partition import Group
 from contoursolve.solving.solution import Proof, up_to_one_digit
-from contoursolve.solving.step_equations import Kernel, make_kernel
+from contoursolve.solving.step_equations import Kernel, Local, make_kernel
 
 
 class Content(Enum):
@@ -103,14 +104,11 @@ Box = tuple[Proof, Sequence[Number]]
 
 
 class Prover:
-    """Proves solutions of one system on one ground; a step that several of them have in common is tested once."""
+    """Proves solutions of one system on one ground; a step that solutions have in common is tested once."""
 
     def __init__(self, system: System, groups: Sequence[Group], ground: Ground) -> None:
-        self.kernels = [make_kernel(system, group) for group in groups]
+        self.steps = [Local(system, group) for group in groups]
         self.ground = ground
-        self.tested: dict[tuple[int, ...], tuple[Sequence[Number], Box]] = {}
-        """By step and the identities of its numbers, which are kept with it: balls have no equality, and solutions that
-        have a step in common have its numbers."""
 
     def prove(self, scalars: Mapping[str, Number], signs: Mapping[str, int]) -> tuple[Proof, dict[str, Number]]:
         """The proof of a solution, and a box for every unknown that holds the exact solution.
@@ -120,15 +118,11 @@ class Prover:
         """
         boxes: dict[str, Number] = {}
         proof = Proof.EXACT
-        for number, kernel in enumerate(self.kernels):
-            values = [scalars[name] for name in kernel.unknowns]
-            names = kernel.arguments[len(kernel.unknowns) :]
-            inputs = [self.ground.number(name, boxes, signs) for name in names]
-            numbers = (*values, *inputs)
-            key = (number, *map(id, numbers))
-            if key not in self.tested:
-                self.tested[key] = numbers, _test(kernel, values, dict(zip(names, inputs, strict=True)))
-            own, found = self.tested[key][1]
+        for step in self.steps:
+            kernel = make_kernel(step)
+            values = (scalars[name] for name in kernel.unknowns)
+            inputs = (self.ground.number(name, boxes, signs) for name in kernel.arguments[len(kernel.unknowns) :])
+            own, found = _test(step, ball.SameNumbers([*values, *inputs]))
             if own is Proof.UNKNOWN:
                 return Proof.UNKNOWN, dict(scalars)
             if own is not Proof.EXACT:
@@ -137,10 +131,14 @@ class Prover:
         return proof, boxes
 
 
-def _test(kernel: Kernel, values: Sequence[Number], inputs: Mapping[str, Number]) -> Box:
-    if all(map(ball.is_exact, (*values, *inputs.values()))):
+@lru_cache(maxsize=8192)
+def _test(step: Local, numbers: ball.SameNumbers) -> Box:
+    """The proof of a step's solution, at the values of its unknowns and then of its other inputs."""
+    kernel, size = make_kernel(step), len(step.group.unknowns)
+    values, inputs = numbers.numbers[:size], dict(zip(kernel.arguments[size:], numbers.numbers[size:], strict=True))
+    if all(map(ball.is_exact, numbers.numbers)):
         # Rational numbers are tried in the equations themselves.
-        found = kernel.equations([*values, *inputs.values()])[: len(kernel.facts)]
+        found = kernel.equations(numbers.numbers)[: len(kernel.facts)]
         if all(each == 0 for each in found):
             return Proof.EXACT, values
     margin = MARGIN * max(1.0, *(abs(ball.middle(each)) for each in values))

@@ -19,7 +19,7 @@ from contoursolve.numeric import (
     expressions,
     modular_rank,
 )
-from contoursolve.solving.inputs import input_values
+from contoursolve.solving.inputs import headed_of, input_values
 from contoursolve.solving.partition import Group
 
 
@@ -169,13 +169,29 @@ class Polynomials(Struct, frozen=True, eq=False):
     coefficients: Replay
 
 
+class Local:
+    """A group of facts of a system; equal to that of another system whose equations for it are the same ones."""
+
+    def __init__(self, system: System, group: Group) -> None:
+        self.system, self.group = system, group
+        radii = frozenset(name for name in group.unknowns if name in system.figure.radii)
+        self._key = group, headed_of(system, group.facts), system.figure.start, radii
+        self._hash = hash(self._key)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Local) and self._key == other._key
+
+    def __hash__(self) -> int:
+        return self._hash
+
+
 @lru_cache(maxsize=8192)
-def polynomials_of(system: System, group: Group) -> Polynomials | None:
+def polynomials_of(local: Local) -> Polynomials | None:
     """The polynomials of a group of facts of a system; None if an equation is none, or of higher degree."""
-    symbols = {name: expressions.symbol(name) for name in group.unknowns}
+    symbols = {name: expressions.symbol(name) for name in local.group.unknowns}
     tape = Tape()
     parts = expressions.quadratic_parts(
-        [fact.equation(input_values(system, tape, symbols)) for fact in group.facts],
+        [fact.equation(input_values(local.system.headed, tape, symbols)) for fact in local.group.facts],
         list(symbols.values()),
     )
     if parts is None:
@@ -186,12 +202,13 @@ def polynomials_of(system: System, group: Group) -> Polynomials | None:
 
 
 @lru_cache(maxsize=8192)
-def make_kernel(system: System, group: Group) -> Kernel:
+def make_kernel(local: Local) -> Kernel:
     """The kernel of a group of facts of a system."""
+    system, group = local.system, local.group
     sides = tuple(dict.fromkeys(side for fact in group.facts for side in fact.sides()))
     at = Tape()
     unknowns = [at.input(name) for name in group.unknowns]
-    outputs = [fact.equation(input_values(system, at, {})) for fact in group.facts]
+    outputs = [fact.equation(input_values(system.headed, at, {})) for fact in group.facts]
     vector, is_affine = expressions.with_slopes(outputs, unknowns)
     at.output("equations and slopes", vector)
     function = at.function()

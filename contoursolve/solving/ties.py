@@ -115,7 +115,7 @@ def _is_for_certain(circuit: Circuit, profile: Profile, rows: AffineFacts) -> bo
 
 def circuits_for_all_values(system: System) -> Circuits:
     """The smallest sets of facts of a system that say the same whatever the values are; of facts that are affine."""
-    return rows_at(system, system.facts, input_values(system, _Somewhere(), {}, FLOATS)).circuits()
+    return rows_at(system, system.facts, input_values(system.headed, _Somewhere(), {}, FLOATS)).circuits()
 
 
 class _Somewhere:

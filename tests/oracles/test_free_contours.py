@@ -28,6 +28,7 @@ from contoursolve.solving import (
     groups_of,
 )
 from contoursolve.solving.alternatives import find_alternatives
+from contoursolve.solving.step_equations import Local
 
 # Programs of the manuals: printed there, results derived by hand. -------------------------------------------------
 
@@ -488,6 +489,7 @@ def test_the_construction_has_the_solutions_that_elimination_finds_in_the_same_o
     for close in (closed_steps.close_step, lambda *_: None):
         monkeypatch.setattr(enumerate_module, "close_step", close)
         alternatives_module._find.cache_clear()
+        enumerate_module._roots_of.cache_clear()
         lists = []
         for text in texts:
             for answer in contoursolve.solve(text, control="heidenhain", depth="verdict").answers:
@@ -496,7 +498,7 @@ def test_the_construction_has_the_solutions_that_elimination_finds_in_the_same_o
                     continue
                 system = assemble(profile)
                 if analyse(system).is_determined:
-                    closed += any(close(system, group) is not None for group in groups_of(system))
+                    closed += any(close(Local(system, group)) is not None for group in groups_of(system))
                     drawn = find_alternatives(profile)
                     lists.append([(each.name, each.certificate.proof, each.scalars) for each in drawn.items])
         found.append(lists)

@@ -34,7 +34,7 @@ from contoursolve.solving.branch_and_prune import search
 from contoursolve.solving.enumerate import enumerate_solutions
 from contoursolve.solving.exact_inputs import ground_of
 from contoursolve.solving.solution import Proof
-from contoursolve.solving.step_equations import make_kernel
+from contoursolve.solving.step_equations import Local, make_kernel
 
 NAMES = "abc"
 """Of the given things."""
@@ -436,7 +436,7 @@ def stage_of(sketch: Sketch) -> Stage:
     profile = sketch.profile()
     system = assemble(profile)
     groups = order(system, tuple(system.facts[index] for index in analyse(system).basis))
-    kernel, ground = make_kernel(system, groups[-1]), ground_of(profile)
+    kernel, ground = make_kernel(Local(system, groups[-1])), ground_of(profile)
     enumeration = enumerate_solutions(profile, system)
     before = {name: enumeration.found[0].scalars[name] for group in groups[:-1] for name in group.unknowns}
     signs = tuple(dict(zip(kernel.sides, each, strict=True)) for each in product((1, -1), repeat=len(kernel.sides)))
