@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from enum import Enum
 from functools import lru_cache
@@ -78,7 +78,7 @@ from contoursolve.tolerance import LENGTH
 
 if TYPE_CHECKING:
     from contoursolve.diagnosis.equation_system import EquationSystem
-    from contoursolve.gcode import Block
+    from contoursolve.gcode import Block, Word
     from contoursolve.solving import Alternatives
 
 
@@ -359,10 +359,10 @@ def problems(answer: Answer) -> list[Diagnostic]:
     return [each for each in answer.diagnostics if each.severity is not Severity.INFO]
 
 
-def may_be_suspected(answer: Answer, around: Callable[[], Sequence[Block]]) -> bool:
+def may_be_suspected(answer: Answer, beside: Iterable[Block], around: Callable[[], Sequence[Block]]) -> bool:
     """Whether a contour is worth a second look: a turned one that crosses its axis, or runs away from the chuck
     somewhere, an arc of more than half a turn, a number that begins with a zero, a turning axis, a corner or a taper
-    unlike all others in the blocks around."""
+    unlike all others in the blocks around, of which some are beside it."""
     contour, claim = answer.contour, answer.claim
     if contour is None:
         return False
@@ -373,10 +373,24 @@ def may_be_suspected(answer: Answer, around: Callable[[], Sequence[Block]]) -> b
         return True
     if any(isinstance(each, ArcSegment) and each.length > _WIDE * each.radius for each in contour.elements):
         return True
-    words = (word for block in claim.blocks for word in block.words)
-    if any((word.has_point and LEADING.search(word.text)) or word.address in _TURNING for word in words):
+    if any(True for _ in leading_words(claim)) or any(True for _ in turning_words(claim)):
         return True
-    return stands_out(claim, around)
+    return stands_out(claim, beside, around)
+
+
+def leading_words(claim: ParsedContour) -> Iterator[Word]:
+    """The words whose number begins with a zero that nobody writes."""
+    for block in claim.blocks:
+        if LEADING.search(block.text):
+            yield from (word for word in block.words if word.has_point and LEADING.search(word.text))
+
+
+def turning_words(claim: ParsedContour) -> Iterator[Word]:
+    """The words of turning axes, which move nothing in the plane, with a number as an angle has it."""
+    words = [word for block in claim.blocks for word in block.words if word.address in _TURNING and word.number]
+    if words:
+        stated = {each.span for each in claim.words.values()}
+        yield from (word for word in words if word.span not in stated)
 
 
 def may_have_odd_points(answer: Answer) -> bool:
@@ -400,7 +414,7 @@ _WIDE = pi + 1e-3
 LEADING = re.compile(r"[A-Za-z][ \t]*+[=(]?+[ \t]*+[+-]?0\d")
 """A word whose number begins with a zero that nobody writes, as in 08.4."""
 
-_TURNING = "BC"
+_TURNING = "ABC"
 """Axes that turn on most machines."""
 
 SUSPICIONS = "suspicions"

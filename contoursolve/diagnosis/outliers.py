@@ -1,10 +1,11 @@
 """Words in which one block differs from all others of a drawing: a corner that is left sharp, a taper that is measured
 from the other axis."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import lru_cache
 
 from contoursolve.gcode import Block, Word
-from contoursolve.reading import ParsedContour
+from contoursolve.reading import ContourForm, ParsedContour
 
 _BROKEN = 3
 """Corners that are broken alike, by which one that is sharp stands out."""
@@ -15,12 +16,35 @@ _ALIKE = 2
 _RIGHT_ANGLE, _HALF_TURN = 90, 180
 
 
-def stands_out(claim: ParsedContour, around: Callable[[], Sequence[Block]]) -> bool:
-    """Whether one of its blocks may differ from all others around."""
-    if not (_shapes(claim) or any(claim.before.plane.diameters)):
+def stands_out(claim: ParsedContour, beside: Iterable[Block], around: Callable[[], Sequence[Block]]) -> bool:
+    """Whether one of its blocks differs from all others around. Of those `beside` it, which are among them, only as
+    many are read as it takes to see that none does."""
+    if not (_may_be_sharp(claim) or _may_be_other_taper(claim, beside)):
         return False
     blocks = around()
     return sharp_corner(claim, blocks) is not None or other_taper(claim, blocks) is not None
+
+
+def _may_be_sharp(claim: ParsedContour) -> bool:
+    """Whether one of its blocks breaks no corner, and the others break theirs alike."""
+    shapes = _shapes(claim)
+    sized = [[word for word in block.words if word.address in shapes] for block in claim.blocks] if shapes else [[None]]
+    return not all(sized) and len({(word.address, word.number) for words in sized for word in words if word}) <= 1
+
+
+def _may_be_other_taper(claim: ParsedContour, beside: Iterable[Block]) -> bool:
+    """Whether all tapers beside it are measured from the axis from which one of its own is not."""
+    if not any(claim.before.plane.diameters):
+        return False
+    own = {word.span for word in claim.words.values()}
+    found = _tapers(claim, claim.blocks)
+    odd = {taper for taper, word in found if word.span in own and taper != _RIGHT_ANGLE - taper}
+    for block in beside:
+        if not odd:
+            break
+        for taper, _ in _tapers(claim, [block]):
+            odd &= {_RIGHT_ANGLE - taper}
+    return bool(odd)
 
 
 def _shapes(claim: ParsedContour) -> set[str]:
@@ -54,10 +78,7 @@ def other_taper(claim: ParsedContour, blocks: Sequence[Block]) -> Word | None:
     with theirs; None if there is none such."""
     if not any(claim.before.plane.diameters):
         return None
-    headings = {row.fact.given for row in claim.form.outline.facts if row.fact.heading}
-    addresses = {claim.vocabulary[name][0] for name in headings if name in claim.vocabulary}
-    words = [word for block in blocks for word in block.words if word.address in addresses and word.number is not None]
-    tapers = [(taper, word) for word in words if (taper := taper_of(word)) not in (0, _RIGHT_ANGLE)]
+    tapers = _tapers(claim, blocks)
     own = {word.span for word in claim.words.values()}
     for taper, word in tapers:
         others = [each for each, other in tapers if other is not word]
@@ -65,6 +86,19 @@ def other_taper(claim: ParsedContour, blocks: Sequence[Block]) -> Word | None:
         if is_other and word.span in own and taper != _RIGHT_ANGLE - taper:
             return word
     return None
+
+
+def _tapers(claim: ParsedContour, blocks: Iterable[Block]) -> list[tuple[float, Word]]:
+    """The words of some blocks that are angles of lines as a contour has them, aslant, each with its taper."""
+    addresses = {claim.vocabulary[name][0] for name in _headings(claim.form) if name in claim.vocabulary}
+    words = [word for block in blocks for word in block.words if word.address in addresses and word.number is not None]
+    return [(taper, word) for word in words if (taper := taper_of(word)) not in (0, _RIGHT_ANGLE)]
+
+
+@lru_cache(maxsize=256)
+def _headings(form: ContourForm) -> frozenset[str]:
+    """The words that are angles of lines."""
+    return frozenset(row.fact.given for row in form.outline.facts if row.fact.heading)
 
 
 def taper_of(word: Word) -> float:

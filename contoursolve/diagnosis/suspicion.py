@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis.attempt import Repair, Trial
 from contoursolve.diagnosis.edits import Edit, EditKind
-from contoursolve.diagnosis.examine import LEADING, SUSPICIONS, Answer, problems
+from contoursolve.diagnosis.examine import SUSPICIONS, Answer, leading_words, problems, turning_words
 from contoursolve.diagnosis.explain import context_of, report
 from contoursolve.diagnosis.fix_text import with_fixes
 from contoursolve.diagnosis.odd_points import aslant, open_end
@@ -99,11 +99,10 @@ def _replaced(edit: Edit, slip: SlipKind, window: Window) -> Candidate:
 def _doubtful(answer: Answer, window: Window) -> Iterator[tuple[str, tuple[SlipKind, ...], frozenset[Span]]]:
     """The reasons to doubt a contour, each with the slips that may explain it and the words in which they may be."""
     claim = answer.claim
-    words = [word for block in claim.blocks for word in block.words]
-    leading = frozenset(word.span for word in words if word.has_point and LEADING.search(word.text))
+    leading = frozenset(word.span for word in leading_words(claim))
     if leading:
         yield "its number begins with a zero", (ZERO_FIRST,), leading
-    beside = frozenset(word.span for word in _beside(claim))
+    beside = frozenset(word.span for word in turning_words(claim))
     if beside:
         yield "it draws nothing here", (LETTER_ALIKE,), beside
     if not _asks_for_farther(claim) and (wide := _wide(answer)):
@@ -114,13 +113,6 @@ def _doubtful(answer: Answer, window: Window) -> Iterator[tuple[str, tuple[SlipK
     if window.before.moves and oddities(window.before.moves).get(Feature.TURNS_BACK):
         stated = frozenset(word.span for word in claim.words.values())
         yield "the path runs back along the axis", _TENFOLD, stated
-
-
-def _beside(claim: ParsedContour) -> Iterator[Word]:
-    """The words of turning axes, which move nothing in the plane, with a number as an angle has it."""
-    stated = {each.span for each in claim.words.values()}
-    for block in claim.blocks:
-        yield from (word for word in block.words if word.address in "ABC" and word.number and word.span not in stated)
 
 
 def _asks_for_farther(claim: ParsedContour) -> bool:

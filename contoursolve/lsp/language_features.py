@@ -50,6 +50,11 @@ def hover_of(opened: Opened, position: types.Position) -> types.Hover | None:
         is_drawn = opened.options.has_pictures and opened.reads_markdown
         return _shown(opened, _about_contour(answer, is_drawn=is_drawn), _lines_of(opened, line))
     text = _about_plain_word(opened, word) if word is not None else ""
+    examined = opened.program.examined
+    if text and examined < line:
+        text += (
+            f"\n\nThe contours here are not known yet: {examined} of {len(opened.program.blocks)} lines are examined."
+        )
     return _hover(opened, text, word) if text and word is not None else None
 
 

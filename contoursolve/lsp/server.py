@@ -4,7 +4,10 @@ import asyncio
 import logging
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
+from itertools import count
+from math import inf
 from pathlib import Path
+from time import monotonic
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -35,8 +38,14 @@ PATIENCE = 5.0
 REST = 0.15
 """Seconds without a further edit until a program is examined that is edited faster than it can be."""
 
-AT_ONCE = 8
-"""Blocks and contours that are examined before the next message is looked at."""
+MOMENT = 0.02
+"""Seconds for which is examined before the next message is looked at."""
+
+SOON = 0.1
+"""Seconds after which a hover says what it can."""
+
+LONG = 1.0
+"""Seconds of an examination after which is told what it has found so far, and again whenever it took twice as long."""
 
 
 class Protocol(LanguageServerProtocol):
@@ -69,6 +78,7 @@ class Server(LanguageServer):
         self.options, self.pages = ClientSettings(), Pages()
         self.has_client_commands = False
         self.is_configured = asyncio.Event()
+        self._numbers = count(1)
 
     def open(self, item: types.TextDocumentItem) -> None:
         """Begin to follow a program."""
@@ -89,16 +99,41 @@ class Server(LanguageServer):
         self.checking[uri] = asyncio.get_running_loop().create_task(self._check(self.opened[uri], rest))
 
     async def _check(self, opened: Opened, rest: float) -> None:
+        token, told = "", monotonic()
         try:
             await self._until_configured()
             await asyncio.sleep(rest)
-            while not opened.program.check(AT_ONCE):
+            begun = told = monotonic()
+            while not _go_on(opened):
                 await asyncio.sleep(0)
+                if monotonic() - told > max(LONG, told - begun):
+                    token, told = token or self._begin_progress(opened), monotonic()
+                    self._tell_so_far(opened, token)
             self._tell(opened)
         except Exception as error:  # what is told stays as it was, and the next edit is examined again
             logger.exception("%s was not examined", opened.uri)
             message = f"{opened.program.name} was not examined: {type(error).__name__}: {error}; please report it"
             self.window_show_message(types.ShowMessageParams(types.MessageType.Error, message))
+        finally:
+            if token in self.work_done_progress.tokens:
+                self.work_done_progress.end(token, types.WorkDoneProgressEnd())
+
+    def _begin_progress(self, opened: Opened) -> str:
+        """Have the client show the progress of an examination, if it can; the name of what it shows."""
+        token, window = f"{SECTION} {next(self._numbers)}", self.client_capabilities.window
+        if window and window.work_done_progress:
+            self.work_done_progress.create(token)
+            self.work_done_progress.begin(token, types.WorkDoneProgressBegin(f"Examining {opened.program.name}"))
+        return token
+
+    def _tell_so_far(self, opened: Opened, token: str) -> None:
+        """Send the findings of an examination that goes on, and how far it is. They are not those of this version."""
+        found = diagnostics_of(opened)
+        self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(opened.uri, found))
+        if token in self.work_done_progress.tokens:
+            done, lines = opened.program.examined, len(opened.program.blocks)
+            report = types.WorkDoneProgressReport(message=f"line {done} of {lines}", percentage=100 * done // lines)
+            self.work_done_progress.report(token, report)
 
     async def _until_configured(self) -> None:
         """Wait until the client has told its options: with others, the control may be another one."""
@@ -133,6 +168,16 @@ class Server(LanguageServer):
         """A program with all of it examined; None if it is not open."""
         while uri in self.checking and not self.checking[uri].done():
             await asyncio.wait([self.checking[uri]])
+        return self.opened.get(uri)
+
+    async def examined(self, uri: str, line: int, patience: float = inf) -> Opened | None:
+        """A program with its lines up to one examined, or as far as that gets in so many seconds; None if it is not
+        open."""
+        end = monotonic() + patience
+        while uri in self.checking and not self.checking[uri].done() and monotonic() < end:
+            if self.is_configured.is_set() and self.opened[uri].program.examined >= line:
+                break
+            await asyncio.wait([self.checking[uri]], timeout=MOMENT)
         return self.opened.get(uri)
 
     def close(self, uri: str) -> None:
@@ -175,6 +220,27 @@ class Server(LanguageServer):
 
 
 server = Server()
+
+
+def _go_on(opened: Opened) -> bool:
+    """Examine a program for a moment; whether everything is up to date."""
+    end = monotonic() + MOMENT
+    while not opened.program.check(1):
+        if monotonic() > end:
+            return False
+    return True
+
+
+def _of_lines(read: Callable[[Opened, Any], Any], patience: float = inf) -> Callable[[Any], Any]:
+    """A handler of requests about a place or a range, answered when the program is examined up to there, or after so
+    many seconds; null if it is not open."""
+
+    async def handle(params: Any) -> Any:
+        last = params.range.end if hasattr(params, "range") else params.position
+        opened = await server.examined(params.text_document.uri, last.line + 1, patience)
+        return None if opened is None else read(opened, params)
+
+    return handle
 
 
 def _of_program(read: Callable[[Opened, Any], Any]) -> Callable[[Any], Any]:
@@ -287,44 +353,48 @@ def _lenses(opened: Opened, _: types.CodeLensParams) -> list[types.CodeLens]:
     return [*commands.lenses_of(opened, of_client=server.has_client_commands)] if opened.options.has_lenses else []
 
 
-_REQUESTS: tuple[tuple[str, Any, Callable[[Opened, Any], Any]], ...] = (
+_REQUESTS: tuple[tuple[str, Any, Callable[[Any], Any]], ...] = (
     (
         types.TEXT_DOCUMENT_CODE_ACTION,
         types.CodeActionOptions([types.CodeActionKind.QuickFix, FIX_ALL], resolve_provider=True),
-        _actions,
+        _of_program(_actions),
     ),
-    (types.TEXT_DOCUMENT_HOVER, None, lambda opened, params: hover_of(opened, params.position)),
+    (types.TEXT_DOCUMENT_HOVER, None, _of_lines(lambda opened, params: hover_of(opened, params.position), SOON)),
     (
         types.TEXT_DOCUMENT_INLAY_HINT,
         None,
-        lambda opened, params: [*hints_of(opened, params.range)] if opened.options.is_hinting else [],
+        _of_lines(lambda opened, params: [*hints_of(opened, params.range)] if opened.options.is_hinting else []),
     ),
-    (types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=[" ", ",", "#"]), _completions),
+    (
+        types.TEXT_DOCUMENT_COMPLETION,
+        types.CompletionOptions(trigger_characters=[" ", ",", "#"]),
+        _of_lines(_completions),
+    ),
     (
         types.TEXT_DOCUMENT_SIGNATURE_HELP,
         types.SignatureHelpOptions([" "]),
-        lambda opened, params: signatures_of(opened, params.position),
+        _of_lines(lambda opened, params: signatures_of(opened, params.position)),
     ),
-    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, lambda opened, _: [*symbols_of(opened)]),
-    (types.TEXT_DOCUMENT_FOLDING_RANGE, None, lambda opened, _: [*folds_of(opened)]),
-    (types.TEXT_DOCUMENT_CODE_LENS, None, _lenses),
-    (types.TEXT_DOCUMENT_FORMATTING, None, lambda opened, _: formatted(opened)),
+    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, _of_program(lambda opened, _: [*symbols_of(opened)])),
+    (types.TEXT_DOCUMENT_FOLDING_RANGE, None, _of_program(lambda opened, _: [*folds_of(opened)])),
+    (types.TEXT_DOCUMENT_CODE_LENS, None, _of_program(_lenses)),
+    (types.TEXT_DOCUMENT_FORMATTING, None, _of_program(lambda opened, _: formatted(opened))),
     (
         types.TEXT_DOCUMENT_PREPARE_RENAME,
         None,
-        lambda opened, params: block_number_under(opened, params.position),
+        _of_program(lambda opened, params: block_number_under(opened, params.position)),
     ),
     (
         types.TEXT_DOCUMENT_RENAME,
         types.RenameOptions(prepare_provider=True),
-        lambda opened, params: renamed(opened, params.position, params.new_name),
+        _of_program(lambda opened, params: renamed(opened, params.position, params.new_name)),
     ),
-    (types.TEXT_DOCUMENT_DEFINITION, None, lambda opened, params: target_of(opened, params.position)),
+    (types.TEXT_DOCUMENT_DEFINITION, None, _of_program(lambda opened, params: target_of(opened, params.position))),
 )
-"""Requests of a client about a program, with the options that it is told, and the functions that answer."""
+"""Requests of a client about a program, with the options that it is told, and what answers."""
 
-for _name, _options, _read in _REQUESTS:
-    server.feature(_name, _options)(_of_program(_read))
+for _name, _options, _answer in _REQUESTS:
+    server.feature(_name, _options)(_answer)
 
 
 @server.feature(types.CODE_ACTION_RESOLVE)
@@ -337,7 +407,7 @@ async def resolve_action(action: types.CodeAction) -> types.CodeAction:
 @server.feature(PICTURE)
 async def picture(params: Any) -> Any:
     """The contour under the cursor as a picture, with the places of its words."""
-    opened = await server.checked(params.textDocument.uri)
+    opened = await server.examined(params.textDocument.uri, params.position.line + 1)
     if opened is None:
         return None
     return commands.picture_of(opened, types.Position(params.position.line, params.position.character))

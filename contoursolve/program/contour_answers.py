@@ -14,7 +14,7 @@ from contoursolve.program.named_words import mark_trusted, with_named_words
 from contoursolve.program.outside_contours import NEAR
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Pending, Previous
-from contoursolve.program.windows import Parts, window_of
+from contoursolve.program.windows import Parts, near, window_of
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, next_place
 
 if TYPE_CHECKING:
@@ -64,7 +64,8 @@ def explained(
         from contoursolve.diagnosis import mend_points  # noqa: PLC0415
 
         answer = mend_points(answer, dialect)
-    if may_be_suspected(answer, lambda: window().blocks) or _has_odd_points(answer):
+    beside = (block for blocks, _ in near(ahead) for block in reversed(blocks))
+    if may_be_suspected(answer, beside, lambda: window().blocks) or _has_odd_points(answer):
         from contoursolve.diagnosis import suspect  # noqa: PLC0415 - few contours look odd
 
         answer = suspect(answer, window())
@@ -99,21 +100,27 @@ def _has(answer: Answer, issue: ReadIssue) -> bool:
 
 
 class Answers:
-    """The answers to the contours of one program, each examined where it is found."""
+    """The answers to the contours of one program: each is solved, alone or with others, and then explained."""
+
+    looks_back = True
+    """Whether what is before a contour runs before it."""
 
     def __init__(self, asked: Request, dialect: Dialect, parts: Parts) -> None:
         self.asked, self.dialect, self.parts = asked, dialect, parts
 
-    def find(self, found: ParsedContour, pending: Pending) -> Answer:
-        """The answer to a contour."""
-        return self.examine(found, pending)
+    def solve(self, found: ParsedContour, pending: Pending) -> Answer:
+        """The answer to a contour, which is not explained yet."""
+        return answer_to(self.asked, self.dialect, mark_trusted(found, self.asked), pending)
+
+    def explain(self, answer: Answer, pending: Pending) -> Answer:
+        """The same answer with what is wrong, or hardly meant, explained."""
+        ahead = pending.ahead if self.looks_back else ()
+        answer = explained(self.asked, self.dialect, answer, pending, ahead, self.parts)
+        return with_named_words(answer, self.asked)
 
     def examine(self, found: ParsedContour, pending: Pending) -> Answer:
-        """The answer to what is read as a contour is."""
-        found = mark_trusted(found, self.asked)
-        answer = answer_to(self.asked, self.dialect, found, pending)
-        answer = explained(self.asked, self.dialect, answer, pending, pending.ahead, self.parts)
-        return with_named_words(answer, self.asked)
+        """Both."""
+        return self.explain(self.solve(found, pending), pending)
 
     def mend_behind(self, answer: Answer, found: Sequence[Diagnostic], pending: Pending) -> tuple[Diagnostic, ...]:
         """The findings about the block behind a contour, with what was meant there."""
@@ -122,7 +129,8 @@ class Answers:
         from contoursolve.diagnosis import mend_behind  # noqa: PLC0415 - few contours need it
 
         lines = [each.span.line for each in found]
-        own = next((at for at, block in enumerate(pending.view[pending.after :][:NEAR], 1) if block.line in lines), 0)
+        behind = pending.view[pending.after : pending.after + NEAR]
+        own = next((at for at, block in enumerate(behind, 1) if block.line in lines), 0)
         window = _window(self.dialect, answer, pending, pending.ahead, self.parts, own)
         return tuple(mend_behind(answer, found, window))
 
@@ -131,6 +139,8 @@ class AnswersInPasses(Answers):
     """The same of a program that runs: where a contour comes to the same again, its answer is that of before; and in a
     loop, each pass may be wrong, of which the first ones are explained."""
 
+    looks_back = False
+
     def __init__(self, asked: Request, dialect: Dialect, parts: Parts) -> None:
         super().__init__(asked, dialect, parts)
         self._known: dict[object, Answer] = {}
@@ -138,29 +148,34 @@ class AnswersInPasses(Answers):
         self._wrong = Counter[tuple[str, int]]()
         """How often the contour at a line of a file was wrong."""
 
-    def find(self, found: ParsedContour, pending: Pending) -> Answer:
-        if found.directives:
-            return self.examine(found, pending)
-        behind = pending.view[pending.after : pending.after + NEAR]
-        key = (found.before.known(), tuple(map(_key_of, (*found.blocks, *behind))), len(found.blocks))
+    def solve(self, found: ParsedContour, pending: Pending) -> Answer:
+        known = None if found.directives else self._known.get(_key_of_pass(found, pending))
+        return super().solve(found, pending) if known is None else known
+
+    def explain(self, answer: Answer, pending: Pending) -> Answer:
+        if answer.claim.directives:
+            return self._explain_pass(answer, pending)
+        key = _key_of_pass(answer.claim, pending)
         if key not in self._known:
-            self._known[key] = self.examine(found, pending)
+            self._known[key] = self._explain_pass(answer, pending)
         return self._known[key]
 
-    def examine(self, found: ParsedContour, pending: Pending) -> Answer:
-        answer = answer_to(self.asked, self.dialect, mark_trusted(found, self.asked), pending)
-        if _is_wrong(answer) and self._is_late(found.blocks[0]):
+    def _explain_pass(self, answer: Answer, pending: Pending) -> Answer:
+        if _is_wrong(answer) and self._is_late(answer.claim.blocks[0]):
             note = f"only the first {MOST_EXPLAINED} wrong results of a contour are explained; this is a later one"
             noted = (replace(each, notes=(*each.notes, note)) for each in answer.diagnostics)
             return replace(answer, diagnostics=tuple(noted))
-        # What runs before it may run before something else, too.
-        answer = explained(self.asked, self.dialect, answer, pending, (), self.parts)
-        return with_named_words(answer, self.asked)
+        return super().explain(answer, pending)
 
     def _is_late(self, first: Block) -> bool:
         """Whether enough results of a contour, of which this is the first block, are explained; it is wrong again."""
         self._wrong[first.file, first.line] += 1
         return self._wrong[first.file, first.line] > MOST_EXPLAINED
+
+
+def _key_of_pass(found: ParsedContour, pending: Pending) -> object:
+    behind = pending.view[pending.after : pending.after + NEAR]
+    return found.before.known(), tuple(map(_key_of, (*found.blocks, *behind))), len(found.blocks)
 
 
 def _key_of(block: Block) -> object:

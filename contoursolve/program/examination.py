@@ -107,7 +107,7 @@ class Examination:
     ) -> None:
         self.asked, self.dialect = asked, dialect
         self.answers = (AnswersInPasses if is_run else Answers)(asked, dialect, self._parts)
-        self.queue = Queue(dialect, together, self.answers.find, self.answers.mend_behind, goes_on=goes_on)
+        self.queue = Queue(dialect, together, self.answers, goes_on=goes_on)
         self._context = Context(asked.rules, asked.unit)
         meant = dialect.modes.lexicon.numbers.without_point
         self._is_every_word_read = asked.is_strict and meant is WithoutPoint.LEAST_INCREMENTS

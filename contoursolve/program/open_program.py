@@ -13,7 +13,7 @@ from dataclasses import dataclass, fields, is_dataclass, replace as with_fields
 from difflib import SequenceMatcher
 from enum import Enum
 from functools import partial
-from itertools import accumulate, islice
+from itertools import accumulate, islice, takewhile
 from operator import is_
 from typing import Any, overload
 
@@ -179,6 +179,8 @@ class OpenProgram:
         self._control, self._settings = control, dict(settings or {})
         self._asked = Request(None, choice_of(Length, units, "units"), choice_of(Policy, rules, "rules"))
         self._lines = _Lines(_split(text))
+        self._stated: dict[str, str] = {}
+        """The settings that comments in its first lines state."""
         self._shown: Counter[str] | None = None
         """How many lines show what of the control; None where they are not asked."""
         self._parts: list[_Part] = []
@@ -285,7 +287,8 @@ class OpenProgram:
         old = self.dialect
         # Where blocks show several controls, the reason names their lines.
         is_shown = self._shows_something_else(gone, new)
-        if first < FIRST_LINES or self.trouble or is_shown or self._concludes_otherwise([*gone, *new]):
+        is_stated = first < FIRST_LINES and self._states_something_else()
+        if is_stated or self.trouble or is_shown or self._concludes_otherwise([*gone, *new]):
             self._choose()
         is_run = self.dialect is not None and (
             self._examination is None or needs_running(new, self.dialect.modes.language) or any(map(has_named, new))
@@ -295,6 +298,13 @@ class OpenProgram:
         else:
             self.dialect = old
             self._make_stale(first, last, len(new) - (last - first))
+
+    def _states_something_else(self) -> bool:
+        """Whether the first lines state other settings, now that some of them are others."""
+        try:
+            return stated_settings(self._lines.texts) != self._stated
+        except SettingError:
+            return True
 
     def _shows_something_else(self, gone: Sequence[str], come: Sequence[str]) -> bool:
         """Whether another control may be shown, now that some lines are gone and others have come."""
@@ -324,9 +334,9 @@ class OpenProgram:
         self.trouble, self.is_ambiguous, self.is_stated, self._shown = "", False, False, None
         try:
             program = Program(self.name, text, Blocks(text, 1, ISO))
-            stated = stated_settings(self._lines.texts)
-            self.is_stated = CONTROL in stated
-            settings = self._settings | stated
+            self._stated = stated_settings(self._lines.texts)
+            self.is_stated = CONTROL in self._stated
+            settings = self._settings | self._stated
             self.dialect = choose_alike(self._control, program, self._asked, settings, self._recognise)
         except (UnknownControlError, SettingError) as error:
             self.dialect, self.trouble = None, str(error)
@@ -382,11 +392,17 @@ class OpenProgram:
 
     def check(self, most: int | None = None) -> bool:
         """Go on examining what is stale, so many blocks and contours of it or all; whether everything is up to date."""
-        walk, self._walk = self._walk or self._examine(), None
+        walk, self._walk, self._diagnostics = self._walk or self._examine(), None, None
         if sum(1 for _ in islice(walk, most)) == most:
             self._walk = walk
             return False
         return True
+
+    @property
+    def examined(self) -> int:
+        """The number of lines, from the first one on, of which all is up to date."""
+        fresh = takewhile(lambda part: not part.is_stale, self._parts)
+        return sum(part.count for part in fresh) if self._examination is not None else len(self._lines)
 
     def _examine(self) -> Iterator[None]:
         """Examine each stale part and what follows from it, step by step. Wherever this stops, the parts together are
@@ -394,7 +410,6 @@ class OpenProgram:
         examination, parts = self._examination, self._parts
         if examination is None:
             return
-        self._diagnostics = None
         while (index := next((at for at, part in enumerate(parts) if part.is_stale), -1)) >= 0:
             line = sum(part.count for part in parts[:index])
             self._bring_up(parts[index])
@@ -451,7 +466,7 @@ class OpenProgram:
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """All findings, in the order of the program."""
+        """All findings, in the order of the program; those that are known until `check` has returned True."""
         if self._diagnostics is None:
             self._diagnostics = tuple(sorted((finding for finding, _ in self.found()), key=rank))
         return self._diagnostics
@@ -464,10 +479,18 @@ class OpenProgram:
             return
         asked = self._examination.asked
         yield from ((each, (each.span.line,)) for each in conclusions(asked, self._lines))
-        is_told, start, outside = any(part.answer is not None for part in self._parts), 0, Outside(self.dialect)
-        for part in self._parts:
-            if part.beside or part.findings or part.answer is not None:
-                self._bring_up(part)
+        parts, outside, begin = self._parts, Outside(self.dialect), 0
+        starts = [*accumulate((part.count for part in parts), initial=0)]
+        is_told = any(part.answer is not None for part in parts)
+        for index, part in enumerate(parts):
+            if not (part.beside or part.findings or (part.answer is not None and outside.is_waiting)):
+                continue
+            self._bring_up(part)
+            # What lies between says nothing, and nothing before it waits for it.
+            contour = next((at for at in range(index - 1, begin - 1, -1) if parts[at].answer is not None), -1)
+            between = partial(self._lines.between, starts[max(contour + 1, begin)], starts[index])
+            outside.pass_by(starts[contour] + 1 if contour >= 0 else 0, between)
+            begin, start = index + 1, starts[index]
             blocks = partial(self._lines.between, start, start + part.count)
             for finding in outside.take(part.beside, start + 1, blocks, part.answer, part.known.state):
                 is_told = is_told or finding.is_error
@@ -476,8 +499,10 @@ class OpenProgram:
                 lines = part.answer.lines
                 now = tuple(line - lines[0] + start + 1 for line in lines)
                 yield from ((finding, now) for finding in part.findings)
-            start += part.count
-        last = self._parts[-1]
+        if any(part.is_stale for part in parts):
+            # Nothing is known of the end.
+            return
+        start, last = starts[-1], parts[-1]
         self._bring_up(last)
         beside = outside.take(
             last.known.marks.finish(Context(asked.rules, asked.unit)), start, tuple, None, last.known.state

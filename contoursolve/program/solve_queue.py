@@ -88,21 +88,32 @@ class Pending:
         return self.ahead[-1] if self.ahead else None
 
 
+class Answering(Protocol):
+    """Answers contours, one by one."""
+
+    def solve(self, found: ParsedContour, pending: Pending) -> Answer:
+        """The answer to a contour, which is not explained yet."""
+
+    def explain(self, answer: Answer, pending: Pending) -> Answer:
+        """The same answer, explained, however it was solved."""
+
+    def mend_behind(self, answer: Answer, found: Sequence[Diagnostic], pending: Pending) -> tuple[Diagnostic, ...]:
+        """The findings about the block behind a contour, with what was meant there."""
+
+
 class Queue:
-    """The contours of one program that are pending; `examine` gives the answer to one of them by itself, `mend` the
-    findings about the block behind it with what was meant. If it `goes_on`, those behind one that is refused are
-    checked from where its best fix ends."""
+    """The contours of one program that are pending. If it `goes_on`, those behind one that is refused are checked from
+    where its best fix ends."""
 
     def __init__(
         self,
         dialect: Dialect,
         together: Together | None,
-        examine: Callable[[ParsedContour, Pending], Answer],
-        mend: Callable[[Answer, Sequence[Diagnostic], Pending], tuple[Diagnostic, ...]],
+        answers: Answering,
         *,
         goes_on: bool = False,
     ) -> None:
-        self.dialect, self.together, self.examine, self.mend, self.goes_on = dialect, together, examine, mend, goes_on
+        self.dialect, self.together, self.answers, self.goes_on = dialect, together, answers, goes_on
         self.pending: list[Pending] = []
 
     def add(
@@ -123,14 +134,14 @@ class Queue:
         self.pending = []
         for _, ready in sorted(waves.items()):
             claimed = [(each, each.contour) for each in ready]
-            each_alone = [partial(self.examine, claim, each) for each, claim in claimed]
+            each_alone = [partial(self.answers.solve, claim, each) for each, claim in claimed]
             answers = (
                 [once() for once in each_alone]
                 if self.together is None
                 else self.together.solve([claim for _, claim in claimed], each_alone)
             )
             for (each, _), answer in zip(claimed, answers, strict=True):
-                self._take(each, answer)
+                self._take(each, self.answers.explain(answer, each))
 
     def _take(self, each: Pending, answer: Answer) -> None:
         """Take in the answer to a contour that was pending."""
@@ -142,10 +153,13 @@ class Queue:
             each.left = cache(partial(_after, claim, self.dialect.modes, answer, origin, end))
             behind = self._behind(each, claim.form.name, answer.contour, each.left)
             if behind:
-                told = replace(told, diagnostics=(*told.diagnostics, *self.mend(told, behind, each)))
+                told = replace(told, diagnostics=(*told.diagnostics, *self.answers.mend_behind(told, behind, each)))
             each.step = Step(step.blocks, step.before, told, step.findings)
             # Who waits for its end would keep all that was before it.
             each.ahead = ()
+
+    def _examine(self, claim: ParsedContour, each: Pending) -> Answer:
+        return self.answers.explain(self.answers.solve(claim, each), each)
 
     def _check_on(self, each: Pending, answer: Answer) -> tuple[Answer, Answer]:
         """The answer to a contour whose start is not known, with what is found if it begins where the best fix of the
@@ -159,7 +173,7 @@ class Queue:
         found = self.dialect.find(each.view, 0, state, self.dialect.modes) if state.start().is_known else None
         if not isinstance(found, ParsedContour):
             return self._with_start(answer, ReadIssue.CONTOUR_WAITS, (), line=lines), answer
-        tried = self.examine(found, each)
+        tried = self._examine(found, each)
         first, second = (float(value or 0) for value in state.start().values)
         place = measured((first, second), state.plane, found.after.unit)
         told = self._with_start(answer, ReadIssue.START_ASSUMED, tried.diagnostics, line=lines, place=place)
@@ -231,7 +245,7 @@ class Queue:
                 self.settle()
             if pending.left is None:
                 # While others are solved, one of them asks for it.
-                self._take(pending, self.examine(pending.contour, pending))
+                self._take(pending, self._examine(pending.contour, pending))
             return cast("Callable[[], State]", pending.left)().axes[axis]
 
         return state.move({axis: Awaited(partial(find, axis), pending.wave + 1) for axis in axes})

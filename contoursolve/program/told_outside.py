@@ -88,9 +88,18 @@ class Outside:
             self._contour = line
             if self._held:
                 yield from self._settle(answer, before)
-        self._is_behind = answer is not None or (
-            self._is_behind and not any(words_of(block.text) for block in blocks())
-        )
+        self._is_behind = answer is not None or (self._is_behind and not _says_something(blocks()))
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether a contour may tell of findings before it."""
+        return self.is_strict or bool(self._held)
+
+    def pass_by(self, contour: int, blocks: Callable[[], Iterable[Block]]) -> None:
+        """Pass lines without findings while none waits: the last contour in them began at a line (0: there is none),
+        and some blocks follow it, or the lines are these blocks."""
+        self._contour = contour or self._contour
+        self._is_behind = (contour > 0 or self._is_behind) and not _says_something(blocks())
 
     def _settle_points(self, answer: Answer) -> Iterator[Diagnostic]:
         """Moves in increments before a contour, but for those of which it tells, where the program is known to write
@@ -155,6 +164,10 @@ class Outside:
             is_unread = finding.about is ReadIssue.NOT_READ and finding.is_error
             return self._contour > 0 or is_unread or self._is_corner(finding)
         return finding.span.line <= self._contour and _waits_for_any(finding)
+
+
+def _says_something(blocks: Iterable[Block]) -> bool:
+    return any(words_of(block.text) for block in blocks)
 
 
 def _no_signs(_: Block) -> tuple[Word, ...]:

@@ -1,6 +1,6 @@
 """The blocks around something that is wrong, for trying what was meant."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from contoursolve.gcode import Block
@@ -33,10 +33,14 @@ def window_of(
     """Blocks in a state, with what is ahead of them, as far as it is near, and some blocks behind."""
     from contoursolve.diagnosis import Window  # noqa: PLC0415 - most programs need no diagnosis
 
-    near, count = list[Previous](), 0
-    for blocks, before in reversed(ahead):
-        count += len(blocks)
+    return Window(tuple(near(ahead))[::-1], tuple(own), tuple(behind), state, dialect, parts)
+
+
+def near(ahead: Sequence[Previous]) -> Iterator[Previous]:
+    """Those that are near, the last one first."""
+    count = 0
+    for each in reversed(ahead):
+        count += len(each[0])
         if count > MOST_AHEAD:
-            break
-        near.insert(0, (blocks, before))
-    return Window(tuple(near), tuple(own), tuple(behind), state, dialect, parts)
+            return
+        yield each

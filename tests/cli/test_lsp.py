@@ -329,6 +329,24 @@ def test_hovers_hints_symbols_folds(served):
     served(use)
 
 
+def test_a_hover_does_not_wait_for_the_end_of_a_long_program(served):
+    """A line that is not examined yet says what the word means, and how far the examination is."""
+    one = "G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.\nG01 Z-60.\n"
+
+    async def use(editor: Editor) -> None:
+        editor.open(SHAFT, one * 20_000)
+        wanted = types.HoverParams(**about(editor, SHAFT, at(59_999, 20)))
+        late = await editor.ask(editor.client.text_document_hover_async(wanted))
+        assert late.contents.value.startswith("**K-30.** Z distance from start to virtual intersection")
+        assert re.search(r"not known yet: \d+ of 60001 lines are examined\.$", late.contents.value)
+        assert SHAFT not in editor.found
+        wanted = types.HoverParams(**about(editor, SHAFT, at(2, 20)))
+        first = await editor.ask(editor.client.text_document_hover_async(wanted))
+        assert "fixes V1: Z-30.0000 X40.0000" in first.contents.value
+
+    served(use)
+
+
 INCREMENTAL = "G20 G17 G90 G0 X1. Y1.\nG91\nG01 X4. ,R.5\nG01 Y5.\n"
 
 

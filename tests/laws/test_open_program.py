@@ -1,6 +1,7 @@
 """A program that is open in an editor has the findings that `solve` finds in its text, after every edit."""
 
 import random
+import re
 from pathlib import Path
 
 import pytest
@@ -8,7 +9,9 @@ from editor import random_edit
 
 import contoursolve
 from contoursolve import OpenProgram
+from contoursolve.gcode import lexer, parse_block
 from contoursolve.gcode.decoding import decode
+from contoursolve.program import open_program
 
 ROOT = Path(__file__).parents[2]
 PROGRAMS = sorted([*(ROOT / "notebooks" / "programs").glob("*.nc"), *(ROOT / "docs" / "programs").glob("*.*")])
@@ -78,6 +81,40 @@ def edit_at_random(path: Path, seed: int, edits: int, *, is_named: bool) -> None
                 raise AssertionError(f"{path.name}, seed {seed}, edit {number}: {begin} {end} {new!r}") from error
         else:
             program.check(draw.randrange(1, 5))
+
+
+def test_what_is_found_so_far_is_found_in_the_end() -> None:
+    text = "G00 X40. Z0.\nG111 A180. K-30. B120. P60. X100.\nG01 Z-60.\nG00 X200. Z,5\n" * 4
+    program, found = OpenProgram(text), []
+    while not program.check(1):
+        assert program.examined < 17
+        found.append(program.diagnostics)
+    assert program.examined == 17
+    final = program.diagnostics
+    assert {len(each) for each in found} > {0, 1, 2, 3}
+    assert all(each in final for early in found for each in early)
+
+
+@pytest.mark.parametrize("line", [2, 4, 5, 203, 204, -5, -2])
+def test_an_edit_reads_what_depends_on_it_alone(line: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """How many blocks are read for an edit depends neither on the length of the program, nor on the line."""
+    counts = []
+    for contours in (60, 240):
+        one = "G00 X40. Z0.\nG111 X100. A180. K-{}. B120. P5. Q5.\nG01 Z-80.\nX130.\n(COMMENT)\n"
+        program = OpenProgram("G50 S2000\nM3\n" + "".join(one.format(30 + n % 9) for n in range(contours)))
+        assert program.check()
+        assert program.diagnostics == ()
+        number, read = line % len(program.blocks), list[object]()
+        column = re.search(r"\d", program.line(number)[1:]).start() + 2
+        for module in (open_program, lexer):
+            monkeypatch.setattr(module, "parse_block", lambda *given: read.append(given) or parse_block(*given))
+        for digit in "234":
+            program.edit((number, column), (number, column + 1), digit)
+            assert program.check()
+            assert isinstance(program.diagnostics, tuple)
+        counts.append(len(read))
+        monkeypatch.undo()
+    assert 0 < counts[0] == counts[1] < 400
 
 
 @pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.name)

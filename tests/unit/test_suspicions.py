@@ -42,6 +42,13 @@ def test_what_is_hardly_meant_is_a_warning_with_what_was_meant(control, text, li
     assert not check(text, control=control, settings={f"{control}.suspicions": "off"})
 
 
+def test_a_long_program_is_told_the_same():
+    """Where contours that are alike are solved together, each is looked at as if it were alone."""
+    alike = "G00 X40. Z0.\nG111 A180. K-30. B120. X100.\nG01 Z-60.\n"
+    found = check(alike * 30 + BACK + alike * 5, control="yasnac-lx3")
+    assert [(each.code, each.span.line) for each in found] == [("suspected", 92)]
+
+
 @some_of("right", RIGHT, one_in=2)
 def test_right_programs_are_told_nothing(right):
     settings = dict(each.split("=", 1) for each in right["settings"])
