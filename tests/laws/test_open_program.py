@@ -107,7 +107,9 @@ def test_an_edit_reads_what_depends_on_it_alone(line: int, monkeypatch: pytest.M
         number, read = line % len(program.blocks), list[object]()
         column = re.search(r"\d", program.line(number)[1:]).start() + 2
         for module in (open_program, lexer):
-            monkeypatch.setattr(module, "parse_block", lambda *given, read=read: read.append(given) or parse_block(*given))
+            monkeypatch.setattr(
+                module, "parse_block", lambda *given, read=read: read.append(given) or parse_block(*given)
+            )
         for digit in "234":
             program.edit((number, column), (number, column + 1), digit)
             assert program.check()
