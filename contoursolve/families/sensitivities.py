@@ -134,8 +134,14 @@ def slopes_of(answer: Answer, *, is_twice_fine: bool = False) -> Sensitivity:
 
 def _slopes(tape: Tape, outputs: Sequence[str], inputs: Mapping[str, float]) -> Rates:
     """The derivatives of some outputs of a tape, where it has these inputs."""
-    at = tape.slopes(outputs, list(inputs))(inputs)
+    at = _differentiated(tape, tuple(outputs), tuple(inputs))(inputs)
     return {output: {name: at.get(f"{output} by {name}", 0.0) for name in inputs} for output in outputs}
+
+
+@lru_cache(maxsize=64)
+def _differentiated(tape: Tape, outputs: tuple[str, ...], inputs: tuple[str, ...]) -> Compiled:
+    """The derivatives as a function; whoever moves a contour asks for the same again and again."""
+    return tape.slopes(outputs, inputs)
 
 
 def _by_word(

@@ -1,9 +1,11 @@
 """The server: what it can do, and what it does with each message of its client."""
 
 import asyncio
+import gc
 import logging
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
+from importlib import import_module
 from itertools import count
 from math import inf
 from pathlib import Path
@@ -38,10 +40,11 @@ PATIENCE = 5.0
 REST = 0.15
 """Seconds without a further edit until a program is examined that is edited faster than it can be."""
 
-MOMENT = 0.02
-"""Seconds for which is examined before the next message is looked at."""
+MOMENT, TURNS = 0.01, 16
+"""Seconds for which is examined before messages are looked at, and turns of the loop that one takes to be read and
+answered."""
 
-SOON = 0.1
+SOON = 0.05
 """Seconds after which a hover says what it can."""
 
 LONG = 1.0
@@ -105,11 +108,14 @@ class Server(LanguageServer):
             await asyncio.sleep(rest)
             begun = told = monotonic()
             while not _go_on(opened):
-                await asyncio.sleep(0)
+                for _ in range(TURNS):
+                    await asyncio.sleep(0)
                 if monotonic() - told > max(LONG, told - begun):
                     token, told = token or self._begin_progress(opened), monotonic()
                     self._tell_so_far(opened, token)
             self._tell(opened)
+            # A command collects none of the cycles that an edit leaves behind.
+            gc.collect(0)
         except Exception as error:  # what is told stays as it was, and the next edit is examined again
             logger.exception("%s was not examined", opened.uri)
             message = f"{opened.program.name} was not examined: {type(error).__name__}: {error}; please report it"
@@ -274,6 +280,8 @@ def _table(record: Any) -> Mapping[str, Any]:
 @server.feature(types.INITIALIZED)
 async def initialized(_: types.InitializedParams) -> None:
     """Ask for the options, and to be told of project files that change."""
+    # A hover over a word tells its equations: sympy, which takes long to import, is there when the first one comes.
+    asyncio.get_running_loop().run_in_executor(None, import_module, "contoursolve.numeric.symbolic")
     await server.ask_options()
     workspace = server.client_capabilities.workspace
     watching = workspace.did_change_watched_files if workspace else None

@@ -339,7 +339,10 @@ def test_a_hover_does_not_wait_for_the_end_of_a_long_program(served):
         late = await editor.ask(editor.client.text_document_hover_async(wanted))
         assert late.contents.value.startswith("**K-30.** Z distance from start to virtual intersection")
         assert re.search(r"not known yet: \d+ of 60001 lines are examined\.$", late.contents.value)
-        assert SHAFT not in editor.found
+        near = types.InlayHintParams(types.TextDocumentIdentifier(SHAFT), types.Range(at(1, 1), at(2, 1)))
+        (hint,) = await editor.ask(editor.client.text_document_inlay_hint_async(near))
+        assert hint.label == "ends at Z-50.2073 X100.0000"
+        assert SHAFT not in editor.statuses
         wanted = types.HoverParams(**about(editor, SHAFT, at(2, 20)))
         first = await editor.ask(editor.client.text_document_hover_async(wanted))
         assert "fixes V1: Z-30.0000 X40.0000" in first.contents.value
