@@ -40,7 +40,7 @@ from contoursolve.execution.macro_language import (
 )
 from contoursolve.execution.subprograms import Absent, Library, LineRange, ProgramFile, Surroundings
 from contoursolve.execution.variables import Variables
-from contoursolve.gcode import Block, Caller, Program, Substitution, Syntax, parse_block, split_lines
+from contoursolve.gcode import Block, Caller, Program, Substitution, Syntax, parse_block, telling
 from contoursolve.numeric import Apply, Term, Variable
 
 MOST_BLOCKS = 5_000
@@ -77,7 +77,7 @@ def machine_of(
     limit: Limit | None = None,
 ) -> "Machine | None":
     """The machine that runs a program; None for one that neither calls, jumps nor computes."""
-    lines = split_lines(program.text) or [block.text for block in program.blocks]
+    lines = (block.text for block in telling(program.blocks))
     if language is None or not needs_running(lines, language):
         return None
     return Machine(program, language, Library(language, syntax, around.folders), around.values, limit)

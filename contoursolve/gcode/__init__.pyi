@@ -23,14 +23,16 @@ from .files import (
 from .lexer import (
     LONGEST_BLOCK as LONGEST_BLOCK,
     Blocks as Blocks,
+    blocks_in as blocks_in,
     find_words as find_words,
+    in_passages as in_passages,
     looks_like as looks_like,
     parse as parse,
     parse_block as parse_block,
     read_directive as read_directive,
     read_named as read_named,
     spelled as spelled,
-    split_lines as split_lines,
+    telling as telling,
     words_as as words_as,
 )
 from .lookalikes import (
@@ -39,6 +41,15 @@ from .lookalikes import (
     has_lookalike_code as has_lookalike_code,
     lookalike_at as lookalike_at,
     mended as mended,
+)
+from .plain_lines import (
+    AXES as AXES,
+    MOST_TOGETHER as MOST_TOGETHER,
+    Passage as Passage,
+    is_plain_line as is_plain_line,
+    motion_of as motion_of,
+    split_lines as split_lines,
+    words_of as words_of,
 )
 from .syntax import (
     IN_BRACKETS as IN_BRACKETS,
@@ -63,7 +74,6 @@ from .word import (
     Macro as Macro,
     Named as Named,
     NamedAs as NamedAs,
-    Passage as Passage,
     Program as Program,
     Substitution as Substitution,
     Word as Word,

@@ -2,11 +2,15 @@
 
 import re
 from array import array
-from collections.abc import Container, Iterator, Sequence
+from bisect import bisect_left
+from collections.abc import Container, Iterable, Iterator, Sequence
 from decimal import Decimal
+from functools import cached_property
+from itertools import chain
 from typing import overload
 
 from contoursolve.diagnostics import Span
+from contoursolve.gcode.plain_lines import SEVERAL, Passage
 from contoursolve.gcode.syntax import ISO, Syntax
 from contoursolve.gcode.word import Block, Directive, Fault, FaultKind, Macro, Named, NamedAs, Program, Word
 
@@ -18,7 +22,6 @@ LONGEST_NUMBER, MOST_BEFORE_POINT = 32, 20
 28 before the point of the quotient."""
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
-_LINE = re.compile(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+")
 _SIMPLE_WORD = r"[ \t]*+([A-DF-Za-df-z])([+-]?+(?:[0-9]{1,16}+(?>(?:\.[0-9]{0,15}+)?)|\.[0-9]{1,16}+))(?=[ \tA-Za-z]|$)"
 _SIMPLE = re.compile(rf"(?>(?:{_SIMPLE_WORD})+)[ \t]*+")
 """Nothing but words without blanks inside them; E may be an exponent."""
@@ -47,13 +50,15 @@ MANY_LINES = 10_000
 
 
 class Blocks(Sequence[Block]):
-    """The blocks of a text, each read whenever somebody looks at it."""
+    """The blocks of a text, each read whenever somebody looks at it; the first ones that are no plain lines are kept
+    then."""
 
     def __init__(self, text: str, first_line: int, syntax: Syntax) -> None:
         self._text, self._first, self._syntax = text, first_line, syntax
         self._begins = array("Q", (0, *(end.end() for end in _LINE_END.finditer(text))))
         if len(self._begins) == 1 or self._begins[-1] < len(text):
             self._begins.append(len(text))
+        self._kept: dict[int, Block] = {}
 
     def __len__(self) -> int:
         return len(self._begins) - 1
@@ -73,12 +78,56 @@ class Blocks(Sequence[Block]):
 
     def _read(self, place: int) -> Block:
         line = self._text[self._begins[place] : self._begins[place + 1]].rstrip("\r\n")
-        return parse_block(line, self._first + place, self._syntax)
+        return self._kept.get(place) or parse_block(line, self._first + place, self._syntax)
+
+    @cached_property
+    def _plain(self) -> "array[int]":
+        """The index of the first line of each passage of plain lines, and of the line behind it, in turn."""
+        text, begins, found, place = self._text, self._begins, array("Q"), 0
+        while place < len(self):
+            passage = SEVERAL.match(text, begins[place])
+            behind = place + 1 if passage is None else bisect_left(begins, passage.end(), place + 1)
+            if passage is not None:
+                found.extend((place, behind))
+            place = behind
+        return found
+
+    def passages(self) -> Iterator[Block | Passage]:
+        """The blocks, plain lines in a row as passages. Whoever walks over a long program has to read the others
+        alone."""
+        begins, place = self._begins, 0
+        ends = iter(self._plain)
+        for first, behind in chain(zip(ends, ends, strict=True), [(len(self), len(self))]):
+            for own in range(place, first):
+                block = self._read(own)
+                if len(self._kept) < MANY_LINES:
+                    self._kept[own] = block
+                yield block
+            if behind > first:
+                text = self._text[begins[first] : begins[behind]]
+                yield Passage(self._first + first, text, behind - first, self._syntax)
+            place = behind
 
 
-def split_lines(text: str) -> list[str]:
-    """The lines of a text, each with its end: LF, CRLF or CR."""
-    return _LINE.findall(text)
+def in_passages(blocks: Iterable[Block]) -> Iterator[Block | Passage]:
+    """Blocks, plain lines that nobody has read into words yet as passages."""
+    return blocks.passages() if isinstance(blocks, Blocks) else iter(blocks)
+
+
+def telling(blocks: Iterable[Block]) -> Iterator[Block]:
+    """The blocks that may say more than a motion: without plain lines that nobody has read yet, but for those with a
+    comment, which some controls read."""
+    for each in in_passages(blocks):
+        if isinstance(each, Block):
+            yield each
+        elif "(" in each.text:
+            yield from (block for block in blocks_in(each) if "(" in block.text)
+
+
+def blocks_in(passage: Passage) -> Iterator[Block]:
+    """The lines of a passage, read into words."""
+    for number, line in enumerate(passage.lines, passage.line):
+        yield parse_block(line.rstrip("\r\n"), number, passage.syntax)
 
 
 def parse_block(text: str, line: int, syntax: Syntax = ISO) -> Block:

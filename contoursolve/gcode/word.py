@@ -212,15 +212,6 @@ class Block(Shown, Struct, frozen=True):
         return Span(self.line, column, column + max(len(stripped), 1))
 
 
-class Passage(Struct, frozen=True):
-    """Lines of a program in a row that do nothing but move, or nothing at all, and that nobody has read into words
-    yet: the number of the first one, and all of them with their ends."""
-
-    line: int
-    lines: tuple[str, ...]
-    syntax: Syntax = ISO
-
-
 class Program(Shown, Struct, frozen=True):
     """A program as typed: its name, text and blocks (one for each line, empty ones included)."""
 

@@ -14,13 +14,16 @@ from contoursolve.gcode import (
     Passage,
     Syntax,
     Word,
+    blocks_in,
     comment_out,
     is_remark,
+    motion_of,
     own_comments,
     parse_block,
     remark,
     spell,
     with_comments_of,
+    words_of,
 )
 from contoursolve.geometry import Length
 from contoursolve.postprocess.emit import Format, MotionBlock, emit
@@ -45,11 +48,9 @@ from contoursolve.reading import (
     carried,
     codes_of,
     frame_of,
-    motion_of,
     reliance,
     restate,
     why_unmet,
-    words_of,
 )
 from contoursolve.solving import Point
 
@@ -135,7 +136,7 @@ class Expander:
 
     def _pass(self, passage: Passage, state: State) -> Iterator[str | object]:
         """Lines that only move, as they are; they are read into words only if they matter."""
-        is_asking = self.watch.asks("".join(passage.lines)) or self.watch.minds(state)
+        is_asking = self.watch.asks(passage.text) or self.watch.minds(state)
         texts: list[str] = []
         for place, line in enumerate(passage.lines):
             if self.is_opened and self.motion is None and not (self.offsets or is_asking or self._other):
@@ -489,10 +490,7 @@ def _read_on(steps: Iterator[Step], coming: deque[Step]) -> Iterator[Step]:
 def _blocks_of(step: Step) -> Iterable[Block]:
     if step.passage is None:
         return step.blocks
-    return (
-        parse_block(line.rstrip("\r\n"), number, step.passage.syntax)
-        for number, line in enumerate(step.passage.lines, step.passage.line)
-    )
+    return blocks_in(step.passage)
 
 
 def _is_active(block: Block) -> bool:

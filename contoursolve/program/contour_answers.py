@@ -13,8 +13,8 @@ from contoursolve.gcode import Block
 from contoursolve.program.named_words import mark_trusted, with_named_words
 from contoursolve.program.outside_contours import NEAR
 from contoursolve.program.request import Request
-from contoursolve.program.solve_queue import Pending, Previous
-from contoursolve.program.windows import Parts, near, window_of
+from contoursolve.program.solve_queue import Ahead, Pending
+from contoursolve.program.windows import Parts, last_of, near, window_of
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, next_place
 
 if TYPE_CHECKING:
@@ -38,9 +38,7 @@ def answer_to(asked: Request, dialect: Dialect, found: ParsedContour, pending: P
     return answer
 
 
-def explained(
-    asked: Request, dialect: Dialect, answer: Answer, pending: Pending, ahead: tuple[Previous, ...], parts: Parts
-) -> Answer:
+def explained(asked: Request, dialect: Dialect, answer: Answer, pending: Pending, ahead: Ahead, parts: Parts) -> Answer:
     """An answer with what is wrong, or hardly meant, explained, and how it is mended; `ahead` is before the contour,
     `parts` examines blocks that are tried."""
     if asked.depth in (Depth.VERDICT, Depth.TRIAL):
@@ -54,7 +52,7 @@ def explained(
         from contoursolve.diagnosis import diagnose  # noqa: PLC0415
 
         following = pending.view[pending.after : pending.after + BEHIND]
-        answer = diagnose(answer, dialect, asked.policy, following, pending.previous, window())
+        answer = diagnose(answer, dialect, asked.policy, following, last_of(pending.ahead, dialect.modes), window())
         if asked.depth is Depth.FULL and _has(answer, ReadIssue.VARIABLE):
             from contoursolve.program.open_values import tell_values  # noqa: PLC0415 - few contours need it
 
@@ -64,7 +62,7 @@ def explained(
         from contoursolve.diagnosis import mend_points  # noqa: PLC0415
 
         answer = mend_points(answer, dialect)
-    beside = (block for blocks, _ in near(ahead) for block in reversed(blocks))
+    beside = (block for blocks in near(ahead) for block in reversed(blocks))
     if may_be_suspected(answer, beside, lambda: window().blocks) or _has_odd_points(answer):
         from contoursolve.diagnosis import suspect  # noqa: PLC0415 - few contours look odd
 
@@ -80,9 +78,7 @@ def _has_odd_points(answer: Answer) -> bool:
     return has_odd_points(answer)
 
 
-def _window(
-    dialect: Dialect, answer: Answer, pending: Pending, ahead: tuple[Previous, ...], parts: Parts, own: int = 0
-) -> "Window":
+def _window(dialect: Dialect, answer: Answer, pending: Pending, ahead: Ahead, parts: Parts, own: int = 0) -> "Window":
     """The blocks around a contour; its own are as many more as `own` says."""
     view, after = pending.view, pending.after + own
     return window_of(ahead, view[:after], view[after : after + NEAR], answer.claim.before, dialect, parts)

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Context, Depth, explain_call, explain_codes_by_name, report
 from contoursolve.diagnostics import Basis, Diagnostic, Span
 from contoursolve.execution import EventKind, ProgramEvent
-from contoursolve.gcode import Block, Passage
+from contoursolve.gcode import Block, Blocks, Passage, in_passages
 from contoursolve.program.contour_answers import BEHIND, Answers, AnswersInPasses
 from contoursolve.program.lookahead import Line, Lookahead, View, each_block, says_something
 from contoursolve.program.named_words import untouched
@@ -24,7 +24,7 @@ from contoursolve.program.outside_contours import (
     with_slips,
 )
 from contoursolve.program.request import Request
-from contoursolve.program.solve_queue import Pending, Previous, Queue, Step, Together
+from contoursolve.program.solve_queue import Ahead, Pending, Queue, Step, Together
 from contoursolve.program.start_point import StartCount, compare_count, start_count, state_before
 from contoursolve.program.tape_markers import Marks
 from contoursolve.program.told_outside import Outside
@@ -33,6 +33,7 @@ from contoursolve.reading import (
     Dialect,
     Modes,
     ParsedContour,
+    PlainLines,
     ReadIssue,
     State,
     Ways,
@@ -62,18 +63,13 @@ class Cursor(Struct, frozen=True):
     marks: Marks
     count: StartCount | None
     """Units in which a start point that is stated apart counts."""
-    ahead: tuple[Previous, ...] = ()
+    ahead: Ahead = ()
     """The last contours and blocks that say something, each with the state before it: what is wrong behind them may be
     a slip in them, and with a comma in the next block, the last one may be part of the contour there."""
     told: tuple[Span, ...] = ()
     """Words behind the contour before of which it tells itself."""
     findings: tuple[Diagnostic, ...] = ()
     """Findings since the last step, told with the next one."""
-
-    @property
-    def previous(self) -> Previous | None:
-        """The last contour or block that says something, and the state before it."""
-        return self.ahead[-1] if self.ahead else None
 
 
 class Beginning(Struct, frozen=True):
@@ -109,9 +105,9 @@ class Examination:
         self.answers = (AnswersInPasses if is_run else Answers)(asked, dialect, self._parts)
         self.queue = Queue(dialect, together, self.answers, goes_on=goes_on)
         self._context = Context(asked.rules, asked.unit)
-        meant = dialect.modes.lexicon.numbers.without_point
-        self._is_every_word_read = asked.is_strict and meant is WithoutPoint.LEAST_INCREMENTS
-        """Whether each number may lack its point."""
+        is_counted = dialect.modes.lexicon.numbers.without_point is WithoutPoint.LEAST_INCREMENTS
+        self._plain = PlainLines(dialect.modes, has_points=asked.is_strict and is_counted)
+        """The lines of which nothing is told: of a number without a point, it may be."""
         state, found = state_before(asked, dialect)
         # A program that runs is not read in its order, in which a % stands.
         self.begin = Cursor(state, Marks(is_done=is_run), start_count(asked, state), findings=found)
@@ -122,7 +118,7 @@ class Examination:
         """The walk over blocks that are tried."""
         return Examination(replace(self.asked, depth=Depth.TRIAL, start=None, facts=()), self.dialect)
 
-    def _parts(self, blocks: Sequence[Block], state: State, ahead: tuple[Previous, ...]) -> "Iterator[WindowPart]":
+    def _parts(self, blocks: Sequence[Block], state: State, ahead: Ahead) -> "Iterator[WindowPart]":
         """Blocks from a state on, with what is ahead of them, as they are examined, without what is said of what is
         wrong."""
         from contoursolve.diagnosis import WindowPart  # noqa: PLC0415 - most programs need no diagnosis
@@ -151,7 +147,7 @@ class Examination:
 
     def _take_contour(self, view: View, blocks: tuple[Block, ...], contour: ParsedContour, here: Cursor) -> WalkStep:
         """The step that takes a contour, which is solved now or later."""
-        arc = findings_of_arc_before(self.asked, self.dialect, view, here.previous, self.answers.examine)
+        arc = findings_of_arc_before(self.asked, self.dialect, view, here.ahead, self.answers.examine)
         strange = [each for block in blocks for each in self._codes_beside(block, contour)]
         step = Step(blocks, here.state, findings=(*here.findings, *arc, *strange))
         pending = self.queue.add(contour, step, view, len(blocks), here.ahead)
@@ -183,7 +179,7 @@ class Examination:
             found = findings_of_arc(asked, self.dialect, pending, states[1], self.answers.examine)
             findings = (*here.findings, *found)
         else:
-            found = findings_of_block(asked, block, apply_modes(here.state, block, modes), here.previous)
+            found = findings_of_block(asked, block, apply_modes(here.state, block, modes), here.ahead)
             told_of = [*here.findings, *(each for each in found if each.span not in here.told)]
             findings = untouched(with_slips(asked, view, states, here.ahead, told_of, self._parts), blocks, asked)
         ahead = further(here.ahead, blocks, here.state) if block.words else here.ahead
@@ -198,9 +194,10 @@ class Examination:
 
         def behind() -> Cursor:
             state = advance_plainly(cursor.state, passage, self.dialect.modes)
-            return Cursor(state, marks, cursor.count)
+            told = tuple(span for span in cursor.told if span.line >= passage.line + passage.count)
+            return Cursor(state, marks, cursor.count, further(cursor.ahead, passage, cursor.state), told)
 
-        return WalkStep(step, len(passage.lines), behind)
+        return WalkStep(step, passage.count, behind)
 
     def happen(self, event: ProgramEvent, cursor: Cursor) -> Cursor:
         """The cursor behind an event of the program, with what is found there; its state is that before the event."""
@@ -243,7 +240,7 @@ class Examination:
 
     def _next(self, ahead: Lookahead, cursor: Cursor) -> WalkStep | None:
         """The step at the next line; None where it depends on lines that are not read yet."""
-        if isinstance(ahead.line, Passage) and not self._is_every_word_read:
+        if isinstance(ahead.line, Passage):
             passage = ahead.plain(moves=is_plain(cursor.state), joins=self.dialect.has_runs)
             if passage is not None:
                 return self.pass_by(passage, cursor)
@@ -257,12 +254,14 @@ class Examination:
         return self.take(view, found, cursor) if is_known else None
 
     def steps(self, lines: Iterable[Line]) -> Iterator[Step]:
-        """The same with all contours solved, and with those findings outside contours that are told."""
+        """The same with all contours solved, and with those findings outside contours that are told. Plain lines of
+        blocks that are not kept are not read."""
         outside = Outside(self.dialect, is_strict=self.asked.is_strict)
-        size, most = (_WHOLE, _WHOLE) if isinstance(lines, Sequence) else (_FIRST, _WINDOW)
+        is_whole = isinstance(lines, Sequence) and not isinstance(lines, Blocks)
+        size, most = (_WHOLE, _WHOLE) if is_whole else (_FIRST, _WINDOW)
         if self.queue.together is None:
             size, most = 1, 1
-        found = self.walk(lines)
+        found = self.walk(self._plain.among(in_passages(lines)) if isinstance(lines, Blocks) else lines)
         while window := [*islice(found, size)]:
             self.queue.settle()
             yield from tell(window, outside)

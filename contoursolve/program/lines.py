@@ -5,17 +5,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
-from contoursolve.gcode import LONGEST_BLOCK, Block, Directive, Passage, parse_block
+from contoursolve.gcode import MOST_TOGETHER, Block, Directive, Passage, is_plain_line, parse_block
 from contoursolve.program.lookahead import Line
 from contoursolve.program.recognise import several_controls, sign_against, sign_of
-from contoursolve.reading import Dialect, plain_lines
+from contoursolve.reading import Dialect, PlainLines
 
 _USUAL = "\n"
 """End of a line of which nothing else is noted."""
-
-
-_LONGEST = 1_000
-"""Plain lines in a row that go by together."""
 
 
 class Lines:
@@ -31,8 +27,7 @@ class Lines:
     ) -> None:
         self._lines = lines
         self._facts = facts
-        self._plain = plain_lines(dialect.modes.axes).fullmatch
-        self._longest = 1 if dialect.has_runs else _LONGEST
+        self._plain = PlainLines(dialect.modes)
         self._others = [other for other in DIALECTS.values() if not is_certain and other.name != dialect.name]
         self._dialect, self._own = dialect, ""
         self._ends: dict[int, str] = {}
@@ -40,23 +35,23 @@ class Lines:
         """The end of the last line that has one."""
 
     def blocks(self) -> Iterator[Line]:
-        plain, facts, syntax = self._plain, self._facts, self._dialect.modes.syntax
+        has, facts, syntax = self._plain.has, self._facts, self._dialect.modes.syntax
         held: list[str] = []
         for number, line in enumerate(self._lines, 1):
-            if plain(line) and len(line) <= LONGEST_BLOCK and number not in facts:
+            if is_plain_line(line) and has(line) and number not in facts:
                 held.append(line)
                 if line[-1:] != _USUAL or line[-2:-1] == "\r":
                     self._put(line, number)
-                if len(held) >= self._longest:
-                    yield Passage(number + 1 - len(held), tuple(held), syntax)
+                if len(held) >= MOST_TOGETHER:
+                    yield Passage(number + 1 - len(held), "".join(held), len(held), syntax)
                     held = []
                 continue
             if held:
-                yield Passage(number - len(held), tuple(held), syntax)
+                yield Passage(number - len(held), "".join(held), len(held), syntax)
                 held = []
             yield self._read(line, number)
         if held:
-            yield Passage(number + 1 - len(held), tuple(held), syntax)
+            yield Passage(number + 1 - len(held), "".join(held), len(held), syntax)
 
     def _read(self, line: str, number: int) -> Block:
         text = self._put(line, number)
@@ -91,10 +86,10 @@ class Lines:
 
     def take(self, passage: Passage, place: int) -> str:
         """The lines of a passage from a place on, with their ends, which are asked for once."""
-        lines = passage.lines[place:]
+        lines = passage.lines[place:] if place else passage.lines
         if self._ends:
             return "".join(
                 line.rstrip("\r\n") + self.take_end(passage.line + place + n) for n, line in enumerate(lines)
             )
         self.end = _USUAL
-        return "".join(lines)
+        return "".join(lines) if place else passage.text

@@ -1,12 +1,11 @@
 """The lines of a program that are read ahead: blocks, and what nobody needs to read into words yet."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import islice
+from itertools import islice, takewhile
 from typing import overload
 
 from contoursolve.execution import ProgramEvent
-from contoursolve.gcode import Block, Passage, parse_block
-from contoursolve.reading import words_of
+from contoursolve.gcode import Block, Passage, blocks_in, words_of
 
 Line = Block | Passage | ProgramEvent
 """A line of a program, or several, read as far as it was needed; or what happens between two lines."""
@@ -14,6 +13,9 @@ Line = Block | Passage | ProgramEvent
 
 _FIRST, _BATCH = 16, 1_000
 """Lines that are read at once: in the beginning, when nothing is known, and later."""
+
+_PIECE = 64
+"""Lines at the begin of a passage that are cut off with the one that was passed, for further ones may follow."""
 
 
 class Lookahead:
@@ -44,8 +46,12 @@ class Lookahead:
 
     def read_on(self) -> None:
         """Read further lines: at least as many as are held, so that long contours are not looked at again and again."""
-        left = len(self._held) - self._index
-        more = list(islice(self._rest, max(self._size, left)))
+        wanted, more = max(self._size, sum(map(_count, self._held[self._index :]))), list[Line]()
+        for each in self._rest:
+            more.append(each)
+            wanted -= _count(each)
+            if wanted <= 0:
+                break
         self._held, self._index = [*self._held[self._index :], *more], 0
         self._size, self.is_whole = min(2 * self._size, _BATCH), not more
 
@@ -64,7 +70,7 @@ class View(Sequence[Block]):
         self.rest = each_block(held, index)
 
     def __len__(self) -> int:
-        return sum(len(each.lines) if isinstance(each, Passage) else 1 for each in _up_to_event(self.held, self.first))
+        return sum(_count(each) for each in _up_to_event(self.held, self.first))
 
     @overload
     def __getitem__(self, index: int) -> Block: ...
@@ -86,7 +92,7 @@ class View(Sequence[Block]):
             return True
         for place in range(self.first, len(self.held)):
             each = self.held[place]
-            count -= len(each.lines) if isinstance(each, Passage) else 1
+            count -= _count(each)
             if count <= 0 or isinstance(each, ProgramEvent):
                 return True
         return False
@@ -95,7 +101,7 @@ class View(Sequence[Block]):
         """The lines from an index on as text, with their numbers."""
         reach = 1
         for each in _up_to_event(self.held, self.first):
-            count = len(each.lines) if isinstance(each, Passage) else 1
+            count = _count(each)
             reach += count
             self.reach = max(self.reach, reach)
             if first < count and isinstance(each, Passage):
@@ -122,8 +128,7 @@ def each_block(held: Sequence[Line], index: int) -> Iterator[Block]:
     """The blocks from an index up to an event of the program."""
     for each in _up_to_event(held, index):
         if isinstance(each, Passage):
-            for number, line in enumerate(each.lines, each.line):
-                yield parse_block(line.rstrip("\r\n"), number, each.syntax)
+            yield from blocks_in(each)
         else:
             yield each
 
@@ -136,31 +141,36 @@ def _up_to_event(held: Sequence[Line], index: int) -> Iterator[Block | Passage]:
         yield each
 
 
+def _count(each: Line) -> int:
+    """The number of lines; an event counts as one."""
+    return each.count if isinstance(each, Passage) else 1
+
+
 def _pass_plainly(held: Sequence[Line], index: int, *, moves: bool, joins: bool) -> Passage | None:
     """The plain lines in a row from an index on that need not be read into words: up to the last one that moves if
     the next contour may begin with it (`joins`); if lines that move need be (not `moves`), up to the first one."""
-    lines: list[str] = []
-    for place in range(index, len(held)):
-        each = held[place]
-        if not isinstance(each, Passage):
-            break
-        lines += each.lines
-    if not moves or joins:
-        order = range(len(lines)) if not moves else range(len(lines) - 1, -1, -1)
-        stop = next((place for place in order if words_of(lines[place])), len(lines))
-        lines = lines[:stop]
     first = held[index]
-    return Passage(first.line, tuple(lines), first.syntax) if lines and not isinstance(first, ProgramEvent) else None
+    if not isinstance(first, Passage):
+        return None
+    order = range(first.count) if not moves else range(first.count - 1, -1, -1) if joins else ()
+    if moves and joins:
+        behind = takewhile(lambda each: isinstance(each, Passage), islice(held, index + 1, None))
+        if any(isinstance(each, Passage) and words_of(each.text) for each in behind):
+            return first
+    stop = next((place for place in order if words_of(first.lines[place])), first.count)
+    return None if not stop else first if stop == first.count else first.part(0, stop)
 
 
 def _behind(held: list[Line], index: int, count: int) -> tuple[list[Line], int]:
     """The lines that are held, and the index behind so many of them; a passage that goes on there is cut."""
     while count:
         each = held[index]
-        if isinstance(each, Passage) and len(each.lines) > count:
+        if isinstance(each, Passage) and each.count > count:
             # Whoever looks at the old list later finds it as it was.
-            return [Passage(each.line + count, each.lines[count:], each.syntax), *held[index + 1 :]], 0
-        count -= len(each.lines) if isinstance(each, Passage) else 1
+            piece = min(count + _PIECE, each.count)
+            parts = (each.part(count, piece), each.part(piece, each.count))
+            return [*(part for part in parts if part.count), *held[index + 1 :]], 0
+        count -= _count(each)
         index += 1
     return held, index
 

@@ -10,14 +10,32 @@ from msgspec.structs import replace
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Context, Depth, either, join, report
 from contoursolve.diagnostics import Basis, Diagnostic, Severity, Span
-from contoursolve.gcode import Block, FaultKind, find_lookalikes, has_lookalike_code, parse_block
+from contoursolve.gcode import (
+    Block,
+    FaultKind,
+    Passage,
+    find_lookalikes,
+    has_lookalike_code,
+    in_passages,
+    parse_block,
+    telling,
+)
 from contoursolve.geometry import Length
 from contoursolve.program.outside_contours import NEAR, findings_of_block, with_letters
 from contoursolve.program.recognise import first_signs, what_shows
 from contoursolve.program.request import Request
 from contoursolve.program.solve_queue import Step
 from contoursolve.program.tape_markers import Marks
-from contoursolve.reading import Dialect, ReadIssue, State, advance, contours_of, unread_state
+from contoursolve.reading import (
+    Dialect,
+    PlainLines,
+    ReadIssue,
+    State,
+    advance,
+    advance_through,
+    contours_of,
+    unread_state,
+)
 
 _LOOKED_AT = 1_000
 """Lines of a program in which the words of a control are looked for."""
@@ -32,7 +50,7 @@ _MOVING = frozenset("XYZUVWABCR")
 def conclusions(asked: Request, blocks: Iterable[Block]) -> Iterator[Diagnostic]:
     """Findings about the conclusions on the control, at the first block that shows it."""
     own = cast("Dialect", asked.dialect)
-    place = next((block.span for block in blocks if own.signs(block)), Span(1, 1, 2)) if own.taken else None
+    place = next((block.span for block in telling(blocks) if own.signs(block)), Span(1, 1, 2)) if own.taken else None
     for each in own.taken:
         context = Context(asked.rules, asked.unit, place=cast("Span", place))
         yield report(context, each.about, Basis.RULE, [], **cast("dict[str, Any]", each.fields))
@@ -70,7 +88,10 @@ def _other_controls(own: Dialect, blocks: Sequence[Block]) -> Iterator[str]:
 def _lacks_motion(dialect: Dialect, blocks: Sequence[Block], unit: Length) -> bool:
     """Whether no motion is in force in the first block with a word of the control's contours."""
     state = dialect.initial_state(unit)
-    for block in blocks:
+    for block in PlainLines(dialect.modes).among(in_passages(blocks)):
+        if isinstance(block, Passage):
+            state = advance_through(state, block, dialect.modes)
+            continue
         state = advance(state, block, dialect.modes)
         words = dialect.signs(block)
         if words:
@@ -131,10 +152,13 @@ def look_without_control(asked: Request, blocks: Sequence[Block]) -> Step:
     """Blocks of a program without a control, examined: their characters, their facts, and signs of contours."""
     found, marks, is_shown = list[Diagnostic](), Marks(), False
     context = Context(asked.rules, asked.unit)
-    for index, block in enumerate(blocks):
+    first = blocks[0].line if blocks else 1
+    for block in in_passages(blocks):
         if asked.is_strict:
             marks, told = marks.look((block,), context)
             found += told
+        if isinstance(block, Passage):
+            continue
         is_torn = not is_shown and has_lookalike_code(block)
         is_unread = any(fault.kind is FaultKind.BLOCK_TOO_LONG for fault in block.faults)
         if asked.is_strict or block.directives or is_torn or is_unread:
@@ -142,6 +166,7 @@ def look_without_control(asked: Request, blocks: Sequence[Block]) -> Step:
         # One line is enough: with that mended, the control is known.
         dialect = _control_of_digits(block) if is_torn else None
         if dialect is not None:
+            index = block.line - first
             is_shown, near = True, blocks[index : index + NEAR]
             found = [*with_letters(asked, dialect, near, _state_before(asked, dialect, blocks, index), found)]
     found += marks.finish(context)

@@ -30,12 +30,12 @@ from contoursolve.diagnosis import (
     report,
 )
 from contoursolve.diagnostics import Basis, Diagnostic, Severity
-from contoursolve.gcode import Block, FaultKind, Word, has_lookalike_code
+from contoursolve.gcode import Block, FaultKind, Passage, Word, has_lookalike_code
 from contoursolve.program.lookahead import View
 from contoursolve.program.named_words import named_outside
 from contoursolve.program.request import Request
-from contoursolve.program.solve_queue import Pending, Previous, Step
-from contoursolve.program.windows import Parts, window_of
+from contoursolve.program.solve_queue import Ahead, Pending, Previous, Step
+from contoursolve.program.windows import Parts, last_of, window_of
 from contoursolve.reading import (
     COMMENTED,
     Dialect,
@@ -81,10 +81,10 @@ Examine = Callable[[ParsedContour, Pending], Answer]
 
 
 def findings_of_block(
-    asked: Request, block: Block, here: State | None = None, previous: Previous | None = None
+    asked: Request, block: Block, here: State | None = None, ahead: Ahead = ()
 ) -> Sequence[Diagnostic]:
-    """Findings about a block that is no contour; `here` is the state with its codes in force, `previous` the last block
-    that says something."""
+    """Findings about a block that is no contour; `here` is the state with its codes in force, `ahead` what says
+    something before it."""
     dialect = asked.dialect
     points: Sequence[Diagnostic] = ()
     if asked.is_strict and dialect is not None and here is not None:
@@ -102,6 +102,7 @@ def findings_of_block(
     if here is None:
         return found
     if COMMENTED not in here.memory:
+        previous = last_of(ahead, dialect.modes)
         found += _of_vocabulary(context, block, here, dialect, previous)
         found += _of_unread(context, block, here, dialect, previous)
     if found and has_corners(block, here, dialect.modes):
@@ -233,7 +234,7 @@ def with_slips(
     asked: Request,
     blocks: Sequence[Block],
     states: tuple[State, State],
-    ahead: tuple[Previous, ...],
+    ahead: Ahead,
     found: Sequence[Diagnostic],
     parts: Parts,
 ) -> Sequence[Diagnostic]:
@@ -242,12 +243,14 @@ def with_slips(
     block, dialect = blocks[0], asked.dialect
     if dialect is None or asked.depth in (Depth.VERDICT, Depth.TRIAL):
         return found
-    previous = ahead[-1] if ahead else None
     modes, context = dialect.modes, _context_of(asked, block)
     if any(f",{word.address}" in modes.lexicon.addresses for word in block.words):
         from contoursolve.diagnosis import explain_commas  # noqa: PLC0415 - few programs need it
 
-        found = [*found, *explain_commas(_context_of(asked, block), dialect, blocks[:NEAR], states, previous)]
+        found = [
+            *found,
+            *explain_commas(_context_of(asked, block), dialect, blocks[:NEAR], states, last_of(ahead, modes)),
+        ]
     if has_lookalike_code(block):
         found = with_letters(asked, dialect, blocks[:NEAR], states[0], found)
     own = [each for each in found if each.span.line == block.line]
@@ -304,13 +307,14 @@ def findings_of_arc(
 
 
 def findings_of_arc_before(
-    asked: Request, dialect: Dialect, view: View, previous: Previous | None, examine: Examine
+    asked: Request, dialect: Dialect, view: View, ahead: Ahead, examine: Examine
 ) -> Sequence[Diagnostic]:
     """Findings about the arc that leads to a contour; others are looked at only where every line is."""
-    if previous is None or asked.is_strict:
+    blocks, state = ahead[-1] if ahead else ((), None)
+    if isinstance(blocks, Passage) or state is None or len(blocks) != 1 or asked.is_strict:
         return ()
-    (block, *others), state = previous
-    if others or apply_modes(state, block, dialect.modes).motion not in _ARCS:
+    block = blocks[0]
+    if apply_modes(state, block, dialect.modes).motion not in _ARCS:
         return ()
     both = [block, *view[:NEAR]]
     found = dialect.find(both, 0, state, dialect.modes)

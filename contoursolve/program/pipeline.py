@@ -191,8 +191,7 @@ class Run:
         )
         if machine is not None:
             return steps_as_run(examination, machine, self.profiles, self.called)
-        # Blocks that are not kept are read as they are needed.
-        return examination.steps(blocks if isinstance(blocks, tuple) else iter(blocks))
+        return examination.steps(blocks)
 
     @property
     def is_strict(self) -> bool:

@@ -8,9 +8,21 @@ from itertools import islice
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import either, join
 from contoursolve.diagnostics import ProgramError
-from contoursolve.gcode import Block, Program, Syntax, Word
+from contoursolve.gcode import (
+    Block,
+    Passage,
+    Program,
+    Syntax,
+    Word,
+    blocks_in,
+    in_passages,
+    is_plain_line,
+    motion_of,
+    telling,
+    words_of,
+)
 from contoursolve.program.project_file import CONTROL, FIRST_LINES, check_settings, configure, stated_settings
-from contoursolve.reading import Dialect, ReadIssue, Taken, plain_lines, words_of
+from contoursolve.reading import Dialect, ReadIssue, Taken
 
 
 class UnknownControlError(ProgramError, ValueError):
@@ -56,7 +68,7 @@ def choose(
     return (
         configured
         if isinstance(control, Dialect)
-        else for_machine(configured, own, (block.text for block in program.blocks))
+        else for_machine(configured, own, (each.text for each in in_passages(program.blocks)))
     )
 
 
@@ -81,6 +93,8 @@ def _is_turned(lines: Iterable[str], syntax: Syntax) -> bool:
     """Whether X and Z move, no line has Y, and none selects a plane."""
     axes = set[str]()
     for line in lines:
+        if axes == TURNED_AXES and not _MAY_BE_MILL.search(line):
+            continue
         shown = shown_of_machine(line, syntax)
         if shown & _OF_NO_LATHE:
             return False
@@ -99,6 +113,7 @@ _OF_MACHINE = re.compile(r"(?<![A-Z_$\[,])(?:[XYZ](?=\s*[-+.=\d])|G0?1[789](?!\d
 TURNED_AXES = frozenset({"X", "Z"})
 """The axes of a lathe."""
 
+_MAY_BE_MILL = re.compile(r"Y|G0?1[789]", re.IGNORECASE)
 _OF_NO_LATHE = frozenset({"Y", "G17", "G18", "G19"})
 
 
@@ -120,11 +135,8 @@ def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
     """Signs of the control in a block: words of several controls, moving axes of a lathe, and marks of a mill or a
     lathe. `own` and `sign` with the name of a control are words of it alone. A control that is `known` by its own words
     is not looked for."""
-    if _PLAIN.fullmatch(block.text):
-        # Most lines only move: what they show is which axes there are.
-        line = words_of(block.text)
-        axes = [axis for address, axis in _TURNED.items() if address in line]
-        return frozenset([*axes, _MILLED] if "Y" in line else axes)
+    if is_plain_line(block.text):
+        return _shown_plainly(words_of(block.text))
     stated = {word.address for word in block.words}
     codes = {word.number for word in block.words if word.address == "G"}
     shown = {*(stated & _SHARED), *(_TURNED[address] for address in stated & _TURNED.keys())}
@@ -145,6 +157,12 @@ def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
     return frozenset(shown)
 
 
+def _shown_plainly(words: str) -> frozenset[str]:
+    """The same of the words of plain lines: what they show is which axes there are."""
+    axes = [axis for address, axis in _TURNED.items() if address in words]
+    return frozenset([*axes, _MILLED] if "Y" in words else axes)
+
+
 def _signs(dialect: Dialect, block: Block) -> list[Word]:
     """The words of a block that show a control."""
     return [word for word in dialect.signs(block) if word.address not in dialect.rare]
@@ -163,9 +181,16 @@ class Recogniser:
         self._shown: set[str] = set()
         self._is_turned = False
 
-    def look(self, block: Block) -> None:
-        """Take a block into account."""
-        self.take(block, shown_by(block, self._shown))
+    def look(self, line: Block | Passage) -> None:
+        """Take a block, or plain lines, into account."""
+        if isinstance(line, Block):
+            self.take(line, shown_by(line, self._shown))
+            return
+        all_of_them = _shown_plainly(words_of(line.text))
+        for block in blocks_in(line):
+            if all_of_them <= self._shown:
+                break
+            self.take(block, shown_by(block, self._shown))
 
     def take(self, block: Block, shown: frozenset[str]) -> None:
         """The same for a block of which it is known what it shows."""
@@ -217,7 +242,6 @@ class Recogniser:
         return not is_milled if is_lathe else is_milled or not is_turned
 
 
-_PLAIN = plain_lines("UVWXYZ")
 _SHARED = frozenset({",A", ",C", ",R"})
 _MILLED, PLANE, _CORNER_ON_Z = "milled", "plane", "corner on Z"
 _TURNED = {"X": "X", "U": "X", "Z": "Z", "W": "Z"}
@@ -232,8 +256,8 @@ def recognise(blocks: Iterable[Block]) -> Dialect | None:
     Raises UnknownControlError if its blocks show more than one.
     """
     recogniser = Recogniser()
-    for block in blocks:
-        recogniser.look(block)
+    for line in in_passages(blocks):
+        recogniser.look(line)
         if recogniser.begun is not None:
             break
     return recogniser.find()
@@ -243,7 +267,15 @@ def turned_with_corners(blocks: Iterable[Block]) -> tuple[str, ...]:
     """The lathes whose programs a program may be that shows no control, as it has I, K or R beside the only axis of a
     line: there they make a corner."""
     motion, has_corners, axes = -1, False, set[str]()
-    for block in blocks:
+    for block in in_passages(blocks):
+        if isinstance(block, Passage):
+            words = words_of(block.text)
+            if "Y" in words:
+                return ()
+            axes |= _shown_plainly(words)
+            stated_motion = motion_of(words)
+            motion = motion if stated_motion is None else stated_motion
+            continue
         stated = {word.address for word in block.words}
         codes = [int(word.number) for word in block.words if word.address == "G" and word.number is not None]
         motion = next((code for code in codes if code in _MOTIONS), -1 if _CYCLES.intersection(codes) else motion)
@@ -303,13 +335,13 @@ def several_controls(
 
 def what_shows(blocks: Iterable[Block], dialect: Dialect) -> str:
     """The first sign that blocks are for a control; empty if there is none."""
-    return next((sign for block in blocks for sign in [sign_of(block, dialect)] if sign), "")
+    return next((sign for block in telling(blocks) for sign in [sign_of(block, dialect)] if sign), "")
 
 
 def first_signs(blocks: Iterable[Block], own: str) -> dict[str, str]:
     """The first sign of each control but one, by its name; the search ends behind the begin of a program."""
     found, rest = dict[str, str](), dict(DIALECTS)
-    for block in blocks:
+    for block in telling(blocks):
         signs = {name: words for name, each in rest.items() if (words := each.signs(block))}
         begun = [name for name, words in signs.items() if _begins(words)]
         found |= {name: _sign(words, block) for name, words in signs.items()}

@@ -69,23 +69,19 @@ class Together(Protocol):
 Previous = tuple[Sequence[Block], State]
 """The contour, or the block, before a place, and the state before it."""
 
+Ahead = tuple[tuple[Sequence[Block] | Passage, State], ...]
+"""The last contours, blocks and plain lines before a place that say something, each with the state before it."""
+
 
 class Pending:
     """A contour that is found and not solved yet, in a state, and what follows it."""
 
-    def __init__(
-        self, contour: ParsedContour, step: Step, view: View, after: int, ahead: tuple[Previous, ...] = ()
-    ) -> None:
+    def __init__(self, contour: ParsedContour, step: Step, view: View, after: int, ahead: Ahead = ()) -> None:
         self.contour, self.step, self.view, self.after, self.ahead = contour, step, view, after, ahead
         self.wave = max([each.wave for each in step.before.axes.values() if isinstance(each, Awaited)], default=0)
         """How many contours in a row have to be solved before."""
         self.left: Callable[[], State] | None = None
         """The state that it leaves, once it is solved."""
-
-    @property
-    def previous(self) -> Previous | None:
-        """The last contour or block before it, and the state before that."""
-        return self.ahead[-1] if self.ahead else None
 
 
 class Answering(Protocol):
@@ -116,9 +112,7 @@ class Queue:
         self.dialect, self.together, self.answers, self.goes_on = dialect, together, answers, goes_on
         self.pending: list[Pending] = []
 
-    def add(
-        self, contour: ParsedContour, step: Step, view: View, after: int, ahead: tuple[Previous, ...] = ()
-    ) -> Pending:
+    def add(self, contour: ParsedContour, step: Step, view: View, after: int, ahead: Ahead = ()) -> Pending:
         """A contour that begins a view and ends before its block `after`; without company, it is solved at once."""
         pending = Pending(contour, step, view, after, ahead)
         self.pending.append(pending)

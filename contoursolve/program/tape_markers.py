@@ -8,8 +8,8 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Context, report
 from contoursolve.diagnostics import Basis, Diagnostic, Span
-from contoursolve.gcode import ISO, Block, Passage
-from contoursolve.reading import ReadIssue, words_of
+from contoursolve.gcode import ISO, Block, Passage, words_of
+from contoursolve.reading import ReadIssue
 
 _OUTSIDE_COMMENTS = re.compile(r"\([^)]*\)?|;.*|(?P<mark>%)")
 

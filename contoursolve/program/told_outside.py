@@ -22,8 +22,8 @@ from enum import Enum
 
 from contoursolve.diagnosis import Answer, are_points_usual, corner_words, moves, spans_of
 from contoursolve.diagnostics import Diagnostic, Fix, Span
-from contoursolve.gcode import Block, FaultKind, Word, parse_block, spell
-from contoursolve.reading import Dialect, ReadIssue, State, apply_modes, words_of
+from contoursolve.gcode import Block, FaultKind, Word, parse_block, spell, words_of
+from contoursolve.reading import Dialect, ReadIssue, State, apply_modes
 
 _BESIDE_CONTOURS: frozenset[Enum | None] = frozenset(
     {ReadIssue.COMMA_MISSING, ReadIssue.COMMA_WORD_UNKNOWN, ReadIssue.ASKED_NOTHING, ReadIssue.FACT_UNMARKED}

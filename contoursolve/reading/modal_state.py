@@ -1,11 +1,12 @@
 """The modal state of a control, where the tool is and what is in force, followed through blocks and plain lines."""
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from enum import Enum
 from functools import partial
+from itertools import groupby
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -13,6 +14,7 @@ from msgspec.structs import replace
 from contoursolve.diagnostics import Span
 from contoursolve.execution import MOST_BLOCKS, Limit, MacroLanguage
 from contoursolve.gcode import (
+    AXES,
     ISO,
     Block,
     FaultKind,
@@ -20,9 +22,12 @@ from contoursolve.gcode import (
     Passage,
     Syntax,
     Word,
+    blocks_in,
     find_lookalikes,
     find_words,
     lookalike_at,
+    motion_of,
+    words_of,
 )
 from contoursolve.geometry import Length, Plane, Start
 from contoursolve.reading.contour_form import Convention, Setting
@@ -529,23 +534,33 @@ def _lost_by_faults(block: Block, modes: Modes) -> dict[str, Span]:
     return lost
 
 
-# Possessive throughout: an integer that may be divided at any digit would be tried in all ways.
-_NUMBER = r"[ \t]*+[+-]?+(?:[0-9]{1,12}+(?>(?:\.[0-9]{0,12}+)?)|\.[0-9]{1,12}+)"
-_COMMENTS = re.compile(r"\([^()]*+\)")
-_MOTIONS = re.compile(r"G0?([01])")
-_COMMENT = r"\((?![ \t]*+contoursolve)[^()]*+\)"
+class PlainLines:
+    """The plain lines of programs that a control reads as what they look like: they move its own axes, and a comment is
+    one. Such a line is no contour, and belongs to one only beside a line that is not plain, as long as `is_plain`;
+    there is nothing to say of it. With `has_points`, they are those in which each coordinate has its point."""
 
+    def __init__(self, modes: Modes, *, has_points: bool = False) -> None:
+        others = "".join(axis for axis in AXES if axis not in modes.axes)
+        self._has_comments = modes.syntax.comment.fullmatch("()") is not None
+        ways = [rf"[{others}]"] * bool(others) + [r"\("] * (not self._has_comments)
+        ways += [rf"[{AXES}][+-]?+[0-9]++(?!\.)"] * has_points
+        self._others = re.compile("|".join(ways) or "(?!)", re.IGNORECASE)
 
-def plain_lines(axes: Iterable[str]) -> re.Pattern[str]:
-    """The pattern of a line with its end that has G00, G01 or neither and coordinates, whatever its feed, speed and
-    tool; or one without words.
+    def has(self, line: str) -> bool:
+        """Whether the control reads a plain line so."""
+        return self._others.search(words_of(line) if self._has_comments else line) is None
 
-    Such a line is no contour, and belongs to one only beside a line that is not plain, as long as `is_plain`.
-    """
-    letters = "".join(sorted(axes))
-    words = rf"N[0-9]{{1,8}}+|G0?[01]|M0?[34589]|T[0-9]{{1,8}}+|[FS{letters}]{_NUMBER}"
-    moving = rf"(?=[^(]*[{letters}])[ \t]*+(?>(?:(?:(?:{words})(?![0-9.])|{_COMMENT})[ \t]*+)+)"
-    return re.compile(rf"(?:{moving}|[ \t]*+(?>(?:{_COMMENT}[ \t]*+)*))(?:\r\n|\n|\r)?", re.IGNORECASE | re.ASCII)
+    def among(self, lines: Iterable[Block | Passage]) -> Iterator[Block | Passage]:
+        """The lines of a program, those that the control reads otherwise as blocks."""
+        for each in lines:
+            if isinstance(each, Block) or self._others.search(each.text) is None:
+                yield each
+                continue
+            first = 0
+            for is_plain, group in groupby(each.lines, self.has):
+                count = len(list(group))
+                part, first = each.part(first, first + count), first + count
+                yield from (part,) if is_plain else blocks_in(part)
 
 
 def is_plain(state: State) -> bool:
@@ -553,35 +568,35 @@ def is_plain(state: State) -> bool:
     return state.motion in (0, 1) and not (state.is_incremental or state.memory or state.doubts)
 
 
-def words_of(line: str) -> str:
-    """The words of a plain line, upper case, without its comments and its end; empty if it has none."""
-    return (_COMMENTS.sub("", line) if "(" in line else line).strip().upper()
-
-
-def motion_of(words: str) -> int | None:
-    """The motion that the words of a plain line state, if they state one."""
-    found = _MOTIONS.findall(words) if "G" in words else None
-    return int(found[-1]) if found else None
-
-
 def advance_plainly(state: State, passage: Passage, modes: Modes) -> State:
     """The state after plain lines; each axis and the motion are where the last line that says so has them. What an
     axis is told is read when somebody asks."""
-    axes, motion = dict[str, Position](), None
-    text = "".join(passage.lines).upper()
+    axes, motion, lines = dict[str, Position](), None, passage.lines
+    text = passage.text.upper()
     programmed = [axis for axis in modes.axes if axis in text]
-    for place in range(len(passage.lines) - 1, -1, -1):
-        words, found = words_of(passage.lines[place]), None
+    # Increments are not in force where lines are plain: no place follows from the one before.
+    reading = replace(state, axes={})
+    for place in range(len(lines) - 1, -1, -1):
+        words, found = words_of(lines[place]), None
         motion = motion_of(words) if motion is None else motion
         for axis in programmed:
             if axis in words and axis not in axes:
-                found = found or _Moved(passage.lines[place], passage.line + place, state, modes)
+                found = found or _Moved(lines[place], passage.line + place, reading, modes)
                 axes[axis] = Awaited(partial(found.position, axis))
         if motion is not None and len(axes) == len(programmed):
             break
     if motion is not None and motion != state.motion:
         state = replace(state, motion=motion)
     return state.move(axes)
+
+
+def advance_through(state: State, passage: Passage, modes: Modes) -> State:
+    """The state after plain lines in any state; those where they are not in force are read into words."""
+    for place, block in enumerate(blocks_in(passage)):
+        if is_plain(state):
+            return advance_plainly(state, passage.part(place, passage.count), modes)
+        state = advance(state, block, modes)
+    return state
 
 
 class _Moved:
@@ -595,6 +610,5 @@ class _Moved:
         """Its end on an axis that it programs."""
         if self.positions is None:
             words = find_words(self.text.rstrip("\r\n"), self.line, self.modes.axes)
-            # Increments are not in force where lines are plain.
             self.positions = positions(self.state, words, self.modes, is_skippable=False)
         return self.positions[axis]

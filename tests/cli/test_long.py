@@ -60,6 +60,35 @@ def test_blocks_that_are_not_kept_are_the_same_blocks(text, monkeypatch):
         read[len(kept)]
 
 
+LATHE, MILL = "G01 X{x:.3f} Z-{z:.3f} F0.2", "N10 G01 X{x:.3f} Y-{z:.3f} F200"
+
+
+@pytest.mark.parametrize(
+    ("move", "contour", "control"),
+    [
+        (LATHE, "", ()),
+        (MILL, "", ("--control", "fanuc-mill")),
+        (LATHE, "G111 X100. A180. K-30. B120. P5. Q5.", ()),
+        (MILL, "G01 X90. ,C.5", ("--control", "fanuc-mill", "--strict")),
+    ],
+)
+def test_plain_lines_are_not_read_into_words(move, contour, control, monkeypatch, tmp_path):
+    program, parse_block, read = tmp_path / "long.nc", lexer.parse_block, list[int]()
+    monkeypatch.setattr(lexer, "MANY_LINES", 1_000)
+    monkeypatch.setattr(lexer, "parse_block", lambda *asked: read.append(0) or parse_block(*asked))
+    counts = []
+    for number in (2_000, 4_000):
+        draw = random.Random(number)
+        rows = [move.format(x=draw.uniform(50, 80), z=draw.uniform(1, 90)) for _ in range(number)]
+        rows[1500:1500] = [contour] * bool(contour)
+        program.write_text("\n".join(["%", "G90 G21", "G00 X40. Z0. Y0.", *rows, "M30", "%"]) + "\n")
+        read.clear()
+        CliRunner().invoke(main, ["check", *control, str(program)])
+        counts.append(len(read))
+    assert counts[1] - counts[0] < 10
+    assert counts[1] < 1_100
+
+
 def test_a_late_finding_about_an_early_line_comes_first_as_long_as_it_may(monkeypatch):
     keys = [3, 1, 2, 9, 4]
     assert list(listing._in_order((key, key) for key in keys)) == sorted(keys)

@@ -7,7 +7,7 @@ from typing import Any
 
 from contoursolve.diagnosis import Answer, Policy
 from contoursolve.execution import Assign, ProgramEnd, When, place_in, write_term
-from contoursolve.gcode import Block, Passage, comment_out, parse_block
+from contoursolve.gcode import Block, Passage, blocks_in, comment_out, words_of
 from contoursolve.numeric import Affine, Term, Variable
 from contoursolve.postprocess.expander import Expander
 from contoursolve.postprocess.expansion_report import Left
@@ -19,7 +19,7 @@ from contoursolve.postprocess.formulas.scratch_variables import Scratch, allocat
 from contoursolve.postprocess.formulas.trial_run import Runner, difference
 from contoursolve.postprocess.formulas.word_dependence import STEP, FormulaError, Reader, at
 from contoursolve.program import Step
-from contoursolve.reading import ContourBlock, Position, State, advance, blocks_of, carried, words_of
+from contoursolve.reading import ContourBlock, Position, State, advance, blocks_of, carried
 
 
 class FormulaExpander(Expander):
@@ -42,11 +42,11 @@ class FormulaExpander(Expander):
     # Where the tool is
 
     def _pass(self, passage: Passage, state: State) -> Iterator[str | object]:
-        said = "".join(map(words_of, passage.lines))
+        said = words_of(passage.text)
         self.axes = {axis: each for axis, each in self.axes.items() if axis not in said}
         if said and self.is_foreign and self.target.is_klartext:
-            for number, line in enumerate(passage.lines, passage.line):
-                yield from self._keep(parse_block(line.rstrip("\r\n"), number, self.modes.syntax), state)
+            for block in blocks_in(passage):
+                yield from self._keep(block, state)
             return
         yield from super()._pass(passage, state)
 
