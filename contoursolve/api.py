@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING, Unpack
 from msgspec.structs import replace
 
 from contoursolve import gcode
-from contoursolve.diagnosis import Depth, EquationSystem
+from contoursolve.diagnosis import Depth
 from contoursolve.diagnostics import Diagnostic, choice_of
 from contoursolve.gcode import ANY_TEXT, STANDARD_INPUT, Program, UnreadableProgramError, decode, file_in_memory
 from contoursolve.program import (
     CheckKeywords,
     FollowKeywords,
-    Mended,
     ProgramKeywords,
     ReadingKeywords,
     Result,
@@ -25,22 +24,20 @@ from contoursolve.program import (
     SolveOptions,
     choose_alike,
     configure,
-    examined_result,
     find_dialect,
     find_settings,
     for_kind,
-    likely_fixes,
-    mend,
     restate_control,
     run,
-    safe_fixes,
     stated_settings,
     takes,
 )
 from contoursolve.reading import Dialect
 
 if TYPE_CHECKING:
+    from contoursolve.diagnosis import EquationSystem
     from contoursolve.postprocess import Conversion, Expansion, Post
+    from contoursolve.program import Mended
 
 __all__ = [
     "UnreadableProgramError",
@@ -196,6 +193,8 @@ def apply_fixes(
     >>> apply_fixes("G00 X40. Z0.\\r\\nG111 A135. I10. K-12. B180. Z-40.\\r\\n").text
     'G00 X40. Z0.\\r\\nG111 I10. K-12. B180. Z-40.\\r\\n'
     """
+    from contoursolve.program import examined_result, likely_fixes, mend, safe_fixes  # noqa: PLC0415 - only this mends
+
     asked = SolveOptions(**options)
     _read(text, name)
     return mend(

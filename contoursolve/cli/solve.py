@@ -14,7 +14,7 @@ from contoursolve.cli.options import (
 )
 from contoursolve.cli.printing import print_lines, print_pieces, style_of_output
 from contoursolve.diagnostics import Severity
-from contoursolve.output import Totals, closing_lines, stream_json, stream_listing
+from contoursolve.output import Totals, closing_lines, stream_listing
 
 
 @click.command(short_help="Solve every contour block of a program.")
@@ -60,6 +60,8 @@ def solve(
     options["strict"], tally = bool(blocks), Totals()
     run = follow(load([program] if program else [], blocks)[0](), start, assignments, options)
     if format_ == "json":
+        from contoursolve.output import stream_json  # noqa: PLC0415 - most runs print text
+
         print_pieces(stream_json(run, tally))
     else:
         print_lines(stream_listing(run, tally, style_of_output(), is_explained=is_explained, is_derived=is_derived))

@@ -2,7 +2,7 @@
 
 import re
 from bisect import bisect_right
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Container, Iterable, Iterator, Sequence
 from enum import Enum
 from functools import lru_cache
 
@@ -190,7 +190,7 @@ def corner_at(text: str, span: Span, lexicon: Lexicon, *, in_contour: bool = Fal
 
 
 def explain_corners(
-    context: Context, text: str, findings: Sequence[Diagnostic], lexicon: Lexicon, others: Collection[str]
+    context: Context, text: str, findings: Sequence[Diagnostic], lexicon: Lexicon, others: Container[str]
 ) -> Iterator[Diagnostic]:
     """Findings about a line that is no contour, in which each stretch that is typed like a word of a corner or an angle
     is told as such; `others` are those words of other controls."""
@@ -293,7 +293,7 @@ def _has_unread_code(block: Block, here: State, modes: Modes) -> bool:
     return named and here.motion in _CUTTING and any(row and row.axis in here.plane.axes for row in rows)
 
 
-def like_corners(block: Block, modes: Modes, others: Collection[str]) -> bool:
+def like_corners(block: Block, modes: Modes, others: Container[str]) -> bool:
     """Whether a block has a word that the control has not, and that is almost one of a corner or an angle; `others`
     are those of other controls, which may be meant as they stand."""
     lexicon = modes.lexicon
@@ -388,7 +388,7 @@ def not_read_yet(context: Context, word: Word, *, is_needed: bool) -> Diagnostic
 
 
 def explain_vocabulary(
-    context: Context, block: Block, here: State, modes: Modes, others: Collection[str]
+    context: Context, block: Block, here: State, modes: Modes, others: Container[str]
 ) -> Iterator[Diagnostic]:
     """The words of a block that moves which the control has not; `others` are those of other controls by which these
     are known, `here` is the state with its codes in force."""
@@ -413,7 +413,7 @@ def _has_code(block: Block) -> bool:
 
 
 def _unknown_word(
-    context: Context, word: Word, lexicon: Lexicon, others: Collection[str], likely: Sequence[str]
+    context: Context, word: Word, lexicon: Lexicon, others: Container[str], likely: Sequence[str]
 ) -> Diagnostic:
     """A word that the control has not: an error where the control stops at it, else a warning; `likely` are addresses
     that are meant before all others."""

@@ -40,7 +40,7 @@ from contoursolve.execution.macro_language import (
 )
 from contoursolve.execution.subprograms import Absent, Library, LineRange, ProgramFile, Surroundings
 from contoursolve.execution.variables import Variables
-from contoursolve.gcode import Block, Caller, Program, Substitution, Syntax, parse_block, telling
+from contoursolve.gcode import Block, Caller, Program, Substitution, Syntax, late_pattern, parse_block, telling
 from contoursolve.numeric import Apply, Term, Variable
 
 MOST_BLOCKS = 5_000
@@ -1303,7 +1303,7 @@ def _backwards(source: ProgramFile, first: int, last: int, index: int) -> str:
     return f"runs from program line {begins}, but its last line, {ends}, stands before that"
 
 
-_ADDRESS = re.compile(r",?[A-Z][ \t]*\Z", re.IGNORECASE)
+_ADDRESS = late_pattern(r",?[A-Z][ \t]*\Z", re.IGNORECASE)
 """Address before the value of a word."""
 
 
@@ -1376,5 +1376,5 @@ def _without_return(text: str, block: Block) -> str:
     return text
 
 
-_ENDS_FILE = re.compile(r"\s*(?:%|\d*\s*END\s+PGM\b.*)\s*", re.IGNORECASE)
+_ENDS_FILE = late_pattern(r"\s*(?:%|\d*\s*END\s+PGM\b.*)\s*", re.IGNORECASE)
 """The last line of a file, which stands behind all of its subprograms."""

@@ -20,6 +20,9 @@ from .files import (
     program_file_of as program_file_of,
     write_whole as write_whole,
 )
+from .late_pattern import (
+    late_pattern as late_pattern,
+)
 from .lexer import (
     LONGEST_BLOCK as LONGEST_BLOCK,
     Blocks as Blocks,

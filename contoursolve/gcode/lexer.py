@@ -10,6 +10,7 @@ from itertools import chain
 from typing import overload
 
 from contoursolve.diagnostics import Span
+from contoursolve.gcode.late_pattern import late_pattern
 from contoursolve.gcode.plain_lines import SEVERAL, Passage
 from contoursolve.gcode.syntax import ISO, Syntax
 from contoursolve.gcode.word import Block, Directive, Fault, FaultKind, Macro, Named, NamedAs, Program, Word
@@ -270,13 +271,13 @@ def _named(comment: str, line: int, offset: int, syntax: Syntax) -> list[Named]:
     return [read_named(NamedAs(match["role"].lower()), text, syntax, line, offset + match.end() + 1)]
 
 
-_BETWEEN_WORDS = re.compile(r";|,(?=\s)|,$")
-_NAMED = re.compile(
+_BETWEEN_WORDS = late_pattern(r";|,(?=\s)|,$")
+_NAMED = late_pattern(
     r"(?:\(|;\s*+\(?+)\s*+contoursolve\s*+:?+\s*+(?P<role>trust|reference)(?:ed|d|s)?+(?:\s*+:|(?=\s))", re.IGNORECASE
 )
-_DIRECTIVE = re.compile(r"(?:\(|;\s*+\(?+)\s*+contoursolve\s*+:", re.IGNORECASE)
-_UNMARKED = re.compile(r"[(;]\s*+c\w*tour[\s_-]*+sol\w*+(?P<gap>[\s:;.,=-]*+)(?P<fact>[^)]*+)", re.IGNORECASE)
-_STATES = re.compile(r"=|passes\s++through|tangent\s++to|meets", re.IGNORECASE)
+_DIRECTIVE = late_pattern(r"(?:\(|;\s*+\(?+)\s*+contoursolve\s*+:", re.IGNORECASE)
+_UNMARKED = late_pattern(r"[(;]\s*+c\w*tour[\s_-]*+sol\w*+(?P<gap>[\s:;.,=-]*+)(?P<fact>[^)]*+)", re.IGNORECASE)
+_STATES = late_pattern(r"=|passes\s++through|tangent\s++to|meets", re.IGNORECASE)
 
 
 def _unmarked(comment: str, line: int, offset: int, syntax: Syntax) -> list[Directive]:

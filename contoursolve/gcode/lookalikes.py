@@ -8,19 +8,20 @@ from collections.abc import Callable, Sequence
 from msgspec import Struct
 
 from contoursolve.diagnostics import Span
+from contoursolve.gcode.late_pattern import late_pattern
 from contoursolve.gcode.syntax import ISO
 from contoursolve.gcode.word import Block, Fault, FaultKind, spell
 
 _DIGITS = str.maketrans("lI|Oo", "11100")
 _NUMBER = r"(?>(?:[-+0-9.lI|Oo]|,(?=[\d.,]|[ \t]*+(?:[;(]|$)))+)"
-_SEARCH = re.compile(
+_SEARCH = late_pattern(
     rf"\([^)]*+\)?+|;.*+|,?+[A-Za-z][ \t]*+(?:=[ \t]*+)?(?:[-+]++[ \t]++)?(?P<number>{_NUMBER})"
     r"(?>(?P<text>(?=[A-Za-z](?![ \t]*+[+-]?+[.\dlI|Oo])))?)"
 )
 """A comment; or an address and what may be its number, and whether it goes on as a text does."""
-_WORD = re.compile(r",?+[A-Za-z][ \t]*+[+-]?+(?>\d++\.?+\d*+|\.\d++)", re.ASCII)
-_CODE = re.compile(r"[Gg][ \t]*+\d{1,3}+", re.ASCII)
-_HINT = re.compile(r"[Gg][ \t]*+\d*+[lI|Oo]")
+_WORD = late_pattern(r",?+[A-Za-z][ \t]*+[+-]?+(?>\d++\.?+\d*+|\.\d++)", re.ASCII)
+_CODE = late_pattern(r"[Gg][ \t]*+\d{1,3}+", re.ASCII)
+_HINT = late_pattern(r"[Gg][ \t]*+\d*+[lI|Oo]")
 _LONGEST = 40
 """Characters of what may be a number; a control reads 8 digits."""
 _WHOLE = "GMNOST"
@@ -111,8 +112,8 @@ def _meant(block: Block, fault: Fault) -> Lookalike | None:
 
 _NAMES = {"RND": "ROUNDING", "CHF": "CHAMFER"}
 """Names of the sizes that these words of Klartext state."""
-_CHAMFER = re.compile(r"\b(CHF)[ \t]*R[ \t]*(?=\d)", re.IGNORECASE)
-_LONG = re.compile(r"(?P<address>#?[A-Za-z_]\w*?)[ \t]*=?[ \t]*(?P<number>[+-]?\d[\d.,Ool|]*)", re.ASCII)
+_CHAMFER = late_pattern(r"\b(CHF)[ \t]*R[ \t]*(?=\d)", re.IGNORECASE)
+_LONG = late_pattern(r"(?P<address>#?[A-Za-z_]\w*?)[ \t]*=?[ \t]*(?P<number>[+-]?\d[\d.,Ool|]*)", re.ASCII)
 
 
 def lookalike_at(words: Sequence[Lookalike], place: Span) -> Lookalike | None:
@@ -173,7 +174,7 @@ def _points(number: str, _: str) -> str:
     return text[:-1] if text.endswith(".") and text.count(".") > 1 else text
 
 
-_SIGNS = re.compile(r"(?P<blank>[ \t]*+)(?P<before>[-+]*+)[ \t]*+(?P<digits>[0-9.,]++)(?P<behind>[-+]*+)")
-_IN_A_ROW = re.compile(r"\.{2,}")
+_SIGNS = late_pattern(r"(?P<blank>[ \t]*+)(?P<before>[-+]*+)[ \t]*+(?P<digits>[0-9.,]++)(?P<behind>[-+]*+)")
+_IN_A_ROW = late_pattern(r"\.{2,}")
 _MENDING: tuple[Callable[[str, str], str], ...] = (_equals, _sign, _comma, _points)
 """Corrections of the text behind an address, applied one after the other."""

@@ -1,7 +1,6 @@
 """The text of programs: files and bytes as they come from controls, tapes and DOS."""
 
 import errno
-import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -9,6 +8,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from contoursolve.diagnostics import UserError
+from contoursolve.gcode.late_pattern import late_pattern
 
 STANDARD_INPUT = "-"
 
@@ -41,7 +41,7 @@ def _is_folder(path: str) -> bool:
         return False
 
 
-_BLOCK = re.compile(r"(?:[Nn]\d+ ?)?[Gg]\d+ ?[A-Za-z,]|[A-Za-z],?-?\d+\.? [A-Za-z,]")
+_BLOCK = late_pattern(r"(?:[Nn]\d+ ?)?[Gg]\d+ ?[A-Za-z,]|[A-Za-z],?-?\d+\.? [A-Za-z,]")
 """Beginning of a block."""
 
 

@@ -1,13 +1,13 @@
 """A contour as text and as tables: what was given, every element of the path, all solutions, what was checked."""
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import (
     Answer,
     AskedValue,
-    EquationSystem,
     Listed,
     Listing,
     axis_labels,
@@ -31,7 +31,10 @@ from contoursolve.output.plain_text import NAMELESS, Name, Table, columns, print
 from contoursolve.output.premises import premise_texts
 from contoursolve.output.word_meanings import form_text, found_value, stated_words
 from contoursolve.program import Result
-from contoursolve.solving import ArcSegment, Contour, resolved_later
+from contoursolve.solving import ArcSegment, Contour
+
+if TYPE_CHECKING:
+    from contoursolve.diagnosis import EquationSystem
 
 _VERDICT = {Verdict.PASSED: "passed", Verdict.FOUND: "see finding", Verdict.NOT_RUN: "not run"}
 
@@ -51,7 +54,7 @@ def title_line(answer: Answer, name: str) -> str:
     return f"{place}: {form_text(answer)}{_called(answer)}: {status_text(answer.status)}"
 
 
-def explaining_lines(answer: Answer, system: EquationSystem | None = None) -> list[str]:
+def explaining_lines(answer: Answer, system: "EquationSystem | None" = None) -> list[str]:
     """The equations of a contour, the conditions on which they determine it, and the construction; `system` is its own,
     if it is made already."""
     from contoursolve.output.construction import construction_lines  # noqa: PLC0415 - only on demand
@@ -96,8 +99,11 @@ def contour_lines(answer: Answer, result: Result, *, is_explained: bool = False,
 
 def _later_texts(answer: Answer) -> Iterator[str]:
     """A line that names elements of a chain which only a later block determines, each with that block; none without."""
-    later = resolved_later(answer.profile) if answer.claim.form.is_general else {}
-    if later:
+    if not answer.claim.form.is_general:
+        return
+    from contoursolve.solving import resolved_later  # noqa: PLC0415 - most contours are no such chains
+
+    if later := resolved_later(answer.profile):
         yield f"known by a later block: {', '.join(f'{name} by {other}' for name, other in later.items())}"
 
 

@@ -6,7 +6,7 @@ from itertools import islice
 
 from msgspec import Struct
 
-from contoursolve.diagnosis import Answer, AskedValue, coordinates, meaning_of, short_name, word_keys, write_word
+from contoursolve.diagnosis import Answer, AskedValue, coordinates, meaning_of, short_name, word_keys
 from contoursolve.gcode import FACT, Word
 from contoursolve.geometry import Length, Line, Unit
 
@@ -28,6 +28,8 @@ def start_text(answer: Answer) -> str:
     >>> start_text(contoursolve.solve("G111 X100. A180. K-30. B120.", start="X40. Z0.").answers[0])
     'Z0 X40.'
     """
+    from contoursolve.diagnosis import write_word  # noqa: PLC0415 - with what edits programs; few outputs have it
+
     values, lexicon = answer.start.values, answer.claim.lexicon
     if not answer.start.is_known:
         return ""

@@ -28,7 +28,7 @@ class Lines:
         self._lines = lines
         self._facts = facts
         self._plain = PlainLines(dialect.modes)
-        self._others = [other for other in DIALECTS.values() if not is_certain and other.name != dialect.name]
+        self._is_certain = is_certain
         self._dialect, self._own = dialect, ""
         self._ends: dict[int, str] = {}
         self.end = _USUAL
@@ -58,10 +58,11 @@ class Lines:
         block = parse_block(text, number, self._dialect.modes.syntax)
         if number in self._facts:
             block = replace(block, directives=(*block.directives, *self._facts[number]))
-        if self._others:
-            self._own = self._own or sign_of(block, self._dialect)
-        for other in self._others:
-            sign = sign_against(block, self._dialect, other)
+        if self._is_certain:
+            return block
+        self._own = self._own or sign_of(block, self._dialect)
+        for other in DIALECTS.showing(text):
+            sign = sign_against(block, self._dialect, other) if other.name != self._dialect.name else ""
             if sign:
                 raise several_controls({self._dialect.name: self._own, other.name: sign})
         return block

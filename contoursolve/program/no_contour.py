@@ -176,7 +176,7 @@ def look_without_control(asked: Request, blocks: Sequence[Block]) -> Step:
 def _control_of_digits(block: Block) -> Dialect | None:
     """The control that a block shows if its letters are the digits that they look like."""
     meant = parse_block(" ".join(each.new for each in find_lookalikes(block)), block.line)
-    return next((each for each in DIALECTS.values() if each.signs(meant)), None)
+    return next((each for each in DIALECTS.showing(meant.text) if each.signs(meant)), None)
 
 
 def _state_before(asked: Request, dialect: Dialect, blocks: Sequence[Block], index: int) -> State:

@@ -1,8 +1,8 @@
 """Findings about blocks outside contours: their characters, their words, the slips that keep them from being contours,
 and arcs that are read as contours are. `told_outside` chooses those that are told."""
 
-from collections.abc import Callable, Iterator, Sequence
-from functools import cache
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
+from functools import cached_property
 from itertools import repeat
 
 from msgspec.structs import replace
@@ -40,6 +40,7 @@ from contoursolve.reading import (
     COMMENTED,
     Dialect,
     Effect,
+    Lexicon,
     Modes,
     ParsedContour,
     ReadIssue,
@@ -106,7 +107,7 @@ def findings_of_block(
         found += _of_vocabulary(context, block, here, dialect, previous)
         found += _of_unread(context, block, here, dialect, previous)
     if found and has_corners(block, here, dialect.modes):
-        return [*explain_corners(context, block.text, found, lexicon, _corner_words())]
+        return [*explain_corners(context, block.text, found, lexicon, _CORNER_WORDS)]
     return found
 
 
@@ -172,14 +173,12 @@ def _of_vocabulary(
         yield replace(each, severity=Severity.ERROR) if signs else each
     yield from _of_words_beside(context, block, dialect)
     if not (
-        moves(block, here, modes, signs)
-        or has_corners(block, here, modes)
-        or like_corners(block, modes, _corner_words())
+        moves(block, here, modes, signs) or has_corners(block, here, modes) or like_corners(block, modes, _CORNER_WORDS)
     ):
         return
     # Of the block behind a contour, some controls tell by themselves what its words would have meant there.
     is_said = dialect.follow is not None and _is_of_contour(previous, modes)
-    for each in explain_vocabulary(context, block, here, modes, _comma_words()):
+    for each in explain_vocabulary(context, block, here, modes, _COMMA_WORDS):
         if not is_said or each.about is not ReadIssue.WORD_IDLE:
             yield each
 
@@ -214,17 +213,25 @@ def _of_unread(
         yield not_read_yet(context, unread, is_needed=is_needed)
 
 
-@cache
-def _comma_words() -> frozenset[str]:
-    """The words with a comma that any control has."""
-    words = (each for dialect in DIALECTS.values() for each in dialect.modes.lexicon.addresses)
-    return frozenset(each for each in words if each.startswith(","))
+class _OfAllControls(Container[str]):
+    """Words that any control has, which are looked for where one is not known."""
+
+    def __init__(self, find: Callable[[Lexicon], Iterable[str]]) -> None:
+        self._find = find
+
+    @cached_property
+    def _words(self) -> frozenset[str]:
+        return frozenset(each for dialect in DIALECTS.values() for each in self._find(dialect.modes.lexicon))
+
+    def __contains__(self, word: object) -> bool:
+        return word in self._words
 
 
-@cache
-def _corner_words() -> frozenset[str]:
-    """The words that make corners and angles on any control."""
-    return frozenset(each for dialect in DIALECTS.values() for each in corner_words(dialect.modes.lexicon))
+_COMMA_WORDS = _OfAllControls(lambda lexicon: (each for each in lexicon.addresses if each.startswith(",")))
+"""The words with a comma."""
+
+_CORNER_WORDS = _OfAllControls(corner_words)
+"""The words that make corners and angles."""
 
 
 # Slips -----------------------------------------------------------------------------------------------------------

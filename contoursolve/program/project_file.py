@@ -22,7 +22,7 @@ from typing import Any
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnostics import UserError
-from contoursolve.gcode import split_lines
+from contoursolve.gcode import late_pattern, split_lines
 from contoursolve.reading import Dialect
 
 OWN, SHARED = "contoursolve.toml", "pyproject.toml"
@@ -70,7 +70,7 @@ def _find(folder: Path) -> tuple[dict[str, Any], Path] | None:
     return None
 
 
-_STATED = re.compile(r"[(;]\s*+contoursolve\s++control\s*+:(?P<stated>[^()\r\n]*+)", re.IGNORECASE)
+_STATED = late_pattern(r"[(;]\s*+contoursolve\s++control\s*+:(?P<stated>[^()\r\n]*+)", re.IGNORECASE)
 FIRST_LINES = 10
 """Of a program, among which it may state its control: an editor looks there, too, for what is meant for it."""
 
@@ -135,26 +135,30 @@ def configure(dialect: Dialect, settings: Mapping[str, str] | None) -> Dialect:
     """
     if not settings:
         return dialect
-    return _configured(settings, {**DIALECTS, dialect.name: dialect}).get(dialect.name, dialect)
+    return _configured(settings, dialect).get(dialect.name, dialect)
 
 
 def check_settings(settings: Mapping[str, str]) -> None:
     """Raise SettingError, naming what there is, for a setting that no control has."""
-    _configured(settings, DIALECTS)
+    _configured(settings, None)
 
 
-def _configured(settings: Mapping[str, str], controls: Mapping[str, Dialect]) -> dict[str, Dialect]:
-    """The controls that settings are about, with these values."""
+def _configured(settings: Mapping[str, str], own: Dialect | None) -> dict[str, Dialect]:
+    """The controls that settings are about, with these values; `own` is one that need not be built in."""
+    names = {*DIALECTS, own.name} if own else {*DIALECTS}
     values: dict[str, dict[str, str]] = {}
     for full, value in settings.items():
         if full == CONTROL:
             continue
         control, _, name = full.partition(".")
-        if control not in controls or not name:
+        if control not in names or not name:
             raise SettingError(f"there is no setting {full!r}; write CONTROL.NAME, such as {_example()}")
         values.setdefault(control, {})[name] = value
     try:
-        return {control: controls[control].configure(given) for control, given in values.items()}
+        return {
+            control: (own if own and control == own.name else DIALECTS[control]).configure(given)
+            for control, given in values.items()
+        }
     except ValueError as error:
         raise SettingError(str(error)) from None
 

@@ -17,6 +17,7 @@ from contoursolve.gcode import (
     blocks_in,
     in_passages,
     is_plain_line,
+    late_pattern,
     motion_of,
     telling,
     words_of,
@@ -109,7 +110,7 @@ def shown_of_machine(line: str, syntax: Syntax) -> frozenset[str]:
 
 
 _MACHINE = "machine"
-_OF_MACHINE = re.compile(r"(?<![A-Z_$\[,])(?:[XYZ](?=\s*[-+.=\d])|G0?1[789](?!\d))", re.IGNORECASE)
+_OF_MACHINE = late_pattern(r"(?<![A-Z_$\[,])(?:[XYZ](?=\s*[-+.=\d])|G0?1[789](?!\d))", re.IGNORECASE)
 TURNED_AXES = frozenset({"X", "Z"})
 """The axes of a lathe."""
 
@@ -148,12 +149,12 @@ def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
         shown.add(_MILLED)
     if stated & {"Z", "W"} and stated & _SHARED:
         shown.add(_CORNER_ON_Z)
-    for name, dialect in DIALECTS.items():
-        words = () if f"own {name}" in known else _signs(dialect, block)
+    for dialect in DIALECTS.showing(block.text):
+        words = () if f"own {dialect.name}" in known else _signs(dialect, block)
         if words:
-            shown.add(f"sign {name}")
+            shown.add(f"sign {dialect.name}")
         if any(word.address not in _SHARED for word in words):
-            shown.add(f"own {name}")
+            shown.add(f"own {dialect.name}")
     return frozenset(shown)
 
 
@@ -197,9 +198,9 @@ class Recogniser:
         if shown <= self._shown:
             return
         self.begun = self.begun or begun_by(block)
-        for name, dialect in DIALECTS.items():
+        for name in DIALECTS:
             if f"sign {name}" in shown and name not in self.signs:
-                self.signs[name] = _sign(_signs(dialect, block), block)
+                self.signs[name] = _sign(_signs(DIALECTS[name], block), block)
             if f"own {name}" in shown:
                 self._own.add(name)
         self._shown |= shown
@@ -302,10 +303,10 @@ _CYCLES = frozenset({*range(32, 36), *range(65, 68), *range(70, 95)})
 
 def begun_by(block: Block) -> Dialect | None:
     """The control whose programs alone begin with such a line."""
-    # Nearly no line has the word that all of these have, and need be shown to every control.
+    # Nearly no line has the word that all of these have.
     if _BEGIN not in block.text.upper():
         return None
-    return next((each for each in DIALECTS.values() if _begins(each.signs(block))), None)
+    return next((each for each in DIALECTS.showing(block.text) if _begins(each.signs(block))), None)
 
 
 def begins_for_another(blocks: Iterable[Block], dialect: Dialect) -> bool:
@@ -340,15 +341,15 @@ def what_shows(blocks: Iterable[Block], dialect: Dialect) -> str:
 
 def first_signs(blocks: Iterable[Block], own: str) -> dict[str, str]:
     """The first sign of each control but one, by its name; the search ends behind the begin of a program."""
-    found, rest = dict[str, str](), dict(DIALECTS)
+    found, rest = dict[str, str](), {*DIALECTS}
     for block in telling(blocks):
-        signs = {name: words for name, each in rest.items() if (words := each.signs(block))}
+        showing = (each for each in DIALECTS.showing(block.text) if each.name in rest)
+        signs = {each.name: words for each in showing if (words := each.signs(block))}
         begun = [name for name, words in signs.items() if _begins(words)]
         found |= {name: _sign(words, block) for name, words in signs.items()}
         if begun:
-            rest, found = {}, {name: found[name] for name in begun}
-        if signs:
-            rest = {name: each for name, each in rest.items() if name not in found}
+            rest, found = set(), {name: found[name] for name in begun}
+        rest -= found.keys()
         if not rest:
             break
     return {name: found[name] for name in DIALECTS if name in found and name != own}

@@ -1,11 +1,10 @@
 """The words of a block besides its contour, and the blocks behind it that rely on the motion in force."""
 
-import re
 from collections.abc import Iterable
 from enum import Enum
 from typing import NamedTuple
 
-from contoursolve.gcode import Block, FaultKind, Macro, Word, parse_block
+from contoursolve.gcode import Block, FaultKind, Macro, Word, late_pattern, parse_block
 from contoursolve.reading.lexicon import Code, Effect
 from contoursolve.reading.modal_state import Modes, codes_of
 
@@ -88,7 +87,7 @@ def restate(block: Block, code: str) -> Block:
 
 _BLANKS = " \t\f\v\x02\x03\x11\x12\x13\x14\x1a\ufeff%"
 
-_FRAME = re.compile(rf"(?P<head>[{_BLANKS}]*+)(?>(?P<skip>/[1-9]?+(?!\d)[ \t]*+)?)")
+_FRAME = late_pattern(rf"(?P<head>[{_BLANKS}]*+)(?>(?P<skip>/[1-9]?+(?!\d)[ \t]*+)?)")
 
 _PROGRAM_ENDS = frozenset({2, 30})
 

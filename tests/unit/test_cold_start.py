@@ -1,0 +1,75 @@
+"""What a command loads before it answers: counted, as the clock of a test machine tells nothing."""
+
+import random
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+
+import pytest
+from examples import law
+from hypothesis import strategies as st
+from mutations import mutate
+
+from contoursolve import DIALECTS, parse
+
+COUNTED = """
+import re, sys
+compile, compiled = re.compile, []
+def counted(pattern, flags=0):
+    frame = sys._getframe(1)
+    compiled.extend([pattern] if frame.f_globals["__name__"].startswith("contoursolve") else [])
+    return compile(pattern, flags)
+re.compile = counted
+from contoursolve.__main__ import main
+try:
+    main()
+finally:
+    own = [name for name in sys.modules if name.startswith("contoursolve")]
+    print(len(own), len(compiled), *sorted({name.split(".")[0] for name in sys.modules} | {*own}), file=sys.stderr)
+"""
+
+
+def loaded_by(*arguments: str, told: str = "") -> tuple[int, int, set[str]]:
+    """The modules of contoursolve that a command loads and the patterns that it compiles: how many of both, and the
+    names of these modules and of all packages."""
+    command = [sys.executable, "-c", COUNTED, *arguments]
+    done = subprocess.run(command, check=False, capture_output=True, text=True, input=told)
+    modules, patterns, *names = done.stderr.splitlines()[-1].split()
+    return int(modules), int(patterns), {*names}
+
+
+@pytest.mark.parametrize(
+    ("program", "control", "most"),
+    [
+        ("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.", "yasnac_lx3", (150, 50)),
+        ("G18 DIAMON G0 X20 Z0\nG1 X40 RND=2\nZ-50", "siemens", (153, 58)),
+        ("0 BEGIN PGM A MM\n1 L X+0 Y+0\n2 FL X+20 Y+20\n3 FL AN+0 LEN20\n4 END PGM A MM", "heidenhain", (180, 95)),
+    ],
+)
+def test_the_solve_of_one_block_loads_the_tables_of_its_control_alone(
+    program: str, control: str, most: tuple[int, int], tmp_path: Path
+) -> None:
+    """They were 238 modules of contoursolve and 126 patterns when all controls were loaded."""
+    path = tmp_path / "one.nc"
+    path.write_text(program, encoding="utf-8")
+    modules, patterns, names = loaded_by("solve", str(path))
+    tables = {name.split(".")[2] for name in names if name.startswith("contoursolve.controls.")}
+    assert tables & {name.replace("-", "_").split("_8")[0] for name in DIALECTS} == {control}
+    assert (modules <= most[0], patterns <= most[1]) == (True, True), (modules, patterns)
+    assert not names & {"sympy", "scipy", "htpy", "pygls"}
+
+
+@cache
+def examples() -> list[str]:
+    rules = (rule for each in DIALECTS.values() for rule in each.rules)
+    return [text for rule in rules for text in (*rule.accepted, *rule.rejected)]
+
+
+@law(st.integers(0, 10**9), few=60, many=2_000)
+def test_a_line_that_shows_a_control_is_shown_to_it(seed: int) -> None:
+    """Every control is asked about every line here; a program's lines are shown to those alone that they may show."""
+    draw = random.Random(seed)
+    for block in parse(mutate(draw.choice(examples()), draw)).blocks:
+        asked = [each.name for each in DIALECTS.showing(block.text)]
+        assert {name for name, each in DIALECTS.items() if each.signs(block)} <= {*asked}
