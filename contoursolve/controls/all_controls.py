@@ -1,42 +1,49 @@
 """All controls, by name; the tables of one are read when it is asked for."""
 
 from collections.abc import Iterator, Mapping
+from importlib import import_module
 
-from contoursolve import controls
 from contoursolve.reading import Dialect
 
-_SHOWN_BY = {
-    "yasnac-lx3": ("G 11", "G 12"),
-    "nct-99m": (",", "R I J", "R I K", "R J K"),
-    "fanuc-lathe": (",",),
-    "fanuc-mill": (",",),
-    "haas-lathe": (",",),
-    "haas-mill": (",",),
-    "mitsubishi": (",", "G H"),
-    "siemens-840d": ("=",),
-    "siemens-808d": ("=",),
-    "isg": ("#", "G 301", "G 302"),
-    "heidenhain": ("BEG", "FL", "FC", "F AN", "F LEN", "F CC"),
+_CONTROLS: Mapping[str, tuple[str, tuple[str, ...]]] = {
+    "yasnac-lx3": ("yasnac_lx3", ("G 11", "G 12")),
+    "nct-99m": ("nct_99m", (",", "R I J", "R I K", "R J K")),
+    "fanuc-lathe": ("fanuc", (",",)),
+    "fanuc-mill": ("fanuc", (",",)),
+    "haas-lathe": ("fanuc", (",",)),
+    "haas-mill": ("fanuc", (",",)),
+    "mitsubishi": ("mitsubishi", (",", "G H")),
+    "siemens-840d": ("siemens", ("=",)),
+    "siemens-808d": ("siemens", ("=",)),
+    "isg": ("isg", ("#", "G 301", "G 302")),
+    "heidenhain": ("heidenhain", ("BEG", "FL", "FC", "F AN", "F LEN", "F CC")),
 }
-"""What a line has, in upper case, that shows a control: all parts of one of these texts, anywhere. What else it needs
-for that the control's own `signs` say."""
-_PARTS = {name: [text.split() for text in shown_by] for name, shown_by in _SHOWN_BY.items()}
+"""The folder that has the record of each, under its name in capitals; and what a line has, in upper case, that shows
+the control: all parts of one of these texts, anywhere. What else it needs for that the control's own `signs` say."""
+
+_PARTS = {name: [text.split() for text in texts] for name, (_, texts) in _CONTROLS.items()}
 
 
 class _Controls(Mapping[str, Dialect]):
     """The controls by name. Most programs are for one of them, and show no other."""
 
+    def __init__(self) -> None:
+        self._read: dict[str, Dialect] = {}
+
     def __getitem__(self, name: str) -> Dialect:
-        if name not in _SHOWN_BY:
-            raise KeyError(name)
-        found: Dialect = getattr(controls, name.upper().replace("-", "_"))
-        return found
+        if name not in self._read:
+            module = import_module(f"contoursolve.controls.{_CONTROLS[name][0]}")
+            self._read[name] = getattr(module, name.upper().replace("-", "_"))
+        return self._read[name]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(_SHOWN_BY)
+        return iter(_CONTROLS)
 
     def __len__(self) -> int:
-        return len(_SHOWN_BY)
+        return len(_CONTROLS)
+
+    def __contains__(self, name: object) -> bool:
+        return name in _CONTROLS
 
     def __or__(self, others: Mapping[str, Dialect]) -> dict[str, Dialect]:
         return {**self, **others}
@@ -45,8 +52,10 @@ class _Controls(Mapping[str, Dialect]):
         """The controls that a line may show, in order; their `signs` say whether it does."""
         text = line.upper()
         for name, ways in _PARTS.items():
-            if any(all(part in text for part in parts) for parts in ways):
-                yield self[name]
+            for first, *others in ways:
+                if first in text and all(part in text for part in others):
+                    yield self[name]
+                    break
 
 
 DIALECTS = _Controls()

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from lsprotocol import types
 
 from contoursolve import Diagnostic, Fix, Severity, changes_of, likely_fixes, mend_open, safe_fixes
-from contoursolve.lsp.opened import Opened
+from contoursolve.lsp.opened import FIX_ALL, Opened
 from contoursolve.lsp.positions import edits, edits_to
 
 _SEVERITY = {
@@ -78,9 +78,6 @@ def _range(opened: Opened, span: tuple[int, int, int]) -> types.Range:
         return opened.places.range(1, 1, 2)
     return opened.places.range(line, column, max(end_column, column + 1))
 
-
-FIX_ALL = f"{types.CodeActionKind.SourceFixAll.value}.contoursolve"
-"""The kind of the action that applies all fixes that keep the contour; an editor may ask for it when it saves."""
 
 _CODE, _WAY, _URI = "code", "way", "uri"
 _WAYS = {SAFE: safe_fixes, "likely": likely_fixes}

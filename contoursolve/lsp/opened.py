@@ -7,11 +7,13 @@ from typing import Any
 from lsprotocol import types
 from msgspec import Struct, field
 
-from contoursolve import OpenProgram, find_settings
+import contoursolve
 from contoursolve.lsp.positions import ClientPositions
 from contoursolve.lsp.rule_pages import Pages
 
 CONTROL = "control"
+FIX_ALL = f"{types.CodeActionKind.SourceFixAll.value}.contoursolve"
+"""The kind of the action that applies all fixes that keep the contour; an editor may ask for it when it saves."""
 
 
 class ClientSettings(Struct, frozen=True):
@@ -23,12 +25,14 @@ class ClientSettings(Struct, frozen=True):
     has_lenses: bool = True
     has_pictures: bool = True
     block_numbers: int = 0
+    has_commands: bool = False
+    """Whether the client shows by itself what is made for it."""
 
 
-def read_client_settings(section: Any, *, has_pictures: bool = False) -> ClientSettings:
+def read_client_settings(section: Any, *, has_commands: bool = False) -> ClientSettings:
     """The options of a client's section; what is of another kind counts as not set.
 
-    `has_pictures` tells whether pictures are shown where it does not say that: a terminal would show their data.
+    A client that `has_commands` is shown pictures where it does not say that: a terminal would show their data.
     """
     table = section if isinstance(section, dict) else {}
 
@@ -42,8 +46,9 @@ def read_client_settings(section: Any, *, has_pictures: bool = False) -> ClientS
         {str(name): str(value) for name, value in given.items()} if isinstance(given, dict) else {},
         switch("inlayHints"),
         switch("codeLenses"),
-        table["pictures"] if isinstance(table.get("pictures"), bool) else has_pictures,
+        table["pictures"] if isinstance(table.get("pictures"), bool) else has_commands,
         step if isinstance(step, int) and not isinstance(step, bool) and step > 0 else 0,
+        has_commands,
     )
 
 
@@ -60,9 +65,10 @@ class Opened:
         encoding: types.PositionEncodingKind | str,
     ) -> None:
         self.uri, self.version, self.path, self.pages = item.uri, item.version, path, pages
+        self.client = client
         self.options, self._project = options, _project_of(path)
         name = path.name if path else item.uri
-        self.program = OpenProgram(item.text, settings=self._settings(), name=name)
+        self.program = contoursolve.OpenProgram(item.text, settings=self._settings(), name=name)
         self.places = ClientPositions(self.program, encoding)
         text, workspace = client.text_document, client.workspace
         shown = text.publish_diagnostics if text else None
@@ -131,6 +137,6 @@ class Opened:
 def _project_of(path: Path | None) -> dict[str, str] | str:
     """The settings of the project file of a program, or what is wrong with it."""
     try:
-        return find_settings(path.parent) if path is not None else {}
+        return contoursolve.find_settings(path.parent) if path is not None else {}
     except (OSError, ValueError) as error:  # a name that no file may have, or a SettingError
         return str(error)

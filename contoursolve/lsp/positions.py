@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 
 from lsprotocol import types
 
-from contoursolve import OpenProgram
+import contoursolve
 
 _FAR = 0xFFFF
 """The last character that takes one unit of UTF-16."""
@@ -13,7 +13,7 @@ _FAR = 0xFFFF
 class ClientPositions:
     """The places of one program, in the units that the client counts."""
 
-    def __init__(self, program: OpenProgram, encoding: types.PositionEncodingKind | str) -> None:
+    def __init__(self, program: "contoursolve.OpenProgram", encoding: types.PositionEncodingKind | str) -> None:
         self.program = program
         self._width = _WIDTHS.get(encoding, _WIDTHS[types.PositionEncodingKind.Utf16])
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from contoursolve import DIALECTS, Dialect, rule_page
+import contoursolve
 
 
 class Pages:
@@ -15,13 +15,13 @@ class Pages:
         self._folder = TemporaryDirectory(prefix="contoursolve-", ignore_cleanup_errors=True)
         atexit.register(self._folder.cleanup)
 
-    def uri(self, code: str, dialect: Dialect | None) -> str:
+    def uri(self, code: str, dialect: "contoursolve.Dialect | None") -> str:
         """The address of the page about a rule; empty if there is none."""
-        controls = [dialect] if dialect is not None else [*DIALECTS.values()]
+        controls = [dialect] if dialect is not None else [*contoursolve.DIALECTS.values()]
         name = f"{controls[0].name}-{code}.md" if dialect is not None else f"{code}.md"
         path = Path(self._folder.name) / name
         try:
-            return path.as_uri() if path.exists() else self.write(name, [rule_page(code, controls)])
+            return path.as_uri() if path.exists() else self.write(name, [contoursolve.rule_page(code, controls)])
         except (LookupError, OSError):
             return ""
 

@@ -1,10 +1,14 @@
-"""The server: what it can do, and what it does with each message of its client."""
+"""The server: what it can do, and what it does with each message of its client.
+
+A client waits for what it can do: this module needs nothing that solves or draws, and whoever does imports it.
+"""
 
 import asyncio
 import gc
 import logging
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
+from functools import partial
 from importlib import import_module
 from itertools import count
 from math import inf
@@ -18,12 +22,8 @@ from pygls.lsp.server import LanguageServer
 from pygls.protocol import LanguageServerProtocol, lsp_method
 from pygls.uris import to_fs_path
 
-from contoursolve import DIALECTS, Severity, Status, __version__
-from contoursolve.lsp import commands
-from contoursolve.lsp.editing import block_number_under, formatted, renamed, target_of
-from contoursolve.lsp.findings import FIX_ALL, actions_of, diagnostics_of, fix_all, uri_of, with_edit
-from contoursolve.lsp.language_features import Completer, folds_of, hints_of, hover_of, signatures_of, symbols_of
-from contoursolve.lsp.opened import ClientSettings, Opened, read_client_settings
+import contoursolve
+from contoursolve.lsp.opened import FIX_ALL, ClientSettings, Opened, read_client_settings
 from contoursolve.lsp.rule_pages import Pages
 
 logger = logging.getLogger(__name__)
@@ -75,7 +75,7 @@ class Server(LanguageServer):
     """One client, and the programs that it has open."""
 
     def __init__(self) -> None:
-        super().__init__(SECTION, __version__, protocol_cls=Protocol)
+        super().__init__(SECTION, contoursolve.__version__, protocol_cls=Protocol)
         self.opened: dict[str, Opened] = {}
         self.checking: dict[str, asyncio.Task[None]] = {}
         self.options, self.pages = ClientSettings(), Pages()
@@ -149,6 +149,8 @@ class Server(LanguageServer):
 
     def _tell(self, opened: Opened) -> None:
         """Send the findings about a program, and how it stands."""
+        from contoursolve.lsp.findings import diagnostics_of  # noqa: PLC0415 - as in `_answer`
+
         found = diagnostics_of(opened)
         self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(opened.uri, found, opened.version))
         statuses = [contour.answer.status for contour in opened.program.contours]
@@ -158,9 +160,9 @@ class Server(LanguageServer):
             "control": opened.program.dialect.name if opened.program.dialect else None,
             "source": opened.source,
             "contours": len(statuses),
-            "solved": statuses.count(Status.SOLVED),
-            "errors": severities.count(Severity.ERROR),
-            "warnings": severities.count(Severity.WARNING),
+            "solved": statuses.count(contoursolve.Status.SOLVED),
+            "errors": severities.count(contoursolve.Severity.ERROR),
+            "warnings": severities.count(contoursolve.Severity.WARNING),
             "message": "; ".join(opened.troubles),
         }
         self.protocol.notify(STATUS, status)
@@ -196,7 +198,7 @@ class Server(LanguageServer):
 
     def configure(self, section: Any) -> None:
         """Follow the client's options."""
-        self.options = read_client_settings(section, has_pictures=self.has_client_commands)
+        self.options = read_client_settings(section, has_commands=self.has_client_commands)
         self.follow_projects()
 
     def follow_projects(self) -> None:
@@ -237,24 +239,30 @@ def _go_on(opened: Opened) -> bool:
     return True
 
 
-def _of_lines(read: Callable[[Opened, Any], Any], patience: float = inf) -> Callable[[Any], Any]:
+def _of_lines(method: str, patience: float = inf) -> Callable[[Any], Any]:
     """A handler of requests about a place or a range, answered when the program is examined up to there, or after so
     many seconds; null if it is not open."""
 
     async def handle(params: Any) -> Any:
         last = params.range.end if hasattr(params, "range") else params.position
         opened = await server.examined(params.text_document.uri, last.line + 1, patience)
-        return None if opened is None else read(opened, params)
+        return None if opened is None else _answer(method, opened, params)
 
     return handle
 
 
-def _of_program(read: Callable[[Opened, Any], Any]) -> Callable[[Any], Any]:
+def _answer(method: str, opened: Opened, params: Any) -> Any:
+    from contoursolve.lsp.answers import ANSWERS  # noqa: PLC0415 - after the client has its first answer
+
+    return ANSWERS[method](opened, params)
+
+
+def _of_program(method: str) -> Callable[[Any], Any]:
     """A handler of requests about a program, answered when all of it is examined; null if it is not open."""
 
     async def handle(params: Any) -> Any:
         opened = await server.checked(params.text_document.uri)
-        return None if opened is None else read(opened, params)
+        return None if opened is None else _answer(method, opened, params)
 
     return handle
 
@@ -266,7 +274,7 @@ def initialize(params: types.InitializeParams) -> None:
     table = given if isinstance(given, dict) else _table(given)
     server.has_client_commands = table.get("clientCommands") is True
     # Some clients send their whole configuration, with the name of its section.
-    server.options = read_client_settings(table.get(SECTION, table), has_pictures=server.has_client_commands)
+    server.options = read_client_settings(table.get(SECTION, table), has_commands=server.has_client_commands)
 
 
 def _table(record: Any) -> Mapping[str, Any]:
@@ -336,78 +344,36 @@ def shutdown(_: Any = None) -> None:
     server.pages.close()
 
 
-def _actions(opened: Opened, params: types.CodeActionParams) -> list[types.CodeAction]:
-    only = params.context.only
-
-    def is_wanted(kind: str) -> bool:
-        return only is None or any(kind == each or kind.startswith(f"{each}.") for each in only)
-
-    found = [*actions_of(opened, params.range)] if is_wanted(types.CodeActionKind.QuickFix.value) else []
-    found += fix_all(opened) if is_wanted(FIX_ALL) else []
-    text = server.client_capabilities.text_document
-    resolving = text.code_action.resolve_support if text and text.code_action else None
-    is_later = resolving is not None and "edit" in resolving.properties
-    return found if is_later else [with_edit(opened, each) for each in found]
-
-
-def _completions(opened: Opened, params: types.CompletionParams) -> types.CompletionList:
-    text = server.client_capabilities.text_document
-    item = text.completion.completion_item if text and text.completion else None
-    found = Completer(opened, params.position, has_snippets=bool(item and item.snippet_support)).items()
-    return types.CompletionList(is_incomplete=True, items=[*found])
-
-
-def _lenses(opened: Opened, _: types.CodeLensParams) -> list[types.CodeLens]:
-    return [*commands.lenses_of(opened, of_client=server.has_client_commands)] if opened.options.has_lenses else []
-
-
-_REQUESTS: tuple[tuple[str, Any, Callable[[Any], Any]], ...] = (
+_REQUESTS: tuple[tuple[str, Any, Callable[[str], Any]], ...] = (
     (
         types.TEXT_DOCUMENT_CODE_ACTION,
         types.CodeActionOptions([types.CodeActionKind.QuickFix, FIX_ALL], resolve_provider=True),
-        _of_program(_actions),
+        _of_program,
     ),
-    (types.TEXT_DOCUMENT_HOVER, None, _of_lines(lambda opened, params: hover_of(opened, params.position), SOON)),
-    (
-        types.TEXT_DOCUMENT_INLAY_HINT,
-        None,
-        _of_lines(lambda opened, params: [*hints_of(opened, params.range)] if opened.options.is_hinting else []),
-    ),
-    (
-        types.TEXT_DOCUMENT_COMPLETION,
-        types.CompletionOptions(trigger_characters=[" ", ",", "#"]),
-        _of_lines(_completions),
-    ),
-    (
-        types.TEXT_DOCUMENT_SIGNATURE_HELP,
-        types.SignatureHelpOptions([" "]),
-        _of_lines(lambda opened, params: signatures_of(opened, params.position)),
-    ),
-    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, _of_program(lambda opened, _: [*symbols_of(opened)])),
-    (types.TEXT_DOCUMENT_FOLDING_RANGE, None, _of_program(lambda opened, _: [*folds_of(opened)])),
-    (types.TEXT_DOCUMENT_CODE_LENS, None, _of_program(_lenses)),
-    (types.TEXT_DOCUMENT_FORMATTING, None, _of_program(lambda opened, _: formatted(opened))),
-    (
-        types.TEXT_DOCUMENT_PREPARE_RENAME,
-        None,
-        _of_program(lambda opened, params: block_number_under(opened, params.position)),
-    ),
-    (
-        types.TEXT_DOCUMENT_RENAME,
-        types.RenameOptions(prepare_provider=True),
-        _of_program(lambda opened, params: renamed(opened, params.position, params.new_name)),
-    ),
-    (types.TEXT_DOCUMENT_DEFINITION, None, _of_program(lambda opened, params: target_of(opened, params.position))),
+    (types.TEXT_DOCUMENT_HOVER, None, partial(_of_lines, patience=SOON)),
+    (types.TEXT_DOCUMENT_INLAY_HINT, None, _of_lines),
+    (types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=[" ", ",", "#"]), _of_lines),
+    (types.TEXT_DOCUMENT_SIGNATURE_HELP, types.SignatureHelpOptions([" "]), _of_lines),
+    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, _of_program),
+    (types.TEXT_DOCUMENT_FOLDING_RANGE, None, _of_program),
+    (types.TEXT_DOCUMENT_CODE_LENS, None, _of_program),
+    (types.TEXT_DOCUMENT_FORMATTING, None, _of_program),
+    (types.TEXT_DOCUMENT_PREPARE_RENAME, None, _of_program),
+    (types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True), _of_program),
+    (types.TEXT_DOCUMENT_DEFINITION, None, _of_program),
 )
-"""Requests of a client about a program, with the options that it is told, and what answers."""
+"""Requests of a client about a program, with the options that it is told, and how long it waits; `answers` has the
+functions that answer."""
 
-for _name, _options, _answer in _REQUESTS:
-    server.feature(_name, _options)(_answer)
+for _name, _options, _way in _REQUESTS:
+    server.feature(_name, _options)(_way(_name))
 
 
 @server.feature(types.CODE_ACTION_RESOLVE)
 async def resolve_action(action: types.CodeAction) -> types.CodeAction:
     """An action that was chosen, with its edit."""
+    from contoursolve.lsp.findings import uri_of, with_edit  # noqa: PLC0415 - as in `_answer`
+
     opened = await server.checked(uri_of(action))
     return action if opened is None else with_edit(opened, action)
 
@@ -415,24 +381,28 @@ async def resolve_action(action: types.CodeAction) -> types.CodeAction:
 @server.feature(PICTURE)
 async def picture(params: Any) -> Any:
     """The contour under the cursor as a picture, with the places of its words."""
+    from contoursolve.lsp import commands  # noqa: PLC0415 - as in `_answer`
+
     opened = await server.examined(params.textDocument.uri, params.position.line + 1)
     if opened is None:
         return None
     return commands.picture_of(opened, types.Position(params.position.line, params.position.character))
 
 
-_COMMANDS: Mapping[str, Callable[..., Any]] = {
-    "expand": commands.expand_program,
-    "convert": commands.convert_program,
-    "report": commands.report_on,
-    "explore": commands.notebook_of,
+_COMMANDS = {
+    "expand": "expand_program",
+    "convert": "convert_program",
+    "report": "report_on",
+    "explore": "notebook_of",
 }
-"""Functions that make something of a program for a client, by the name of the command."""
+"""Functions of `commands` that make something of a program for a client, by the name of the command."""
 
 
-def _command(make: Callable[..., Any]) -> Callable[..., Any]:
+def _command(make: str) -> Callable[..., Any]:
     async def handle(uri: str, *arguments: Any) -> Any:
-        return make(await server.checked(uri), *arguments)
+        from contoursolve.lsp import commands  # noqa: PLC0415 - as in `_answer`
+
+        return getattr(commands, make)(await server.checked(uri), *arguments)
 
     return handle
 
@@ -444,13 +414,13 @@ for _name, _make in _COMMANDS.items():
 @server.command("contoursolve.controls")
 def controls() -> Any:
     """The controls that can be chosen."""
-    return [{"name": each.name, "title": each.title} for each in DIALECTS.values()]
+    return [{"name": each.name, "title": each.title} for each in contoursolve.DIALECTS.values()]
 
 
 @server.command("contoursolve.explain")
 async def explain(code: str, control: str) -> None:
     """Show the page about a rule."""
-    uri = server.pages.uri(code, DIALECTS.get(control))
+    uri = server.pages.uri(code, contoursolve.DIALECTS.get(control))
     if uri:
         await server.show(uri, code)
 
@@ -459,6 +429,8 @@ async def explain(code: str, control: str) -> None:
 async def show(what: str, uri: str, line: int) -> None:
     """Write a picture, a notebook or the plain program into a file, and show it: for clients without commands of their
     own."""
+    from contoursolve.lsp import commands  # noqa: PLC0415 - as in `_answer`
+
     opened = await server.checked(uri)
     name, text = commands.file_of(opened, what, line)
     if text is None:

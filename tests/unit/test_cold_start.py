@@ -1,5 +1,6 @@
 """What a command loads before it answers: counted, as the clock of a test machine tells nothing."""
 
+import json
 import random
 import subprocess
 import sys
@@ -58,6 +59,22 @@ def test_the_solve_of_one_block_loads_the_tables_of_its_control_alone(
     assert tables & {name.replace("-", "_").split("_8")[0] for name in DIALECTS} == {control}
     assert (modules <= most[0], patterns <= most[1]) == (True, True), (modules, patterns)
     assert not names & {"sympy", "scipy", "htpy", "pygls"}
+
+
+def message(method: str, number: int | None = None) -> str:
+    told = {"jsonrpc": "2.0", "method": method} | ({} if number is None else {"id": number})
+    if method == "initialize":
+        told["params"] = {"processId": None, "rootUri": None, "capabilities": {}}
+    text = json.dumps(told)
+    return f"Content-Length: {len(text)}\r\n\r\n{text}"
+
+
+def test_an_editor_is_answered_before_anything_is_loaded_that_solves() -> None:
+    pytest.importorskip("pygls")
+    modules, _, names = loaded_by("lsp", told=message("initialize", 1) + message("shutdown", 2) + message("exit"))
+    assert "pygls" in names
+    assert not names & {"numpy", "casadi", "flint", "contoursolve.api", "contoursolve.solving"}
+    assert modules <= 20
 
 
 @cache
