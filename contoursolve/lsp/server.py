@@ -84,7 +84,9 @@ class Server(LanguageServer):
         self._numbers = count(1)
 
     def open(self, item: types.TextDocumentItem) -> None:
-        """Begin to follow a program."""
+        """Begin to follow a program. What answers about it is loaded here: a hover should not have to wait for it."""
+        from contoursolve.lsp import answers  # noqa: F401, PLC0415 - after the client has its first answer
+
         path = to_fs_path(item.uri) if urlsplit(item.uri).scheme == "file" else None
         encoding = self.server_capabilities.position_encoding or types.PositionEncodingKind.Utf16
         self.opened[item.uri] = Opened(
@@ -134,6 +136,8 @@ class Server(LanguageServer):
 
     def _tell_so_far(self, opened: Opened, token: str) -> None:
         """Send the findings of an examination that goes on, and how far it is. They are not those of this version."""
+        from contoursolve.lsp.findings import diagnostics_of  # noqa: PLC0415 - as in `Server.open`
+
         found = diagnostics_of(opened)
         self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(opened.uri, found))
         if token in self.work_done_progress.tokens:
@@ -149,7 +153,7 @@ class Server(LanguageServer):
 
     def _tell(self, opened: Opened) -> None:
         """Send the findings about a program, and how it stands."""
-        from contoursolve.lsp.findings import diagnostics_of  # noqa: PLC0415 - as in `_answer`
+        from contoursolve.lsp.findings import diagnostics_of  # noqa: PLC0415 - as in `Server.open`
 
         found = diagnostics_of(opened)
         self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(opened.uri, found, opened.version))
@@ -252,7 +256,7 @@ def _of_lines(method: str, patience: float = inf) -> Callable[[Any], Any]:
 
 
 def _answer(method: str, opened: Opened, params: Any) -> Any:
-    from contoursolve.lsp.answers import ANSWERS  # noqa: PLC0415 - after the client has its first answer
+    from contoursolve.lsp.answers import ANSWERS  # noqa: PLC0415 - as in `Server.open`
 
     return ANSWERS[method](opened, params)
 
@@ -372,7 +376,7 @@ for _name, _options, _way in _REQUESTS:
 @server.feature(types.CODE_ACTION_RESOLVE)
 async def resolve_action(action: types.CodeAction) -> types.CodeAction:
     """An action that was chosen, with its edit."""
-    from contoursolve.lsp.findings import uri_of, with_edit  # noqa: PLC0415 - as in `_answer`
+    from contoursolve.lsp.findings import uri_of, with_edit  # noqa: PLC0415 - as in `Server.open`
 
     opened = await server.checked(uri_of(action))
     return action if opened is None else with_edit(opened, action)
@@ -381,7 +385,7 @@ async def resolve_action(action: types.CodeAction) -> types.CodeAction:
 @server.feature(PICTURE)
 async def picture(params: Any) -> Any:
     """The contour under the cursor as a picture, with the places of its words."""
-    from contoursolve.lsp import commands  # noqa: PLC0415 - as in `_answer`
+    from contoursolve.lsp import commands  # noqa: PLC0415 - as in `Server.open`
 
     opened = await server.examined(params.textDocument.uri, params.position.line + 1)
     if opened is None:
@@ -400,7 +404,7 @@ _COMMANDS = {
 
 def _command(make: str) -> Callable[..., Any]:
     async def handle(uri: str, *arguments: Any) -> Any:
-        from contoursolve.lsp import commands  # noqa: PLC0415 - as in `_answer`
+        from contoursolve.lsp import commands  # noqa: PLC0415 - as in `Server.open`
 
         return getattr(commands, make)(await server.checked(uri), *arguments)
 
@@ -429,7 +433,7 @@ async def explain(code: str, control: str) -> None:
 async def show(what: str, uri: str, line: int) -> None:
     """Write a picture, a notebook or the plain program into a file, and show it: for clients without commands of their
     own."""
-    from contoursolve.lsp import commands  # noqa: PLC0415 - as in `_answer`
+    from contoursolve.lsp import commands  # noqa: PLC0415 - as in `Server.open`
 
     opened = await server.checked(uri)
     name, text = commands.file_of(opened, what, line)
