@@ -84,9 +84,7 @@ class Server(LanguageServer):
         self._numbers = count(1)
 
     def open(self, item: types.TextDocumentItem) -> None:
-        """Begin to follow a program. What answers about it is loaded here: a hover should not have to wait for it."""
-        from contoursolve.lsp import answers  # noqa: F401, PLC0415 - after the client has its first answer
-
+        """Begin to follow a program."""
         path = to_fs_path(item.uri) if urlsplit(item.uri).scheme == "file" else None
         encoding = self.server_capabilities.position_encoding or types.PositionEncodingKind.Utf16
         self.opened[item.uri] = Opened(
@@ -136,7 +134,7 @@ class Server(LanguageServer):
 
     def _tell_so_far(self, opened: Opened, token: str) -> None:
         """Send the findings of an examination that goes on, and how far it is. They are not those of this version."""
-        from contoursolve.lsp.findings import diagnostics_of  # noqa: PLC0415 - as in `Server.open`
+        from contoursolve.lsp.findings import diagnostics_of  # noqa: PLC0415 - as in `initialized`
 
         found = diagnostics_of(opened)
         self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(opened.uri, found))
@@ -153,7 +151,7 @@ class Server(LanguageServer):
 
     def _tell(self, opened: Opened) -> None:
         """Send the findings about a program, and how it stands."""
-        from contoursolve.lsp.findings import diagnostics_of  # noqa: PLC0415 - as in `Server.open`
+        from contoursolve.lsp.findings import diagnostics_of  # noqa: PLC0415 - as in `initialized`
 
         found = diagnostics_of(opened)
         self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(opened.uri, found, opened.version))
@@ -256,7 +254,7 @@ def _of_lines(method: str, patience: float = inf) -> Callable[[Any], Any]:
 
 
 def _answer(method: str, opened: Opened, params: Any) -> Any:
-    from contoursolve.lsp.answers import ANSWERS  # noqa: PLC0415 - as in `Server.open`
+    from contoursolve.lsp.answers import ANSWERS  # noqa: PLC0415 - as in `initialized`
 
     return ANSWERS[method](opened, params)
 
@@ -292,6 +290,9 @@ def _table(record: Any) -> Mapping[str, Any]:
 @server.feature(types.INITIALIZED)
 async def initialized(_: types.InitializedParams) -> None:
     """Ask for the options, and to be told of project files that change."""
+    # The client has its first answer: now everything is loaded that the next ones need.
+    from contoursolve.lsp import answers  # noqa: F401, PLC0415
+
     # A hover over a word tells its equations: sympy, which takes long to import, is there when the first one comes.
     asyncio.get_running_loop().run_in_executor(None, import_module, "contoursolve.numeric.symbolic")
     await server.ask_options()
@@ -376,7 +377,7 @@ for _name, _options, _way in _REQUESTS:
 @server.feature(types.CODE_ACTION_RESOLVE)
 async def resolve_action(action: types.CodeAction) -> types.CodeAction:
     """An action that was chosen, with its edit."""
-    from contoursolve.lsp.findings import uri_of, with_edit  # noqa: PLC0415 - as in `Server.open`
+    from contoursolve.lsp.findings import uri_of, with_edit  # noqa: PLC0415 - as in `initialized`
 
     opened = await server.checked(uri_of(action))
     return action if opened is None else with_edit(opened, action)
@@ -385,7 +386,7 @@ async def resolve_action(action: types.CodeAction) -> types.CodeAction:
 @server.feature(PICTURE)
 async def picture(params: Any) -> Any:
     """The contour under the cursor as a picture, with the places of its words."""
-    from contoursolve.lsp import commands  # noqa: PLC0415 - as in `Server.open`
+    from contoursolve.lsp import commands  # noqa: PLC0415 - as in `initialized`
 
     opened = await server.examined(params.textDocument.uri, params.position.line + 1)
     if opened is None:
@@ -404,7 +405,7 @@ _COMMANDS = {
 
 def _command(make: str) -> Callable[..., Any]:
     async def handle(uri: str, *arguments: Any) -> Any:
-        from contoursolve.lsp import commands  # noqa: PLC0415 - as in `Server.open`
+        from contoursolve.lsp import commands  # noqa: PLC0415 - as in `initialized`
 
         return getattr(commands, make)(await server.checked(uri), *arguments)
 
@@ -433,7 +434,7 @@ async def explain(code: str, control: str) -> None:
 async def show(what: str, uri: str, line: int) -> None:
     """Write a picture, a notebook or the plain program into a file, and show it: for clients without commands of their
     own."""
-    from contoursolve.lsp import commands  # noqa: PLC0415 - as in `Server.open`
+    from contoursolve.lsp import commands  # noqa: PLC0415 - as in `initialized`
 
     opened = await server.checked(uri)
     name, text = commands.file_of(opened, what, line)
