@@ -322,13 +322,13 @@ class Trial(Struct, frozen=True, dict=True):
         """The edited blocks as they are read; None where they are not the same contour any more."""
         claim, dialect = self.claim, self.dialect
         texts = apply_edits(claim.blocks, edits)
-        lines = [
-            (part, block.line)
-            for text, block in zip(texts, claim.blocks, strict=True)
-            for part in text.split("\n")
+        read = [
+            again
+            for text, block, same in zip(texts, claim.blocks, self._blocks, strict=True)
             if text or not block.text
+            for again in ([same] if text == block.text else self._read(text, block.line))
         ]
-        ahead, blocks, behind = _parted([parse_block(*line, dialect.modes.syntax) for line in lines], edits)
+        ahead, blocks, behind = _parted(read, edits)
         if not blocks:
             return None
         state = claim.before
@@ -347,6 +347,15 @@ class Trial(Struct, frozen=True, dict=True):
         if not isinstance(found, ParsedContour) or any(isinstance(each, ParsedContour) for each in others):
             return None
         return found if len(found.blocks) == len(blocks) or (more and len(found.blocks) > len(blocks)) else None
+
+    @cached_property
+    def _blocks(self) -> list[Block]:
+        """The blocks as they are, each by itself."""
+        return [block for each in self.claim.blocks for block in self._read(each.text, each.line)]
+
+    def _read(self, text: str, line: int) -> list[Block]:
+        """What is written in place of a block, which may have several lines then."""
+        return [parse_block(part, line, self.dialect.modes.syntax) for part in text.split("\n")]
 
     def _example(self, edits: tuple[Edit, ...]) -> tuple[Edit, ...] | None:
         """The edits with a number for every placeholder that makes a contour; as they are where further facts determine

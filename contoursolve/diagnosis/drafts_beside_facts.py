@@ -24,8 +24,8 @@ from contoursolve.diagnosis.slip_kinds import partners
 from contoursolve.diagnosis.subsets import lines_near
 from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, Word, number_of, spell
-from contoursolve.geometry import FIRST, SECOND, Fact, Profile, Unit, assemble, scalar, word_of
-from contoursolve.reading import ReadIssue, check, read
+from contoursolve.geometry import FIRST, SECOND, Fact, Line, Profile, Unit, assemble, both, scalar, word_of
+from contoursolve.reading import ParsedContour, ReadIssue, check, read
 from contoursolve.solving import (
     Status,
     Topic,
@@ -191,6 +191,8 @@ def _completing(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
     )
     usual = dict.fromkeys((*halves, *claim.form.free.usual))
     absent = [name for name in usual if name not in claim.words and name in claim.vocabulary]
+    here = trial.find(())
+    absent = _about_open(absent, claim, read(here, frozenset())) if here else absent
     drawing = sample_drawing(claim, answer.profile, absent)
     if drawing is not None and not drawing.open_after(()):
         # It is of another contour, in which nothing is open.
@@ -204,10 +206,26 @@ def _completing(answer: Answer, trial: Trial) -> Iterator[tuple[Edit, ...]]:
         return there and not freedom(edits)
 
     for size in range(1, MOST_ADDED + 1):
-        sets = [each for each in combinations(helping, size) if open_ <= size and is_enough(each)]
-        yield from sets[:MOST_SHOWN]
-        if sets:
+        sets = (each for each in combinations(helping, size) if open_ <= size and is_enough(each))
+        if shown := list(islice(sets, MOST_SHOWN)):
+            yield from shown
             return
+
+
+def _about_open(names: Iterable[str], claim: ParsedContour, profile: Profile) -> list[str]:
+    """Some words without those that speak only of what is determined already: none of them completes a chain."""
+    system = assemble(profile)
+    known = system.known | {*system.unknowns} - {*analyse(system).free}
+    lines = {each.name: each for each in (*profile.figure.path, *profile.figure.lines) if isinstance(each, Line)}
+    reads: dict[str, set[str]] = {}
+    for row in claim.form.outline.facts:
+        reads.setdefault(row.fact.given, set()).update(row.fact.reads())
+
+    def is_known(name: str) -> bool:
+        line = lines.get(name.rpartition(".")[0])
+        return name in known or (line is not None and known.issuperset(both(line.tail, line.head)))
+
+    return [name for name in names if name not in reads or not all(map(is_known, reads[name]))]
 
 
 def _coordinate(fact: Fact) -> tuple[str, int] | None:
