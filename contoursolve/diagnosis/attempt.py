@@ -458,10 +458,8 @@ def _spare_angles(claim: ParsedContour) -> Iterator[str]:
         given = row.fact.given or ""
         prefix = given[: given.find(":") + 1]
         if row.fact.heading and given in claim.words and prefix in prefixes:
-            stated = {
-                name.removeprefix(prefix).removesuffix("-step") for name in claim.words if name.startswith(prefix)
-            }
-            if stated >= {"first", "second"}:
+            ends = ((f"{prefix}{axis}", f"{prefix}{axis}-step") for axis in ("first", "second"))
+            if all(any(name in claim.words for name in names) for names in ends):
                 yield given
 
 

@@ -186,9 +186,14 @@ class _Notebook:
     def __init__(self) -> None:
         self.findings: list[Diagnostic] = []
         self.statuses: set[Status] = set()
+        self._placed: dict[tuple[str, Span], list[Diagnostic]] = {}
+        self._count = 0
 
     def add(self, finding: Diagnostic, status: Status | None = None) -> None:
-        if finding not in self.findings:
+        for each in self.findings[self._count :]:
+            self._placed.setdefault((each.code, each.span), []).append(each)
+        self._count = len(self.findings)
+        if finding not in self._placed.get((finding.code, finding.span), ()):
             self.findings.append(finding)
         if status and finding.is_error:
             self.statuses.add(status)

@@ -4,7 +4,7 @@ Each row is a cost in natural units: the negative logarithm of about how much mo
 sum over a repair orders it among the others; nothing else does.
 """
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence, Set
 from decimal import Decimal
 from enum import Enum
 from itertools import groupby, pairwise
@@ -211,12 +211,16 @@ _SEVERAL, _SIGN = 3, 0.4
 """Words of one address by whose sign another one stands out, and what that is worth."""
 
 
-def distance(line: int, is_marked: bool, marked: Collection[int]) -> float:
+def distance(line: int, is_marked: bool, marked: Set[int]) -> float:
     """The distance of an edit from what a finding marks: 0 for its words, 1 for their block, more for others."""
     if is_marked or not marked:
         return 0.0
-    apart = min(abs(line - each) for each in marked)
-    return (0.6, 1.3, 2.0, 2.4, 2.7)[min(apart, 4)]
+    apart = (away for away in range(len(_DISTANCES) - 1) if line - away in marked or line + away in marked)
+    return _DISTANCES[next(apart, -1)]
+
+
+_DISTANCES = (0.6, 1.3, 2.0, 2.4, 2.7)
+"""The costs of an edit so many lines away from what is marked, and further."""
 
 
 def oddities(moves: Sequence[Stretch]) -> dict[Feature, float]:

@@ -130,6 +130,10 @@ class Prospects(Struct, frozen=True):
             return True
         return all(_is_about(edits, spans, is_of_numbers=is_of_numbers) for spans in self.conflicts)
 
+    def is_in_vain(self, span: Span) -> bool:
+        """Whether no other word in place of one undoes all that is wrong."""
+        return self.reach is not None and self.reach.is_in_vain(span)
+
     def _is_number(self, edits: tuple[Edit, ...]) -> bool:
         """Whether other numbers of these words may undo all that is wrong."""
         is_in_each = all(any(edit.span in spans for edit in edits) for spans in self.values)

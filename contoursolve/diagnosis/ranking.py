@@ -128,7 +128,8 @@ def _slips_around(
         is_likely = best is not None and best < _LIKELY
         if kinds is OF_DIGITS and is_likely and not trial.is_crossing_curves:
             return
-        drafts = drafts_around(window, trial.marked, claim, kinds, may_mend)
+        is_in_vain = trial.prospects.is_in_vain if trial.prospects is not None else lambda _: False
+        drafts = drafts_around(window, trial.marked, claim, kinds, may_mend, is_in_vain)
         most = MOST_AROUND if kinds is FEW else MOST_OF_DIGITS
         if kinds is OF_DIGITS and is_likely:
             # The sizes of circles that are missed, which few other slips explain.

@@ -66,6 +66,12 @@ class Reach(Struct, frozen=True, dict=True):
         touched = {self._place_in(edit.span.line if edit.span else edit.line) for edit in edits}
         return any(not any(held.first <= place <= held.last for place in touched) for held in self.held)
 
+    def is_in_vain(self, span: Span) -> bool:
+        """Whether a problem rests on blocks without a word, whatever is written for it that is no code: so that nobody
+        has to think of anything."""
+        place = self._place_in(span.line)
+        return span not in self._lasting and any(not held.first <= place <= held.last for held in self.held)
+
     @cached_property
     def held(self) -> tuple[Held, ...]:
         """The blocks on which some of the problems rest, all over the contour."""

@@ -84,7 +84,7 @@ def conflict_reasons(
         given = profile.givens[single.given]
         row = affine.facts.index(single)
         axis = next(axis for axis in (FIRST, SECOND) if scalar(point, axis) in single.reads())
-        own = -float(affine.constants[row]) / float(affine.matrix[row, affine.unknowns.index(scalar(point, axis))])
+        own = -float(affine.constants[row]) / affine.rows[row].get(affine.columns[scalar(point, axis)], 0.0)
         shown = circuit.off[circuit.facts.index(single)] * (2 if profile.plane.diameters[axis] else 1)
         apart = f"{length_text(shown, profile.unit)} apart"
         ending = apart if is_apart else "the same place"

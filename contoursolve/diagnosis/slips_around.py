@@ -3,6 +3,7 @@ most plausible first."""
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from functools import cached_property
 from itertools import chain, pairwise, permutations
 
 from msgspec import Struct
@@ -65,7 +66,7 @@ class Candidate(Struct, frozen=True):
         return sum(FEATURES[each][0] * amount for each, amount in self.evidence)
 
 
-class Marked(Struct, frozen=True):
+class Marked(Struct, frozen=True, dict=True):
     """The places that a finding marks, and the lines in which they are."""
 
     spans: frozenset[Span]
@@ -73,11 +74,19 @@ class Marked(Struct, frozen=True):
     told: str = ""
     """The messages about it, which may name a code."""
 
+    @cached_property
+    def named(self) -> frozenset[str]:
+        """The addresses that the messages name."""
+        return frozenset(_NAMES.findall(self.told))
+
     def has(self, edit: Edit) -> bool:
         """Whether an edit changes what is marked, a code of a marked line, or one to a code that is named."""
         if edit.address in _CODES:
             return edit.span is not None and (edit.span.line in self.lines or _is_named(edit.text, self.told))
         return edit.span in self.spans
+
+
+_NAMES = re.compile(r"(?<![A-Z,#])[,#]?[A-Z]+(?![A-Z=])")
 
 
 def _is_named(code: str, told: str) -> bool:
@@ -90,16 +99,17 @@ def drafts_around(
     claim: ParsedContour | None,
     kinds: Iterable[SlipKind],
     may_mend: Callable[[Edits], bool] = lambda _: True,
+    is_in_vain: Callable[[Span], bool] = lambda _: False,
 ) -> list[Candidate]:
     """Drafts around what a finding marks that may mend it, the most plausible first, and those alike in the order of
-    the text; those of more than one word beside the `FEW` kinds."""
+    the text; those of more than one word beside the `FEW` kinds. What `is_in_vain` to change is left out."""
     found: dict[tuple[Edit, ...], Candidate] = {}
     numbers = numbers_of(window.blocks)
     coarse = coarseness(numbers)
     trusted = claim.trusted if claim is not None else frozenset[Span]()
     kinds = tuple(kinds)
     several = _of_several(window, marked) if kinds != OF_DIGITS else iter(())
-    for edits, slips, cost in chain(_of_words(window, marked, claim, kinds), several):
+    for edits, slips, cost in chain(_of_words(window, marked, claim, kinds, is_in_vain), several):
         if any(edit.span in trusted for edit in edits) or not may_mend(edits):
             continue
         # Where few numbers are round, one without a point has lost it.
@@ -167,7 +177,11 @@ def near_blocks(window: Window, marked: Marked) -> list[Block]:
 
 
 def _of_words(
-    window: Window, marked: Marked, claim: ParsedContour | None, kinds: Iterable[SlipKind]
+    window: Window,
+    marked: Marked,
+    claim: ParsedContour | None,
+    kinds: Iterable[SlipKind],
+    is_in_vain: Callable[[Span], bool],
 ) -> Iterator[tuple[Edits, Slips, float]]:
     turned = turned_axis(window.state.plane) or (turned_axis(claim.before.plane) if claim is not None else "")
     outside = Speech.of_control(window.dialect, turned)
@@ -180,7 +194,7 @@ def _of_words(
         last = {word.address: at for at, word in enumerate(block.words)}
         pointless = sum(map(_is_pointless, block.words))
         for at, word in enumerate(block.words):
-            if word.address in "GNOMF" or word.is_asked:
+            if word.address in "GNOMF" or word.is_asked or is_in_vain(word.span):
                 continue
             for kind in kinds:
                 speech = within if block.line in lines and kind.is_of_numbers else outside
@@ -206,7 +220,7 @@ def _letter_cost(word: Word, text: str, speech: Speech, marked: Marked, *, is_re
     """The cost of a wrong letter besides that of its kind: more if the word has a meaning as it is, less if its sign
     has none, or if a message names the other letter."""
     letter = re.match(r"[,#]?[A-Z]+", text.upper())
-    if letter is not None and re.search(rf"(?<![A-Z,#]){re.escape(letter[0])}(?![A-Z=])", marked.told):
+    if letter is not None and letter[0] in marked.named:
         return -_NAMED
     if speech.is_diameter(word) and word.number is not None and word.number < 0:
         return -_ODD

@@ -87,7 +87,7 @@ class Window(Struct, frozen=True, dict=True):
         """The index of the first of its own blocks."""
         return sum(len(blocks) for blocks, _ in self.ahead)
 
-    @property
+    @cached_property
     def lines(self) -> tuple[int, ...]:
         """The lines of its own blocks."""
         return tuple(block.line for block in self.own)

@@ -1,11 +1,12 @@
 """Values, places and names as messages say them: in the program's unit, with the axes of its plane."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
+from functools import lru_cache
 
 from contoursolve.diagnostics import Span
 from contoursolve.gcode import FACT, Word, call, spell
-from contoursolve.geometry import Arc, CornerShape, Given, Length, Plane, Profile, Unit
+from contoursolve.geometry import Arc, CornerShape, Given, Layout, Length, Plane, Profile, Unit
 from contoursolve.reading import ParsedContour
 from contoursolve.solving import Status
 
@@ -122,17 +123,32 @@ def unknowns_text(names: Sequence[str], profile: Profile) -> str:
 def _things(names: Sequence[str], profile: Profile) -> dict[str, dict[str, None]]:
     """The parts of each thing that unknown scalars are; none of what is a thing itself."""
     things: dict[str, dict[str, None]] = {}
-    arcs = (element for element in profile.figure.path if isinstance(element, Arc))
-    called = {"end": "the end"} | {arc.radius: f"the radius of {element_text(arc.name)}" for arc in arcs}
+    called, sized = _called(profile.layout), _shapes(profile.layout)
     for name in names:
         thing, _, part = name.rpartition(".")
         shown = profile.plane.axes[int(part)] if part.isdigit() else _PARTS.get(part, "")
-        shapes = {corner.shape for corner in profile.figure.corners if corner.name == thing}
+        shapes = sized.get(thing, ())
         if part == "radius" and shapes and CornerShape.FILLET not in shapes:
             shown = "size"
         own = thing if shown else name
         things.setdefault(called.get(own, own), {}).update({shown: None} if shown else {})
     return things
+
+
+@lru_cache(maxsize=64)
+def _called(layout: Layout) -> Mapping[str, str]:
+    """What is called by what it belongs to: the end, and the radii of arcs."""
+    arcs = (element for element in layout.figure.path if isinstance(element, Arc))
+    return {"end": "the end"} | {arc.radius: f"the radius of {element_text(arc.name)}" for arc in arcs}
+
+
+@lru_cache(maxsize=64)
+def _shapes(layout: Layout) -> Mapping[str, Set[CornerShape]]:
+    """The shapes of each corner; several where words contradict each other."""
+    found: dict[str, set[CornerShape]] = {}
+    for corner in layout.figure.corners:
+        found.setdefault(corner.name, set()).add(corner.shape)
+    return found
 
 
 def open_text(names: Sequence[str], profile: Profile) -> str:

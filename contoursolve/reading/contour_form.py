@@ -303,7 +303,7 @@ def lay_out(
     ends = {end for element in path for end in (element.tail, element.head)} - {form.outline.start}
     figure = Figure(
         form.outline.start,
-        tuple(point for point in form.outline.points if point in mentioned | ends),
+        tuple(point for point in form.outline.points if point in mentioned or point in ends),
         tuple(radius for radius in form.outline.radii if radius in mentioned),
         tuple(path),
         tuple(corner for row in form.outline.corners for corner in _corners(form, row, stated, asked, sharp)),
@@ -333,5 +333,5 @@ def _corners(
     return [
         Corner(row.name, row.at, shape, word, row.before, row.after, axis, row.lands_on, guard, least)
         for word, shape in row.shapes.items()
-        if word in stated | asked and word not in sharp
+        if (word in stated or word in asked) and word not in sharp
     ]

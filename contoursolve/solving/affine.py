@@ -60,12 +60,20 @@ class Part(NamedTuple):
 
 
 class AffineFacts(Struct, frozen=True, dict=True):
-    """Facts as rows of `matrix`, shape (facts, unknowns), and `constants`, shape (facts,), mm."""
+    """Facts as rows without their zeros, by the number of the unknown, and `constants`, shape (facts,), mm."""
 
     facts: tuple[Fact, ...]
     unknowns: tuple[str, ...]
-    matrix: numpy.ndarray
+    rows: tuple[Mapping[int, float], ...]
     constants: numpy.ndarray
+
+    def matrix_of(self, rows: Sequence[int]) -> numpy.ndarray:
+        """Some rows with their zeros, shape (rows, unknowns)."""
+        matrix = numpy.zeros((len(rows), len(self.unknowns)))
+        for place, row in enumerate(rows):
+            for column, slope in self.rows[row].items():
+                matrix[place, column] = slope
+        return matrix
 
     @cached_property
     def places(self) -> Mapping[Fact, int]:
@@ -79,7 +87,8 @@ class AffineFacts(Struct, frozen=True, dict=True):
 
     def off_at(self, scalars: Mapping[str, float]) -> numpy.ndarray:
         """By how much each fact misses being true at some values of the unknowns, mm."""
-        off: numpy.ndarray = self.matrix @ [scalars[name] for name in self.unknowns] + self.constants
+        matrix = self.matrix_of(range(len(self.facts)))
+        off: numpy.ndarray = matrix @ [scalars[name] for name in self.unknowns] + self.constants
         return off
 
     def circuits(self) -> Circuits:
@@ -95,7 +104,7 @@ class AffineFacts(Struct, frozen=True, dict=True):
             tied.update(basis.add_row(row) or ())
         rows = sorted(tied)
         # What is in no circuit of a basis is in none.
-        for part in _parts(self.matrix[rows], self.constants[rows]):
+        for part in _parts(self.matrix_of(rows), self.constants[rows]):
             for within in _connected(part.tied):
                 supports, is_whole = _supports(part.tied[list(within)])
                 found += [tuple(rows[part.rows[within[index]]] for index in support) for support in supports]
@@ -105,7 +114,7 @@ class AffineFacts(Struct, frozen=True, dict=True):
 
     def _circuit(self, rows: Sequence[int]) -> Circuit | None:
         """The circuit that ties these rows; None where rounding alone made them look tied once."""
-        matrix = self.matrix[list(rows)]
+        matrix = self.matrix_of(rows)
         tied = _decompose(matrix[:, matrix.any(axis=0)]).tied
         if tied.shape[1] != 1:
             return None
@@ -142,7 +151,7 @@ class AffineFacts(Struct, frozen=True, dict=True):
         if all(basis.add_row(row) is None for row in rows):
             return basis.fixed(self.unknowns)
         # Where they disagree, what satisfies them best counts.
-        parts = _parts(self.matrix[rows], self.constants[rows])
+        parts = _parts(self.matrix_of(rows), self.constants[rows])
         fixed = {
             column: value
             for part in parts
@@ -181,10 +190,7 @@ class IndependentFacts:
         return None if weights is None else {**weights, row: 1.0}
 
     def _entries(self, row: int) -> dict[int, float]:
-        matrix = self._affine.matrix
-        columns = matrix[row].nonzero()[0].tolist()
-        entries = dict(zip(columns, matrix[row, columns].tolist(), strict=True))
-        return {**entries, CONSTANT: float(self._affine.constants[row])}
+        return {**self._affine.rows[row], CONSTANT: float(self._affine.constants[row])}
 
     def moves(self) -> dict[str, dict[int, float]]:
         """For each unknown, how far it moves with each of those that are free, as these are numbered, by one of its
@@ -241,17 +247,19 @@ def rows_at(system: System, facts: Sequence[Fact], at: Values) -> AffineFacts:
     here = {name: at.scalar(name) for fact in facts for name in system.unknowns_of(fact)}
     moved = dict[str, Any]()
     following = replace(at, scalars=ChainMap(moved, cast("dict[str, Any]", at.scalars)))
-    matrix = numpy.zeros((len(facts), len(columns)))
+    rows = list[dict[int, float]]()
     constants = numpy.zeros(len(facts))
     for row, fact in enumerate(facts):
         constants[row] = complex(fact.residual(at)).real
+        rows.append({})
         for name in system.unknowns_of(fact):
             moved[name] = complex(here[name], _STEP)
             slope = complex(fact.residual(following)).imag / _STEP
             del moved[name]
-            matrix[row, columns[name]] = slope
+            if slope:
+                rows[row][columns[name]] = slope
             constants[row] -= slope * here[name]
-    return AffineFacts(tuple(facts), system.unknowns, matrix, constants)
+    return AffineFacts(tuple(facts), system.unknowns, tuple(rows), constants)
 
 
 _STEP = 2.0**-200

@@ -107,8 +107,8 @@ def _quotient_of(kernel: Kernel) -> Callable[[Sequence[Number]], list[Number]]:
 class _StepBuilder(Builder):
     """A builder of one step, to which everything else is known."""
 
-    def at(self, symbols: Mapping[str, Any] | None = None) -> Values:
-        return input_values(self.system.headed, self.tape, {**self.scalars, **(symbols or {})})
+    def at(self, _symbols: Mapping[str, Any] | None = None) -> Values:
+        return input_values(self.system.headed, self.tape, self.scalars)
 
     def _spread(self, discriminant: Any, _is_touching: Any) -> Any:
         return sqrt(discriminant)

@@ -77,8 +77,9 @@ class _PathBuilder(Builder):
     def slopes(self) -> tuple[tuple[int, int, str], ...]:
         """The Jacobian of the basis."""
         symbols = {name: symbol(name) for name in self.system.unknowns}
+        at = self.at(symbols)
         entries = jacobian_parts(
-            [fact.residual(self.at(symbols)) for fact in basis_of(self.system)],
+            [fact.residual(at) for fact in basis_of(self.system)],
             list(symbols.values()),
             [self.scalars[name] for name in self.system.unknowns],
         )

@@ -300,7 +300,9 @@ class Builder:
 
     def at(self, symbols: Mapping[str, Any] | None = None) -> Values:
         """A lookup of all that is known so far, with symbols for other unknowns."""
-        scalars, sides = {**self.scalars, **(symbols or {})}, named_inputs(self.tape, prefix=SIDE)
+        # A copy for each step of a long chain is a walk over all of it.
+        scalars = {**self.scalars, **symbols} if symbols else self.scalars
+        sides = named_inputs(self.tape, prefix=SIDE)
         return Values(scalars, self.amounts, self.directions, self.system.headed, sides, EXPRESSIONS)
 
     def point(self, name: str) -> Pair:
@@ -346,7 +348,8 @@ class Builder:
     def _linear(self, step: ConstructionStep) -> Measured:
         """Facts that are affine as they are, so that their determinant is that of directions."""
         symbols = {name: symbol(name) for name in step.unknowns}
-        at = self.at(symbols)
+        self.scalars.update(symbols)
+        at = self.at()
         entries, constants = affine_parts(
             [fact.affine_in(symbols.keys()).residual(at) for fact in step.facts], list(symbols.values())
         )
@@ -455,7 +458,8 @@ class Builder:
     def _general(self, step: ConstructionStep) -> Measured:
         """The unknowns of affine equations, and of at most one conic on the line that these leave."""
         symbols = {name: symbol(name) for name in step.unknowns}
-        at, size = self.at(symbols), len(step.unknowns)
+        self.scalars.update(symbols)
+        at, size = self.at(), len(step.unknowns)
         parts = quadratic_parts([fact.equation(at) for fact in step.facts], list(symbols.values()))
         if parts is None:
             raise NoClosedFormError("they have no closed form together", step.facts, step.unknowns)

@@ -107,8 +107,8 @@ def _is_for_certain(circuit: Circuit, profile: Profile, rows: AffineFacts) -> bo
     """Whether facts that say the same to first order do so at all: where each has the same derivatives elsewhere, or
     they say the same whatever the values are."""
     elsewhere = linearise(profile, circuit.facts, {name: draw(name) / PRIME for name in rows.unknowns})
-    here = rows.matrix[[rows.places[fact] for fact in circuit.facts]]
-    if bool((abs(elsewhere.matrix - here) <= REGULAR).all()):
+    here = rows.matrix_of([rows.places[fact] for fact in circuit.facts])
+    if bool((abs(elsewhere.matrix_of(range(len(circuit.facts))) - here) <= REGULAR).all()):
         return True
     return analyse(assemble(profile).keep(circuit.facts)).rank < len(circuit.facts)
 
