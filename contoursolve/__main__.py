@@ -14,6 +14,17 @@ if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
 
 
+_THREADS = (
+    "OPENBLAS_NUM_THREADS",
+    "GOTO_NUM_THREADS",
+    "OMP_NUM_THREADS",
+    "MKL_NUM_THREADS",
+    "BLIS_NUM_THREADS",
+    "VECLIB_MAXIMUM_THREADS",
+)
+"""Variables by which users tell NumPy's linear algebra how many threads to take."""
+
+
 class _Pipe(io.FileIO):
     """An output whose reader may leave before the end, as `head` does: what follows goes nowhere, so that the exit
     status never depends on who reads how much."""
@@ -61,6 +72,10 @@ def main() -> None:
     """
     gc.disable()
     atexit.register(gc.freeze)
+    if not any(name in os.environ for name in _THREADS):
+        # The matrices of contours are small: more threads of NumPy's would wait for each other, each on a core of its
+        # own, as long as the command runs. Rows of families have threads of their own.
+        os.environ["OPENBLAS_NUM_THREADS"] = os.environ["MKL_NUM_THREADS"] = "1"
     try:
         command = commands()
         sys.stdout, sys.stderr = _open_pipe(sys.stdout), _open_pipe(sys.stderr)

@@ -1,6 +1,7 @@
 """What a command loads before it answers: counted, as the clock of a test machine tells nothing."""
 
 import json
+import os
 import random
 import subprocess
 import sys
@@ -59,6 +60,29 @@ def test_the_solve_of_one_block_loads_the_tables_of_its_control_alone(
     assert tables & {name.replace("-", "_").split("_8")[0] for name in DIALECTS} == {control}
     assert (modules <= most[0], patterns <= most[1]) == (True, True), (modules, patterns)
     assert not names & {"sympy", "scipy", "htpy", "pygls"}
+
+
+THREADS = """
+import os, sys
+from contoursolve.__main__ import main
+sys.argv = ["contoursolve", "--version"]
+try:
+    main()
+finally:
+    told = [os.environ.get(name) for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS")]
+    print(*told, "numpy" in sys.modules)
+"""
+
+
+@pytest.mark.parametrize(
+    ("own", "told"), [({}, "1 None"), ({"OPENBLAS_NUM_THREADS": "2"}, "2 None"), ({"OMP_NUM_THREADS": "2"}, "None 2")]
+)
+def test_a_command_takes_one_thread_for_linear_algebra_unless_its_user_says_more(
+    own: dict[str, str], told: str
+) -> None:
+    clean = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
+    done = subprocess.run([sys.executable, "-c", THREADS], check=True, capture_output=True, text=True, env=clean | own)
+    assert done.stdout.splitlines()[-1] == f"{told} False"
 
 
 def message(method: str, number: int | None = None) -> str:
