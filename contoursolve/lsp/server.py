@@ -293,8 +293,8 @@ async def initialized(_: types.InitializedParams) -> None:
     # The client has its first answer: now everything is loaded that the next ones need.
     from contoursolve.lsp import answers  # noqa: F401, PLC0415
 
-    # A hover over a word tells its equations: sympy, which takes long to import, is there when the first one comes.
-    asyncio.get_running_loop().run_in_executor(None, import_module, "contoursolve.numeric.symbolic")
+    # A hover over a word tells its equations, for which sympy is imported, and that takes long.
+    asyncio.get_running_loop().run_in_executor(None, import_module, "sympy")
     await server.ask_options()
     workspace = server.client_capabilities.workspace
     watching = workspace.did_change_watched_files if workspace else None
