@@ -116,6 +116,7 @@ from .vocabulary import (
     explain_corners as explain_corners,
     explain_vocabulary as explain_vocabulary,
     has_corners as has_corners,
+    is_corner_word as is_corner_word,
     is_known as is_known,
     like_corners as like_corners,
     moves as moves,

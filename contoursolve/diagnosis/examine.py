@@ -99,7 +99,8 @@ class Depth(Enum):
     VERDICT = "verdict"
     """Its findings."""
     PATH = "path"
-    """Also why they are so, and every repair; but nothing is proven of a contour without a finding."""
+    """Also why they are so, and every repair, where there is no contour; nothing is proven of one without a
+    finding."""
     FULL = "full"
     """Also why they are so, and every repair; some milliseconds a contour."""
     TRIAL = "trial"

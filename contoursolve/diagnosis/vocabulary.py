@@ -222,7 +222,12 @@ UNITS = ("mm", "in", "inch", "deg", "grad", "\N{DEGREE SIGN}")
 
 def corner_words(lexicon: Lexicon) -> Iterator[str]:
     """The addresses of several characters that make corners and angles."""
-    yield from (each for each in lexicon.addresses if len(each) > 1 and _role(each, lexicon))
+    yield from (each for each in lexicon.addresses if is_corner_word(each, lexicon))
+
+
+def is_corner_word(address: str, lexicon: Lexicon) -> bool:
+    """Whether an address has several characters and makes corners or angles."""
+    return len(address) > 1 and bool(_role(address, lexicon))
 
 
 def _is_spelled(name: str, lexicon: Lexicon) -> bool:
@@ -306,7 +311,7 @@ def like_corners(block: Block, modes: Modes, others: Container[str]) -> bool:
         if word.address not in others
         if word.address not in lexicon.addresses and lexicon.bearing(word.address) is None
     ]
-    corners = [each for each in lexicon.addresses if len(each) > 1 and _role(each, lexicon)] if names else []
+    corners = [*corner_words(lexicon)] if names else []
     return any(
         each.address.lstrip(",#") in _NAMES
         or any(_apart(each.address.lstrip(",#"), _typed(corner)) is not None for corner in corners)

@@ -40,7 +40,16 @@ from contoursolve.execution.macro_language import (
 )
 from contoursolve.execution.subprograms import Absent, Library, LineRange, ProgramFile, Surroundings
 from contoursolve.execution.variables import Variables
-from contoursolve.gcode import Block, Caller, Program, Substitution, Syntax, late_pattern, parse_block, telling
+from contoursolve.gcode import (
+    Block,
+    Caller,
+    Program,
+    Substitution,
+    Syntax,
+    late_pattern,
+    parse_block,
+    telling_lines,
+)
 from contoursolve.numeric import Apply, Term, Variable
 
 MOST_BLOCKS = 5_000
@@ -77,8 +86,7 @@ def machine_of(
     limit: Limit | None = None,
 ) -> "Machine | None":
     """The machine that runs a program; None for one that neither calls, jumps nor computes."""
-    lines = (block.text for block in telling(program.blocks))
-    if language is None or not needs_running(lines, language):
+    if language is None or not needs_running(telling_lines(program.blocks), language):
         return None
     return Machine(program, language, Library(language, syntax, around.folders), around.values, limit)
 

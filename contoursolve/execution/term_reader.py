@@ -140,11 +140,19 @@ def _parser(notation: Notation) -> Lark:
     )
 
 
+_NUMBER = re.compile(r"[ \t]*+(-?)(\d++\.?+\d*+|\.\d++)(?:(?=[ \t]*+(?:\Z|[;)\]]))|(?P<value>(?![\w.,])))", re.ASCII)
+"""A number behind which no expression goes on; or at least no value."""
+
+
 def read_term(notation: Notation, text: str, begin: int = 0, *, is_value: bool = False) -> tuple[Term, int]:
     """The longest expression that begins there, and where it ends; with `is_value`, no sum without brackets.
 
     Raises UnreadableTermError where none begins, and for one that is too long.
     """
+    number = _NUMBER.match(text, begin)
+    if number is not None and (is_value or number["value"] is None):
+        # Most are a number, which needs no grammar.
+        return Constant(float(number[1] + number[2])), number.end()
     parser, start = _parser(notation), "value" if is_value else "term"
     reader = parser.parse_interactive(text[begin:], start)
     tokens: Iterator[Token] = reader.lexer_thread.lex(reader.parser_state)  # type: ignore[no-untyped-call]

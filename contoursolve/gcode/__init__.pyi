@@ -36,6 +36,7 @@ from .lexer import (
     read_named as read_named,
     spelled as spelled,
     telling as telling,
+    telling_lines as telling_lines,
     words_as as words_as,
 )
 from .lookalikes import (

@@ -5,13 +5,13 @@ from array import array
 from bisect import bisect_left
 from collections.abc import Container, Iterable, Iterator, Sequence
 from decimal import Decimal
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import chain
 from typing import overload
 
 from contoursolve.diagnostics import Span
 from contoursolve.gcode.late_pattern import late_pattern
-from contoursolve.gcode.plain_lines import SEVERAL, Passage
+from contoursolve.gcode.plain_lines import SEVERAL, Passage, split_lines
 from contoursolve.gcode.syntax import ISO, Syntax
 from contoursolve.gcode.word import Block, Directive, Fault, FaultKind, Macro, Named, NamedAs, Program, Word
 
@@ -93,26 +93,46 @@ class Blocks(Sequence[Block]):
             place = behind
         return found
 
+    def _stretches(self) -> Iterator[tuple[range, range]]:
+        """The indices of lines that are not plain, and of the plain ones behind them."""
+        place, ends = 0, chain(self._plain, (len(self), len(self)))
+        for first, behind in zip(ends, ends, strict=True):
+            yield range(place, first), range(first, behind)
+            place = behind
+
     def passages(self) -> Iterator[Block | Passage]:
         """The blocks, plain lines in a row as passages. Whoever walks over a long program has to read the others
         alone."""
-        begins, place = self._begins, 0
-        ends = iter(self._plain)
-        for first, behind in chain(zip(ends, ends, strict=True), [(len(self), len(self))]):
-            for own in range(place, first):
-                block = self._read(own)
+        for others, plain in self._stretches():
+            for place in others:
+                block = self._read(place)
                 if len(self._kept) < MANY_LINES:
-                    self._kept[own] = block
+                    self._kept[place] = block
                 yield block
-            if behind > first:
-                text = self._text[begins[first] : begins[behind]]
-                yield Passage(self._first + first, text, behind - first, self._syntax)
-            place = behind
+            if plain:
+                text = self._text[self._begins[plain.start] : self._begins[plain.stop]]
+                yield Passage(self._first + plain.start, text, len(plain), self._syntax)
+
+    def telling_lines(self) -> Iterator[str]:
+        """The lines that may say more than a motion, as text."""
+        begins = self._begins
+        for others, plain in self._stretches():
+            yield from (self._text[begins[place] : begins[place + 1]] for place in others)
+            text = self._text[begins[plain.start] : begins[plain.stop]]
+            if "(" in text:
+                yield from (line for line in split_lines(text) if "(" in line)
 
 
 def in_passages(blocks: Iterable[Block]) -> Iterator[Block | Passage]:
     """Blocks, plain lines that nobody has read into words yet as passages."""
     return blocks.passages() if isinstance(blocks, Blocks) else iter(blocks)
+
+
+def telling_lines(blocks: Iterable[Block]) -> Iterator[str]:
+    """The text of such blocks, without reading them."""
+    if isinstance(blocks, Blocks):
+        return blocks.telling_lines()
+    return (block.text for block in blocks)
 
 
 def telling(blocks: Iterable[Block]) -> Iterator[Block]:
@@ -200,10 +220,13 @@ def _read_tokens(text: str, line: int, syntax: Syntax) -> Block:
 
 def words_as(block: Block, syntax: Syntax) -> tuple[Word, ...]:
     """The words of a block as they are spelled in a syntax; none from its comments."""
-    if block.syntax is syntax:
-        return block.words
-    text = block.syntax.comment.sub(lambda comment: " " * len(comment[0]), block.text)
-    return parse_block(text, block.line, syntax).words
+    return block.words if block.syntax is syntax else _respelled(block.text, block.line, block.syntax, syntax)
+
+
+@lru_cache(16)
+def _respelled(text: str, line: int, own: Syntax, other: Syntax) -> tuple[Word, ...]:
+    """The words of a line as another syntax has them: several controls share one."""
+    return parse_block(own.comment.sub(lambda comment: " " * len(comment[0]), text), line, other).words
 
 
 def _read_simply(text: str, line: int) -> tuple[Word, ...]:

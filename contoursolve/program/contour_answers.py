@@ -47,6 +47,9 @@ def explained(asked: Request, dialect: Dialect, answer: Answer, pending: Pending
     def window() -> "Window":
         return _window(dialect, answer, pending, ahead, parts)
 
+    if asked.depth is Depth.PATH and answer.contour is not None and _is_wrong(answer):
+        # What is written needs no repair.
+        return answer
     if _is_wrong(answer):
         # Most programs need no diagnosis, and none should wait for its import.
         from contoursolve.diagnosis import diagnose  # noqa: PLC0415
@@ -120,7 +123,8 @@ class Answers:
 
     def mend_behind(self, answer: Answer, found: Sequence[Diagnostic], pending: Pending) -> tuple[Diagnostic, ...]:
         """The findings about the block behind a contour, with what was meant there."""
-        if self.asked.depth in (Depth.VERDICT, Depth.TRIAL):
+        is_written = self.asked.depth is Depth.PATH and answer.contour is not None
+        if is_written or self.asked.depth in (Depth.VERDICT, Depth.TRIAL):
             return tuple(found)
         from contoursolve.diagnosis import mend_behind  # noqa: PLC0415 - few contours need it
 

@@ -87,16 +87,18 @@ def _other_controls(own: Dialect, blocks: Sequence[Block]) -> Iterator[str]:
 
 def _lacks_motion(dialect: Dialect, blocks: Sequence[Block], unit: Length) -> bool:
     """Whether no motion is in force in the first block with a word of the control's contours."""
+    first = next((block for block in telling(blocks) if dialect.signs(block)), None)
+    if first is None or any(each.address not in dialect.modes.lexicon.addresses for each in dialect.signs(first)):
+        return False
     state = dialect.initial_state(unit)
     for block in PlainLines(dialect.modes).among(in_passages(blocks)):
         if isinstance(block, Passage):
             state = advance_through(state, block, dialect.modes)
-            continue
-        state = advance(state, block, dialect.modes)
-        words = dialect.signs(block)
-        if words:
-            return state.motion is None and all(each.address in dialect.modes.lexicon.addresses for each in words)
-    return False
+        elif block.line <= first.line:
+            state = advance(state, block, dialect.modes)
+        if block.line >= first.line:
+            break
+    return state.motion is None
 
 
 def _contour_with_comma(asked: Request, blocks: Sequence[Block]) -> Diagnostic | None:

@@ -21,6 +21,7 @@ from contoursolve.diagnosis import (
     explain_vocabulary,
     explain_words,
     has_corners,
+    is_corner_word,
     is_known,
     like_corners,
     move_without_point,
@@ -185,11 +186,10 @@ def _of_vocabulary(
 
 def _of_words_beside(context: Context, block: Block, dialect: Dialect) -> Iterator[Diagnostic]:
     """Words of corners and angles beside a code that uses the words of its block in its own way."""
-    corners = {each for each in corner_words(dialect.modes.lexicon) if len(each) > 1}
-    codes = codes_of(block, dialect.modes) if any(word.address in corners for word in block.words) else ()
+    words = [word for word in block.words if is_corner_word(word.address, dialect.modes.lexicon)]
+    codes = codes_of(block, dialect.modes) if words else ()
     own = next((each for each in codes if not isinstance(each, Word) and each.effect in _OWN_USE), None)
     if own is not None:
-        words = [word for word in block.words if word.address in corners]
         row = context.row(ReadIssue.WORD_BESIDE_CODE)
         yield report(context, row, Basis.RULE, words, name=own.text, meaning=own.meaning)
 

@@ -205,7 +205,8 @@ class _Moving:
 
 def _behind(way: ControlFlowPath, state: State, line: int) -> ControlFlowPath:
     """A way behind what ends on a line."""
-    changed = {mode: line for mode, value in _values(way.state).items() if value != _values(state)[mode]}
+    before, now = _values(way.state), _values(state)
+    changed = {mode: line for mode, value in before.items() if value != now[mode]} if before != now else {}
     lines = {**way.lines, **changed} if changed else way.lines
     return ControlFlowPath(state, (), way.entered, lines)
 

@@ -207,8 +207,10 @@ class ChainFinder:
 
     def _is_corner(self, block: Block) -> bool:
         """Whether a block makes a corner between those beside it, and nothing else."""
-        codes = {int(word.number) for word in block.words if word.address == "G" and word.number is not None}
-        return bool(codes & self.language.corner.codes.keys())
+        own = self.language.corner.codes
+        return bool(own) and any(
+            word.address == "G" and word.number is not None and int(word.number) in own for word in block.words
+        )
 
     def _apply(self, before: State, block: Block, modes: Modes) -> State:
         """The state with the block's G codes in force; its plane has a parallel axis in place of its own one where a

@@ -18,14 +18,15 @@ _CORNER = re.compile(r"G[ \t]*+(?:=[ \t]*+)?30[12]", re.IGNORECASE)
 """Most blocks have none of it, and need not be read again."""
 
 
+_OWN = LANGUAGE.own
+
+
 def _signs(block: Block) -> tuple[Word, ...]:
     """The words that show the control: those with a number sign, and corners in blocks of their own."""
     if "#" not in block.text and not _CORNER.search(block.text):
         return ()
     codes, words = (CHAMFER, ROUNDING), words_as(block, SYNTAX)
-    return tuple(
-        word for word in words if word.address in LANGUAGE.own or (word.address == "G" and word.number in codes)
-    )
+    return tuple(word for word in words if word.address in _OWN or (word.address == "G" and word.number in codes))
 
 
 ISG = Dialect(

@@ -15,12 +15,14 @@ from contoursolve.controls.siemens.rules import RULES, RULES_REDUCING
 from contoursolve.gcode import Block, Word, words_as
 from contoursolve.reading import Dialect, Diameter, Setting
 
+_OWN = LANGUAGE.own
+
 
 def _signs(block: Block) -> tuple[Word, ...]:
     """The words that show the control: those with an equals sign."""
     if "=" not in block.text:
         return ()
-    own = (word for word in words_as(block, SYNTAX) if word.address in LANGUAGE.own)
+    own = (word for word in words_as(block, SYNTAX) if word.address in _OWN)
     # `#ANG=60` is another control's.
     return tuple(word for word in own if not block.text[: word.span.column - 1].rstrip(" \t").endswith("#"))
 
