@@ -72,7 +72,7 @@ def main() -> None:
     """
     gc.disable()
     atexit.register(gc.freeze)
-    if not any(name in os.environ for name in _THREADS):
+    if not any(os.environ.get(name) for name in _THREADS):
         # The matrices of contours are small: more threads of NumPy's would wait for each other, each on a core of its
         # own, as long as the command runs. Rows of families have threads of their own.
         os.environ["OPENBLAS_NUM_THREADS"] = os.environ["MKL_NUM_THREADS"] = "1"

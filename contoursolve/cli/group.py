@@ -2,7 +2,6 @@
 
 import io
 import sys
-from difflib import get_close_matches
 from importlib import import_module
 
 import click
@@ -73,6 +72,8 @@ class _Commands(click.Group):
         name, names = args[0], self.list_commands(ctx)
         if name in names or name.startswith("-"):
             return super().resolve_command(ctx, args)
+        from difflib import get_close_matches  # noqa: PLC0415 - most names are those of commands
+
         close = get_close_matches(name.lower(), names)
         meant = f" Did you mean {' or '.join(map(repr, close))}?" if close else ""
         raise click.UsageError(f"No such command {name!r}.{meant}", ctx)

@@ -21,7 +21,11 @@ _CONTROLS: Mapping[str, tuple[str, tuple[str, ...]]] = {
 """The folder that has the record of each, under its name in capitals; and what a line has, in upper case, that shows
 the control: all parts of one of these texts, anywhere. What else it needs for that the control's own `signs` say."""
 
-_PARTS = {name: [text.split() for text in texts] for name, (_, texts) in _CONTROLS.items()}
+_PARTS = [
+    (text.partition(" ")[0], text.split()[1:], {name for name, (_, texts) in _CONTROLS.items() if text in texts})
+    for text in dict.fromkeys(text for _, texts in _CONTROLS.values() for text in texts)
+]
+"""The first part and the others of each of these texts, and the controls that they may show."""
 
 
 class _Controls(Mapping[str, Dialect]):
@@ -48,14 +52,13 @@ class _Controls(Mapping[str, Dialect]):
     def __or__(self, others: Mapping[str, Dialect]) -> dict[str, Dialect]:
         return {**self, **others}
 
-    def showing(self, line: str) -> Iterator[Dialect]:
+    def showing(self, line: str) -> list[Dialect]:
         """The controls that a line may show, in order; their `signs` say whether it does."""
-        text = line.upper()
-        for name, ways in _PARTS.items():
-            for first, *others in ways:
-                if first in text and all(part in text for part in others):
-                    yield self[name]
-                    break
+        text, shown = line.upper(), set[str]()
+        for first, others, names in _PARTS:
+            if first in text and (not others or all(part in text for part in others)):
+                shown |= names
+        return [self[name] for name in _CONTROLS if name in shown] if shown else []
 
 
 DIALECTS = _Controls()

@@ -135,7 +135,7 @@ class Contour(Shown):
         """The place where the path goes across the spindle axis, by more than the least increment; None where it does
         not, or the machine is no lathe. A path may begin on either side."""
         axis = next((number for number, is_diameter in enumerate(self.plane.diameters) if is_diameter), None)
-        if axis is None:
+        if axis is None or self._keeps_one_side(axis):
             return None
         side, across = 0.0, None
         for element in self.elements:
@@ -147,6 +147,17 @@ class Contour(Shown):
             if across is not None:
                 break
         return across
+
+    def _keeps_one_side(self, axis: int) -> bool:
+        """Whether the squares around the circles of the arcs, and the ends of lines, lie on one side of the spindle
+        axis: then it is not crossed, and where an arc turns back need not be known."""
+        low = high = self.start[axis]
+        for element in self.elements:
+            if isinstance(element, ArcSegment):
+                low = min(low, element.center[axis] - element.radius)
+                high = max(high, element.center[axis] + element.radius)
+            low, high = min(low, element.end[axis]), max(high, element.end[axis])
+        return low >= 0 or high <= 0
 
 
 def _along(arc: ArcSegment, chord_error: float) -> Iterator[Point]:

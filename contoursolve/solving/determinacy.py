@@ -1,13 +1,12 @@
 """The facts that determine each unknown, and on which condition: the rank at random values, and sympy's verdict for all
 values."""
 
-import json
 import pkgutil
 from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from msgspec import Struct
+from msgspec import Struct, json
 from msgspec.structs import replace
 
 from contoursolve.geometry import Fact, System, scalar
@@ -225,7 +224,7 @@ def _stated(group: Group, symbols: Any, known: Mapping[Any, Any]) -> dict[Any, A
 @lru_cache(maxsize=1)
 def _shipped() -> dict[str, Any]:
     data = pkgutil.get_data(__package__, "verdicts.json")
-    table: dict[str, Any] = json.loads(data) if data else {}
+    table: dict[str, Any] = json.decode(data) if data else {}
     return table
 
 

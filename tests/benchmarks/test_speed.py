@@ -33,21 +33,6 @@ def best_of(rounds: int, command: list[str]) -> float:
     return min(times)
 
 
-def test_a_whole_run_on_one_block_takes_at_most_two_imports_of_numpy_and_casadi(
-    benchmark: BenchmarkFixture, tmp_path: Path
-) -> None:
-    program = tmp_path / "one.nc"
-    program.write_text(f"G00 {START}\n{BLOCK}\n", encoding="utf-8")
-    command = [sys.executable, "-m", "contoursolve", "solve", str(program)]
-    benchmark.pedantic(
-        subprocess.run, args=(command,), kwargs={"check": True, "capture_output": True, "env": INSTALLED}, rounds=5
-    )
-    imports = best_of(7, [sys.executable, "-c", "import numpy, casadi"])
-    whole = best_of(7, command)
-    benchmark.extra_info.update(imports_ms=imports * 1e3, whole_ms=whole * 1e3, ratio=whole / imports)
-    assert whole <= 2.0 * imports
-
-
 def test_one_block_warm_from_text_to_verified_contour(benchmark: BenchmarkFixture) -> None:
     result = benchmark(contoursolve.solve, BLOCK, start=START)
     assert result.answers[0].status is contoursolve.Status.SOLVED
