@@ -1007,8 +1007,11 @@ KINDS = {
 """What every contour with a path claims."""
 
 
+FEW_CONTROLS = [pytest.param(name, marks=[pytest.mark.slow] * (n % 4 > 0)) for n, name in enumerate(DIALECTS)]
+
+
 @few_and_many(1, 4)
-@pytest.mark.parametrize("control", DIALECTS)
+@pytest.mark.parametrize("control", FEW_CONTROLS)
 def test_what_is_tampered_with_is_caught_for_every_control(control, count):
     """Every kind of number, in the contour alone and with its like in the list of solutions, and contours that are
     missing: in so many examples of the rules of a control."""

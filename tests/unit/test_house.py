@@ -117,6 +117,7 @@ def test_the_house_is_small_enough_to_be_walked_through():
     }
 
 
+@pytest.mark.slow
 def test_no_file_stands_in_a_circle():
     """Of files, whose imports are followed through the lists of packages to where a name is defined."""
     graph = {name: needed(path) for name, path in PATHS.items()}

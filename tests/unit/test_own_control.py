@@ -128,6 +128,7 @@ def test_its_contours_show_themselves_with_a_lexicon_of_their_own():
         assert "circular-linear intersection" in bundle["text/plain"]
 
 
+@pytest.mark.slow
 def test_an_executor_takes_a_control_whose_functions_can_be_sent():
     line, values = "G1 X30 ,A45", {",A": [0.0, 45.0]}
     with ThreadPoolExecutor(1) as executor:
