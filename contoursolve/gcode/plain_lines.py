@@ -6,6 +6,7 @@ from functools import cached_property
 
 from msgspec import Struct
 
+from contoursolve.gcode.late_pattern import late_pattern
 from contoursolve.gcode.syntax import ISO, Syntax
 
 AXES = "UVWXYZ"
@@ -55,8 +56,8 @@ _WORD = (
 _COMMENT = r"\((?![ \t]*+c\w*tour)[^()\r\n]*+\)"
 _MOVING = rf"(?=[^\r\n(]*[{AXES}])(?>(?:{_WORD}{_BLANKS})+)"
 _PLAIN = rf"{_BLANKS}(?:{_MOVING})?+(?>(?:{_COMMENT}[ \t]*+)*)(?:\r\n|\n|\r|\Z)"
-_ONE = re.compile(_PLAIN, re.IGNORECASE | re.ASCII)
-SEVERAL = re.compile(rf"(?>(?:{_PLAIN}){{1,{MOST_TOGETHER}}})", re.IGNORECASE | re.ASCII)
+_ONE = late_pattern(_PLAIN, re.IGNORECASE | re.ASCII)
+SEVERAL = late_pattern(rf"(?>(?:{_PLAIN}){{1,{MOST_TOGETHER}}})", re.IGNORECASE | re.ASCII)
 """The pattern of plain lines in a row."""
 
 _COMMENTS = re.compile(r"\([^()]*+\)")

@@ -65,8 +65,8 @@ def explained(asked: Request, dialect: Dialect, answer: Answer, pending: Pending
         from contoursolve.diagnosis import mend_points  # noqa: PLC0415
 
         answer = mend_points(answer, dialect)
-    beside = (block for blocks in near(ahead) for block in reversed(blocks))
-    if may_be_suspected(answer, beside, lambda: window().blocks) or _has_odd_points(answer):
+    beside = (block for blocks in near(ahead, has_plain=False) for block in reversed(blocks))
+    if may_be_suspected(answer, beside, lambda: _around(pending, ahead)) or _has_odd_points(answer):
         from contoursolve.diagnosis import suspect  # noqa: PLC0415 - few contours look odd
 
         answer = suspect(answer, window())
@@ -85,6 +85,12 @@ def _window(dialect: Dialect, answer: Answer, pending: Pending, ahead: Ahead, pa
     """The blocks around a contour; its own are as many more as `own` says."""
     view, after = pending.view, pending.after + own
     return window_of(ahead, view[:after], view[after : after + NEAR], answer.claim.before, dialect, parts)
+
+
+def _around(pending: Pending, ahead: Ahead) -> Sequence[Block]:
+    """The blocks of such a window, without the states before them."""
+    before = [block for blocks in reversed([*near(ahead)]) for block in blocks]
+    return [*before, *pending.view[: pending.after + NEAR]]
 
 
 def _is_wrong(answer: Answer) -> bool:

@@ -1,10 +1,11 @@
 """The blocks around something that is wrong, for trying what was meant."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from contoursolve.gcode import Block, Passage, blocks_in, words_of
+from contoursolve.gcode import Block, Passage, Syntax, parse_block, words_of
 from contoursolve.program.solve_queue import Ahead, Previous
 from contoursolve.reading import Dialect, Modes, State, advance, advance_plainly
 
@@ -35,19 +36,29 @@ def last_of(ahead: Ahead, modes: Modes) -> Previous | None:
 def _read(ahead: Ahead, modes: Modes) -> list[Previous]:
     """The last contours and blocks, plain lines read into words."""
     found = list[Previous]()
-    for blocks, before in ahead:
-        if not isinstance(blocks, Passage):
-            found.append((blocks, before))
-            continue
-        saying = [place for place, line in enumerate(blocks.lines) if words_of(line)][-AHEAD:]
-        first, state = saying[0], before
-        if first:
-            state = advance_plainly(state, blocks.part(0, first), modes)
-        for block in blocks_in(blocks.part(first, blocks.count)):
-            if block.words:
-                found.append(((block,), state))
-                state = advance(state, block, modes)
+    for blocks, before in reversed(ahead):
+        if len(found) >= AHEAD:
+            break
+        found[:0] = [(blocks, before)] if not isinstance(blocks, Passage) else _in_words(blocks, before, modes)
     return found[-AHEAD:]
+
+
+def _in_words(passage: Passage, state: State, modes: Modes) -> list[Previous]:
+    """The last plain lines that say something, each as a block, with the state before it."""
+    found = list[Previous]()
+    saying = [place for place, line in enumerate(passage.lines) if words_of(line)][-AHEAD:]
+    state = advance_plainly(state, passage.part(0, saying[0]), modes) if saying[0] else state
+    for place in saying:
+        block = _block_of(passage.lines[place], passage.line + place, passage.syntax)
+        found.append(((block,), state))
+        state = advance(state, block, modes)
+    return found
+
+
+@lru_cache(64)
+def _block_of(line: str, number: int, syntax: Syntax) -> Block:
+    """A plain line, read into words: what is beside one contour is beside the next one, too."""
+    return parse_block(line.rstrip("\r\n"), number, syntax)
 
 
 def window_of(
@@ -65,21 +76,22 @@ def window_of(
     return Window(tuple(held[len(held) - count :]), tuple(own), tuple(behind), state, dialect, parts)
 
 
-def near(ahead: Ahead) -> Iterator[Sequence[Block]]:
-    """The contours and blocks ahead that are near, the last one first."""
+def near(ahead: Ahead, *, has_plain: bool = True) -> Iterator[Sequence[Block]]:
+    """The contours and blocks ahead that are near, the last one first; without `has_plain`, nothing in place of each
+    plain line: those have no corner and no angle."""
     count = 0
-    for blocks in islice((one for each, _ in reversed(ahead) for one in _backwards(each)), AHEAD):
-        count += len(blocks)
+    for blocks in islice((one for each, _ in reversed(ahead) for one in _backwards(each, has_plain)), AHEAD):
+        count += len(blocks) or 1
         if count > MOST_AHEAD:
             return
         yield blocks
 
 
-def _backwards(blocks: Sequence[Block] | Passage) -> Iterator[Sequence[Block]]:
+def _backwards(blocks: Sequence[Block] | Passage, has_plain: bool) -> Iterator[Sequence[Block]]:
     """A contour or a block; or plain lines that say something, read into words, the last one first."""
     if not isinstance(blocks, Passage):
         yield blocks
         return
     for place in range(blocks.count - 1, -1, -1):
         if words_of(blocks.lines[place]):
-            yield tuple(blocks_in(blocks.part(place, place + 1)))
+            yield (_block_of(blocks.lines[place], blocks.line + place, blocks.syntax),) if has_plain else ()
