@@ -202,9 +202,14 @@ def apply_edits(blocks: Iterable[Block], edits: Iterable[Edit]) -> tuple[str, ..
     """The texts of the blocks with the edits made; blanks that a dropped word leaves double are merged. A block from
     which words are moved has several lines; the text of one of which too little is left is empty."""
     edits = tuple(edits)
+    lines = {edit.span.line if edit.span is not None else edit.line for edit in edits}
+    lines |= {edit.line for edit in edits if edit.kind is EditKind.ADD}
     texts = []
     for block in blocks:
         text = block.text
+        if block.line not in lines:
+            texts.append(text)
+            continue
         own = [edit for edit in edits if edit.span is not None and edit.span.line == block.line]
         for edit in sorted(own, key=lambda each: each.span.column if each.span else 0, reverse=True):
             assert edit.span is not None

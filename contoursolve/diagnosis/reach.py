@@ -153,6 +153,8 @@ class Reach(Struct, frozen=True, dict=True):
         """The blocks on which a problem rests; None where that may be more than is near it."""
         labels = (label.span.line for label in finding.labels)
         near = {place for line in (finding.span.line, *labels) if (place := self._places.get(line)) is not None}
+        if finding.about is ReadIssue.POINT_MISSING and finding.severity is not Severity.INFO:
+            return self._around(near)
         if finding.about is None:
             # With further facts, the rules only warn.
             is_rule = finding.is_error or not self.answer.profile.is_extended

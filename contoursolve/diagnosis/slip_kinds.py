@@ -4,7 +4,7 @@ meant to be if it happened."""
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from decimal import Decimal
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -100,7 +100,7 @@ def turned_axis(plane: Plane) -> str:
     return next((axis for axis, is_diameter in zip(plane.axes, plane.diameters, strict=True) if is_diameter), "")
 
 
-class Typed(Struct, frozen=True):
+class Typed(Struct, frozen=True, dict=True):
     """A word as it was typed, in parts, and where it stands."""
 
     speech: Speech
@@ -124,7 +124,7 @@ class Typed(Struct, frozen=True):
             text += "" if "." in text else "."
         return spell(self.address, sign + text)
 
-    @property
+    @cached_property
     def value(self) -> Decimal:
         """Its number."""
         return Decimal(self.sign + self.number)
@@ -134,7 +134,7 @@ class Typed(Struct, frozen=True):
         """Whether only its sign counts, and chooses."""
         return self.unit is Unit.SIGN
 
-    @property
+    @cached_property
     def unit(self) -> Unit | None:
         """The unit of its number; None for a word that the contour does not know."""
         row = self.speech.lexicon.addresses.get(self.word.address)
@@ -498,10 +498,20 @@ SLIPS = (*FEW, CODE, *OF_DIGITS, ROUND)
 
 def texts_of(slip: SlipKind, word: Word, speech: Speech, stated: frozenset[str] = frozenset()) -> Iterator[str]:
     """Words that a word may have been meant to be if a slip happened to it, beside the addresses of its block."""
+    typed = typed_as(word, speech, stated)
+    if typed is not None:
+        yield from texts_for(slip, typed)
+
+
+def typed_as(word: Word, speech: Speech, stated: frozenset[str] = frozenset()) -> "Typed | None":
+    """A word as it was typed, beside the addresses of its block; None if it has no number."""
     match = _WORD.fullmatch(word.text.strip())
-    if match is None:
-        return
-    typed = Typed(speech, word, _address_in(match), match["sign"], match["number"], stated)
+    return Typed(speech, word, _address_in(match), match["sign"], match["number"], stated) if match else None
+
+
+def texts_for(slip: SlipKind, typed: Typed) -> Iterator[str]:
+    """The same for a word that is read."""
+    speech, word = typed.speech, typed.word
     if slip.is_of_digits and typed.is_choice:
         return
     for text in dict.fromkeys(slip.texts(typed)):

@@ -32,8 +32,9 @@ from contoursolve.diagnosis.slip_kinds import (
     Speech,
     number_in,
     plain_code,
-    texts_of,
+    texts_for,
     turned_axis,
+    typed_as,
 )
 from contoursolve.diagnosis.vocabulary import names_like
 from contoursolve.diagnosis.window import Window
@@ -196,11 +197,13 @@ def _of_words(
         for at, word in enumerate(block.words):
             if word.address in "GNOMF" or word.is_asked or is_in_vain(word.span):
                 continue
-            for kind in kinds:
+            typed = {id(each): typed_as(word, each, stated) for each in (within, outside)}
+            for kind in kinds if all(typed.values()) else ():
                 speech = within if block.line in lines and kind.is_of_numbers else outside
                 if kind.name in _OF_CLAIM:
                     speech = within
-                for text in texts_of(kind, word, speech, stated):
+                read_as = typed[id(speech)]
+                for text in texts_for(kind, read_as) if read_as else ():
                     edit = change(word, text)
                     cost = cost_of(edit, kind)
                     if kind is LETTER_ALIKE:

@@ -136,6 +136,7 @@ def _is_like(typed: str, name: str) -> bool:
     )
 
 
+@lru_cache(maxsize=4096)
 def _slips(first: str, second: str) -> int:
     """The optimal string alignment distance of two words."""
     rows = [list(range(len(second) + 1))]
