@@ -46,9 +46,6 @@ class _Controls(Mapping[str, Dialect]):
     def __len__(self) -> int:
         return len(_CONTROLS)
 
-    def __contains__(self, name: object) -> bool:
-        return name in _CONTROLS
-
     def __or__(self, others: Mapping[str, Dialect]) -> dict[str, Dialect]:
         return {**self, **others}
 
