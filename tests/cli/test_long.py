@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 import contoursolve
+from contoursolve import diagnosis
 from contoursolve.cli import main
 from contoursolve.gcode import lexer
 from contoursolve.output import listing
@@ -87,6 +88,16 @@ def test_plain_lines_are_not_read_into_words(move, contour, control, monkeypatch
         counts.append(len(read))
     assert counts[1] - counts[0] < 10
     assert counts[1] < 1_100
+
+
+def test_expand_tries_no_repair_of_what_it_writes(monkeypatch, tmp_path):
+    program, tried = tmp_path / "old.nc", list[str]()
+    for name in ("mend_behind", "diagnose"):
+        monkeypatch.setattr(diagnosis, name, lambda *_, name=name: tried.append(name))
+    program.write_text("G00 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.\nX30.\n")
+    done = CliRunner().invoke(main, ["expand", str(program)])
+    assert "g111-rapid-behind" in done.output
+    assert not tried
 
 
 def test_a_late_finding_about_an_early_line_comes_first_as_long_as_it_may(monkeypatch):
