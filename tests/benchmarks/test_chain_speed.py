@@ -38,8 +38,9 @@ def seconds(text: str, control: str) -> float:
 def test_a_mistake_in_a_chain_costs_no_more_than_its_length(what, told, growth):
     chain, mistake, control = CHAINS[what]
     seconds(chain(20, mistake), control)
-    found = {size: min(seconds(chain(size, mistake), control) for _ in range(2)) for size in SIZES}
-    right = min(seconds(chain(SIZES[-1]), control) for _ in range(2))
+    # Once each: what was solved before is known.
+    found = {size: seconds(chain(size, mistake), control) for size in SIZES}
+    right = seconds(chain(SIZES[-1] + 1), control)
     told(
         f"{what}, {SIZES[-1]} elements", f"{found[SIZES[-1]]:.2f} s", f"{found[SIZES[-1]] / right:.0f} times the right"
     )
