@@ -118,17 +118,21 @@ def _context_of(asked: Request, block: Block) -> Context:
 
 
 def _is_clean(block: Block, dialect: Dialect, here: State | None) -> bool:
-    """Whether a block has words alone, each once, all as usual and all read: there is nothing to say then."""
+    """Whether a block has words alone, all read, and moves each axis once, as usual: there is nothing to say then."""
     if block.faults or block.directives or block.unmarked or block.named:
         return False
     addresses, modes = [word.address for word in block.words], dialect.modes
     own = {*_OF_ARCS, modes.radius} if here is not None and here.motion in _ARCS else set[str]()
-    is_read = all(each in own or is_known(each, modes.lexicon) for each in addresses)
+    others = [each for each in addresses if not is_known(each, modes.lexicon)]
+    is_read = own.issuperset(others)
     codes = codes_of(block, modes) if "G" in addresses else ()
     is_read = is_read and all(not isinstance(code, Word) and code.is_read for code in codes)
-    is_usual = all(word.number is not None and abs(word.number) <= _USUAL for word in block.words)
-    is_clean = is_read and is_usual and len({*addresses}) == len(addresses)
-    return is_clean and not (here is not None and modes.unread(block, here))
+    rows = modes.lexicon.addresses
+    # Beside the words of an arc, which not all controls have, every word counts.
+    moved = [word for word in block.words if others or ((row := rows.get(word.address)) and row.axis)]
+    is_usual = all(abs(word.number) <= _USUAL if word.number is not None else not others for word in moved)
+    is_once = len({word.address for word in moved}) == len(moved) and not any(word.is_asked for word in block.words)
+    return is_read and is_usual and is_once and not (here is not None and modes.unread(block, here))
 
 
 def _repeated(words: Sequence[Word]) -> list[Word]:
