@@ -17,8 +17,8 @@ _RIGHT_ANGLE, _HALF_TURN = 90, 180
 
 
 def stands_out(claim: ParsedContour, beside: Iterable[Block], around: Callable[[], Sequence[Block]]) -> bool:
-    """Whether one of its blocks differs from all others around. Of those `beside` it, which are among them, only as
-    many are read as it takes to see that none does."""
+    """Whether one of its blocks differs from all others around. Of these, which are `beside` it, only as many are read
+    as it takes to see that none does."""
     if not (_may_be_sharp(claim) or _may_be_other_taper(claim, beside)):
         return False
     blocks = around()
@@ -39,12 +39,14 @@ def _may_be_other_taper(claim: ParsedContour, beside: Iterable[Block]) -> bool:
     own = {word.span for word in claim.words.values()}
     found = _tapers(claim, claim.blocks)
     odd = {taper for taper, word in found if word.span in own and taper != _RIGHT_ANGLE - taper}
-    for block in beside:
-        if not odd:
-            break
+    count = len(found) - 1
+    for block in beside if odd else ():
         for taper, _ in _tapers(claim, [block]):
             odd &= {_RIGHT_ANGLE - taper}
-    return bool(odd)
+            count += 1
+        if not odd:
+            break
+    return bool(odd) and count >= _ALIKE
 
 
 def _shapes(claim: ParsedContour) -> set[str]:

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Sequence
-from itertools import islice
+from itertools import chain, islice
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -65,7 +65,8 @@ def explained(asked: Request, dialect: Dialect, answer: Answer, pending: Pending
         from contoursolve.diagnosis import mend_points  # noqa: PLC0415
 
         answer = mend_points(answer, dialect)
-    beside = (block for blocks in near(ahead, has_plain=False) for block in reversed(blocks))
+    before = (block for blocks in near(ahead, has_plain=False) for block in reversed(blocks))
+    beside = chain(before, islice(pending.view, pending.after, pending.after + NEAR))
     if may_be_suspected(answer, beside, lambda: _around(pending, ahead)) or _has_odd_points(answer):
         from contoursolve.diagnosis import suspect  # noqa: PLC0415 - few contours look odd
 
