@@ -354,7 +354,7 @@ class Trial(Struct, frozen=True, dict=True):
         return [block for each in self.claim.blocks for block in self._read(each.text, each.line)]
 
     def _read(self, text: str, line: int) -> list[Block]:
-        """What is written in place of a block, which may have several lines then."""
+        """The blocks that a text in place of a block makes, which may have several lines."""
         return [parse_block(part, line, self.dialect.modes.syntax) for part in text.split("\n")]
 
     def _example(self, edits: tuple[Edit, ...]) -> tuple[Edit, ...] | None:

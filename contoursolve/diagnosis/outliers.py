@@ -36,11 +36,13 @@ def _may_be_other_taper(claim: ParsedContour, beside: Iterable[Block]) -> bool:
     """Whether all tapers beside it are measured from the axis from which one of its own is not."""
     if not any(claim.before.plane.diameters):
         return False
-    own = {word.span for word in claim.words.values()}
+    own = [claim.words[name] for name in _headings(claim.form) if name in claim.words]
+    odd = {taper for taper in map(taper_of, own) if taper not in (0, _RIGHT_ANGLE / 2, _RIGHT_ANGLE)}
+    if not odd:
+        return False
     found = _tapers(claim, claim.blocks)
-    odd = {taper for taper, word in found if word.span in own and taper != _RIGHT_ANGLE - taper}
     count = len(found) - 1
-    for block in beside if odd else ():
+    for block in beside:
         for taper, _ in _tapers(claim, [block]):
             odd &= {_RIGHT_ANGLE - taper}
             count += 1

@@ -137,7 +137,7 @@ def _things(names: Sequence[str], profile: Profile) -> dict[str, dict[str, None]
 
 @lru_cache(maxsize=64)
 def _called(layout: Layout) -> Mapping[str, str]:
-    """What is called by what it belongs to: the end, and the radii of arcs."""
+    """The names of unknowns that are called by what they belong to: the end, and the radii of arcs."""
     arcs = (element for element in layout.figure.path if isinstance(element, Arc))
     return {"end": "the end"} | {arc.radius: f"the radius of {element_text(arc.name)}" for arc in arcs}
 

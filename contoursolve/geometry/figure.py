@@ -182,13 +182,13 @@ def names_of_roles(roles: Iterable[BlockRole], stated: Iterable[str]) -> Iterato
     """Each role with the names of `BlockRole.names`. A prefix ends with the first colon of a name."""
     everything = list(stated)
     starting: dict[str, list[tuple[int, str]]] = {}
-    for place, name in enumerate(everything):
-        prefix, colon, _ = name.partition(":")
-        starting.setdefault(prefix + colon, []).append((place, name))
     for role in roles:
         if role.prefixes == ("",):
-            yield role, {name: name for name in everything}
+            yield role, dict(zip(everything, everything, strict=True))
             continue
+        for place, name in enumerate(() if starting else everything):
+            prefix, colon, _ = name.partition(":")
+            starting.setdefault(prefix + colon, []).append((place, name))
         is_alone = len(role.prefixes) == 1
         found = [
             (place, ("" if is_alone else f"{number}:") + name.removeprefix(prefix), name)

@@ -66,7 +66,7 @@ def explained(asked: Request, dialect: Dialect, answer: Answer, pending: Pending
 
         answer = mend_points(answer, dialect)
     before = (block for blocks in near(ahead, has_plain=False) for block in reversed(blocks))
-    beside = chain(before, islice(pending.view, pending.after, pending.after + NEAR))
+    beside = chain(before, pending.view.telling(pending.after, NEAR))
     if may_be_suspected(answer, beside, lambda: _around(pending, ahead)) or _has_odd_points(answer):
         from contoursolve.diagnosis import suspect  # noqa: PLC0415 - few contours look odd
 
@@ -109,7 +109,7 @@ class Answers:
     """The answers to the contours of one program: each is solved, alone or with others, and then explained."""
 
     looks_back = True
-    """Whether what is before a contour runs before it."""
+    """True where the lines before a contour run before it."""
 
     def __init__(self, asked: Request, dialect: Dialect, parts: Parts) -> None:
         self.asked, self.dialect, self.parts = asked, dialect, parts

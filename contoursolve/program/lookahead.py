@@ -110,6 +110,16 @@ class View(Sequence[Block]):
                 yield each.line, each.text
             first -= count
 
+    def telling(self, first: int, count: int) -> Iterator[Block]:
+        """Of so many lines from an index on the blocks, without plain lines that nobody has read into words."""
+        self.reach, number = max(self.reach, first + count), 0
+        for each in _up_to_event(self.held, self.first):
+            if number >= first + count:
+                return
+            if number >= first and not isinstance(each, Passage):
+                yield each
+            number += _count(each)
+
     def says_something(self, first: int) -> bool:
         """Whether any block from an index on has more than its number, or an event of the program comes."""
         place, number = self.first, 0

@@ -132,7 +132,7 @@ def _slips_as(dialect: Dialect, blocks: Sequence[Block], unit: Length) -> Iterat
     from contoursolve.diagnosis import explain_commas  # noqa: PLC0415 - few programs need it
 
     state, tries = dialect.initial_state(unit), _TRIES
-    lacking = {each[1:] for each in dialect.modes.lexicon.addresses if each.startswith(",")}
+    lacking = {*dialect.modes.lexicon.after_comma}
     for index, block in enumerate(blocks):
         before, state = state, advance(state, block, dialect.modes)
         # What moves in rapid traverse, or alone, is an axis that turns.

@@ -255,7 +255,8 @@ def with_slips(
     if dialect is None or asked.depth in (Depth.VERDICT, Depth.TRIAL):
         return found
     modes, context = dialect.modes, _context_of(asked, block)
-    if any(f",{word.address}" in modes.lexicon.addresses for word in block.words):
+    after_comma = modes.lexicon.after_comma
+    if after_comma and any(word.address in after_comma for word in block.words):
         from contoursolve.diagnosis import explain_commas  # noqa: PLC0415 - few programs need it
 
         found = [

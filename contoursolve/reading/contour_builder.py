@@ -67,9 +67,9 @@ class ContourBuilder:
     ) -> None:
         """Add what one part of the contour states: its words and values by name, what holds of it, the words of earlier
         blocks that stay in force in it (`kept`), and the names of its own that do so behind it (`lasting`)."""
-        self.words |= {prefix + name: word for name, word in words.items()}
-        self.kept |= {prefix + name: word for name, word in (kept or {}).items()}
-        self.givens |= {prefix + name: _called(given, prefix + name) for name, given in givens.items()}
+        self.words |= _under(prefix, words)
+        self.kept |= _under(prefix, kept or {})
+        self.givens |= {name: _called(given, name) for name, given in _under(prefix, givens).items()}
         self.circumstances |= {prefix + name for name in circumstances}
         self.lasting |= {prefix + name for name in lasting}
 
@@ -88,6 +88,10 @@ class ContourBuilder:
             "lasting": frozenset(self.lasting),
         }
         return ParsedContour(form=form, before=before, after=after, **(fields | chosen))
+
+
+def _under(prefix: str, named: Mapping[str, Any]) -> Mapping[str, Any]:
+    return {prefix + name: each for name, each in named.items()} if prefix else named
 
 
 def _called(given: Given, name: str) -> Given:

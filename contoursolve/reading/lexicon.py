@@ -177,6 +177,12 @@ class Lexicon:
         default_factory=dict, init=False, repr=False, compare=False
     )
     """The same lexicon with X as diameter or not, as far as that was asked for."""
+    after_comma: frozenset[str] = field(init=False, repr=False, compare=False)
+    """The letters of words that have a comma before them."""
+
+    def __post_init__(self) -> None:
+        letters = frozenset(name[1:] for name in self.addresses if name.startswith(","))
+        object.__setattr__(self, "after_comma", letters)
 
     def turned(self, *, absolute: bool, increment: bool, word: bool) -> "Lexicon":
         """The same where X is a diameter or not: as a coordinate or an increment that is always one, and by a plain

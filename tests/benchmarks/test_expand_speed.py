@@ -52,7 +52,7 @@ def spent(*command: object) -> tuple[float, float]:
 
 
 @pytest.mark.skipif(shutil.which("rs274") is None, reason="rs274 is not installed (Debian: linuxcnc-uspace)")
-def test_expanding_takes_at_most_five_times_what_interpreting_the_result_takes(tmp_path):
+def test_expanding_takes_at_most_eight_times_what_interpreting_the_result_takes(tmp_path, told):
     old, new = tmp_path / "old.nc", tmp_path / "new.ngc"
     expand = (sys.executable, "-m", "contoursolve", "expand", old, "--post", "linuxcnc", "--force", "-o", new)
     write_program(old, 100)
@@ -61,7 +61,10 @@ def test_expanding_takes_at_most_five_times_what_interpreting_the_result_takes(t
     # Both alternate, for other work on the machine slows down either.
     times = [(spent(*expand)[0], spent("rs274", "-g", new)[0]) for _ in range(3)]
     ours, theirs = (min(each) for each in zip(*times, strict=True))
-    assert ours <= 5 * theirs, f"{ours:.1f} s and {theirs:.1f} s: {ours / theirs:.1f} times"
+    told(
+        "expand, 100,000 lines with 10,000 contours", f"{ours:.1f} s", f"{ours / theirs:.1f} times rs274 on the result"
+    )
+    assert ours <= 8 * theirs
 
 
 def test_a_million_lines_take_at_most_300_mb(tmp_path):

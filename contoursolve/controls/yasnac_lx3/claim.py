@@ -1,6 +1,6 @@
 """YASNAC LX3: a block as a contour of some form, with every word by the name of the given that it states."""
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 from decimal import Decimal
 from functools import lru_cache
 
@@ -79,8 +79,8 @@ class BlockReader:
         """The block as a contour of a form. `refused` are addresses that a rule refuses; `supplied` are givens that the
         control derives from the words."""
         builder, modes, after = self.builder, self.builder.modes, self.after
-        rows = dict.fromkeys(name for name in modes.lexicon.addresses if name in form.allowed)
-        stated = {name: word for name, word in self.words.items() if name in rows}
+        vocabulary = _vocabulary(form, tuple(modes.lexicon.addresses))
+        stated = {name: word for name, word in self.words.items() if name in vocabulary}
         beside = {name: word for name, word in self.words.items() if name == OTHER_G or name in refused}
         unknown = (
             word
@@ -89,7 +89,7 @@ class BlockReader:
         )
         givens = {name: self.values[name] for name in stated if name in self.values}
         builder.state("", {**stated, **beside}, {**givens, **{each.name: each for each in supplied}})
-        builder.name("", 0, zip(rows, rows, strict=True))
+        builder.vocabulary |= vocabulary
         before = self.before if self.before.unit is after.unit else replace(self.before, unit=after.unit)
         return builder.build(
             form,
@@ -107,6 +107,12 @@ def _name_of(word: Word, others: Collection[int]) -> str:
     if word.address != "G":
         return word.address
     return OTHER_G if word.number in others else f"G{word.number}"
+
+
+@lru_cache(maxsize=32)
+def _vocabulary(form: ContourForm, addresses: tuple[str, ...]) -> Mapping[str, tuple[str, int]]:
+    """The words that a form has, each with its address in the only block."""
+    return {name: (name, 0) for name in addresses if name in form.allowed}
 
 
 @lru_cache(maxsize=32)
