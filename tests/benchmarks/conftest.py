@@ -64,7 +64,8 @@ def draw(path: Path) -> None:
     matplotlib.rcParams.update({"svg.hashsalt": "contoursolve", "svg.fonttype": "path", "font.size": 9})
     from matplotlib import pyplot  # noqa: PLC0415
 
-    figure, axes = pyplot.subplots(figsize=(8, 4), layout="constrained")
+    figure, axes = pyplot.subplots(figsize=(9, 5), layout="constrained")
+    axes.set_prop_cycle(color=matplotlib.colormaps["tab20"].colors)
     for mark, (what, seconds) in zip("os^vD*Px<>ph" * 2, GROWTH.items(), strict=False):
         axes.loglog([*seconds], [*seconds.values()], f"{mark}-", label=what, markersize=4)
     axes.set(xlabel="lines, or elements of the chain", ylabel="seconds (processor)")
