@@ -7,12 +7,12 @@ which the shortest of several runs counts.
 
 import random
 import re
-import sys
 import time
 from collections.abc import Callable
 
 import numpy
 import pytest
+from counted import calls
 from examples import some_of
 
 from contoursolve import check, expand, parse
@@ -91,22 +91,6 @@ ATOMS = (
 def line(shape: tuple[str, str, str], length: int) -> str:
     head, unit, tail = shape
     return head + unit * (length // len(unit)) + tail
-
-
-def calls(act: Callable[[], object]) -> int:
-    """How many functions are called."""
-    count = 0
-
-    def see(*_: object) -> None:
-        nonlocal count
-        count += 1
-
-    sys.setprofile(see)
-    try:
-        act()
-    finally:
-        sys.setprofile(None)
-    return count
 
 
 def seconds(act: Callable[[], object]) -> float:

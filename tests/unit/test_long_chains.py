@@ -1,10 +1,9 @@
 """A long contour takes work in proportion to its length, right or wrong: counted, not timed."""
 
-import sys
-from collections.abc import Callable
 from functools import partial
 
 import pytest
+from counted import calls
 from long_chains import angles, corners, klartext
 
 import contoursolve
@@ -27,22 +26,6 @@ CHAINS = {
 
 LONG = list(CHAINS)[:-1]
 """Those that are slow to count."""
-
-
-def calls(act: Callable[[], object]) -> int:
-    """How many functions are called."""
-    count = 0
-
-    def see(*_: object) -> None:
-        nonlocal count
-        count += 1
-
-    sys.setprofile(see)
-    try:
-        act()
-    finally:
-        sys.setprofile(None)
-    return count
 
 
 @pytest.mark.parametrize(
