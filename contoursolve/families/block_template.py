@@ -55,6 +55,10 @@ class RefusedError(FamilyError):
         super().__init__(f"with {where}: {told}" if where else told)
 
 
+_KEPT = 8
+"""Answers that a template keeps; more than a family with few classes asks for."""
+
+
 class Template(Struct, frozen=True, eq=False):
     """A program with one contour, or one of whose contours has the free words; how it is read, and its free words by
     the names that the user gave them: words of its blocks, words of the start point, and facts whose value is free."""
@@ -68,13 +72,25 @@ class Template(Struct, frozen=True, eq=False):
     """Rows that were read by themselves, until they are asked for again (see `traced_reading.read_alone`)."""
     ends: dict[int, Point | None] = field(default_factory=dict)
     """The ends of contours that no free word moves, by their first lines (see `end_of`)."""
+    answers: dict[str, Answer] = field(default_factory=dict)
+    """The last few answers of single solves, by the values of their words."""
 
     def with_words(self, names: Sequence[str]) -> "Template":
         """The same block with the words of these names free. Raises FamilyError as `find_words`."""
-        return replace(self, words=find_words(self, names))
+        return replace(self, words=find_words(self, names), answers={})
 
     def solve(self, values: Mapping[str, float]) -> Answer:
         """The answer of a single solve. Raises FamilyError where there is no single contour with a known start."""
+        key = repr(dict(values))
+        found = self.answers.get(key)
+        if found is None:
+            found = self._solved(values)
+            if len(self.answers) >= _KEPT:
+                self.answers.clear()
+            self.answers[key] = found
+        return found
+
+    def _solved(self, values: Mapping[str, float]) -> Answer:
         result = self.filled(values).examined(Depth.VERDICT)
         if not result.answers and result.has_errors:
             raise self.refused(values)
@@ -138,7 +154,7 @@ class Template(Struct, frozen=True, eq=False):
         free = {self.words[name].span.line: text for name, text in texts.items()}
         lines = ((each, each.span.line) for each in self.asked.facts)
         facts = tuple(gcode.read_directive(free[line], line) if line in free else each for each, line in lines)
-        return replace(self, program=program, asked=replace(self.asked, start=start, facts=facts), words={})
+        return replace(self, program=program, asked=replace(self.asked, start=start, facts=facts), words={}, answers={})
 
     def lines(self, program: Program, texts: Mapping[str, str]) -> list[str]:
         """The lines of the block, or of the start, with these texts in place of free words."""

@@ -157,7 +157,7 @@ class Example(Struct, frozen=True):
     """A row of a class that the rules or the reading may tell apart: its key, its values, and how many rows are in the
     class. With `is_by_row`, every row of this key is read by itself, and those that are read alike are a class.
     `is_compared` tells that a rule compares the words of each with each other, too. `others` are the values of other
-    rows of the key: the last one, and some between."""
+    rows of the key: those where a word has an extreme, and some between."""
 
     key: int
     values: tuple[float, ...]
@@ -219,9 +219,9 @@ def examples_of(template: Template, ranges: Ranges) -> Examples:
     return replace(found, rows=tuple(sorted(rows, key=lambda row: row.key)))
 
 
-MOST_COMPARED = 64
-"""Rows of a family that are read by themselves, to compare what each states with what follows from its example: about a
-hundredth of a second."""
+MOST_COMPARED = 8
+"""Rows of a family that are read by themselves beside the extremes of its classes, to compare what each states with
+what follows from its example: about a thousandth of a second."""
 
 _GOLDEN = 0.6180339887498949
 """Steps of this part of a family meet the values of every word, whatever other words vary beside it."""
@@ -232,7 +232,7 @@ def _with_others(found: Examples, ranges: Ranges) -> Iterator[Example]:
     count = ranges.count
     is_small = count <= MOST_COMPARED
     rows = range(count) if is_small else sorted({int(each * _GOLDEN % 1 * count) for each in range(MOST_COMPARED)})
-    others: dict[int, dict[tuple[float, ...], None]] = {row.key: {row.others[0]: None} for row in found.rows}
+    others = {row.key: dict.fromkeys(row.others) for row in found.rows}
     for number in rows:
         part = ranges.rows(number, number + 1)
         key = int(found.keys_of(part)[0])
@@ -274,25 +274,39 @@ def reading_of(template: Template, values: Mapping[str, float]) -> Reading:
 
 
 def _examples_between(limits: tuple[WordLimits, ...], ranges: Ranges) -> Examples:
-    """A row for each set of intervals in which the values lie."""
+    """A row for each set of intervals in which the values lie, beside those where words have their extremes in it."""
     if prod(each.count for each in limits) >= 2**63:
         raise FamilyError(f"{len(limits)} words are too many to vary at once")
     words = list(ranges.values.values())
     numbers = [each.intervals(values) for each, values in zip(limits, words, strict=True)]
-    columns = [_key_of(numbers, limits)] if ranges.is_paired else numbers
-    unique = [numpy.unique(each, return_index=True, return_counts=True) for each in columns]
-    lasts = [each.size - 1 - numpy.unique(each[::-1], return_index=True)[1] for each in columns]
+    parts = (
+        [_groups(_key_of(numbers, limits), words)]
+        if ranges.is_paired
+        else [_groups(number, [values]) for number, values in zip(numbers, words, strict=True)]
+    )
     rows: list[Example] = []
-    parts = [(*each, last) for each, last in zip(unique, lasts, strict=True)]
-    for choice in product(*(zip(*(each.tolist() for each in found), strict=True) for found in parts)):
-        own, firsts, counts, ends = zip(*choice, strict=True)
+    for choice in product(*parts):
+        own, counts, places = zip(*choice, strict=True)
         key = own[0] if ranges.is_paired else int(_key_of(own, limits))
-        values, others = (
-            tuple(float(each[at]) for each, at in zip(words, places * repeats, strict=True))
-            for places, repeats in ((firsts, len(words) // len(firsts)), (ends, len(words) // len(ends)))
+        values, *others = (
+            tuple(float(each[at]) for each, at in zip(words, row * (len(words) // len(row)), strict=True))
+            for row in zip(*places, strict=True)
         )
-        rows.append(Example(key, values, prod(counts), others=(others,)))
+        rows.append(Example(key, values, prod(counts), others=tuple(others)))
     return Examples(limits, tuple(rows))
+
+
+def _groups(numbers: NDArray[Any], words: Sequence[Array]) -> list[tuple[int, int, list[int]]]:
+    """Of each number that rows have: itself, how many have it, and the first of these rows, with those where a word is
+    least or greatest."""
+    order = numpy.argsort(numbers, kind="stable")
+    own, starts, counts = numpy.unique(numbers[order], return_index=True, return_counts=True)
+    found: list[tuple[int, int, list[int]]] = []
+    for number, start, count in zip(own.tolist(), starts.tolist(), counts.tolist(), strict=True):
+        rows = order[start : start + count]
+        ends = (end(values[rows]) for values in words for end in (numpy.argmin, numpy.argmax))
+        found.append((number, count, [int(rows[0]), *(int(rows[each]) for each in ends)]))
+    return found
 
 
 def _key_of(numbers: Sequence[NDArray[Any]] | tuple[int, ...], limits: Sequence[WordLimits]) -> Places:

@@ -169,6 +169,10 @@ def _sum(one: Traced, own: int, other: Any, others: int) -> Affine:
     )
 
 
+Alike = tuple[object, ...]
+"""All that is the same of rows that are read alike."""
+
+
 class Reading(Struct, frozen=True, eq=False):
     """Reading of the free words in one row.
 
@@ -183,6 +187,8 @@ class Reading(Struct, frozen=True, eq=False):
     is_calculated: bool
     claim: ParsedContour | None = None
     """The contour as it was read, of numbers that remember their words."""
+    alike: Alike = ()
+    """All of it that is no number."""
 
     @property
     def is_by_row(self) -> bool:
@@ -203,7 +209,7 @@ class Reading(Struct, frozen=True, eq=False):
             return False
         numbers, others = _numbers_of(self.claim), _numbers_of(there)
         return (
-            _alike(self.claim) == _alike(there)
+            self.alike == _alike(there)
             and numbers.keys() == others.keys()
             and all(abs(_at(each, values) - others[name]) <= _SAME for name, each in numbers.items())
         )
@@ -219,7 +225,7 @@ def trace_reading(template: Template, values: Mapping[str, float], answer: Answe
     givens = {name: each.value.follows for name, each in claim.givens.items() if isinstance(each.value, Traced)}
     begins = enumerate(claim.before.start().values)
     start = {axis: value.follows for axis, value in begins if isinstance(value, Traced)}
-    return Reading(givens, start, tuple(notes.borders.values()), notes.is_calculated, claim)
+    return Reading(givens, start, tuple(notes.borders.values()), notes.is_calculated, claim, _alike(claim))
 
 
 def _is_read_so(claim: ParsedContour, answer: Answer) -> bool:
@@ -295,9 +301,6 @@ def _first_contour(
 
 OWN = "@"
 """Prefix of the names of values that each row states by itself."""
-
-Alike = tuple[object, ...]
-"""All that is the same of rows that are read alike."""
 
 
 class RowReading(Struct, frozen=True, eq=False):

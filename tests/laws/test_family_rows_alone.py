@@ -11,7 +11,7 @@ from generate_families import BLOCKS, ROWS, draw
 
 from contoursolve import FamilyError, family, find_word, sensitivity, solve, tolerances
 from contoursolve.families import feasible, is_contour, region, regions, traced_reading
-from contoursolve.families.block_template import spec_of
+from contoursolve.families.block_template import Template, spec_of
 from contoursolve.families.traced_reading import Traced
 from contoursolve.families.word_values import name_of
 from contoursolve.output.families import rest_lines
@@ -83,6 +83,35 @@ def test_what_a_number_forgets_stays_in_no_row(monkeypatch, order):
     for row, value in enumerate(order):
         answer = alone(HANDED_ON, {"2:CCA": value}, **KLARTEXT)
         assert not difference({name: found[name][row] for name in found.columns}, answer)
+
+
+def test_a_comparison_that_is_forgotten_is_met_at_the_extremes_of_a_word(monkeypatch):
+    """One row of a thousand, anywhere among them, ends on the other side of the centre of its arc."""
+    monkeypatch.setattr(Traced, "_compared", lambda _self, value, _other: value)
+    block, options = "G112 X100. K-30. I10. R20.", {"control": "yasnac-lx3", "start": "X80. Z0."}
+    ends = np.linspace(100, 110, 1_000)
+    ends[517] = 60
+    found = family(block, vary={"X": ends}, **options)
+    for row in (0, 516, 517, 999):
+        assert not difference(
+            {name: found[name][row] for name in found.columns}, alone(block, {"X": ends[row]}, **options)
+        )
+
+
+def test_a_family_of_thousands_reads_and_solves_a_few_rows(monkeypatch):
+    read, solved = Counter(), Counter()
+    own, solve_one = traced_reading.read_row, Template._solved
+    monkeypatch.setattr(traced_reading, "read_row", lambda *given: read.update(["read"]) or own(*given))
+    monkeypatch.setattr(
+        Template, "_solved", lambda template, values: solved.update([str(values)]) or solve_one(template, values)
+    )
+    block, axes = (
+        "G111 X100. A180. K-30. B120. P5. Q5.",
+        {"A": np.linspace(150, 210, 90), "P": np.linspace(0.1, 30, 90)},
+    )
+    assert family(block, vary=axes, start="X40. Z0.").shape == (90, 90)
+    assert read.total() <= 16
+    assert solved.total() == len(solved) <= 2
 
 
 def test_tangent_arcs_turn_to_the_side_of_their_row():
