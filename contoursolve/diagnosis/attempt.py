@@ -2,9 +2,9 @@
 
 import dataclasses
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from decimal import Decimal
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -320,6 +320,14 @@ class Trial(Struct, frozen=True, dict=True):
 
     def find(self, edits: tuple[Edit, ...]) -> ParsedContour | None:
         """The edited blocks as they are read; None where they are not the same contour any more."""
+        return self._lately(edits)
+
+    @cached_property
+    def _lately(self) -> Callable[[tuple[Edit, ...]], ParsedContour | None]:
+        """The same, of a few edits kept: those of one word are asked for again."""
+        return lru_cache(maxsize=16)(self._find)
+
+    def _find(self, edits: tuple[Edit, ...]) -> ParsedContour | None:
         claim, dialect = self.claim, self.dialect
         texts = apply_edits(claim.blocks, edits)
         read = [

@@ -152,7 +152,7 @@ def _far_grid(claim: ParsedContour, profile: Profile, name: str, value: float) -
     grid = _grid(claim, profile, name)
     if profile.givens[name].unit is Unit.DEGREE:
         return numpy.unique(numpy.append(grid, value))
-    step, start = _increment(claim, name), _start_of(profile, name)
+    step, start = _increment(claim, name), _starts_of(profile).get(name, 0.0)
     reach = _reach(profile, [name])
     far = numpy.geomspace(reach, max(2 * reach, FAR), MOST_FAR)
     sides = [start + far] if name in _sizes(profile) else [start - far, start + far]
@@ -291,7 +291,8 @@ def _several(claim: ParsedContour, profile: Profile, names: Sequence[str]) -> It
             yield from (rows[[place]] for place in _apart(len(rows), MOST_PROPOSED))
             return
         lengths = [place for place, name in enumerate(names) if profile.givens[name].unit is not Unit.DEGREE]
-        steps = rows[:, lengths] - [_start_of(profile, names[place]) for place in lengths]
+        starts = _starts_of(profile)
+        steps = rows[:, lengths] - [starts.get(names[place], 0.0) for place in lengths]
         unusual = ((abs(steps) * REACH / reach - 0.5) ** 2).sum(axis=1)
         places = numpy.flatnonzero(passed)
         ordered = rows[places[numpy.argsort(unusual[places], kind="stable")]]
@@ -317,19 +318,22 @@ def _apart(count: int, few: int) -> list[int]:
 
 def _reach(profile: Profile, names: Sequence[str]) -> float:
     """The distance from the start point, or from zero, within which lengths are looked for, mm."""
+    starts = _starts_of(profile)
     lengths = (
-        abs(float(given.value) - _start_of(profile, name))
+        abs(float(given.value) - starts.get(name, 0.0))
         for name, given in profile.givens.items()
         if given.unit is Unit.MM and name not in names
     )
     return REACH * max((*lengths, 10.0))
 
 
-def _start_of(profile: Profile, name: str) -> float:
-    """The coordinate of the start point on the axis of a given that is a coordinate, mm; 0 for any other."""
-    placed = next((fact.placed for fact in profile.facts if fact.placed and fact.given == name), None)
-    axis = placed.axis if placed and not placed.origin else None
-    return float(profile.start.values[axis] or 0) if axis is not None else 0.0
+def _starts_of(profile: Profile) -> dict[str, float]:
+    """The coordinates of the start point from which givens that are coordinates count, mm; those of others are 0."""
+    found: dict[str, float] = {}
+    for fact in profile.facts:
+        if placed := fact.placed:
+            found.setdefault(fact.given, 0.0 if placed.origin else float(profile.start.values[placed.axis] or 0))
+    return found
 
 
 def _grid(claim: ParsedContour, profile: Profile, name: str, coarse: float = 0.0) -> Array:
@@ -345,7 +349,7 @@ def _grid(claim: ParsedContour, profile: Profile, name: str, coarse: float = 0.0
     step = _increment(claim, name)
     if coarse:
         step *= 10 ** max(0, round(log10(coarse / step)))
-    return numpy.unique(numpy.rint((_start_of(profile, name) + steps) / step) * step)
+    return numpy.unique(numpy.rint((_starts_of(profile).get(name, 0.0) + steps) / step) * step)
 
 
 def _increment(claim: ParsedContour, name: str) -> float:

@@ -102,14 +102,15 @@ def still_able(lack: Lack, unable: Collection[str]) -> Lack | None:
 def partners_of(claim: ParsedContour) -> tuple[list[str], list[str]]:
     """Words that others need to say anything, where with them nothing is open, and these others; none where it is."""
     partners, halves = dict[str, None](), dict[str, None]()
-    needs, poles = {row.needs for row in claim.form.outline.facts}, claim.form.free.poles
+    needs, poles = dict.fromkeys(row.needs for row in claim.form.outline.facts), claim.form.free.poles
+    usual = {*claim.form.free.usual}
     effective = {name for each in needs if claim.givens.keys() >= {*each} for name in each}
-    for names in dict.fromkeys(row.needs for row in claim.form.outline.facts):
+    for names in needs:
         stated = [name for name in names if name in claim.givens]
         missing = [name for name in names if name not in claim.givens]
         # A pole says nothing without polar words, but it is no half of one; they say nothing without it.
         is_polar = bool(stated) and all(name.rpartition(":")[0] in poles for name in missing)
-        is_half = not effective.intersection(names) and not {*names} & {*claim.form.free.usual}
+        is_half = not effective.intersection(names) and usual.isdisjoint(names)
         if missing and (is_polar or is_half):
             partners |= dict.fromkeys(missing if stated else ())
             halves |= dict.fromkeys(name for name in stated if name.rpartition(":")[0] not in poles)

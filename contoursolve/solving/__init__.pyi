@@ -29,7 +29,6 @@ from .checks import (
     Stage as Stage,
     Test as Test,
     add_checks as add_checks,
-    agreement_rows as agreement_rows,
     at_origin as at_origin,
     check_facts as check_facts,
     check_path as check_path,
@@ -38,7 +37,6 @@ from .checks import (
     compile_checked as compile_checked,
     compile_checks as compile_checks,
     measured_figure as measured_figure,
-    passed_rows as passed_rows,
     plain_checks as plain_checks,
 )
 from .closed_steps import is_searched as is_searched
@@ -157,6 +155,7 @@ from .picks import (
     pick as pick,
     resolved_later as resolved_later,
 )
+from .row_checks import agreement_rows as agreement_rows, passed_rows as passed_rows
 from .row_outcome import (
     REASONS as REASONS,
     UNVERIFIED as UNVERIFIED,

@@ -1,11 +1,10 @@
-"""The conditions on a contour as one table of margins, and the values of some words that pass it."""
+"""The conditions on a contour as one table of margins."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
 from functools import lru_cache, reduce
 from typing import Any
 
-import numpy
 from msgspec import Struct
 
 from contoursolve.geometry import (
@@ -18,36 +17,24 @@ from contoursolve.geometry import (
     Figure,
     Increments,
     Line,
-    Profile,
     System,
-    Unit,
     Values,
-    assemble,
     scalar,
 )
 from contoursolve.numeric import (
-    COSINE,
     FLOATS,
-    SINE,
-    Array,
     Compiled,
     Functions,
-    Replay,
     Tape,
-    difference,
-    directions,
     largest,
-    replay_rows,
     true,
 )
 from contoursolve.solving.compare import agreement
 from contoursolve.solving.compile import compile_plainly, compile_system
-from contoursolve.solving.construction import Construction, ConstructionStep, StepKind, is_closed
+from contoursolve.solving.construction import Construction, ConstructionStep, StepKind
 from contoursolve.solving.corners import Pair
-from contoursolve.solving.determinacy import analyse
 from contoursolve.solving.events import RefusalKind
 from contoursolve.solving.inputs import EXPRESSIONS, input_values
-from contoursolve.solving.numbers import axes_of, inputs_of
 from contoursolve.solving.path_outputs import PathOutputs
 from contoursolve.solving.solution import Refusal
 from contoursolve.solving.step_outputs import StepOutputs
@@ -420,49 +407,3 @@ def elements_at(corner: Corner, path: PathOutputs) -> list[str]:
     """The elements that a corner joins, as far as they have two ends."""
     after = corner.after or corner.lands_on
     return [corner.before, *([after] if after and after in path.lengths else [])]
-
-
-def passed_rows(profile: Profile, values: Mapping[str, Array]) -> numpy.ndarray | None:
-    """For each row of values of some givens (mm, X as radius, or degrees), whether every check is passed, as far as
-    floats can tell. None where no one function answers all rows: there is no closed form, or a point may lie in two
-    places between which nothing chooses. Raises ValueError without a start."""
-    found = _replay(profile, values)
-    return None if found is None else numpy.equal(found[-1], 1)
-
-
-def agreement_rows(profile: Profile, values: Mapping[str, Array]) -> numpy.ndarray | None:
-    """For each row, by how much the facts that were not needed agree more closely than they must (mm; below 0 if one of
-    them does not agree, and NaN where that is not known). None as above, and where every fact is needed."""
-    found = _replay(profile, values)
-    return None if found is None or len(found) == 1 else numpy.min(found[:-1], axis=0)
-
-
-def _replay(profile: Profile, values: Mapping[str, Array]) -> list[numpy.ndarray] | None:
-    """The outputs of the checks, a column each."""
-    system = assemble(profile)
-    if not analyse(system).is_determined or not is_closed(system):
-        return None
-    names, replay = _compile(system)
-    inputs: dict[str, float | Array] = {**inputs_of(profile, system)}
-    if not inputs.keys() >= {*names}:
-        return None
-    axes, start = axes_of(system), profile.start.values
-    for name, column in values.items():
-        if profile.givens[name].unit is Unit.DEGREE:
-            inputs[name + COSINE], inputs[name + SINE] = directions(column)
-        else:
-            inputs[name] = difference(column, float(start[axes[name]] or 0)) if name in axes else column
-    count = len(next(iter(values.values())))
-    with numpy.errstate(all="ignore"):
-        # Numbers of NumPy, because those of Python do not divide by zero.
-        return [numpy.broadcast_to(each, count) for each in replay([numpy.float64(inputs[name]) for name in names])]
-
-
-@lru_cache(maxsize=256)
-def _compile(system: System) -> tuple[tuple[str, ...], Replay]:
-    """The inputs of the checks of a system, and as a function of these the margins of the facts that were not needed,
-    and whether all checks are passed."""
-    checked = compile_checks(system)
-    tape = checked.tape.keep(checked.outputs.margins.values())
-    tape.output("clear", checked.is_clear)
-    return tape.inputs, replay_rows(tape)

@@ -16,7 +16,7 @@ from contoursolve.solving.elimination import Close, Obstacle, ObstacleError, Roo
 from contoursolve.solving.exact_inputs import Ground, ground_of
 from contoursolve.solving.partition import Group
 from contoursolve.solving.senses import Sense, senses_of
-from contoursolve.solving.step_equations import Coefficient, Kernel, Local, make_kernel, polynomials_of
+from contoursolve.solving.step_equations import Coefficient, Kernel, Local, local_of, make_kernel, polynomials_of
 
 
 class Effort(Struct, frozen=True):
@@ -198,7 +198,7 @@ class _Search:
         return ExactSolution(state.scalars, signs, state.doubles)
 
     def _advance(self, states: Sequence[ExactSolution], group: Group) -> _Steps[list[ExactSolution]]:
-        local = Local(self.system, group)
+        local = local_of(self.system, group)
         kernel = make_kernel(local)
         cases = [
             ExactSolution(state.scalars, signs, state.doubles) for state in states for signs in _choices(state, kernel)

@@ -9,7 +9,7 @@ from contoursolve.numeric import Number, ball, expressions
 from contoursolve.solving.exact_inputs import Ground
 from contoursolve.solving.partition import Group
 from contoursolve.solving.solution import Proof, up_to_one_digit
-from contoursolve.solving.step_equations import Kernel, Local, make_kernel
+from contoursolve.solving.step_equations import Kernel, Local, local_of, make_kernel
 
 
 class Content(Enum):
@@ -107,7 +107,7 @@ class Prover:
     """Proves solutions of one system on one ground; a step that solutions have in common is tested once."""
 
     def __init__(self, system: System, groups: Sequence[Group], ground: Ground) -> None:
-        self.steps = [Local(system, group) for group in groups]
+        self.steps = [local_of(system, group) for group in groups]
         self.ground = ground
 
     def prove(self, scalars: Mapping[str, Number], signs: Mapping[str, int]) -> tuple[Proof, dict[str, Number]]:

@@ -186,6 +186,12 @@ class Local:
 
 
 @lru_cache(maxsize=8192)
+def local_of(system: System, group: Group) -> Local:
+    """The group by itself, the same object each time."""
+    return Local(system, group)
+
+
+@lru_cache(maxsize=8192)
 def polynomials_of(local: Local) -> Polynomials | None:
     """The polynomials of a group of facts of a system; None if an equation is none, or of higher degree."""
     symbols = {name: expressions.symbol(name) for name in local.group.unknowns}

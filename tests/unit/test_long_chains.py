@@ -9,6 +9,7 @@ from long_chains import angles, corners, klartext
 import contoursolve
 from contoursolve.diagnosis.attempt import Trial
 from contoursolve.solving import enumerate as enumerate_module
+from contoursolve.solving.construction import Builder
 
 SHORT, TIMES = 24, 4
 """Elements of the short chain, and how much longer the long one is."""
@@ -47,6 +48,16 @@ def test_trials_on_a_chain_solve_what_they_change_and_no_more():
     assert len(answer.diagnostics[0].fixes) > 1
     asked, solved = enumerate_module._roots_of.cache_info()[:2]
     assert solved <= 300 < 1_500 <= asked + solved
+
+
+def test_numbers_for_a_missing_word_are_tried_on_what_they_move_alone(monkeypatch):
+    """Of 200 steps, each of the 8 words that may be missing moves a few."""
+    build, built = Builder.run, list[str]()
+    monkeypatch.setattr(Builder, "run", lambda builder, step: built.append(step.kind.name) or build(builder, step))
+    (answer,) = contoursolve.solve(klartext(100, "missing"), control="heidenhain").answers
+    numbers = [each for fix in answer.diagnostics[0].fixes for each in fix.numbers]
+    assert len([each for each in numbers if each.ranges]) > 6
+    assert len(built) < 300
 
 
 def test_of_a_long_chain_no_more_words_are_tried_than_of_a_short_one(monkeypatch):
