@@ -372,14 +372,15 @@ def may_be_suspected(answer: Answer, beside: Iterable[Block], around: Callable[[
     contour, claim = answer.contour, answer.claim
     if contour is None:
         return False
-    if contour.crossing is not None:
+    if any(each.about is ReadIssue.AXIS_CROSSED for each in answer.diagnostics):
         return True
-    turned = next((number for number, is_diameter in enumerate(contour.plane.diameters) if is_diameter), None)
-    if turned is not None and any(each.end[1 - turned] - each.start[1 - turned] > LENGTH for each in contour.elements):
-        return True
-    if any(isinstance(each, ArcSegment) and each.length > _WIDE * each.radius for each in contour.elements):
-        return True
-    if any(True for _ in leading_words(claim)) or any(True for _ in turning_words(claim)):
+    along = contour.plane.diameters.index(False) if any(contour.plane.diameters) else None
+    for each in contour.elements:
+        if along is not None and each.end[along] - each.start[along] > LENGTH:
+            return True
+        if isinstance(each, ArcSegment) and each.length > _WIDE * each.radius:
+            return True
+    if next(leading_words(claim), None) or next(turning_words(claim), None):
         return True
     return stands_out(claim, beside, around)
 

@@ -3,6 +3,7 @@ from the other axis."""
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import lru_cache
+from itertools import chain
 
 from contoursolve.gcode import Block, Word
 from contoursolve.reading import ContourForm, ParsedContour
@@ -17,43 +18,13 @@ _RIGHT_ANGLE, _HALF_TURN = 90, 180
 
 
 def stands_out(claim: ParsedContour, beside: Iterable[Block], around: Callable[[], Sequence[Block]]) -> bool:
-    """Whether one of its blocks differs from all others around. Of these, which are `beside` it, only as many are read
-    as it takes to see that none does."""
-    if not (_may_be_sharp(claim) or _may_be_other_taper(claim, beside)):
-        return False
-    blocks = around()
-    return sharp_corner(claim, blocks) is not None or other_taper(claim, blocks) is not None
-
-
-def _may_be_sharp(claim: ParsedContour) -> bool:
-    """Whether one of its blocks breaks no corner, and the others break theirs alike."""
+    """Whether one of its blocks differs from all others around. Of these, which are `beside` it without plain lines,
+    only as many are read as it takes to see that none does."""
+    if other_taper(claim, chain(claim.blocks, beside)) is not None:
+        return True
     shapes = _shapes(claim)
-    sized = [[word for word in block.words if word.address in shapes] for block in claim.blocks] if shapes else [[None]]
-    return not all(sized) and len({(word.address, word.number) for words in sized for word in words if word}) <= 1
-
-
-def _may_be_other_taper(claim: ParsedContour, beside: Iterable[Block]) -> bool:
-    """Whether all tapers beside it are measured from the axis from which one of its own is not."""
-    if not any(claim.before.plane.diameters):
-        return False
-    own = [claim.words[name] for name in _headings(claim.form) if name in claim.words]
-    odd = {taper for taper in map(taper_of, own) if taper not in (0, _RIGHT_ANGLE / 2, _RIGHT_ANGLE)}
-    if not odd:
-        return False
-    found = _tapers(claim, claim.blocks)
-    count = len(found) - 1
-    for block in beside:
-        for taper, _ in _tapers(claim, [block]):
-            odd &= {_RIGHT_ANGLE - taper}
-            count += 1
-        if not odd:
-            break
-    return bool(odd) and count >= _ALIKE
-
-
-def _shapes(claim: ParsedContour) -> set[str]:
-    """The addresses of the words that break corners."""
-    return {claim.vocabulary[name][0] for name in claim.form.outline.shapes if name in claim.vocabulary}
+    is_sharp = shapes and not all(any(word.address in shapes for word in block.words) for block in claim.blocks)
+    return bool(is_sharp) and sharp_corner(claim, around()) is not None
 
 
 def sharp_corner(claim: ParsedContour, blocks: Sequence[Block]) -> tuple[Block, Word] | None:
@@ -77,26 +48,29 @@ def sharp_corner(claim: ParsedContour, blocks: Sequence[Block]) -> tuple[Block, 
     return (sharp[0], sized[0]) if len(sharp) == 1 and sharp[0].line in own else None
 
 
-def other_taper(claim: ParsedContour, blocks: Sequence[Block]) -> Word | None:
+def other_taper(claim: ParsedContour, blocks: Iterable[Block]) -> Word | None:
     """The only angle of a turned contour that makes with the other axis the angle that all other tapers around make
-    with theirs; None if there is none such."""
-    if not any(claim.before.plane.diameters):
+    with theirs; None if there is none such. `blocks` are those of the contour and some around it, in any order; no more
+    of them are read than it takes."""
+    words, headings = claim.words, _headings(claim.form)
+    tapers = [(words[name], taper_of(words[name])) for name in headings if name in words]
+    odd = [each for each in tapers if each[1] not in (0, _RIGHT_ANGLE / 2, _RIGHT_ANGLE)]
+    if not odd or not any(claim.before.plane.diameters):
         return None
-    tapers = _tapers(claim, blocks)
-    own = {word.span for word in claim.words.values()}
-    for taper, word in tapers:
-        others = [each for each, other in tapers if other is not word]
-        is_other = len(others) >= _ALIKE and {*others} == {_RIGHT_ANGLE - taper}
-        if is_other and word.span in own and taper != _RIGHT_ANGLE - taper:
-            return word
-    return None
+    addresses, count = {claim.vocabulary[name][0] for name in headings if name in claim.vocabulary}, 0
+    for block in blocks:
+        for other in block.words:
+            if other.address in addresses and (taper := taper_of(other)) not in (0, _RIGHT_ANGLE):
+                count += 1
+                odd = [each for each in odd if each[1] == _RIGHT_ANGLE - taper or each[0].span == other.span]
+        if not odd:
+            return None
+    return odd[0][0] if count > _ALIKE else None
 
 
-def _tapers(claim: ParsedContour, blocks: Iterable[Block]) -> list[tuple[float, Word]]:
-    """The words of some blocks that are angles of lines as a contour has them, aslant, each with its taper."""
-    addresses = {claim.vocabulary[name][0] for name in _headings(claim.form) if name in claim.vocabulary}
-    words = [word for block in blocks for word in block.words if word.address in addresses and word.number is not None]
-    return [(taper, word) for word in words if (taper := taper_of(word)) not in (0, _RIGHT_ANGLE)]
+def _shapes(claim: ParsedContour) -> set[str]:
+    """The addresses of the words that break corners."""
+    return {claim.vocabulary[name][0] for name in claim.form.outline.shapes if name in claim.vocabulary}
 
 
 @lru_cache(maxsize=256)
