@@ -173,7 +173,7 @@ def check(
     >>> [each.code for each in check("G00 X40. Z0.\\nG111 X100. A180. B120.")]
     ['g111-line-1', 'words-missing']
     """
-    return _follow(_read(text, name), SolveOptions(**options)).collect().diagnostics
+    return _follow(_read(text, name), SolveOptions(**options, depth=_FINDINGS)).collect().diagnostics
 
 
 @takes(CheckKeywords)
@@ -195,7 +195,7 @@ def apply_fixes(
     """
     from contoursolve.program import examined_result, likely_fixes, mend, safe_fixes  # noqa: PLC0415 - only this mends
 
-    asked = SolveOptions(**options)
+    asked = SolveOptions(**options, depth=_FINDINGS)
     _read(text, name)
     return mend(
         text,
@@ -223,7 +223,7 @@ def check_file(
     **options: Unpack[CheckKeywords],
 ) -> tuple[Diagnostic, ...]:
     """The findings about a file, with arguments as for `check` and errors as for `solve_file`."""
-    return _follow_file(path, SolveOptions(**options)).collect().diagnostics
+    return _follow_file(path, SolveOptions(**options, depth=_FINDINGS)).collect().diagnostics
 
 
 def _follow_file(path: str | Path, options: SolveOptions) -> Run:
@@ -259,9 +259,11 @@ def _follow(program: Program, options: SolveOptions) -> Run:
     if asked.dialect is not None and len(program.blocks) >= _MANY:
         from contoursolve.program import Batch  # noqa: PLC0415 - a few blocks are solved before it is imported
 
-        together = Batch(asked.dialect, asked.policy, is_proven=asked.depth is not Depth.PATH)
+        together = Batch(asked.dialect, asked.policy, is_proven=asked.depth.is_proven)
     return Run(program, asked, together)
 
+
+_FINDINGS = Depth.FINDINGS.value
 
 _MANY = 64
 """Blocks of a program whose contours are solved together."""

@@ -116,7 +116,7 @@ def check(
     """
     names = [name for program in programs for name in files_named(program)]
     loaders, fixing, hiding = load(names, blocks), read_fixing(options), _Hiding(new_baseline, baseline)
-    options["strict"] = is_strict or bool(blocks)
+    options |= {"strict": is_strict or bool(blocks), "depth": "findings"}
     if fixing:
         fixing.check_usage(format_, has_input=not names or STANDARD_INPUT in names)
     is_silent = new_baseline is not None or (fixing is not None and fixing.is_diff)

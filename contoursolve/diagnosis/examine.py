@@ -103,8 +103,20 @@ class Depth(Enum):
     finding."""
     FULL = "full"
     """Also why they are so, and every repair; some milliseconds a contour."""
+    FINDINGS = "findings"
+    """Also why they are so, and every repair; nothing is proven, for who reads the findings sees no proof."""
     TRIAL = "trial"
     """Only whether there is a contour without a finding; of one with findings, not every word that is to blame."""
+
+    @property
+    def is_proven(self) -> bool:
+        """Whether what is solved is proven to be the only solution."""
+        return self in (Depth.VERDICT, Depth.FULL)
+
+    @property
+    def is_full(self) -> bool:
+        """Whether everything is said of what is wrong."""
+        return self in (Depth.FULL, Depth.FINDINGS)
 
 
 class AskedValue(Struct, frozen=True):
@@ -552,7 +564,7 @@ def _solve(
 ) -> tuple[Profile, Solution, Alternatives | None]:
     """The contour that the control makes, or the only one that there is; and the profile that it is one of."""
     is_chosen = not profile.is_extended and not _has_choice(profile)
-    solution = solve(profile, is_proven=depth not in (Depth.PATH, Depth.TRIAL)) if is_chosen else None
+    solution = solve(profile, is_proven=depth.is_proven) if is_chosen else None
     touches = solution is not None and any(remark.kind is NoteKind.TOUCHES for remark in solution.remarks)
     if solution is not None and not (touches and count_choices(profile) <= MOST_CHOICES):
         return profile, solution, None

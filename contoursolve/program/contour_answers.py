@@ -56,7 +56,7 @@ def explained(asked: Request, dialect: Dialect, answer: Answer, pending: Pending
 
         following = pending.view[pending.after : pending.after + BEHIND]
         answer = diagnose(answer, dialect, asked.policy, following, last_of(pending.ahead, dialect.modes), window())
-        if asked.depth is Depth.FULL and _has(answer, ReadIssue.VARIABLE):
+        if asked.depth.is_full and _has(answer, ReadIssue.VARIABLE):
             from contoursolve.program.open_values import tell_values  # noqa: PLC0415 - few contours need it
 
             return tell_values(answer, dialect, asked.policy)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, cast
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from contoursolve.diagnosis import Answer, Depth, Policy, rank
+from contoursolve.diagnosis import Answer, Policy, rank
 from contoursolve.diagnostics import Diagnostic, ProgramError, Shown, Span
 from contoursolve.execution import ALONE, Machine, ProgramEvent, Surroundings
 from contoursolve.gcode import Directive, Program, spelled
@@ -186,7 +186,7 @@ class Run:
             asked,
             asked.dialect,
             self._together,
-            goes_on=asked.depth is Depth.FULL,
+            goes_on=asked.depth.is_full,
             is_run=machine is not None,
         )
         if machine is not None:
