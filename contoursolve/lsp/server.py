@@ -8,7 +8,6 @@ import gc
 import logging
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from functools import partial
 from importlib import import_module
 from itertools import count
 from math import inf
@@ -174,20 +173,14 @@ class Server(LanguageServer):
         if workspace and workspace.code_lens and workspace.code_lens.refresh_support:
             self.workspace_code_lens_refresh(None)
 
-    async def checked(self, uri: str) -> Opened | None:
-        """A program with all of it examined; None if it is not open."""
-        while uri in self.checking and not self.checking[uri].done():
-            await asyncio.wait([self.checking[uri]])
-        return self.opened.get(uri)
-
-    async def examined(self, uri: str, line: int, patience: float = inf) -> Opened | None:
-        """A program with its lines up to one examined, or as far as that gets in so many seconds; None if it is not
-        open."""
-        end = monotonic() + patience
+    async def examined(self, uri: str, line: int | None = None, patience: float = inf) -> Opened | None:
+        """A program with all of it examined, or its lines up to one, or as far as that gets in so many seconds; None if
+        it is not open."""
+        end, pause = monotonic() + patience, None if line is None else MOMENT
         while uri in self.checking and not self.checking[uri].done() and monotonic() < end:
-            if self.is_configured.is_set() and self.opened[uri].program.examined >= line:
+            if line is not None and self.is_configured.is_set() and self.opened[uri].program.examined >= line:
                 break
-            await asyncio.wait([self.checking[uri]], timeout=MOMENT)
+            await asyncio.wait([self.checking[uri]], timeout=pause)
         return self.opened.get(uri)
 
     def close(self, uri: str) -> None:
@@ -241,30 +234,18 @@ def _go_on(opened: Opened) -> bool:
     return True
 
 
-def _of_lines(method: str, patience: float = inf) -> Callable[[Any], Any]:
-    """A handler of requests about a place or a range, answered when the program is examined up to there, or after so
-    many seconds; null if it is not open."""
+def _handler(method: str, patience: float | None) -> Callable[[Any], Any]:
+    """A handler of requests about a program, answered when all of it is examined; with `patience`, of those about a
+    place or a range, answered when it is examined up to there, or after so many seconds; null if it is not open."""
 
     async def handle(params: Any) -> Any:
-        last = params.range.end if hasattr(params, "range") else params.position
-        opened = await server.examined(params.text_document.uri, last.line + 1, patience)
-        return None if opened is None else _answer(method, opened, params)
+        from contoursolve.lsp.answers import ANSWERS  # noqa: PLC0415 - as in `initialized`
 
-    return handle
-
-
-def _answer(method: str, opened: Opened, params: Any) -> Any:
-    from contoursolve.lsp.answers import ANSWERS  # noqa: PLC0415 - as in `initialized`
-
-    return ANSWERS[method](opened, params)
-
-
-def _of_program(method: str) -> Callable[[Any], Any]:
-    """A handler of requests about a program, answered when all of it is examined; null if it is not open."""
-
-    async def handle(params: Any) -> Any:
-        opened = await server.checked(params.text_document.uri)
-        return None if opened is None else _answer(method, opened, params)
+        uri, last = params.text_document.uri, None
+        if patience is not None:
+            last = (params.range.end if hasattr(params, "range") else params.position).line + 1
+        opened = await server.examined(uri, last, inf if patience is None else patience)
+        return None if opened is None else ANSWERS[method](opened, params)
 
     return handle
 
@@ -349,29 +330,29 @@ def shutdown(_: Any = None) -> None:
     server.pages.close()
 
 
-_REQUESTS: tuple[tuple[str, Any, Callable[[str], Any]], ...] = (
+_REQUESTS: tuple[tuple[str, Any, float | None], ...] = (
     (
         types.TEXT_DOCUMENT_CODE_ACTION,
         types.CodeActionOptions([types.CodeActionKind.QuickFix, FIX_ALL], resolve_provider=True),
-        _of_program,
+        None,
     ),
-    (types.TEXT_DOCUMENT_HOVER, None, partial(_of_lines, patience=SOON)),
-    (types.TEXT_DOCUMENT_INLAY_HINT, None, _of_lines),
-    (types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=[" ", ",", "#"]), _of_lines),
-    (types.TEXT_DOCUMENT_SIGNATURE_HELP, types.SignatureHelpOptions([" "]), _of_lines),
-    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, _of_program),
-    (types.TEXT_DOCUMENT_FOLDING_RANGE, None, _of_program),
-    (types.TEXT_DOCUMENT_CODE_LENS, None, _of_program),
-    (types.TEXT_DOCUMENT_FORMATTING, None, _of_program),
-    (types.TEXT_DOCUMENT_PREPARE_RENAME, None, _of_program),
-    (types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True), _of_program),
-    (types.TEXT_DOCUMENT_DEFINITION, None, _of_program),
+    (types.TEXT_DOCUMENT_HOVER, None, SOON),
+    (types.TEXT_DOCUMENT_INLAY_HINT, None, inf),
+    (types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=[" ", ",", "#"]), inf),
+    (types.TEXT_DOCUMENT_SIGNATURE_HELP, types.SignatureHelpOptions([" "]), inf),
+    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, None),
+    (types.TEXT_DOCUMENT_FOLDING_RANGE, None, None),
+    (types.TEXT_DOCUMENT_CODE_LENS, None, None),
+    (types.TEXT_DOCUMENT_FORMATTING, None, None),
+    (types.TEXT_DOCUMENT_PREPARE_RENAME, None, None),
+    (types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True), None),
+    (types.TEXT_DOCUMENT_DEFINITION, None, None),
 )
-"""Requests of a client about a program, with the options that it is told, and how long it waits; `answers` has the
-functions that answer."""
+"""Requests of a client about a program, with the options that it is told, and the seconds that it waits for a place in
+it, if it is not about the whole; `answers` has the functions that answer."""
 
-for _name, _options, _way in _REQUESTS:
-    server.feature(_name, _options)(_way(_name))
+for _name, _options, _patience in _REQUESTS:
+    server.feature(_name, _options)(_handler(_name, _patience))
 
 
 @server.feature(types.CODE_ACTION_RESOLVE)
@@ -379,7 +360,7 @@ async def resolve_action(action: types.CodeAction) -> types.CodeAction:
     """An action that was chosen, with its edit."""
     from contoursolve.lsp.findings import uri_of, with_edit  # noqa: PLC0415 - as in `initialized`
 
-    opened = await server.checked(uri_of(action))
+    opened = await server.examined(uri_of(action))
     return action if opened is None else with_edit(opened, action)
 
 
@@ -407,7 +388,7 @@ def _command(make: str) -> Callable[..., Any]:
     async def handle(uri: str, *arguments: Any) -> Any:
         from contoursolve.lsp import commands  # noqa: PLC0415 - as in `initialized`
 
-        return getattr(commands, make)(await server.checked(uri), *arguments)
+        return getattr(commands, make)(await server.examined(uri), *arguments)
 
     return handle
 
@@ -436,7 +417,7 @@ async def show(what: str, uri: str, line: int) -> None:
     own."""
     from contoursolve.lsp import commands  # noqa: PLC0415 - as in `initialized`
 
-    opened = await server.checked(uri)
+    opened = await server.examined(uri)
     name, text = commands.file_of(opened, what, line)
     if text is None:
         server.window_show_message(types.ShowMessageParams(types.MessageType.Warning, name))
