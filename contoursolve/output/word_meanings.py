@@ -1,14 +1,12 @@
 """A contour in words: its form, its end, and its words one by one: what each means, states and fixes."""
 
-from collections.abc import Iterator
 from decimal import Decimal
-from itertools import islice
 
 from msgspec import Struct
 
 from contoursolve.diagnosis import Answer, AskedValue, coordinates, meaning_of, short_name, word_keys
 from contoursolve.gcode import FACT, Word
-from contoursolve.geometry import Length, Line, Unit
+from contoursolve.geometry import Length, Line, Profile, Unit
 
 
 def form_text(answer: Answer) -> str:
@@ -63,28 +61,28 @@ def stated_words(answer: Answer) -> tuple[StatedWord, ...]:
     """
     givens = {given.name: given.word for given in answer.profile.givens.values() if given.word}
     ignored = {fact.given for fact in answer.profile.ignored}
-    keys, found, seen = word_keys(answer.claim.words.values()), [], set[int]()
+    keys, found, seen, fixed = word_keys(answer.claim.words.values()), [], set[int](), _fixed(answer.profile)
     for name, word in sorted(givens.items(), key=lambda item: item[1].span):
         if id(word) not in seen:
             seen.add(id(word))
             value, unit = stated_value(word, answer) if word.address != FACT else (None, "")
             meaning, key = meaning_of(name, word, answer.claim), keys.get(word.span, FACT)
-            fixes = tuple(dict.fromkeys(_fixed(name, answer)))
+            fixes = tuple(dict.fromkeys(fixed.get(name, ())))
             found.append(StatedWord(key, word, meaning, value, unit, fixes, name in ignored))
     return tuple(found)
 
 
-def _fixed(name: str, answer: Answer) -> Iterator[str]:
-    """Names of the point, direction, radius or corner that a given fixes."""
-    headings = {element.heading: element.name for element in answer.profile.figure.path if isinstance(element, Line)}
-    for fact in answer.profile.facts:
-        if fact.given == name:
-            if name in headings:
-                yield headings[name]
-            else:
-                found = (getattr(fact, part, "") for part in ("point", "head", "center", "radius", "line"))
-                yield from (str(each) for each in islice(filter(None, found), 1))
-    yield from (corner.name for corner in answer.profile.figure.corners if corner.size == name)
+def _fixed(profile: Profile) -> dict[str, list[str]]:
+    """Names of the points, directions, radii and corners that each given fixes."""
+    headings = {element.heading: element.name for element in profile.figure.path if isinstance(element, Line)}
+    fixed: dict[str, list[str]] = {}
+    for fact in profile.facts:
+        parts = (getattr(fact, part, "") for part in ("point", "head", "center", "radius", "line"))
+        found = headings.get(fact.given) or next(filter(None, parts), "")
+        fixed.setdefault(fact.given, []).extend([str(found)] if found else ())
+    for corner in profile.figure.corners:
+        fixed.setdefault(corner.size, []).append(corner.name)
+    return fixed
 
 
 def stated_value(word: Word, answer: Answer) -> tuple[float | None, str]:

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace as replace_fields
 from decimal import Decimal
 from enum import Enum
+from functools import lru_cache
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -182,7 +183,20 @@ class ParsedContour:
         circumstances that the words alone do not show."""
         addresses = dict.fromkeys(word.address for block in self.blocks for word in block.words)
         stated = {**addresses, **self.stated(), **dict.fromkeys(more)}
-        return tuple(each for each in self.form.assumptions if each.carries(self.form.roles, stated))
+        by_names, roles = _carried_by_names(self.form, frozenset(stated)), self.form.roles
+        return tuple(
+            each
+            for each, is_carried in zip(self.form.assumptions, by_names, strict=True)
+            if (each.carries(roles, stated) if is_carried is None else is_carried)
+        )
+
+
+@lru_cache(maxsize=8192)
+def _carried_by_names(form: ContourForm, stated: frozenset[str]) -> tuple[bool | None, ...]:
+    """Whether a contour that states these names rests on each assumption of its form; None where values decide.
+    Programs repeat few combinations of words many times."""
+    given = dict.fromkeys(stated)
+    return tuple(None if each.when.reads_values else each.carries(form.roles, given) for each in form.assumptions)
 
 
 def read(claim: ParsedContour, ignored: frozenset[str]) -> Profile:
