@@ -47,13 +47,21 @@ from .lookalikes import (
     mended as mended,
 )
 from .plain_lines import (
-    AXES as AXES,
-    MOST_TOGETHER as MOST_TOGETHER,
     Passage as Passage,
     is_plain_line as is_plain_line,
     motion_of as motion_of,
     split_lines as split_lines,
     words_of as words_of,
+)
+from .plain_spelling import (
+    AXES as AXES,
+    COMMENTS as COMMENTS,
+    LINES as LINES,
+    MOST_TOGETHER as MOST_TOGETHER,
+    NUMBER as NUMBER,
+    REMARK as REMARK,
+    plain_spelling as plain_spelling,
+    words_once as words_once,
 )
 from .syntax import (
     IN_BRACKETS as IN_BRACKETS,

@@ -11,7 +11,7 @@ from typing import overload
 
 from contoursolve.diagnostics import Span
 from contoursolve.gcode.late_pattern import late_pattern
-from contoursolve.gcode.plain_lines import SEVERAL, Passage, split_lines
+from contoursolve.gcode.plain_lines import Passage, split_lines
 from contoursolve.gcode.syntax import ISO, Syntax
 from contoursolve.gcode.word import Block, Directive, Fault, FaultKind, Macro, Named, NamedAs, Program, Word
 
@@ -84,9 +84,9 @@ class Blocks(Sequence[Block]):
     @cached_property
     def _plain(self) -> "array[int]":
         """The index of the first line of each passage of plain lines, and of the line behind it, in turn."""
-        text, begins, found, place = self._text, self._begins, array("Q"), 0
+        text, begins, found, place, several = self._text, self._begins, array("Q"), 0, self._syntax.plain.several
         while place < len(self):
-            passage = SEVERAL.match(text, begins[place])
+            passage = several.match(text, begins[place])
             behind = place + 1 if passage is None else bisect_left(begins, passage.end(), place + 1)
             if passage is not None:
                 found.extend((place, behind))
@@ -119,7 +119,7 @@ class Blocks(Sequence[Block]):
         for others, plain in self._stretches():
             yield from (self._text[begins[place] : begins[place + 1]] for place in others)
             text = self._text[begins[plain.start] : begins[plain.stop]]
-            if "(" in text:
+            if self._syntax is ISO and "(" in text:
                 yield from (line for line in split_lines(text) if "(" in line)
 
 
@@ -137,11 +137,11 @@ def telling_lines(blocks: Iterable[Block]) -> Iterator[str]:
 
 def telling(blocks: Iterable[Block]) -> Iterator[Block]:
     """The blocks that may say more than a motion: without plain lines that nobody has read yet, but for those with a
-    comment, which some controls read."""
+    comment, which controls with another spelling read."""
     for each in in_passages(blocks):
         if isinstance(each, Block):
             yield each
-        elif "(" in each.text:
+        elif each.syntax is ISO and "(" in each.text:
             yield from (block for block in blocks_in(each) if "(" in block.text)
 
 
@@ -234,10 +234,10 @@ def _read_simply(text: str, line: int) -> tuple[Word, ...]:
     return tuple([_simple_word(token, line) for token in _SIMPLE_WORDS.finditer(text)]) if _is_simple(text) else ()
 
 
-def find_words(text: str, line: int, addresses: Container[str]) -> list[Word]:
+def find_words(text: str, line: int, addresses: Container[str], syntax: Syntax) -> list[Word]:
     """The words of a line that have one of some addresses."""
     if not _is_simple(text):
-        return [word for word in parse_block(text, line).words if word.address in addresses]
+        return [word for word in parse_block(text, line, syntax).words if word.address in addresses]
     tokens = _SIMPLE_WORDS.finditer(text)
     return [_simple_word(token, line) for token in tokens if token[1].upper() in addresses]
 

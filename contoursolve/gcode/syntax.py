@@ -4,6 +4,8 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from contoursolve.gcode.plain_spelling import ISO_LINES, PlainSpelling
+
 
 def letter_parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
     """The parts of a word whose address is a letter, or a comma and a letter; of one as other controls have them, with
@@ -50,6 +52,8 @@ class Syntax:
     """Beginning of a block that a switch at the machine skips."""
     bare_number: re.Pattern[str] | None = None
     """A block with its number alone, where none may be left with that."""
+    plain: PlainSpelling = ISO_LINES
+    """The lines that do nothing but move."""
 
 
 # Runs are possessive (`++`, `*+`): what they take is never tried again, so that a line takes time by its length.

@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
 from contoursolve.gcode import (
+    ISO,
     Block,
     Passage,
     Syntax,
@@ -143,14 +144,17 @@ class Expander:
                 self.is_marked = is_remark(passage.lines[-1])
                 texts.append(self.lines.take(passage, place))
                 break
-            words, number = words_of(line), passage.line + place
+            words, number = words_of(line, passage.syntax), passage.line + place
             if words and not self.is_opened:
                 self.is_opened = True
                 self.summary.line_end = self.lines.end_of(number)
                 yield "".join(texts)
                 yield OPENING
                 texts = []
-            if words and is_asking and (self.watch.asks(line) or self.watch.minds(state)):
+            is_asked = is_asking and (self.watch.asks(line) or self.watch.minds(state))
+            # An arc is restated in its own block.
+            is_arc = self.motion is not None and motion_of(words) is None and state.motion not in ISO.plain.motions
+            if words and (is_asked or is_arc):
                 texts += self._keep(parse_block(line.rstrip("\r\n"), number, self.modes.syntax), state)
                 continue
             if words:

@@ -241,7 +241,7 @@ class Examination:
     def _next(self, ahead: Lookahead, cursor: Cursor) -> WalkStep | None:
         """The step at the next line; None where it depends on lines that are not read yet."""
         if isinstance(ahead.line, Passage):
-            passage = ahead.plain(moves=is_plain(cursor.state), joins=self.dialect.has_runs)
+            passage = ahead.plain(moves=is_plain(cursor.state, self.dialect.modes), joins=self.dialect.has_runs)
             if passage is not None:
                 return self.pass_by(passage, cursor)
         view = ahead.view()

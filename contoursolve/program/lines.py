@@ -35,10 +35,14 @@ class Lines:
         """The end of the last line that has one."""
 
     def blocks(self) -> Iterator[Line]:
-        has, facts, syntax = self._plain.has, self._facts, self._dialect.modes.syntax
+        modes, facts = self._dialect.modes, self._facts
+        has, syntax = self._plain.has, modes.syntax
+        # What is written anew is a line in G codes; elsewhere parentheses may be none of a comment.
+        is_iso, has_comments = modes.follow is None, syntax.comment.fullmatch("()") is not None
         held: list[str] = []
         for number, line in enumerate(self._lines, 1):
-            if is_plain_line(line) and has(line) and number not in facts:
+            is_plain = is_iso and (has_comments or "(" not in line) and is_plain_line(line) and has(line)
+            if is_plain and number not in facts:
                 held.append(line)
                 if line[-1:] != _USUAL or line[-2:-1] == "\r":
                     self._put(line, number)

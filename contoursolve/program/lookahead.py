@@ -5,7 +5,7 @@ from itertools import islice, takewhile
 from typing import overload
 
 from contoursolve.execution import ProgramEvent
-from contoursolve.gcode import Block, Passage, blocks_in, words_of
+from contoursolve.gcode import ISO, Block, Passage, blocks_in, words_of
 
 Line = Block | Passage | ProgramEvent
 """A line of a program, or several, read as far as it was needed; or what happens between two lines."""
@@ -127,8 +127,10 @@ class View(Sequence[Block]):
             each = self.held[place]
             if isinstance(each, ProgramEvent):
                 return True
-            lines = each.lines if isinstance(each, Passage) else (each,)
-            if any(map(says_something, lines[max(0, first - number) :])):
+            lines, at = each.lines if isinstance(each, Passage) else (each,), max(0, first - number)
+            if any(
+                words_of(line, each.syntax) if isinstance(line, str) else says_something(line) for line in lines[at:]
+            ):
                 return True
             place, number = place + 1, number + len(lines)
         return False
@@ -162,12 +164,13 @@ def _pass_plainly(held: Sequence[Line], index: int, *, moves: bool, joins: bool)
     first = held[index]
     if not isinstance(first, Passage):
         return None
+    says = first.syntax.plain.begins if moves else ISO.plain.begins
     order = range(first.count) if not moves else range(first.count - 1, -1, -1) if joins else ()
     if moves and joins:
         behind = takewhile(lambda each: isinstance(each, Passage), islice(held, index + 1, None))
-        if any(isinstance(each, Passage) and words_of(each.text) for each in behind):
+        if any(isinstance(each, Passage) and says.search(words_of(each.text, each.syntax)) for each in behind):
             return first
-    stop = next((place for place in order if words_of(first.lines[place])), first.count)
+    stop = next((at for at in order if says.search(words_of(first.lines[at], first.syntax))), first.count)
     return None if not stop else first if stop == first.count else first.part(0, stop)
 
 
@@ -185,8 +188,6 @@ def _behind(held: list[Line], index: int, count: int) -> tuple[list[Line], int]:
     return held, index
 
 
-def says_something(line: Block | str) -> bool:
+def says_something(line: Block) -> bool:
     """Whether a line has more than its number."""
-    if isinstance(line, str):
-        return bool(words_of(line))
     return bool(line.faults or line.macro) or any(word.address not in "NO" for word in line.words)

@@ -187,7 +187,7 @@ class Recogniser:
         if isinstance(line, Block):
             self.take(line, shown_by(line, self._shown))
             return
-        all_of_them = _shown_plainly(words_of(line.text))
+        all_of_them = _shown_plainly(words_of(line.text, line.syntax))
         for block in blocks_in(line):
             if all_of_them <= self._shown:
                 break
@@ -270,7 +270,7 @@ def turned_with_corners(blocks: Iterable[Block]) -> tuple[str, ...]:
     motion, has_corners, axes = -1, False, set[str]()
     for block in in_passages(blocks):
         if isinstance(block, Passage):
-            words = words_of(block.text)
+            words = words_of(block.text, block.syntax)
             if "Y" in words:
                 return ()
             axes |= _shown_plainly(words)

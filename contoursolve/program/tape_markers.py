@@ -100,7 +100,7 @@ def _outside(context: Context, span: Span, side: str, does: str, mark: Span) -> 
 def _first_words(passage: Passage) -> Span | None:
     """The first of some plain lines that says something."""
     for number, line in enumerate(passage.lines, passage.line):
-        if words_of(line):
+        if words_of(line, passage.syntax):
             text = line.rstrip("\r\n")
             return Block(number, text, ()).span
     return None

@@ -21,7 +21,7 @@ AHEAD, MOST_AHEAD = 8, 12
 
 def further(ahead: Ahead, blocks: Sequence[Block] | Passage, state: State) -> Ahead:
     """The last contours, blocks and passages that say something, with one more."""
-    if isinstance(blocks, Passage) and not words_of(blocks.text):
+    if isinstance(blocks, Passage) and not words_of(blocks.text, blocks.syntax):
         return ahead
     return (*ahead[1 - AHEAD :], (blocks, state))
 
@@ -46,7 +46,7 @@ def _read(ahead: Ahead, modes: Modes) -> list[Previous]:
 def _in_words(passage: Passage, state: State, modes: Modes) -> list[Previous]:
     """The last plain lines that say something, each as a block, with the state before it."""
     found = list[Previous]()
-    saying = [place for place, line in enumerate(passage.lines) if words_of(line)][-AHEAD:]
+    saying = [place for place, line in enumerate(passage.lines) if words_of(line, passage.syntax)][-AHEAD:]
     state = advance_plainly(state, passage.part(0, saying[0]), modes) if saying[0] else state
     for place in saying:
         block = _block_of(passage.lines[place], passage.line + place, passage.syntax)
@@ -93,5 +93,5 @@ def _backwards(blocks: Sequence[Block] | Passage, has_plain: bool) -> Iterator[S
         yield blocks
         return
     for place in range(blocks.count - 1, -1, -1):
-        if words_of(blocks.lines[place]):
+        if words_of(blocks.lines[place], blocks.syntax):
             yield (_block_of(blocks.lines[place], blocks.line + place, blocks.syntax),) if has_plain else ()

@@ -27,6 +27,7 @@ from contoursolve.gcode import (
     find_words,
     lookalike_at,
     motion_of,
+    parse_block,
     words_of,
 )
 from contoursolve.geometry import Length, Plane, Start
@@ -541,14 +542,12 @@ class PlainLines:
 
     def __init__(self, modes: Modes, *, has_points: bool = False) -> None:
         others = "".join(axis for axis in AXES if axis not in modes.axes)
-        self._has_comments = modes.syntax.comment.fullmatch("()") is not None
-        ways = [rf"[{others}]"] * bool(others) + [r"\("] * (not self._has_comments)
-        ways += [rf"[{AXES}][+-]?+[0-9]++(?!\.)"] * has_points
-        self._others = re.compile("|".join(ways) or "(?!)", re.IGNORECASE)
+        ways = [rf"[{others}]"] * bool(others) + [rf"[{AXES}][+-]?+[0-9]++(?!\.)"] * has_points
+        self._others, self._syntax = re.compile("|".join(ways) or "(?!)", re.IGNORECASE), modes.syntax
 
     def has(self, line: str) -> bool:
         """Whether the control reads a plain line so."""
-        return self._others.search(words_of(line) if self._has_comments else line) is None
+        return self._others.search(words_of(line, self._syntax)) is None
 
     def among(self, lines: Iterable[Block | Passage]) -> Iterator[Block | Passage]:
         """The lines of a program, those that the control reads otherwise as blocks."""
@@ -563,21 +562,26 @@ class PlainLines:
                 yield from (part,) if is_plain else blocks_in(part)
 
 
-def is_plain(state: State) -> bool:
-    """Whether plain lines are lines to their coordinates in this state."""
-    return state.motion in (0, 1) and not (state.is_incremental or state.memory or state.doubts)
+def is_plain(state: State, modes: Modes) -> bool:
+    """Whether plain lines lead to their coordinates in this state."""
+    if modes.follow is not None:
+        return not state.doubts
+    is_moving = state.motion in modes.syntax.plain.motions
+    return is_moving and not (state.is_incremental or state.memory or state.doubts)
 
 
 def advance_plainly(state: State, passage: Passage, modes: Modes) -> State:
     """The state after plain lines; each axis and the motion are where the last line that says so has them. What an
     axis is told is read when somebody asks."""
+    if modes.syntax.plain.parts is not None:
+        return _advance_by_parts(state, passage, modes, modes.syntax.plain.parts)
     axes, motion, lines = dict[str, Position](), None, passage.lines
     text = passage.text.upper()
     programmed = [axis for axis in modes.axes if axis in text]
     # Increments are not in force where lines are plain: no place follows from the one before.
     reading = replace(state, axes={})
     for place in range(len(lines) - 1, -1, -1):
-        words, found = words_of(lines[place]), None
+        words, found = words_of(lines[place], modes.syntax), None
         motion = motion_of(words) if motion is None else motion
         for axis in programmed:
             if axis in words and axis not in axes:
@@ -590,10 +594,24 @@ def advance_plainly(state: State, passage: Passage, modes: Modes) -> State:
     return state.move(axes)
 
 
+def _advance_by_parts(state: State, passage: Passage, modes: Modes, parts: re.Pattern[str]) -> State:
+    """The same where a line may set more than places: the last lines are read that set each part of the state."""
+    there, last = {each[:2] for each in parts.findall(words_of(passage.text, modes.syntax))}, dict[str, int]()
+    for place in range(passage.count - 1, -1, -1):
+        for each in parts.findall(words_of(passage.lines[place], modes.syntax)):
+            last.setdefault(each[:2], place)
+        if len(last) == len(there):
+            break
+    for place in sorted({*last.values()}):
+        line = passage.lines[place].rstrip("\r\n")
+        state = advance(state, parse_block(line, passage.line + place, modes.syntax), modes)
+    return state
+
+
 def advance_through(state: State, passage: Passage, modes: Modes) -> State:
     """The state after plain lines in any state; those where they are not in force are read into words."""
     for place, block in enumerate(blocks_in(passage)):
-        if is_plain(state):
+        if is_plain(state, modes):
             return advance_plainly(state, passage.part(place, passage.count), modes)
         state = advance(state, block, modes)
     return state
@@ -609,6 +627,8 @@ class _Moved:
     def position(self, axis: str) -> Position:
         """Its end on an axis that it programs."""
         if self.positions is None:
-            words = find_words(self.text.rstrip("\r\n"), self.line, self.modes.axes)
-            self.positions = positions(self.state, words, self.modes, is_skippable=False)
+            modes, text = self.modes, self.text.rstrip("\r\n")
+            words = find_words(text, self.line, modes.lexicon.addresses, modes.syntax)
+            moving = [word for word in words if _axis(word, modes)]
+            self.positions = positions(self.state, moving, modes, is_skippable=False)
         return self.positions[axis]

@@ -62,6 +62,9 @@ def test_blocks_that_are_not_kept_are_the_same_blocks(text, monkeypatch):
 
 
 LATHE, MILL = "G01 X{x:.3f} Z-{z:.3f} F0.2", "N10 G01 X{x:.3f} Y-{z:.3f} F200"
+SINUMERIK = "N5 G3 X{x:.3f} Y={z:.3f} CR=80\n; note\nG1 X=AC({x:.3f}) Y{z:.3f} F500"
+KLARTEXT = "1 L X+{x:.3f} Y-{z:.3f} R0 FMAX M3\n2 CC X+{x:.3f} Y+0\nC X+{z:.3f} Y+2 DR+ ; note\nCR X+1 Y+2 R-5.5 DR-"
+ISG = "N1 G02 X={x:.3f} Y{z:.3f} I1 J2 (note) ; note\nG01 X1 Y{z:.3f}"
 
 
 @pytest.mark.parametrize(
@@ -71,6 +74,9 @@ LATHE, MILL = "G01 X{x:.3f} Z-{z:.3f} F0.2", "N10 G01 X{x:.3f} Y-{z:.3f} F200"
         (MILL, "", ("--control", "fanuc-mill")),
         (LATHE, "G111 X100. A180. K-30. B120. P5. Q5.", ()),
         (MILL, "G01 X90. ,C.5", ("--control", "fanuc-mill", "--strict")),
+        (SINUMERIK, "G1 X5 ANG=30", ("--control", "siemens-840d")),
+        (KLARTEXT, "FL X+1 Y+2\nFL AN+30", ("--control", "heidenhain")),
+        (ISG, "G1 X90 #RND=3", ("--control", "isg", "--strict")),
     ],
 )
 def test_plain_lines_are_not_read_into_words(move, contour, control, monkeypatch, tmp_path):
@@ -81,7 +87,7 @@ def test_plain_lines_are_not_read_into_words(move, contour, control, monkeypatch
     for number in (2_000, 4_000):
         draw = random.Random(number)
         rows = [move.format(x=draw.uniform(50, 80), z=draw.uniform(1, 90)) for _ in range(number)]
-        rows[1500:1500] = [contour] * bool(contour)
+        rows[1500:1500] = contour.split("\n") * bool(contour)
         program.write_text("\n".join(["%", "G90 G21", "G00 X40. Z0. Y0.", *rows, "M30", "%"]) + "\n")
         read.clear()
         CliRunner().invoke(main, ["check", *control, str(program)])

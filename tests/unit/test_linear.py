@@ -16,7 +16,7 @@ from counted import calls
 from examples import some_of
 
 from contoursolve import check, expand, parse
-from contoursolve.gcode import is_plain_line
+from contoursolve.controls import DIALECTS
 from contoursolve.numeric import modular_rank
 from contoursolve.solving import compile as compile_module
 
@@ -110,7 +110,8 @@ def analyse(text: str, control: str) -> None:
 
 def read(text: str) -> None:
     parse(text)
-    is_plain_line(text)
+    for dialect in DIALECTS.values():
+        dialect.modes.syntax.plain.several.match(text)
 
 
 EVERY = [

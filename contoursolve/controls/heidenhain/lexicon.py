@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from contoursolve.controls.control_settings import setting
 from contoursolve.controls.further import rows as rows_beside
 from contoursolve.diagnostics import Book, Source
-from contoursolve.gcode import Block, Syntax, Word, words_as
+from contoursolve.gcode import NUMBER, REMARK, Block, Syntax, Word, late_pattern, plain_spelling, words_as
 from contoursolve.geometry import Unit
 from contoursolve.reading import Address, Bearing, Code, Effect, Lexicon, NumberFormat, WithoutPoint
 
@@ -123,6 +123,15 @@ _TOKENS = (
     r"(?P<bare>[A-Z]++[+-]?+)",
     r"(?P<stray>[^ \tA-Z;]++)",
 )
+# In this order, as the control writes them: a line, an arc with its radius or about CC, and CC.
+_GAP = r"[ \t]{1,20}+"
+_PLACE = rf"(?>(?:{_GAP}X{NUMBER})?)(?>(?:{_GAP}Y{NUMBER})?)"
+_TAIL = "".join(rf"(?>(?:{_GAP}{each}(?![\w.,]))?)" for each in ("R[0LR]", "F(?>MAX|[0-9]{1,5}+)", "M0?[34589]"))
+_BOTH = rf"{_GAP}X{NUMBER}{_GAP}Y{NUMBER}"
+_PLAIN = (
+    rf"(?>(?:[0-9]{{1,6}}+{_GAP})?)(?:L(?=[^\r\n;]*[XYZ][-+.0-9]){_PLACE}(?>(?:{_GAP}Z{NUMBER})?){_TAIL}"
+    rf"|CC{_BOTH}|(?:CR{_BOTH}{_GAP}R{NUMBER}|C{_BOTH}){_GAP}DR[-+]{_TAIL})[ \t]{{0,20}}+"
+)
 SYNTAX = Syntax(
     "klartext",
     token=re.compile("|".join(_TOKENS), re.ASCII | re.IGNORECASE),
@@ -137,6 +146,13 @@ SYNTAX = Syntax(
     parts=_parts,
     skip=re.compile(r"[ \t]*+/"),
     bare_number=re.compile(r"[ \t/]*+N?\d++[ \t]*+"),
+    plain=plain_spelling(
+        _PLAIN,
+        REMARK,
+        r";[^\r\n]*+|FMAX",
+        begins=late_pattern(r"(?:\A|[\r\n])[ \t]*+(?>(?:[0-9]++[ \t]++)?)(?!CC)[^\r\n]*[XY]"),
+        parts=late_pattern(r"CC[^\r\n]*+|[XYZ]|R[0LR](?!\w)"),
+    ),
 )
 """Words of letters and a number without an equals sign, comments behind a semicolon, a number before each block."""
 

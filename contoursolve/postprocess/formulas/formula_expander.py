@@ -42,7 +42,7 @@ class FormulaExpander(Expander):
     # Where the tool is
 
     def _pass(self, passage: Passage, state: State) -> Iterator[str | object]:
-        said = words_of(passage.text)
+        said = words_of(passage.text, passage.syntax)
         self.axes = {axis: each for axis, each in self.axes.items() if axis not in said}
         if said and self.is_foreign and self.target.is_klartext:
             for block in blocks_in(passage):
