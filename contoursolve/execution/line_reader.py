@@ -2,24 +2,18 @@
 
 import re
 from collections.abc import Callable, Iterable
-from functools import cache
+from functools import cache, cached_property
 
 from msgspec import Struct
 
 from contoursolve.execution.macro_language import Assign, CodeLine, Forget, MacroStatement, Strange, WordFormula
-from contoursolve.execution.notation import Notation, UnreadableTermError
+from contoursolve.execution.notation import Notation, UnreadableTermError, compiled
 from contoursolve.gcode import IN_BRACKETS
 from contoursolve.numeric import Constant, Indexed, Quoted, Term, Variable
 
 LONGEST_LINE = 2_000
 """Characters; no control reads more."""
 _MOST_SHOWN = 40
-
-
-@cache
-def compiled(pattern: str) -> re.Pattern[str]:
-    """A pattern for letters of both cases, compiled when it is first needed."""
-    return re.compile(pattern, re.IGNORECASE | re.ASCII)
 
 
 class LineReader:
@@ -107,10 +101,14 @@ class LineReader:
 
     def read_statements(self) -> list[MacroStatement]:
         """The statements up to the end of the line."""
-        found, skip = list[MacroStatement](), compiled(self._form.skip)
-        while self.at < len(self.text):
-            begin, is_first = self.at, not found
-            for spelling in (_O_WORD, *self._form.table) if is_first else self._form.table:
+        found, form = list[MacroStatement](), self._form
+        while True:
+            table = form.tables[not found]
+            skipped = form.up_to_statement(is_first=not found).match(self.text, self.at)
+            begin = self.at = skipped.end() if skipped is not None else len(self.text)
+            if begin == len(self.text):
+                return found
+            for spelling in table:
                 match = compiled(spelling.pattern).match(self.text, begin)
                 if match is None:
                     continue
@@ -124,9 +122,8 @@ class LineReader:
                 found += said
                 break
             if self.at == begin:
-                token = skip.match(self.text, begin)
+                token = compiled(form.skip).match(self.text, begin)
                 self.at = token.end() if token else begin + 1
-        return found
 
     def code(self) -> CodeLine:
         """The line as it was read."""
@@ -143,6 +140,7 @@ class LineReader:
         )
 
 
+_GROUP = re.compile(r"\(\?P<\w+>")
 _PLAIN = re.compile(r"[ \t]*+[+-]?+[ \t]*+[\d.,]++")
 
 
@@ -187,7 +185,7 @@ def _has_o_word(text: str) -> bool:
     return compiled(O_WORD).search(text) is not None
 
 
-class LineForm(Struct, frozen=True, eq=False):
+class LineForm(Struct, frozen=True, eq=False, dict=True):
     """Form of the lines of a language: their beginnings, comments and statements."""
 
     notation: Notation
@@ -203,6 +201,17 @@ class LineForm(Struct, frozen=True, eq=False):
     """Pattern of text that may be a statement."""
     names: frozenset[str] = frozenset()
     """Names that call no subprogram."""
+
+    @cached_property
+    def tables(self) -> tuple[tuple[Spelling, ...], tuple[Spelling, ...]]:
+        """The statements that may stand behind others, and those with which a line may begin."""
+        return self.table, (_O_WORD, *self.table)
+
+    @cache  # noqa: B019 - there are few forms, and they stay
+    def up_to_statement(self, *, is_first: bool) -> re.Pattern[str]:
+        """A pattern of what stands before the first statement of a line, or the next one, or the end of the line."""
+        begins = "|".join(rf"(?:{_GROUP.sub('(?:', each.pattern)})" for each in self.tables[is_first])
+        return compiled(rf"(?>(?:(?!{begins})(?>{self.skip}|.))*)")
 
     def may_say(self, line: str) -> bool:
         text = line if ";" not in line else line.partition(";")[0]

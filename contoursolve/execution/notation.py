@@ -1,10 +1,17 @@
 """Spelling of expressions in each language: one table each, by which they are read and written."""
 
+import re
 from collections.abc import Mapping
-from functools import cached_property
+from functools import cache, cached_property
 
 from msgspec import Struct
 from msgspec.structs import replace
+
+
+@cache
+def compiled(pattern: str) -> re.Pattern[str]:
+    """A pattern for letters of both cases, compiled when it is first needed."""
+    return re.compile(pattern, re.IGNORECASE | re.ASCII)
 
 
 class Notation(Struct, frozen=True, eq=False, dict=True):
@@ -18,6 +25,8 @@ class Notation(Struct, frozen=True, eq=False, dict=True):
     operators: tuple[Mapping[str, str], ...]
     functions: Mapping[str, str]
     fields: str
+    variable: str = r"#\d++"
+    """A pattern of variables by their number."""
     brackets: str = "[]"
     number: str = r"\d+\.?\d*|\.\d+"
     power: str = ""
@@ -151,12 +160,14 @@ SINUMERIK = Notation(
     ?atom: NAME -> variable | NAME LEFT arguments RIGHT -> indexed | SYSTEM -> variable | CONSTANT -> constant
         | FUNCTION OPEN arguments CLOSE -> call
     """,
+    variable=r"R\d++(?![\w.\[])",
     brackets="()",
     number=r"(\d+\.?\d*|\.\d+)(EX[+-]?\d+)?",
     inverts="NOT",
 )
 ISG = Notation(
     "ISG",
+    variable=r"P\d++(?![\w.\[])",
     operators=(
         {"OR": "or", "||": "or"},
         {"XOR": "exclusive_or"},
@@ -208,6 +219,7 @@ KLARTEXT = Notation(
     FUNCTION.3: /@FUNCTIONS@(?![A-Z])/
     ?atom: VARIABLE -> variable | CONSTANT -> constant
     """,
+    variable=r"Q[LRS]?+\d++(?![\w.,])",
     brackets="()",
     number=r"\d+([.,]\d*)?|[.,]\d+",
     functions_need_brackets=False,

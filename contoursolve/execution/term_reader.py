@@ -8,7 +8,7 @@ from lark import Lark, Token, Transformer, v_args
 from lark.exceptions import UnexpectedInput
 
 from contoursolve.execution.evaluate import ARGUMENTS, name_of_indexed
-from contoursolve.execution.notation import Notation, UnreadableTermError
+from contoursolve.execution.notation import Notation, UnreadableTermError, compiled
 from contoursolve.numeric import Apply, Constant, Indexed, Quoted, Term, Variable
 
 LONGEST_TERM = 250
@@ -140,8 +140,20 @@ def _parser(notation: Notation) -> Lark:
     )
 
 
-_NUMBER = re.compile(r"[ \t]*+(-?)(\d++\.?+\d*+|\.\d++)(?:(?=[ \t]*+(?:\Z|[;)\]]))|(?P<value>(?![\w.,])))", re.ASCII)
-"""A number behind which no expression goes on; or at least no value."""
+@cache
+def _usual(notation: Notation, *, is_value: bool) -> re.Pattern[str]:
+    """A number or a variable, or two with a sign between them, behind which no expression goes on; or of a value the
+    first alone."""
+    one = rf"[ \t]*+([+-]?+)[ \t]*+(?:(\d++\.?+\d*+|\.\d++)|({notation.variable}))"
+    if is_value:
+        return compiled(rf"{one}(?(3)|(?![\w.,]))")
+    return compiled(rf"{one}(?>(?:[ \t]*+([-+*/]){one})?)(?=[ \t]*+(?:\Z|[;)\]]))")
+
+
+def _operand(sign: str, number: str | None, name: str) -> Term:
+    """A number or a variable with its sign."""
+    term = Variable(name.upper()) if number is None else Constant(float(number))
+    return apply("negate", [term]) if sign == "-" else term
 
 
 def read_term(notation: Notation, text: str, begin: int = 0, *, is_value: bool = False) -> tuple[Term, int]:
@@ -149,10 +161,13 @@ def read_term(notation: Notation, text: str, begin: int = 0, *, is_value: bool =
 
     Raises UnreadableTermError where none begins, and for one that is too long.
     """
-    number = _NUMBER.match(text, begin)
-    if number is not None and (is_value or number["value"] is None):
-        # Most are a number, which needs no grammar.
-        return Constant(float(number[1] + number[2])), number.end()
+    found = _usual(notation, is_value=is_value).match(text, begin)
+    if found is not None:
+        # Most need no grammar.
+        term = _operand(*found.group(1, 2, 3))
+        if not is_value and found[4]:
+            term = apply(notation.meanings[found[4]], [term, _operand(*found.group(5, 6, 7))])
+        return term, found.end()
     parser, start = _parser(notation), "value" if is_value else "term"
     reader = parser.parse_interactive(text[begin:], start)
     tokens: Iterator[Token] = reader.lexer_thread.lex(reader.parser_state)  # type: ignore[no-untyped-call]

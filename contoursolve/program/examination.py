@@ -3,7 +3,7 @@ lines, and gives what is found there and where the walk stands behind it."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property, partial
-from itertools import islice
+from itertools import islice, takewhile
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Context, Depth, explain_call, explain_codes_by_name, report
 from contoursolve.diagnostics import Basis, Diagnostic, Span
 from contoursolve.execution import EventKind, ProgramEvent
-from contoursolve.gcode import Block, Blocks, Passage, in_passages
+from contoursolve.gcode import Block, Blocks, Passage, in_passages, words_of
 from contoursolve.program.contour_answers import BEHIND, Answers, AnswersInPasses
 from contoursolve.program.lookahead import Line, Lookahead, View, each_block, says_something
 from contoursolve.program.named_words import untouched
@@ -182,10 +182,28 @@ class Examination:
             found = findings_of_block(asked, block, apply_modes(here.state, block, modes), here.ahead)
             told_of = [*here.findings, *(each for each in found if each.span not in here.told)]
             findings = untouched(with_slips(asked, view, states, here.ahead, told_of, self._parts), blocks, asked)
-        ahead = further(here.ahead, blocks, here.state) if block.words else here.ahead
-        told = tuple(span for span in here.told if span.line > block.line)
-        behind = Cursor(states[1], here.marks, here.count, ahead, told)
+        return self._leave_block(blocks, here, states[1], findings)
+
+    def _leave_block(
+        self, blocks: tuple[Block, ...], here: Cursor, state: State, findings: tuple[Diagnostic, ...]
+    ) -> WalkStep:
+        """The step that takes a block that is no contour; `state` is the one behind it."""
+        ahead = further(here.ahead, blocks, here.state) if blocks[0].words else here.ahead
+        told = tuple(span for span in here.told if span.line > blocks[0].line)
+        behind = Cursor(state, here.marks, here.count, ahead, told)
         return WalkStep(Step(blocks, here.state, findings=findings), len(blocks), lambda: behind)
+
+    def pass_block(self, blocks: Sequence[Block], index: int, cursor: Cursor) -> WalkStep | None:
+        """The step that takes a plain line, if it makes no contour with others: what moves behind it is plain, too."""
+        modes = self.dialect.modes
+        if not is_plain(cursor.state, modes) or not self._plain.has(blocks[index].text):
+            return None
+        begins, behind = modes.syntax.plain.begins, islice(blocks, index + 1, index + 1 + NEAR)
+        for each in takewhile(lambda each: self._plain.has(each.text), behind):
+            if begins.search(words_of(each.text, modes.syntax)):
+                state = advance(cursor.state, blocks[index], modes)
+                return self._leave_block((blocks[index],), cursor, state, cursor.findings)
+        return None
 
     def pass_by(self, passage: Passage, cursor: Cursor) -> WalkStep:
         """The step that takes plain lines that nobody needs to read into words."""

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
-from contoursolve.gcode import MOST_TOGETHER, Block, Directive, Passage, is_plain_line, parse_block
+from contoursolve.gcode import ISO, MOST_TOGETHER, Block, Directive, Passage, is_plain_line, parse_block
 from contoursolve.program.lookahead import Line
 from contoursolve.program.recognise import several_controls, sign_against, sign_of
 from contoursolve.reading import Dialect, PlainLines
@@ -37,11 +37,11 @@ class Lines:
     def blocks(self) -> Iterator[Line]:
         modes, facts = self._dialect.modes, self._facts
         has, syntax = self._plain.has, modes.syntax
-        # What is written anew is a line in G codes; elsewhere parentheses may be none of a comment.
-        is_iso, has_comments = modes.follow is None, syntax.comment.fullmatch("()") is not None
+        # What is written anew are lines in G codes; elsewhere parentheses may be none of a comment.
+        is_other, has_comments = syntax is not ISO, syntax.comment.fullmatch("()") is not None
         held: list[str] = []
         for number, line in enumerate(self._lines, 1):
-            is_plain = is_iso and (has_comments or "(" not in line) and is_plain_line(line) and has(line)
+            is_plain = has(line) and (not is_other or (is_plain_line(line) and (has_comments or "(" not in line)))
             if is_plain and number not in facts:
                 held.append(line)
                 if line[-1:] != _USUAL or line[-2:-1] == "\r":

@@ -161,7 +161,9 @@ class Run:
         self._machine = machine_for(program, dialect, asked.around) if dialect is not None else None
 
     def __iter__(self) -> Iterator[Answer | Diagnostic]:
-        blocks, asked, is_told = self.frame.program.blocks, self.asked, False
+        # A machine has read them.
+        blocks = self._machine.main.blocks if self._machine is not None else self.frame.program.blocks
+        asked, is_told = self.asked, False
         own = asked.dialect
         if own is not None and not asked.is_strict and begins_for_another(blocks, own):
             yield nothing_to_solve(asked, blocks)

@@ -70,14 +70,16 @@ class _Running:
     def _read(self, held: Sequence[Block], index: int, state: State, is_open: bool) -> tuple[int, State] | None:
         """Take what begins at a block, on the way that has come to it; see `Ways.follow`."""
         view, examination = View(held, index), self.examination
-        if view[0].mark:
-            self.ways.marked[view[0].mark] = state
-        found = examination.find(view, state)
-        if is_open and view.reach > len(held) - index:
-            return None
+        if held[index].mark:
+            self.ways.marked[held[index].mark] = state
         goes_on = self._last is not None and self._last[0] is held and self._last[1] == index
         here = replace(self.cursor, state=state, ahead=self.cursor.ahead if goes_on else ())
-        taken = examination.take(view, found, here)
+        taken = examination.pass_block(held, index, here)
+        if taken is None:
+            found = examination.find(view, state)
+            if is_open and view.reach > len(held) - index:
+                return None
+            taken = examination.take(view, found, here)
         self._last, self.cursor = (held, index + taken.lines), taken.behind()
         self.found.append(taken.step)
         return taken.lines, self.cursor.state

@@ -546,8 +546,9 @@ class PlainLines:
         self._others, self._syntax = re.compile("|".join(ways) or "(?!)", re.IGNORECASE), modes.syntax
 
     def has(self, line: str) -> bool:
-        """Whether the control reads a plain line so."""
-        return self._others.search(words_of(line, self._syntax)) is None
+        """Whether a line is plain, and the control reads it so."""
+        is_plain = self._syntax.plain.one.fullmatch(line) is not None
+        return is_plain and self._others.search(words_of(line, self._syntax)) is None
 
     def among(self, lines: Iterable[Block | Passage]) -> Iterator[Block | Passage]:
         """The lines of a program, those that the control reads otherwise as blocks."""
