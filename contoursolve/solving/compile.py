@@ -130,7 +130,7 @@ class _PathBuilder(Builder):
         spoke = point[0] - center[0], point[1] - center[1]
         outward = unit(spoke)
         turn = element.turn.sign
-        radius = self.scalars[element.radius]
+        radius = self.radius(element.radius)
         if (at, element.center) in self.compared:
             # It may be off the circle by as much as the control allows; a corner there is cut from the arc as it ends.
             radius = sqrt(spoke[0] ** 2 + spoke[1] ** 2)

@@ -6,7 +6,8 @@ from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, Arc, Fact, Line, Profile, System, assemble, both, build_system, scalar
 from contoursolve.numeric import ball
-from contoursolve.solving.determinacy import groups_of, spare_of
+from contoursolve.solving.construction import is_closed
+from contoursolve.solving.determinacy import analyse, groups_of, spare_of
 from contoursolve.solving.elimination import Close
 from contoursolve.solving.enumerate import DRAWING, Enumeration, enumerate_many
 from contoursolve.solving.exact_inputs import ground_of
@@ -64,6 +65,8 @@ def moved_part(profile: Profile, givens: Collection[str]) -> tuple[System, dict[
     names, unknowns = {each.name for each in path}, {*system.unknowns}
     stays = {name for each in path for name in _scalars_of(each)} | {name for fact in facts for name in reads(fact)}
     stays = _points_of(stays & unknowns, system) - moved
+    # Of an arc whose end is compared with its circle, corners are cut as it ends.
+    facts |= {fact for fact in spare_of(system) if reads(fact) <= moved | stays}
     known = _values_of(profile, stays, groups)
     if known is None:
         return None
@@ -77,7 +80,8 @@ def moved_part(profile: Profile, givens: Collection[str]) -> tuple[System, dict[
         known_radii=(*figure.known_radii, *(each for each in figure.radii if each in stays)),
     )
     choices = tuple(each for each in system.choices if scalar(each, FIRST) in moved)
-    return build_system(part, tuple(fact for fact in system.facts if fact in facts), choices), known
+    own_system = build_system(part, tuple(fact for fact in system.facts if fact in facts), choices)
+    return (own_system, known) if analyse(own_system).is_determined and is_closed(own_system) else None
 
 
 def _points_of(names: Iterable[str], system: System) -> set[str]:
