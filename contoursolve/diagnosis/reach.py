@@ -16,11 +16,9 @@ from contoursolve.diagnostics import Diagnostic, Severity, Span
 from contoursolve.geometry import (
     FIRST,
     SECOND,
-    Arc,
-    Line,
     System,
     assemble,
-    both,
+    scalars_of,
 )
 from contoursolve.reading import ParsedContour, ReadIssue
 from contoursolve.solving import Group, RefusalKind, analyse, groups_of
@@ -191,7 +189,7 @@ class Reach(Struct, frozen=True, dict=True):
             name
             for element, maker in zip(self.answer.profile.figure.path, self._makers, strict=True)
             if maker in wanted
-            for name in _scalars_of(element)
+            for name in scalars_of(element)
         }
         found, placed = set[int](), set[str]()
         for _ in range(MOST_GROUPS):
@@ -232,12 +230,6 @@ def is_of_codes(edit: Edit) -> bool:
 
 _CODE = re.compile(r"(?<![A-Z=])G\d", re.IGNORECASE)
 _ADDRESS = re.compile(r",?[A-Z]+", re.IGNORECASE)
-
-
-def _scalars_of(element: Line | Arc) -> tuple[str, ...]:
-    """The facts that determine where an element lies."""
-    ends = both(element.tail, element.head)
-    return (*ends, *both(element.center), element.radius) if isinstance(element, Arc) else ends
 
 
 def _is_free(names: Iterable[str], placed: Collection[str]) -> bool:

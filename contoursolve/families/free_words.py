@@ -157,7 +157,7 @@ class Example(Struct, frozen=True):
     """A row of a class that the rules or the reading may tell apart: its key, its values, and how many rows are in the
     class. With `is_by_row`, every row of this key is read by itself, and those that are read alike are a class.
     `is_compared` tells that a rule compares the words of each with each other, too. `others` are the values of other
-    rows of the key: those where a word has an extreme, and some between."""
+    rows of the key, which are read by themselves, too: those where a word has an extreme, and one between."""
 
     key: int
     values: tuple[float, ...]
@@ -206,7 +206,6 @@ def examples_of(template: Template, ranges: Ranges) -> Examples:
         if more == limits:
             break
         limits = more
-    found = replace(found, rows=tuple(_with_others(found, ranges)))
     rest = {
         row.key: row
         for row in found.rows
@@ -217,28 +216,6 @@ def examples_of(template: Template, ranges: Ranges) -> Examples:
     rows = [row for row in found.rows if row.key not in rest]
     rows += _kinds_of(template, ranges, found, rest, is_compared=is_compared) if rest else ()
     return replace(found, rows=tuple(sorted(rows, key=lambda row: row.key)))
-
-
-MOST_COMPARED = 8
-"""Rows of a family that are read by themselves beside the extremes of its classes, to compare what each states with
-what follows from its example: about a thousandth of a second."""
-
-_GOLDEN = 0.6180339887498949
-"""Steps of this part of a family meet the values of every word, whatever other words vary beside it."""
-
-
-def _with_others(found: Examples, ranges: Ranges) -> Iterator[Example]:
-    """The examples with further rows of their keys: all rows of a small family, some of a large one."""
-    count = ranges.count
-    is_small = count <= MOST_COMPARED
-    rows = range(count) if is_small else sorted({int(each * _GOLDEN % 1 * count) for each in range(MOST_COMPARED)})
-    others = {row.key: dict.fromkeys(row.others) for row in found.rows}
-    for number in rows:
-        part = ranges.rows(number, number + 1)
-        key = int(found.keys_of(part)[0])
-        others[key][tuple(float(each[0]) for each in part.values.values())] = None
-    for row in found.rows:
-        yield replace(row, others=tuple(each for each in others[row.key] if each != row.values))
 
 
 def _kinds_of(
@@ -274,7 +251,7 @@ def reading_of(template: Template, values: Mapping[str, float]) -> Reading:
 
 
 def _examples_between(limits: tuple[WordLimits, ...], ranges: Ranges) -> Examples:
-    """A row for each set of intervals in which the values lie, beside those where words have their extremes in it."""
+    """A row for each set of intervals in which the values lie, and others of it that show where it reads otherwise."""
     if prod(each.count for each in limits) >= 2**63:
         raise FamilyError(f"{len(limits)} words are too many to vary at once")
     words = list(ranges.values.values())
@@ -282,7 +259,7 @@ def _examples_between(limits: tuple[WordLimits, ...], ranges: Ranges) -> Example
     parts = (
         [_groups(_key_of(numbers, limits), words)]
         if ranges.is_paired
-        else [_groups(number, [values]) for number, values in zip(numbers, words, strict=True)]
+        else [_groups(own, [each], at % 2 + 1) for at, (own, each) in enumerate(zip(numbers, words, strict=True))]
     )
     rows: list[Example] = []
     for choice in product(*parts):
@@ -292,20 +269,22 @@ def _examples_between(limits: tuple[WordLimits, ...], ranges: Ranges) -> Example
             tuple(float(each[at]) for each, at in zip(words, row * (len(words) // len(row)), strict=True))
             for row in zip(*places, strict=True)
         )
+        others = [each for each in dict.fromkeys(others) if each != values]
         rows.append(Example(key, values, prod(counts), others=tuple(others)))
     return Examples(limits, tuple(rows))
 
 
-def _groups(numbers: NDArray[Any], words: Sequence[Array]) -> list[tuple[int, int, list[int]]]:
-    """Of each number that rows have: itself, how many have it, and the first of these rows, with those where a word is
-    least or greatest."""
+def _groups(numbers: NDArray[Any], words: Sequence[Array], step: int = 0) -> list[tuple[int, int, list[int]]]:
+    """Of each number that rows have: itself, how many have it, and which: the first, the middle one, and those where a
+    word is least or greatest; on an axis of a grid twice, by `step` in such an order that extremes of axes meet."""
     order = numpy.argsort(numbers, kind="stable")
     own, starts, counts = numpy.unique(numbers[order], return_index=True, return_counts=True)
     found: list[tuple[int, int, list[int]]] = []
     for number, start, count in zip(own.tolist(), starts.tolist(), counts.tolist(), strict=True):
         rows = order[start : start + count]
-        ends = (end(values[rows]) for values in words for end in (numpy.argmin, numpy.argmax))
-        found.append((number, count, [int(rows[0]), *(int(rows[each]) for each in ends)]))
+        ends = [int(rows[end(values[rows])]) for values in words for end in (numpy.argmin, numpy.argmax)]
+        again = (ends if step == 1 else ends[::-1]) if step else []
+        found.append((number, count, [int(rows[0]), int(rows[count // 2]), *ends, *again]))
     return found
 
 

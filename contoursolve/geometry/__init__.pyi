@@ -29,6 +29,7 @@ from .figure import (
     line_scalars as line_scalars,
     names_of_roles as names_of_roles,
     scalar as scalar,
+    scalars_of as scalars_of,
 )
 from .lines import (
     Along as Along,

@@ -71,6 +71,13 @@ class Arc(Struct, frozen=True):
     """Whether it is a full circle if it ends where it begins. Any other arc must end elsewhere."""
 
 
+def scalars_of(element: Line | Arc) -> tuple[str, ...]:
+    """The names of the scalars that determine where an element lies."""
+    if isinstance(element, Line):
+        return both(element.tail, element.head, *([element.toward] if element.toward else []))
+    return *both(element.tail, element.head, element.center), element.radius
+
+
 class CornerShape(Enum):
     """The shape that replaces a virtual intersection."""
 
