@@ -13,9 +13,9 @@ _CONTROLS: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "haas-lathe": ("fanuc", (",",)),
     "haas-mill": ("fanuc", (",",)),
     "mitsubishi": ("mitsubishi", (",", "G H")),
-    "siemens-840d": ("siemens", ("= ANG", "= RND", "= CHR", "= CHF")),
-    "siemens-808d": ("siemens", ("= ANG", "= RND", "= CHR", "= CHF")),
-    "isg": ("isg", ("# ANG", "# RND", "# CHR", "# CHF", "G 301", "G 302")),
+    "siemens-840d": ("siemens", ("ANG =", "RND =", "CHR =", "CHF =")),
+    "siemens-808d": ("siemens", ("ANG =", "RND =", "CHR =", "CHF =")),
+    "isg": ("isg", ("ANG #", "RND #", "CHR #", "CHF #", "G 301", "G 302")),
     "heidenhain": ("heidenhain", ("BEG", "FL", "FC", "F AN", "F LEN", "F CC")),
 }
 """The folder that has the record of each, under its name in capitals; and what a line has, in upper case, that shows

@@ -48,7 +48,7 @@ from contoursolve.gcode import (
     Syntax,
     late_pattern,
     parse_block,
-    telling_lines,
+    telling,
 )
 from contoursolve.numeric import Apply, Term, Variable
 
@@ -86,7 +86,7 @@ def machine_of(
     limit: Limit | None = None,
 ) -> "Machine | None":
     """The machine that runs a program; None for one that neither calls, jumps nor computes."""
-    if language is None or not needs_running(telling_lines(program.blocks), language):
+    if language is None or not needs_running((block.text for block in telling(program.blocks)), language):
         return None
     return Machine(program, language, Library(language, syntax, around.folders), around.values, limit)
 
@@ -559,6 +559,8 @@ class Machine:
         """Run the words of a line."""
         if any(_returns(each, is_called=bool(frame.callers)) for each in frame.rest):
             code = replace(code, rest=_without_return(code.rest, block))
+        if code.statements and not (self._is_alone or code.rest.strip()):
+            return
         ran = self._block(frame, block, code)
         if not self._is_passed_over(frame, code, ran):
             here = self._runs_in()
@@ -582,14 +584,14 @@ class Machine:
         return is_strange and any(word.address != "N" for word in rest.words)
 
     def _is_passed_over(self, frame: _Frame, code: CodeLine, ran: Block) -> bool:
-        """Whether a line has nothing to run: all of it is statements, or the head of a program that is called."""
+        """Whether a line has nothing to run: it is the head of a program that is called, or written out elsewhere."""
         if code.begins is not None and (frame.callers or not (self._is_reached or self._is_alone)):
             return True
         is_bare = all(word.address == "N" for word in ran.words) and ran.macro is None
         if self._is_alone and is_bare and (code.statements or code.labels):
             is_named = (frame.source.name, frame.here) in self._named
             return not is_named and not ran.syntax.comment.search(ran.text)
-        return bool(code.statements) and not code.rest.strip()
+        return False
 
     def _unclear(
         self, frame: _Frame, index: int, reason: str, called: str = "", unread: str = ""
@@ -1281,9 +1283,10 @@ _DO: Mapping[type[MacroStatement | _Taken], Callable[..., Iterator[Block | Progr
 
 def _in_doubt(block: Block, statements: Sequence[MacroStatement]) -> str:
     """The reason why the effect of a line is not known; empty if it is clear."""
-    ends = {type(each) for each in statements if isinstance(each, ProgramEnd | Return)}
+    if not any(isinstance(each, ProgramEnd | Return) for each in statements):
+        return ""
     does = [told for kind, told in _DOES.items() if any(isinstance(each, kind) for each in statements)]
-    if not ends or len(does) == 1:
+    if len(does) == 1:
         return ""
     return (
         f"program line {block.line} {' and '.join(does)} in one block: which comes first is not known; write two blocks"

@@ -27,7 +27,6 @@ from .lexer import (
     LONGEST_BLOCK as LONGEST_BLOCK,
     Blocks as Blocks,
     blocks_in as blocks_in,
-    find_words as find_words,
     in_passages as in_passages,
     looks_like as looks_like,
     parse as parse,
@@ -36,7 +35,6 @@ from .lexer import (
     read_named as read_named,
     spelled as spelled,
     telling as telling,
-    telling_lines as telling_lines,
     words_as as words_as,
 )
 from .lookalikes import (
@@ -48,20 +46,16 @@ from .lookalikes import (
 )
 from .plain_lines import (
     Passage as Passage,
-    is_plain_line as is_plain_line,
     motion_of as motion_of,
     split_lines as split_lines,
     words_of as words_of,
 )
 from .plain_spelling import (
     AXES as AXES,
-    COMMENTS as COMMENTS,
-    LINES as LINES,
     MOST_TOGETHER as MOST_TOGETHER,
     NUMBER as NUMBER,
-    REMARK as REMARK,
+    lines_and_arcs as lines_and_arcs,
     plain_spelling as plain_spelling,
-    words_once as words_once,
 )
 from .syntax import (
     IN_BRACKETS as IN_BRACKETS,

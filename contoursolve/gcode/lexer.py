@@ -3,7 +3,7 @@
 import re
 from array import array
 from bisect import bisect_left
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from decimal import Decimal
 from functools import cached_property, lru_cache
 from itertools import chain
@@ -11,7 +11,7 @@ from typing import overload
 
 from contoursolve.diagnostics import Span
 from contoursolve.gcode.late_pattern import late_pattern
-from contoursolve.gcode.plain_lines import Passage, split_lines
+from contoursolve.gcode.plain_lines import Passage
 from contoursolve.gcode.syntax import ISO, Syntax
 from contoursolve.gcode.word import Block, Directive, Fault, FaultKind, Macro, Named, NamedAs, Program, Word
 
@@ -113,26 +113,10 @@ class Blocks(Sequence[Block]):
                 text = self._text[self._begins[plain.start] : self._begins[plain.stop]]
                 yield Passage(self._first + plain.start, text, len(plain), self._syntax)
 
-    def telling_lines(self) -> Iterator[str]:
-        """The lines that may say more than a motion, as text."""
-        begins = self._begins
-        for others, plain in self._stretches():
-            yield from (self._text[begins[place] : begins[place + 1]] for place in others)
-            text = self._text[begins[plain.start] : begins[plain.stop]]
-            if self._syntax is ISO and "(" in text:
-                yield from (line for line in split_lines(text) if "(" in line)
-
 
 def in_passages(blocks: Iterable[Block]) -> Iterator[Block | Passage]:
     """Blocks, plain lines that nobody has read into words yet as passages."""
     return blocks.passages() if isinstance(blocks, Blocks) else iter(blocks)
-
-
-def telling_lines(blocks: Iterable[Block]) -> Iterator[str]:
-    """The text of such blocks, without reading them."""
-    if isinstance(blocks, Blocks):
-        return blocks.telling_lines()
-    return (block.text for block in blocks)
 
 
 def telling(blocks: Iterable[Block]) -> Iterator[Block]:
@@ -232,14 +216,6 @@ def _respelled(text: str, line: int, own: Syntax, other: Syntax) -> tuple[Word, 
 def _read_simply(text: str, line: int) -> tuple[Word, ...]:
     """The words of a line that is nothing but words, without blanks inside them; none of another line."""
     return tuple([_simple_word(token, line) for token in _SIMPLE_WORDS.finditer(text)]) if _is_simple(text) else ()
-
-
-def find_words(text: str, line: int, addresses: Container[str], syntax: Syntax) -> list[Word]:
-    """The words of a line that have one of some addresses."""
-    if not _is_simple(text):
-        return [word for word in parse_block(text, line, syntax).words if word.address in addresses]
-    tokens = _SIMPLE_WORDS.finditer(text)
-    return [_simple_word(token, line) for token in tokens if token[1].upper() in addresses]
 
 
 def _is_simple(text: str) -> bool:

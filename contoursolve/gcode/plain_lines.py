@@ -40,12 +40,6 @@ def split_lines(text: str) -> list[str]:
 _MOTION = re.compile(r"G0?([0-3])")
 
 
-def is_plain_line(line: str) -> bool:
-    """Whether a line as ISO 6983 has it, with its end or without, has G00, G01 or neither and coordinates, whatever its
-    feed, speed and tool; or has no words."""
-    return ISO.plain.one.fullmatch(line) is not None
-
-
 def words_of(line: str, syntax: Syntax = ISO) -> str:
     """The words of plain lines, upper case, without their comments, and the ends around them; empty if they have
     none."""

@@ -1,6 +1,7 @@
 """Patterns of lines that do nothing but move, or nothing at all, as controls spell them."""
 
 import re
+from typing import Any
 
 from msgspec import Struct
 
@@ -14,14 +15,15 @@ MOST_TOGETHER = 1_000
 
 # A word at most once, so that there is nothing to say of it, and a number as every control has it: 9,999 inches are a
 # place, more may be none. Few blanks, so that no line is too long. Possessive or atomic throughout: what is taken is
-# never tried again.
-_BLANKS = r"[ \t]{0,20}+"
+# never tried again. A comment may state a fact.
 NUMBER = r"[+-]?+(?:[0-9]{1,4}+(?>(?:\.[0-9]{0,12}+)?)|\.[0-9]{1,12}+)"
-COMMENTS = r"(?>(?:\((?![ \t]*+c\w*tour)[^()\r\n]*+\)[ \t]*+)*)"
-"""Comments in parentheses; not one that states a fact."""
-REMARK = r"(?>(?:;(?![ \t(]*+c\w*tour)[^\r\n]*+)?)"
-"""A comment behind a semicolon, to the end of the line."""
-_OTHERS = r"(?<=[NST])[0-9]{1,8}+|(?<=M)0?[34589]"
+_BLANKS = r"[ \t]{0,20}+"
+_COMMENTS = {
+    "(": r"(?>(?:\((?![ \t]*+c\w*tour)[^()\r\n]*+\)[ \t]*+)*)",
+    ";": r"(?>(?:;(?![ \t(]*+c\w*tour)[^\r\n]*+)?)",
+}
+_ASIDE = {"(": r"\([^()]*+\)", ";": r";[^\r\n]*+"}
+_FLAGS = re.IGNORECASE | re.ASCII
 
 
 class PlainSpelling(Struct, frozen=True, eq=False):
@@ -32,31 +34,42 @@ class PlainSpelling(Struct, frozen=True, eq=False):
     several: re.Pattern[str]
     """Lines in a row."""
     aside: re.Pattern[str]
-    """What is no word: comments, and a name with the letter of an axis."""
+    """What is no word: comments, and names with the letter of an axis."""
     motions: tuple[int, ...] = (0, 1)
     """The motions in which the lines lead where their coordinates say."""
-    begins: re.Pattern[str] = late_pattern(r"\S")
+    begins: re.Pattern[str] = re.compile(r"\S")
     """Words of a line with which a contour may begin, if what follows makes one of it."""
     parts: re.Pattern[str] | None = None
-    """What the words of a line set, if that is more than a place: its first two signs name it, and the last line with
-    that name counts."""
+    """What the words of a line set, if that is more than places and the motion: the first two signs name it, and the
+    last line with that name counts."""
 
 
-def words_once(letters: str, values: str, *, until: str, needs: str, name: str = "word") -> str:
-    """A pattern of words with blanks behind them: what they begin with, each at most once before a comment, which
-    begins with one of the signs `until`; and their values. The line `needs` something."""
-    once = rf"(?P<{name}>{letters})(?![^\r\n{until}]*(?P={name}))"
-    return rf"(?=[^\r\n{until}]*{needs})(?>(?:{once}(?:{values}|{_OTHERS})(?![0-9.]){_BLANKS})+)"
+def plain_spelling(words: str, comments: str, names: str = "", **others: Any) -> PlainSpelling:
+    """The spelling of lines with some words or none, and comments, which begin with one of these signs; `names` have
+    the letter of an axis."""
+    behind = "".join(_COMMENTS[each] for each in comments)
+    aside = late_pattern("|".join([*(_ASIDE[each] for each in comments), names or "(?!)"]), _FLAGS)
+    line = rf"{_BLANKS}(?:{words})?+{behind}(?:\r\n|\n|\r|\Z)"
+    several = late_pattern(rf"(?>(?:{line}){{1,{MOST_TOGETHER}}})", _FLAGS)
+    return PlainSpelling(late_pattern(line, _FLAGS), several, aside, **others)
 
 
-def plain_spelling(words: str, comments: str, aside: str, **others: object) -> PlainSpelling:
-    """The spelling of lines of some words, or none, and comments."""
-    line, flags = rf"{_BLANKS}(?:{words})?+{comments}(?:\r\n|\n|\r|\Z)", re.IGNORECASE | re.ASCII
-    several = late_pattern(rf"(?>(?:{line}){{1,{MOST_TOGETHER}}})", flags)
-    return PlainSpelling(late_pattern(line, flags), several, late_pattern(aside, flags), **others)  # type: ignore[arg-type]
+def lines_and_arcs(axes: str, comments: str, values: str, arc: str = "") -> PlainSpelling:
+    """The spelling of lines in G codes: its axes, comments, the values of words, with @ for a number, and the words of
+    arcs alone, if arcs are plain, too."""
+
+    def words(name: str, others: str, motions: str) -> str:
+        once = rf"(?P<{name}>[GMNSTF{axes}]{others})(?![^\r\n{comments}]*(?P={name}))"
+        code = rf"(?<=G)0?{motions}|(?<=M)0?[34589]|(?<=[NST])[0-9]{{1,8}}+"
+        value = rf"(?:{values.replace('@', NUMBER)}|{code})(?![0-9.])"
+        return rf"(?=[^\r\n{comments}]*[{axes}])(?>(?:{once}{value}{_BLANKS})+)"
+
+    lines = words("of_line", "", "[01]")
+    if not arc:
+        return plain_spelling(lines, comments)
+    arcs = rf"(?=[^\r\n{comments}]*G0?[23](?![0-9])){words('of_arc', f'|{arc}', '[23]')}"
+    return plain_spelling(f"{arcs}|{lines}", comments, motions=(0, 1, 2, 3))
 
 
-LINES = words_once(f"[GMNSTF{AXES}]", rf"(?<=[F{AXES}]){NUMBER}|(?<=G)0?[01]", until="(", needs=f"[{AXES}]")
-"""Words of lines as ISO 6983 has them."""
-ISO_LINES = plain_spelling(LINES, COMMENTS, r"\([^()]*+\)")
-"""Lines with G00 or G01, or neither, and comments in parentheses."""
+ISO_LINES = lines_and_arcs(AXES, "(", rf"(?<=[F{AXES}])@")
+"""Lines with G00 or G01, or neither, as ISO 6983 has them."""

@@ -205,6 +205,11 @@ class Block(Shown, Struct, frozen=True):
         return None
 
     @property
+    def says_something(self) -> bool:
+        """Whether it has more than its number."""
+        return bool(self.faults or self.macro) or any(word.address not in "NO" for word in self.words)
+
+    @property
     def span(self) -> Span:
         """The whole line without surrounding blanks."""
         stripped = self.text.strip()

@@ -9,7 +9,7 @@ from msgspec.structs import replace as replace_fields
 
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, Depth, coordinates, join
-from contoursolve.gcode import Block, Program, telling_lines
+from contoursolve.gcode import Block, Program, telling
 from contoursolve.program.called_files import blocks_of_called_files
 from contoursolve.program.pipeline import Run
 from contoursolve.program.project_file import configure, stated_settings
@@ -65,7 +65,9 @@ def choose_alike(
     Raises UnknownControlError, which tells what they read differently, and SettingError.
     """
     found, names, several = _choose(control, program, settings, recognise_by)
-    if found is None and (called := blocks_of_called_files(telling_lines(program.blocks), asked.around)):
+    if found is None and (
+        called := blocks_of_called_files((each.text for each in telling(program.blocks)), asked.around)
+    ):
         everything = replace_fields(program, blocks=(*program.blocks, *called))
         found, names, several = _choose(control, everything, settings, recognise_by)
         sign = what_shows(called, found) if found is not None and not what_shows(program.blocks, found) else ""

@@ -14,7 +14,7 @@ from contoursolve.diagnostics import Basis, Diagnostic, Span
 from contoursolve.execution import EventKind, ProgramEvent
 from contoursolve.gcode import Block, Blocks, Passage, in_passages, words_of
 from contoursolve.program.contour_answers import BEHIND, Answers, AnswersInPasses
-from contoursolve.program.lookahead import Line, Lookahead, View, each_block, says_something
+from contoursolve.program.lookahead import Line, Lookahead, View, each_block
 from contoursolve.program.named_words import untouched
 from contoursolve.program.outside_contours import (
     NEAR,
@@ -39,6 +39,7 @@ from contoursolve.reading import (
     Ways,
     WithoutPoint,
     advance,
+    advance_by_line,
     advance_plainly,
     apply_modes,
     is_plain,
@@ -198,10 +199,10 @@ class Examination:
         modes = self.dialect.modes
         if not is_plain(cursor.state, modes) or not self._plain.has(blocks[index].text):
             return None
-        begins, behind = modes.syntax.plain.begins, islice(blocks, index + 1, index + 1 + NEAR)
+        begins, behind = modes.syntax.plain.begins, blocks[index + 1 : index + 1 + NEAR]
         for each in takewhile(lambda each: self._plain.has(each.text), behind):
             if begins.search(words_of(each.text, modes.syntax)):
-                state = advance(cursor.state, blocks[index], modes)
+                state = advance_by_line(cursor.state, blocks[index], modes)
                 return self._leave_block((blocks[index],), cursor, state, cursor.findings)
         return None
 
@@ -267,7 +268,7 @@ class Examination:
             return None
         found = self.find(view, cursor.state)
         # Nothing goes on at a block that says nothing; else that is known at the next block that says something.
-        ends = found.contour is None and not says_something(view[0])
+        ends = found.contour is None and not view[0].says_something
         is_known = ahead.is_whole or ends or (view.says_something(found.lines) and view.holds(found.lines + BEHIND))
         return self.take(view, found, cursor) if is_known else None
 

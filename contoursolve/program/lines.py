@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from msgspec.structs import replace
 
 from contoursolve.controls import DIALECTS
-from contoursolve.gcode import ISO, MOST_TOGETHER, Block, Directive, Passage, is_plain_line, parse_block
+from contoursolve.gcode import ISO, MOST_TOGETHER, Block, Directive, Passage, parse_block
 from contoursolve.program.lookahead import Line
 from contoursolve.program.recognise import several_controls, sign_against, sign_of
 from contoursolve.reading import Dialect, PlainLines
@@ -35,14 +35,11 @@ class Lines:
         """The end of the last line that has one."""
 
     def blocks(self) -> Iterator[Line]:
-        modes, facts = self._dialect.modes, self._facts
-        has, syntax = self._plain.has, modes.syntax
-        # What is written anew are lines in G codes; elsewhere parentheses may be none of a comment.
-        is_other, has_comments = syntax is not ISO, syntax.comment.fullmatch("()") is not None
+        has, facts, syntax = self._plain.has, self._facts, self._dialect.modes.syntax
         held: list[str] = []
         for number, line in enumerate(self._lines, 1):
-            is_plain = has(line) and (not is_other or (is_plain_line(line) and (has_comments or "(" not in line)))
-            if is_plain and number not in facts:
+            # Arcs are written anew in blocks of their own.
+            if has(line) and (syntax is ISO or ISO.plain.one.fullmatch(line)) and number not in facts:
                 held.append(line)
                 if line[-1:] != _USUAL or line[-2:-1] == "\r":
                     self._put(line, number)

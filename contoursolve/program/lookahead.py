@@ -41,8 +41,19 @@ class Lookahead:
         return View(self._held, self._index)
 
     def plain(self, *, moves: bool, joins: bool) -> Passage | None:
-        """The plain lines from the next one on that need not be read into words; see `_pass_plainly`."""
-        return _pass_plainly(self._held, self._index, moves=moves, joins=joins)
+        """The plain lines in a row from the next one on that need not be read into words: up to the last one that moves
+        if the next contour may begin with it (`joins`); if lines that move need be (not `moves`), up to the first."""
+        first = self._held[self._index]
+        if not isinstance(first, Passage):
+            return None
+        says = first.syntax.plain.begins if moves else ISO.plain.begins
+        order = range(first.count) if not moves else range(first.count - 1, -1, -1) if joins else ()
+        if moves and joins:
+            behind = takewhile(lambda each: isinstance(each, Passage), islice(self._held, self._index + 1, None))
+            if any(isinstance(each, Passage) and says.search(words_of(each.text, each.syntax)) for each in behind):
+                return first
+        stop = next((at for at in order if says.search(words_of(first.lines[at], first.syntax))), first.count)
+        return None if not stop else first if stop == first.count else first.part(0, stop)
 
     def read_on(self) -> None:
         """Read further lines: at least as many as are held, so that long contours are not looked at again and again."""
@@ -128,9 +139,7 @@ class View(Sequence[Block]):
             if isinstance(each, ProgramEvent):
                 return True
             lines, at = each.lines if isinstance(each, Passage) else (each,), max(0, first - number)
-            if any(
-                words_of(line, each.syntax) if isinstance(line, str) else says_something(line) for line in lines[at:]
-            ):
+            if any(words_of(one, each.syntax) if isinstance(one, str) else one.says_something for one in lines[at:]):
                 return True
             place, number = place + 1, number + len(lines)
         return False
@@ -158,22 +167,6 @@ def _count(each: Line) -> int:
     return each.count if isinstance(each, Passage) else 1
 
 
-def _pass_plainly(held: Sequence[Line], index: int, *, moves: bool, joins: bool) -> Passage | None:
-    """The plain lines in a row from an index on that need not be read into words: up to the last one that moves if
-    the next contour may begin with it (`joins`); if lines that move need be (not `moves`), up to the first one."""
-    first = held[index]
-    if not isinstance(first, Passage):
-        return None
-    says = first.syntax.plain.begins if moves else ISO.plain.begins
-    order = range(first.count) if not moves else range(first.count - 1, -1, -1) if joins else ()
-    if moves and joins:
-        behind = takewhile(lambda each: isinstance(each, Passage), islice(held, index + 1, None))
-        if any(isinstance(each, Passage) and says.search(words_of(each.text, each.syntax)) for each in behind):
-            return first
-    stop = next((at for at in order if says.search(words_of(first.lines[at], first.syntax))), first.count)
-    return None if not stop else first if stop == first.count else first.part(0, stop)
-
-
 def _behind(held: list[Line], index: int, count: int) -> tuple[list[Line], int]:
     """The lines that are held, and the index behind so many of them; a passage that goes on there is cut."""
     while count:
@@ -186,8 +179,3 @@ def _behind(held: list[Line], index: int, count: int) -> tuple[list[Line], int]:
         count -= _count(each)
         index += 1
     return held, index
-
-
-def says_something(line: Block) -> bool:
-    """Whether a line has more than its number."""
-    return bool(line.faults or line.macro) or any(word.address not in "NO" for word in line.words)

@@ -10,7 +10,6 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer, Context, join, rank, report
 from contoursolve.diagnostics import Basis, Diagnostic, Fix, ProgramError
 from contoursolve.gcode import ISO, Block, Named, NamedAs, Program, Syntax, Word, parse_block, read_named
-from contoursolve.program.lookahead import says_something
 from contoursolve.program.request import Request
 from contoursolve.reading import Dialect, ParsedContour, ReadIssue, contours_of
 
@@ -31,12 +30,12 @@ def has_named(text: str) -> bool:
 
 def is_named_for_all(block: Block) -> bool:
     """Whether a block names words for the whole program: it has nothing but a comment."""
-    return bool(block.named) and not says_something(block)
+    return bool(block.named) and not block.says_something
 
 
 def _named_beside(blocks: Iterable[Block]) -> list[tuple[Block, Named]]:
     """The words that comments beside blocks name, each with its block."""
-    return [(block, each) for block in blocks if block.named and says_something(block) for each in block.named]
+    return [(block, each) for block in blocks if block.named and block.says_something for each in block.named]
 
 
 def with_named(asked: Request, dialect: Dialect, program: Program) -> tuple[Request, tuple[Diagnostic, ...]]:

@@ -17,8 +17,10 @@ from contoursolve.gcode import (
     find_lookalikes,
     has_lookalike_code,
     in_passages,
+    motion_of,
     parse_block,
     telling,
+    words_of,
 )
 from contoursolve.geometry import Length
 from contoursolve.program.outside_contours import NEAR, findings_of_block, with_letters
@@ -32,7 +34,6 @@ from contoursolve.reading import (
     ReadIssue,
     State,
     advance,
-    advance_through,
     contours_of,
     unread_state,
 )
@@ -93,7 +94,8 @@ def _lacks_motion(dialect: Dialect, blocks: Sequence[Block], unit: Length) -> bo
     state = dialect.initial_state(unit)
     for block in PlainLines(dialect.modes).among(in_passages(blocks)):
         if isinstance(block, Passage):
-            state = advance_through(state, block, dialect.modes)
+            motion = motion_of(words_of(block.text, block.syntax))
+            state = state if motion is None else replace(state, motion=motion)
         elif block.line <= first.line:
             state = advance(state, block, dialect.modes)
         if block.line >= first.line:

@@ -9,6 +9,7 @@ from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import either, join
 from contoursolve.diagnostics import ProgramError
 from contoursolve.gcode import (
+    ISO,
     Block,
     Passage,
     Program,
@@ -16,7 +17,6 @@ from contoursolve.gcode import (
     Word,
     blocks_in,
     in_passages,
-    is_plain_line,
     late_pattern,
     motion_of,
     telling,
@@ -136,7 +136,7 @@ def shown_by(block: Block, known: Container[str] = ()) -> frozenset[str]:
     """Signs of the control in a block: words of several controls, moving axes of a lathe, and marks of a mill or a
     lathe. `own` and `sign` with the name of a control are words of it alone. A control that is `known` by its own words
     is not looked for."""
-    if is_plain_line(block.text):
+    if ISO.plain.one.fullmatch(block.text):
         return _shown_plainly(words_of(block.text))
     stated = {word.address for word in block.words}
     codes = {word.number for word in block.words if word.address == "G"}

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from enum import Enum
-from functools import partial
+from functools import cache, partial
 from itertools import groupby
 
 from msgspec import Struct
@@ -24,7 +24,6 @@ from contoursolve.gcode import (
     Word,
     blocks_in,
     find_lookalikes,
-    find_words,
     lookalike_at,
     motion_of,
     parse_block,
@@ -332,11 +331,7 @@ def codes_of(block: Block, modes: Modes) -> list[Code | Word]:
 
 def rows_of(block: Block, modes: Modes) -> list[Code]:
     """The rows of a block's G codes, of those that have one."""
-    return [
-        row
-        for word in block.words
-        if word.address == "G" and word.number is not None and (row := modes.codes.get(word.number)) is not None  # type: ignore[call-overload]
-    ]
+    return [code for code in codes_of(block, modes) if not isinstance(code, Word)]
 
 
 def apply_modes(state: State, block: Block, modes: Modes) -> State:
@@ -586,8 +581,8 @@ def advance_plainly(state: State, passage: Passage, modes: Modes) -> State:
         motion = motion_of(words) if motion is None else motion
         for axis in programmed:
             if axis in words and axis not in axes:
-                found = found or _Moved(lines[place], passage.line + place, reading, modes)
-                axes[axis] = Awaited(partial(found.position, axis))
+                found = found or cache(partial(_places, lines[place], passage.line + place, reading, modes))
+                axes[axis] = Awaited(partial(_place, found, axis))
         if motion is not None and len(axes) == len(programmed):
             break
     if motion is not None and motion != state.motion:
@@ -609,27 +604,20 @@ def _advance_by_parts(state: State, passage: Passage, modes: Modes, parts: re.Pa
     return state
 
 
-def advance_through(state: State, passage: Passage, modes: Modes) -> State:
-    """The state after plain lines in any state; those where they are not in force are read into words."""
-    for place, block in enumerate(blocks_in(passage)):
-        if is_plain(state, modes):
-            return advance_plainly(state, passage.part(place, passage.count), modes)
-        state = advance(state, block, modes)
-    return state
+def advance_by_line(state: State, block: Block, modes: Modes) -> State:
+    """The state after a plain line that has been read into words."""
+    if modes.follow is not None:
+        return advance(state, block, modes)
+    motion = motion_of(words_of(block.text, modes.syntax))
+    state = state if motion in (None, state.motion) else replace(state, motion=motion)
+    return state.move(positions(state, axis_words(block, modes), modes, is_skippable=False))
 
 
-class _Moved:
-    """The position where a plain line leads; it is read once, when somebody asks."""
+def _place(places: Callable[[], Mapping[str, Position]], axis: str) -> Position:
+    return places()[axis]
 
-    def __init__(self, text: str, line: int, state: State, modes: Modes) -> None:
-        self.text, self.line, self.state, self.modes = text, line, state, modes
-        self.positions: dict[str, Position] | None = None
 
-    def position(self, axis: str) -> Position:
-        """Its end on an axis that it programs."""
-        if self.positions is None:
-            modes, text = self.modes, self.text.rstrip("\r\n")
-            words = find_words(text, self.line, modes.lexicon.addresses, modes.syntax)
-            moving = [word for word in words if _axis(word, modes)]
-            self.positions = positions(self.state, moving, modes, is_skippable=False)
-        return self.positions[axis]
+def _places(line: str, number: int, state: State, modes: Modes) -> dict[str, Position]:
+    """The positions where a plain line leads."""
+    block = parse_block(line.rstrip("\r\n"), number, modes.syntax)
+    return positions(state, axis_words(block, modes), modes, is_skippable=False)

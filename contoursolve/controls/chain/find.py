@@ -240,7 +240,7 @@ class ChainFinder:
             except IndexError:
                 return None, here
             codes = {word.number for word in block.words if word.address == "G"}
-            if not _has_words(block) or (codes and codes <= self.language.order.passes):
+            if not block.says_something or (codes and codes <= self.language.order.passes):
                 continue
             if passed == self.language.order.between or not self._is_idle(block, here, modes):
                 return other, here
@@ -433,10 +433,6 @@ def reading(
         return replace_fields(dialect, modes=replace_fields(dialect.modes, lexicon=words), find=ChainFinder(language))
 
     return change
-
-
-def _has_words(block: Block) -> bool:
-    return bool(block.faults or block.macro) or any(word.address not in ("N", "O") for word in block.words)
 
 
 def _ends_where_it_begins(block: Block, here: State, modes: Modes) -> bool:

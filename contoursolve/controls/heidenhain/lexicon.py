@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from contoursolve.controls.control_settings import setting
 from contoursolve.controls.further import rows as rows_beside
 from contoursolve.diagnostics import Book, Source
-from contoursolve.gcode import NUMBER, REMARK, Block, Syntax, Word, late_pattern, plain_spelling, words_as
+from contoursolve.gcode import NUMBER, Block, Syntax, Word, late_pattern, plain_spelling, words_as
 from contoursolve.geometry import Unit
 from contoursolve.reading import Address, Bearing, Code, Effect, Lexicon, NumberFormat, WithoutPoint
 
@@ -147,9 +147,7 @@ SYNTAX = Syntax(
     skip=re.compile(r"[ \t]*+/"),
     bare_number=re.compile(r"[ \t/]*+N?\d++[ \t]*+"),
     plain=plain_spelling(
-        _PLAIN,
-        REMARK,
-        r";[^\r\n]*+|FMAX",
+        *(_PLAIN, ";", "FMAX"),
         begins=late_pattern(r"(?:\A|[\r\n])[ \t]*+(?>(?:[0-9]++[ \t]++)?)(?!CC)[^\r\n]*[XY]"),
         parts=late_pattern(r"CC[^\r\n]*+|[XYZ]|R[0LR](?!\w)"),
     ),

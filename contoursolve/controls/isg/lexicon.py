@@ -8,17 +8,7 @@ from contoursolve.controls.further import rows as rows_beside
 from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, lexicon
 from contoursolve.diagnostics import Book
 from contoursolve.execution import COMMENT, isg
-from contoursolve.gcode import (
-    COMMENTS,
-    IN_BRACKETS,
-    NUMBER,
-    REMARK,
-    Block,
-    Syntax,
-    Word,
-    plain_spelling,
-    words_once,
-)
+from contoursolve.gcode import IN_BRACKETS, Block, Syntax, Word, lines_and_arcs
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import (
     COMMENTED,
@@ -75,9 +65,6 @@ _FOREIGN = r"\#[ \t]*+[A-Za-z]\w*+(?=[ \t]*+=[ \t]*+[-+.\d])"
 """A word with a number sign that the control has not."""
 _NUMBERED = rf"[SM][ \t]*+{IN_BRACKETS}(?=[ \t]*+=)"
 """A word of one of several spindles: `S[2]=500`."""
-_LINES = words_once("[GMNSTFXYZ]", rf"(?<=[FXYZ])=?{NUMBER}|(?<=G)0?[01]", until="(;", needs="[XYZ]")
-_ARC = rf"(?<=[FXYZIJKR])=?{NUMBER}|(?<=G)0?[23]"
-_ARCS = words_once("[GMNSTFXYZIJKR]", _ARC, until="(;", needs="[XYZ]", name="of_arc")
 SYNTAX = Syntax(
     "isg",
     token=re.compile(
@@ -107,12 +94,7 @@ SYNTAX = Syntax(
     ),
     comment=re.compile(COMMENT + r"|;.*+"),
     parts=_parts,
-    plain=plain_spelling(
-        rf"(?=[^\r\n(;]*G0?[23](?![0-9])){_ARCS}|{_LINES}",
-        COMMENTS + REMARK,
-        r"\([^()]*+\)|;[^\r\n]*+",
-        motions=(0, 1, 2, 3),
-    ),
+    plain=lines_and_arcs("XYZ", "(;", r"(?<=[FXYZIJKR])=?@", "[IJKR]"),
 )
 
 

@@ -10,18 +10,7 @@ from contoursolve.controls.further import rows as rows_beside
 from contoursolve.controls.plain import BASIC_CODES, MOTIONS, PLANES, code_rows, coming_back, lexicon
 from contoursolve.diagnostics import Book
 from contoursolve.execution import MOVES_BESIDE, SYNCHRONOUS, MacroLanguage, sinumerik
-from contoursolve.gcode import (
-    IN_BRACKETS,
-    IN_PARENTHESES,
-    NUMBER,
-    REMARK,
-    Block,
-    Syntax,
-    Word,
-    long_parts,
-    plain_spelling,
-    words_once,
-)
+from contoursolve.gcode import IN_BRACKETS, IN_PARENTHESES, Block, Syntax, Word, lines_and_arcs, long_parts
 from contoursolve.geometry import Length, Unit
 from contoursolve.reading import Address, Bearing, Code, Diameter, Effect, Lexicon, Modes, NumberFormat, WithoutPoint
 
@@ -140,10 +129,7 @@ CODES = _codes()
 _NUMBER = r"[+-]?+(?>\d++\.?+\d*+|\.\d++)"
 _OWN = "ANG|RNDM?|CHR|CHF|CR"
 # What stands before an equals sign is one name up to the blank before it.
-_PLACES = rf"(?<=[FXYZ]){NUMBER}|(?<=[XYZ])(?<!\S[XYZ])=(?>{NUMBER}|AC\({NUMBER}\))"
-_LINES = words_once("[GMNSTFXYZ]", rf"{_PLACES}|(?<=G)0?[01]", until=";", needs="[XYZ]")
-_ARC = rf"{_PLACES}|(?<=[IJK]){NUMBER}|(?<=CR)={NUMBER}|(?<=G)0?[23]"
-_ARCS = words_once("(?:[GMNSTFXYZIJK]|(?<!\\S)CR)", _ARC, until=";", needs="[XYZ]", name="of_arc")
+_PLACES = r"(?<=[FXYZIJK])@|(?<=[XYZ])(?<!\S[XYZ])=(?>@|AC\(@\))|(?<=CR)=@"
 SYNTAX = Syntax(
     "sinumerik",
     token=re.compile(
@@ -179,9 +165,7 @@ SYNTAX = Syntax(
     remark=";{}",
     codes={code.name: code.number for code in CODES.values() if code.name},
     parts=long_parts,
-    plain=plain_spelling(
-        rf"(?=[^\r\n;]*G0?[23](?![0-9])){_ARCS}|{_LINES}", REMARK, r";[^\r\n]*+", motions=(0, 1, 2, 3)
-    ),
+    plain=lines_and_arcs("XYZ", ";", _PLACES, r"[IJK]|(?<!\S)CR"),
 )
 
 NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, BOOK.assumed("numbers"))
