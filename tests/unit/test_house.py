@@ -61,13 +61,18 @@ def exported(package: str) -> dict[str, str]:
 
 
 @cache
+def parsed(module: Path) -> ast.Module:
+    return ast.parse(module.read_text(encoding="utf-8"))
+
+
+@cache
 def imports(module: Path) -> tuple[str, ...]:
     """Full names of everything imported anywhere in a module, or named as a module by a text."""
     return tuple(_imports(module))
 
 
 def _imports(module: Path) -> Iterator[str]:
-    for node in ast.walk(ast.parse(module.read_text(encoding="utf-8"))):
+    for node in ast.walk(parsed(module)):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -129,7 +134,7 @@ def test_nothing_is_imported_past_what_a_package_lists():
     past = []
     for module in MODULES:
         own = room_of(module)
-        for node in ast.walk(ast.parse(module.read_text(encoding="utf-8"))):
+        for node in ast.walk(parsed(module)):
             if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("contoursolve."):
                 _, room, *deeper = node.module.split(".")
                 past += [(str(module), node.module)] * bool(room != own and deeper)
@@ -176,7 +181,7 @@ def test_what_may_print_or_never_return_is_called_behind_one_door():
     used = {
         (str(module.relative_to(HOUSE).as_posix()), node.attr)
         for module in MODULES
-        for node in ast.walk(ast.parse(module.read_text(encoding="utf-8")))
+        for node in ast.walk(parsed(module))
         if isinstance(node, ast.Attribute) and ast.unparse(node.value) == "numpy.linalg"
     }
     assert {module for module, name in used if name not in eliminating} == {"numeric/linear_algebra.py"}
@@ -226,7 +231,7 @@ def test_no_name_that_a_package_lists_is_that_of_another_of_its_modules():
 def test_no_public_class_name_has_two_meanings():
     homes: dict[str, list[str]] = {}
     for module in MODULES:
-        for node in ast.parse(module.read_text(encoding="utf-8")).body:
+        for node in parsed(module).body:
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 homes.setdefault(node.name, []).append(module.relative_to(HOUSE).as_posix())
     assert {name: files for name, files in homes.items() if len(files) > 1} == {}
@@ -238,7 +243,7 @@ def test_no_control_stands_in_where_none_is_named():
     by_name = [
         (str(module.relative_to(HOUSE)), ast.unparse(node))
         for module in MODULES
-        for node in ast.walk(ast.parse(module.read_text(encoding="utf-8")))
+        for node in ast.walk(parsed(module))
         if isinstance(node, ast.Subscript)
         and ast.unparse(node.value).endswith("DIALECTS")
         and isinstance(node.slice, ast.Constant)
@@ -264,7 +269,7 @@ def test_a_docstring_opens_with_the_thing_or_the_verb():
     """Not with a question about it; "whether" is right for a predicate alone."""
     again = list[str]()
     for module in MODULES:
-        for text, is_predicate in described(ast.parse(module.read_text(encoding="utf-8"))):
+        for text, is_predicate in described(parsed(module)):
             opener = re.match(r"(What|Whether|Where|Which|How|Why)\b", text)
             if opener and not (is_predicate and opener[1] == "Whether"):
                 again.append(f"{module.relative_to(HOUSE)}: {text}")
@@ -293,7 +298,7 @@ def test_one_builder_makes_parsed_contours():
     made = [
         module.relative_to(HOUSE).as_posix()
         for module in MODULES
-        for node in ast.walk(ast.parse(module.read_text(encoding="utf-8")))
+        for node in ast.walk(parsed(module))
         if isinstance(node, ast.Call) and ast.unparse(node.func) == "ParsedContour"
     ]
     assert made == ["reading/contour_builder.py"]
@@ -360,7 +365,7 @@ def test_what_others_ask_of_a_constraint_is_a_field_of_its_kind():
     kinds = {node.name for node in defined if isinstance(node, ast.ClassDef)}
     naming, asking = Counter[str](), Counter[str]()
     for module in {*MODULES} - {*KINDS}:
-        tree = ast.parse(module.read_text(encoding="utf-8"))
+        tree = parsed(module)
         own = {each.name for each in ast.walk(tree) if isinstance(each, ast.ClassDef)}
         used = {each.id for each in ast.walk(tree) if isinstance(each, ast.Name)} & kinds - own
         imported = {each.name for each in ast.walk(tree) if isinstance(each, ast.alias)}

@@ -317,7 +317,7 @@ def test_what_lacks_many_words_is_not_asked_word_by_word(monkeypatch):
     assert asked(40) <= asked(20) <= 8
 
 
-@pytest.mark.parametrize("is_ahead", [True, False])
+@pytest.mark.parametrize("is_ahead", [True, pytest.param(False, marks=pytest.mark.slow)])
 def test_a_slip_costs_as_much_beside_many_contours_as_beside_few(is_ahead):
     """What an edit cannot change is not examined again, and blocks far away are not looked at."""
     start, taper = "G00 X40. Z0.\n", "G111 X100. A180. K-30. B120.{more}\n"
