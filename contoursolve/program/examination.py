@@ -14,7 +14,7 @@ from contoursolve.diagnostics import Basis, Diagnostic, Span
 from contoursolve.execution import EventKind, ProgramEvent
 from contoursolve.gcode import Block, Blocks, Passage, in_passages, words_of
 from contoursolve.program.contour_answers import BEHIND, Answers, AnswersInPasses
-from contoursolve.program.lookahead import Line, Lookahead, View, each_block
+from contoursolve.program.lookahead import Line, Lookahead, View
 from contoursolve.program.named_words import untouched
 from contoursolve.program.outside_contours import (
     NEAR,
@@ -318,8 +318,8 @@ def tell(steps: Iterable[Step | Pending], outside: Outside) -> Iterator[Step]:
     for each in steps:
         step = each.step if isinstance(each, Pending) else each
         held: Sequence[Line] = [step.passage] if step.passage else step.blocks
-        line, blocks = held[0].line if held else 0, partial(each_block, held, 0)
-        told = tuple(outside.take(step.findings, line, blocks, step.answer, step.before))
+        line = held[0].line if held else 0
+        told = tuple(outside.take(step.findings, line, partial(iter, held), step.answer, step.before))
         yield step if told == step.findings else replace(step, findings=told)
 
 

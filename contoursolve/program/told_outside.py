@@ -22,7 +22,8 @@ from enum import Enum
 
 from contoursolve.diagnosis import Answer, are_points_usual, corner_words, moves, spans_of
 from contoursolve.diagnostics import Diagnostic, Fix, Span
-from contoursolve.gcode import Block, FaultKind, Word, parse_block, spell, words_of
+from contoursolve.gcode import Block, FaultKind, Passage, Word, parse_block, spell, words_of
+from contoursolve.program.lookahead import Line, each_block
 from contoursolve.reading import Dialect, ReadIssue, State, apply_modes
 
 _BESIDE_CONTOURS: frozenset[Enum | None] = frozenset(
@@ -61,12 +62,12 @@ class Outside:
         self,
         findings: Sequence[Diagnostic],
         line: int,
-        blocks: Callable[[], Iterable[Block]],
+        lines: Callable[[], Iterable[Line]],
         answer: Answer | None,
         before: State,
     ) -> Iterator[Diagnostic]:
-        """The findings to be told once the next lines are known, from line `line` on. They are blocks outside contours,
-        or a contour with its answer; `before` is the state before them."""
+        """The findings to be told once the next lines are known, from line `line` on. They are outside contours, or a
+        contour with its answer; `before` is the state before them."""
         if self.is_strict:
             self._before = before
             self._uncertain += [each for each in findings if each.about is ReadIssue.MOVE_IN_INCREMENTS]
@@ -74,9 +75,10 @@ class Outside:
             if answer is not None:
                 yield from self._settle_points(answer)
             return
-        shown = {block.line - line for block in blocks() if self._shows(block)} if findings else set[int]()
+        blocks = tuple(each_block(tuple(lines()), 0)) if findings else ()
+        shown = {block.line - line for block in blocks if self._shows(block)}
         is_torn = any(isinstance(each.about, FaultKind) for each in findings)
-        moved = {block.line for block in blocks() if self._moves(block, before)} if is_torn else set[int]()
+        moved = {block.line for block in blocks if self._moves(block, before)} if is_torn else set[int]()
         for each in findings:
             is_moved = isinstance(each.about, FaultKind) and each.span.line in moved
             self._torn |= {each.span} if is_moved else set()
@@ -88,7 +90,7 @@ class Outside:
             self._contour = line
             if self._held:
                 yield from self._settle(answer, before)
-        self._is_behind = answer is not None or (self._is_behind and not _says_something(blocks()))
+        self._is_behind = answer is not None or (self._is_behind and not _says_something(lines()))
 
     @property
     def is_waiting(self) -> bool:
@@ -166,8 +168,8 @@ class Outside:
         return finding.span.line <= self._contour and _waits_for_any(finding)
 
 
-def _says_something(blocks: Iterable[Block]) -> bool:
-    return any(words_of(block.text) for block in blocks)
+def _says_something(lines: Iterable[Line]) -> bool:
+    return any(isinstance(line, Block | Passage) and words_of(line.text) for line in lines)
 
 
 def _no_signs(_: Block) -> tuple[Word, ...]:
