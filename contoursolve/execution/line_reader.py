@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable
-from functools import cache, cached_property
+from functools import cache
 
 from msgspec import Struct
 
@@ -103,7 +103,7 @@ class LineReader:
         """The statements up to the end of the line."""
         found, form = list[MacroStatement](), self._form
         while True:
-            table = form.tables[not found]
+            table = form.table if found else (_O_WORD, *form.table)
             skipped = form.up_to_statement(is_first=not found).match(self.text, self.at)
             begin = self.at = skipped.end() if skipped is not None else len(self.text)
             if begin == len(self.text):
@@ -185,7 +185,7 @@ def _has_o_word(text: str) -> bool:
     return compiled(O_WORD).search(text) is not None
 
 
-class LineForm(Struct, frozen=True, eq=False, dict=True):
+class LineForm(Struct, frozen=True, eq=False):
     """Form of the lines of a language: their beginnings, comments and statements."""
 
     notation: Notation
@@ -202,15 +202,10 @@ class LineForm(Struct, frozen=True, eq=False, dict=True):
     names: frozenset[str] = frozenset()
     """Names that call no subprogram."""
 
-    @cached_property
-    def tables(self) -> tuple[tuple[Spelling, ...], tuple[Spelling, ...]]:
-        """The statements that may stand behind others, and those with which a line may begin."""
-        return self.table, (_O_WORD, *self.table)
-
     @cache  # noqa: B019 - there are few forms, and they stay
     def up_to_statement(self, *, is_first: bool) -> re.Pattern[str]:
         """A pattern of what stands before the first statement of a line, or the next one, or the end of the line."""
-        begins = "|".join(rf"(?:{_GROUP.sub('(?:', each.pattern)})" for each in self.tables[is_first])
+        begins = "|".join(rf"(?:{_GROUP.sub('(?:', each.pattern)})" for each in (_O_WORD, *self.table)[not is_first :])
         return compiled(rf"(?>(?:(?!{begins})(?>{self.skip}|.))*)")
 
     def may_say(self, line: str) -> bool:

@@ -93,25 +93,20 @@ class Blocks(Sequence[Block]):
             place = behind
         return found
 
-    def _stretches(self) -> Iterator[tuple[range, range]]:
-        """The indices of lines that are not plain, and of the plain ones behind them."""
-        place, ends = 0, chain(self._plain, (len(self), len(self)))
-        for first, behind in zip(ends, ends, strict=True):
-            yield range(place, first), range(first, behind)
-            place = behind
-
     def passages(self) -> Iterator[Block | Passage]:
         """The blocks, plain lines in a row as passages. Whoever walks over a long program has to read the others
         alone."""
-        for others, plain in self._stretches():
-            for place in others:
-                block = self._read(place)
+        place, ends = 0, chain(self._plain, (len(self), len(self)))
+        for first, behind in zip(ends, ends, strict=True):
+            for other in range(place, first):
+                block = self._read(other)
                 if len(self._kept) < MANY_LINES:
-                    self._kept[place] = block
+                    self._kept[other] = block
                 yield block
-            if plain:
-                text = self._text[self._begins[plain.start] : self._begins[plain.stop]]
-                yield Passage(self._first + plain.start, text, len(plain), self._syntax)
+            if first < behind:
+                text = self._text[self._begins[first] : self._begins[behind]]
+                yield Passage(self._first + first, text, behind - first, self._syntax)
+            place = behind
 
 
 def in_passages(blocks: Iterable[Block]) -> Iterator[Block | Passage]:

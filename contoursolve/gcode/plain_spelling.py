@@ -19,10 +19,9 @@ MOST_TOGETHER = 1_000
 NUMBER = r"[+-]?+(?:[0-9]{1,4}+(?>(?:\.[0-9]{0,12}+)?)|\.[0-9]{1,12}+)"
 _BLANKS = r"[ \t]{0,20}+"
 _COMMENTS = {
-    "(": r"(?>(?:\((?![ \t]*+c\w*tour)[^()\r\n]*+\)[ \t]*+)*)",
-    ";": r"(?>(?:;(?![ \t(]*+c\w*tour)[^\r\n]*+)?)",
+    "(": (r"(?>(?:\((?![ \t]*+c\w*tour)[^()\r\n]*+\)[ \t]*+)*)", r"\([^()]*+\)"),
+    ";": (r"(?>(?:;(?![ \t(]*+c\w*tour)[^\r\n]*+)?)", r";[^\r\n]*+"),
 }
-_ASIDE = {"(": r"\([^()]*+\)", ";": r";[^\r\n]*+"}
 _FLAGS = re.IGNORECASE | re.ASCII
 
 
@@ -47,9 +46,9 @@ class PlainSpelling(Struct, frozen=True, eq=False):
 def plain_spelling(words: str, comments: str, names: str = "", **others: Any) -> PlainSpelling:
     """The spelling of lines with some words or none, and comments, which begin with one of these signs; `names` have
     the letter of an axis."""
-    behind = "".join(_COMMENTS[each] for each in comments)
-    aside = late_pattern("|".join([*(_ASIDE[each] for each in comments), names or "(?!)"]), _FLAGS)
-    line = rf"{_BLANKS}(?:{words})?+{behind}(?:\r\n|\n|\r|\Z)"
+    behind, asides = zip(*(_COMMENTS[each] for each in comments), strict=True)
+    aside = late_pattern("|".join((*asides, names or "(?!)")), _FLAGS)
+    line = rf"{_BLANKS}(?:{words})?+{''.join(behind)}(?:\r\n|\n|\r|\Z)"
     several = late_pattern(rf"(?>(?:{line}){{1,{MOST_TOGETHER}}})", _FLAGS)
     return PlainSpelling(late_pattern(line, _FLAGS), several, aside, **others)
 

@@ -39,7 +39,6 @@ from contoursolve.reading import (
     Ways,
     WithoutPoint,
     advance,
-    advance_by_line,
     advance_plainly,
     apply_modes,
     is_plain,
@@ -196,14 +195,17 @@ class Examination:
 
     def pass_block(self, blocks: Sequence[Block], index: int, cursor: Cursor) -> WalkStep | None:
         """The step that takes a plain line, if it makes no contour with others: what moves behind it is plain, too."""
-        modes = self.dialect.modes
-        if not is_plain(cursor.state, modes) or not self._plain.has(blocks[index].text):
+        block, modes = blocks[index], self.dialect.modes
+        # What a call runs, joins otherwise in Klartext.
+        is_other = modes.follow is not None and bool(block.callers)
+        if is_other or not is_plain(cursor.state, modes) or not self._plain.has(block.text):
             return None
         begins, behind = modes.syntax.plain.begins, blocks[index + 1 : index + 1 + NEAR]
         for each in takewhile(lambda each: self._plain.has(each.text), behind):
             if begins.search(words_of(each.text, modes.syntax)):
-                state = advance_by_line(cursor.state, blocks[index], modes)
-                return self._leave_block((blocks[index],), cursor, state, cursor.findings)
+                passage = Passage(block.line, f"{block.text}\n", 1, modes.syntax)
+                state = advance_plainly(cursor.state, passage, modes)
+                return self._leave_block((block,), cursor, state, cursor.findings)
         return None
 
     def pass_by(self, passage: Passage, cursor: Cursor) -> WalkStep:

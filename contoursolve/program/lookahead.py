@@ -108,19 +108,6 @@ class View(Sequence[Block]):
                 return True
         return False
 
-    def lines(self, first: int) -> Iterator[tuple[int, str]]:
-        """The lines from an index on as text, with their numbers."""
-        reach = 1
-        for each in _up_to_event(self.held, self.first):
-            count = _count(each)
-            reach += count
-            self.reach = max(self.reach, reach)
-            if first < count and isinstance(each, Passage):
-                yield from enumerate(each.lines[max(0, first) :], each.line + max(0, first))
-            elif first < count and not isinstance(each, Passage):
-                yield each.line, each.text
-            first -= count
-
     def telling(self, first: int, count: int) -> Iterator[Block]:
         """Of so many lines from an index on the blocks, without plain lines that nobody has read into words."""
         self.reach, number = max(self.reach, first + count), 0

@@ -222,7 +222,7 @@ class Queue:
         dialect = self.dialect
         if dialect.follow is None:
             return ()
-        found = dialect.follow(form, contour, left, each.view.lines(each.after), dialect.modes)
+        found = dialect.follow(form, contour, left, islice(each.view, each.after, None), dialect.modes)
         return tuple(report_behind(one, dialect.rules, each.contour.blocks) for one in found)
 
     def leave(self, pending: Pending) -> State:

@@ -69,7 +69,6 @@ from .modal_state import (
     Position as Position,
     State as State,
     advance as advance,
-    advance_by_line as advance_by_line,
     advance_plainly as advance_plainly,
     apply_modes as apply_modes,
     axis_words as axis_words,

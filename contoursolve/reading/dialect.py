@@ -16,7 +16,7 @@ from contoursolve.reading.rules import Rule
 from contoursolve.reading.writer import Writing
 
 Follower = Callable[..., "Iterator[Behind]"]
-"""(name of the form, path or None, what gives the state behind it, lines behind it with their numbers, modes) to what
+"""(name of the form, path or None, what gives the state behind it, the blocks behind it, modes) to what
 is wrong with the block behind a contour."""
 
 

@@ -167,21 +167,7 @@ class State(Struct, frozen=True):
 
     def move(self, changes: Mapping[str, Position]) -> "State":
         """The state with other positions on some axes."""
-        if not changes:
-            return self
-        axes = {**self.axes, **changes}
-        return State(
-            axes,
-            self.motion,
-            self.plane,
-            self.unit,
-            self.is_incremental,
-            self.compensation,
-            self.diameter,
-            self.memory,
-            self.travel,
-            self.doubts,
-        )
+        return replace(self, axes={**self.axes, **changes}) if changes else self
 
     def settle(self, *modes: "Mode | str") -> "State":
         """The state in which some modes are known, whatever they were."""
@@ -602,15 +588,6 @@ def _advance_by_parts(state: State, passage: Passage, modes: Modes, parts: re.Pa
         line = passage.lines[place].rstrip("\r\n")
         state = advance(state, parse_block(line, passage.line + place, modes.syntax), modes)
     return state
-
-
-def advance_by_line(state: State, block: Block, modes: Modes) -> State:
-    """The state after a plain line that has been read into words."""
-    if modes.follow is not None:
-        return advance(state, block, modes)
-    motion = motion_of(words_of(block.text, modes.syntax))
-    state = state if motion in (None, state.motion) else replace(state, motion=motion)
-    return state.move(positions(state, axis_words(block, modes), modes, is_skippable=False))
 
 
 def _place(places: Callable[[], Mapping[str, Position]], axis: str) -> Position:

@@ -11,6 +11,8 @@ from click.testing import CliRunner
 import contoursolve
 from contoursolve import diagnosis
 from contoursolve.cli import main
+from contoursolve.controls.chain import find
+from contoursolve.execution import machine, term_reader
 from contoursolve.gcode import lexer
 from contoursolve.output import listing
 
@@ -94,6 +96,27 @@ def test_plain_lines_are_not_read_into_words(move, contour, control, monkeypatch
         counts.append(len(read))
     assert counts[1] - counts[0] < 10
     assert counts[1] < 1_100
+
+
+def test_a_line_with_variables_is_read_once_and_again_with_numbers(monkeypatch, tmp_path):
+    program, counts = tmp_path / "long.nc", list[int]()
+    read = list[int]()
+    for module in (lexer, machine):
+        monkeypatch.setattr(module, "parse_block", lambda *asked, act=module.parse_block: read.append(0) or act(*asked))
+    monkeypatch.setattr(term_reader, "_parser", lambda *_: pytest.fail("usual expressions need no grammar"))
+    looked, member = list[int](), find.ChainFinder._member
+    monkeypatch.setattr(find.ChainFinder, "_member", lambda *of, **how: looked.append(0) or member(*of, **how))
+    for number in (500, 1_000):
+        rows = [
+            f"#1={place}.5\n#2=#1+{place}.\nG1 X#1 Y{place}. F100\nX{place}. Y-#2\nX1. Y2." for place in range(number)
+        ]
+        program.write_text("\n".join(["%", "O1", "G90 G21 G17", "G00 X40. Z0. Y0.", *rows, "M30", "%"]) + "\n")
+        read.clear()
+        CliRunner().invoke(main, ["check", "--control", "fanuc-mill", str(program)])
+        counts.append(len(read))
+    # Five lines, of which two have variables beside words; the first and the last alone may belong to a contour.
+    assert counts[1] - counts[0] <= 7 * 500
+    assert len(looked) <= 2 * 2
 
 
 def test_expand_tries_no_repair_of_what_it_writes(monkeypatch, tmp_path):

@@ -13,15 +13,17 @@ from tests.support.examples import law
 _KLARTEXT = (
     "5 L X+{} Y-{} R0 F500", "L Z+{} FMAX", "CC X+{} Y+{}", "CR X+{} Y+{} R-{} DR- RL", "C X+{} Y+{} DR+", "L X{} RR",
     "; note", "CC", "L IX+{}", "RND R5", "CT X+{} Y+{}", "FL X+{} Y+{}", "FL AN+30", "APPR LT X+{} Y+{} LEN5",
-    "l x+{}",
+    "l x+{}", "", "Q1 = {}", "L X+Q1 Y-{}",
 )  # fmt: skip
 _SINUMERIK = (
     "G1 X{} Y{} F500", "N5 G3 X{} Y{} CR={}", "G1 X={} Y=AC({})", "; note", "X{} Y{}", "G2 X{} Y{} I{} J5", "G0 Z{}",
     "X=IC({})", "X1={}", "G91", "G90", "G18", "X{} RND=3", "G1 X{} ANG=30", "CT X{} Y{}", "T1", "G1 X{} I{}", "RNDM=1",
+    "", "R1={}", "X=R1 Y={}",
 )  # fmt: skip
 _ISG = (
     "G01 X{} Y{} F500", "G3 X={} Y{} R{}", "G2 X{} Y{} I{} J5 (a) ; b", "(note)", "X{} Y{}", "G0 Z{}", "#COMMENT BEGIN",
-    "#COMMENT END", "G91", "G90", "G52", "X{} #RND=3", "G1 X{} #ANG=30", "G302 I2", "G1 X{}+5", "N7",
+    "#COMMENT END", "G91", "G90", "G52", "X{} #RND=3", "G1 X{} #ANG=30", "G302 I2", "G1 X{}+5", "N7", "",
+    "P1={}", "X=P1 Y{}",
 )  # fmt: skip
 _MACROS = (
     "G01 X{} Y{} F200", "X{} Y{}", "X{} ,R3", "#1={}", "#2=#1+{}", "#3=[#1*2]/SIN[30]", "G1 X#1 Y{}", "X-#2 Y[#1+{}]",

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import islice
 from math import asin, atan2, cos, degrees, hypot, pi, radians, sin
 
 from msgspec.structs import replace
@@ -11,7 +12,7 @@ from contoursolve.controls.yasnac_lx3.claim import AXIS_EFFECTS
 from contoursolve.controls.yasnac_lx3.g111 import claim_g111
 from contoursolve.controls.yasnac_lx3.g112 import WAY, claim_g112
 from contoursolve.controls.yasnac_lx3.leaving import claim_leaving
-from contoursolve.gcode import Block, Macro, Word, parse_block
+from contoursolve.gcode import Block, Macro, Word
 from contoursolve.geometry import FIRST, SECOND
 from contoursolve.reading import (
     Behind,
@@ -87,16 +88,15 @@ def follow(
     name: str,
     contour: Contour | None,
     leave: Callable[[], State],
-    lines: Iterable[tuple[int, str]],
+    blocks: Iterable[Block],
     modes: Modes,
 ) -> Iterator[Behind]:
-    """The faults of the block behind a contour of a form. `leave` gives the state behind it; of the lines, with their
-    numbers, no more are read than needed."""
+    """The faults of the block behind a contour of a form. `leave` gives the state behind it; no more blocks
+    are read than needed."""
     state: State | None = None
-    for (number, text), _ in zip(lines, range(MOST), strict=False):
-        if _POSITIONING.match(text):
+    for block in islice(blocks, MOST):
+        if _POSITIONING.match(block.text):
             return
-        block = parse_block(text.rstrip("\r\n"), number)
         if not block.words and not block.faults and block.macro is None:
             continue
         addresses = {word.address for word in block.words}
