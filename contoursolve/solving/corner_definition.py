@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from contoursolve.geometry import FIRST, SECOND, Arc, Corner, CornerShape, Figure, Line, Lookup
+from contoursolve.geometry import FIRST, SECOND, Arc, Corner, CornerShape, Figure, Line, Lookup, cross
 
 Pair = tuple[Any, Any]
 
@@ -60,12 +60,12 @@ class _Edge:
         """Zero for a point of it."""
         if self.center is not None and self.radius is not None:
             return _square(point, self.center) - self.radius**2
-        return _cross(_step(self.vertex, point), self.direction)
+        return cross(_step(self.vertex, point), self.direction)
 
     def across(self, point: Pair, center: Pair) -> Any:
         """Zero where the way from a point of it to a centre is perpendicular to it."""
         if self.center is not None:
-            return _cross(_step(self.center, point), _step(self.center, center))
+            return cross(_step(self.center, point), _step(self.center, center))
         way = _step(point, center)
         return way[0] * self.direction[0] + way[1] * self.direction[1]
 
@@ -97,7 +97,3 @@ def _step(one: Pair, other: Pair) -> Pair:
 def _square(one: Pair, other: Pair) -> Any:
     first, second = _step(one, other)
     return first**2 + second**2
-
-
-def _cross(one: Pair, other: Pair) -> Any:
-    return one[0] * other[1] - one[1] * other[0]

@@ -11,7 +11,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.geometry import CornerShape
+from contoursolve.geometry import CornerShape, cross, dot
 from contoursolve.numeric import angle, is_zero, magnitude, sign, sqrt, where
 
 Pair = tuple[Any, Any]
@@ -55,7 +55,7 @@ def build_corner(shape: CornerShape, at: Pair, before: Edge, after: Edge, size: 
 
     `quadrant` gives the signs of the 45 degree segment of a chamfer and is used by no other shape.
     """
-    turn, cosine = _cross(before.direction, after.direction), _dot(before.direction, after.direction)
+    turn, cosine = cross(before.direction, after.direction), dot(before.direction, after.direction)
     center: Pair | None = None
     if shape is CornerShape.FILLET:
         from_center, begin, end = _fillet(before, after, size, sign(turn))
@@ -123,8 +123,8 @@ def _beside_line_and_circle(line: Edge, arc: Edge, size: Any, side: Any) -> Pair
     """`size` to the side of the line, and of the circle: |spoke + side size n + x u| = R - turn side size."""
     aside = _times(side * size, line.left)
     spoke = _plus(_spoke(arc), aside)
-    half = _dot(spoke, line.direction)
-    x = sign(half) * _cathetus(_reach(arc, size, side), _cross(line.direction, spoke)) - half
+    half = dot(spoke, line.direction)
+    x = sign(half) * _cathetus(_reach(arc, size, side), cross(line.direction, spoke)) - half
     return _plus(aside, _times(x, line.direction))
 
 
@@ -136,7 +136,7 @@ def _beside_circles(before: Edge, after: Edge, size: Any, side: Any) -> Pair:
     across = -along[1], along[0]
     reaches = [_reach(edge, size, side) for edge in (before, after)]
     shift = ((reaches[0] - reaches[1]) * (reaches[0] + reaches[1]) / distance + distance) / 2
-    height = sign(_dot(first, across)) * _cathetus(reaches[0], shift)
+    height = sign(dot(first, across)) * _cathetus(reaches[0], shift)
     return _minus(_plus(_times(shift, along), _times(height, across)), first)
 
 
@@ -154,7 +154,7 @@ def _cathetus(hypotenuse: Any, other: Any) -> Any:
 def _contact(edge: Edge, center: Pair, size: Any, side: Any) -> Pair:
     """The point of an edge that is touched by the circle about `center` that lies to its side."""
     if edge.spoke is None:
-        return _times(_dot(center, edge.direction), edge.direction)
+        return _times(dot(center, edge.direction), edge.direction)
     from_center = _plus(edge.spoke, center)
     # On the circle itself, however near both centres are.
     share = sign(_reach(edge, size, side)) * edge.radius / _norm(from_center)
@@ -165,8 +165,8 @@ def _chamfer_45(before: Edge, after: Edge, extent: Pair, turn: Any) -> tuple[Pai
     """Both ends of the segment, from the intersection: end - begin = extent."""
     if before.spoke is None and after.spoke is None:
         # s * before + t * after = extent, by Cramer's rule.
-        setback_in = _cross(extent, after.direction) / turn
-        setback_out = _cross(before.direction, extent) / turn
+        setback_in = cross(extent, after.direction) / turn
+        setback_out = cross(before.direction, extent) / turn
         return _times(-setback_in, before.direction), _times(setback_out, after.direction)
     if before.spoke is None:
         begin = _times(_chord(before.direction, after, extent), before.direction)
@@ -180,9 +180,9 @@ def _chamfer_45(before: Edge, after: Edge, extent: Pair, turn: Any) -> tuple[Pai
 def _chord(direction: Pair, arc: Edge, extent: Pair) -> Any:
     """The place along a line where `extent` begins so that it ends on the circle: |spoke + x u + extent| = R."""
     spoke = _spoke(arc)
-    half = _dot(direction, _plus(spoke, extent))
-    constant = _dot(extent, _plus(_times(2, spoke), extent))
-    return _rooted(half, constant, sign(_dot(direction, spoke)))
+    half = dot(direction, _plus(spoke, extent))
+    constant = dot(extent, _plus(_times(2, spoke), extent))
+    return _rooted(half, constant, sign(dot(direction, spoke)))
 
 
 def _rooted(half: Any, constant: Any, way: Any) -> Any:
@@ -213,7 +213,7 @@ def _leg(before: Edge, after: Edge, face: Any) -> Any:
     for _ in range(_STEPS):
         across = _minus(_along(after, leg, 1), _along(before, leg, -1))
         grown = _minus(_growth(after, leg, 1), _growth(before, leg, -1))
-        leg = leg - (_dot(across, across) - face * face) / (2 * _dot(across, grown))
+        leg = leg - (dot(across, across) - face * face) / (2 * dot(across, grown))
     return leg
 
 
@@ -230,15 +230,15 @@ def _growth(edge: Edge, distance: Any, way: int) -> Pair:
 def _setback(edge: Edge, point: Pair, way: int) -> Any:
     """The way along an edge to a point of it after (+1) or before (-1) the intersection, mm."""
     if edge.spoke is None:
-        return way * _dot(point, edge.direction)
+        return way * dot(point, edge.direction)
     spoke = _plus(edge.spoke, point)
-    return way * edge.turn * edge.radius * angle(_cross(edge.spoke, spoke), _dot(edge.spoke, spoke))
+    return way * edge.turn * edge.radius * angle(cross(edge.spoke, spoke), dot(edge.spoke, spoke))
 
 
 def _off(edge: Edge, point: Pair) -> Any:
     """The distance of a point from an edge's line or circle, mm."""
     if edge.spoke is None:
-        return _cross(point, edge.direction)
+        return cross(point, edge.direction)
     return _norm(_plus(edge.spoke, point)) - edge.radius
 
 
@@ -257,7 +257,7 @@ def _misfit(
     travels = [_travel(edge, point) for edge, point in ((before, begin), (after, end))]
     return (
         *(_norm(spoke) - size for spoke in spokes),
-        *(_dot(spoke, travel) for spoke, travel in zip(spokes, travels, strict=True)),
+        *(dot(spoke, travel) for spoke, travel in zip(spokes, travels, strict=True)),
     )
 
 
@@ -273,14 +273,6 @@ def _spoke(edge: Edge) -> Pair:
     if edge.spoke is None:
         raise TypeError("a line has no centre")
     return edge.spoke
-
-
-def _cross(a: Pair, b: Pair) -> Any:
-    return a[0] * b[1] - a[1] * b[0]
-
-
-def _dot(a: Pair, b: Pair) -> Any:
-    return a[0] * b[0] + a[1] * b[1]
 
 
 def _norm(a: Pair) -> Any:

@@ -75,7 +75,7 @@ def are_alike(one: str, other: str) -> bool:
     )
 
 
-@drawn(2, 9)
+@drawn(1, 9)
 def test_expanded_inline_it_is_the_flat_program(control, seed):
     typed = program(control, seed)
     options = {"control": control, "comments": False, "keep_going": True}

@@ -91,7 +91,7 @@ def is_about(tie: Tie, word: str) -> bool:
     return any(word == each or word.rstrip("0123456789.+-=") == each for each in tie.addresses)
 
 
-@pytest.mark.parametrize("turn", [180, -180])
+@pytest.mark.parametrize("turn", [180, pytest.param(-180, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", CASES)
 def test_the_opposite_direction_never_agrees(name, turn):
     result, word = solved(name, CASES[name]["right"] + turn)

@@ -170,7 +170,7 @@ def test_a_drawing_in_inches_says_so():
 @pytest.mark.parametrize(
     ("control", "code", "program"),
     [
-        pytest.param(*each.values, id=each.id, marks=[pytest.mark.slow] * (number % 15 > 0))
+        pytest.param(*each.values, id=each.id, marks=[pytest.mark.slow] * (number % 30 > 0))
         for number, each in enumerate(examples("rejected"))
     ],
 )
