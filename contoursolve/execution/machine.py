@@ -280,8 +280,7 @@ class Machine:
             if isinstance(each, ProgramEvent):
                 yield each
                 continue
-            code = self.language.read(each.text) if self.language.may_say(each.text) else None
-            for call in code.statements if code is not None and _is_called(each) else ():
+            for call in self.language.read(each.text).statements if _is_called(each) else ():
                 if isinstance(call, Call) and call.kind is CallKind.PROFILE and call.cycle in _CUTTING_PROFILES:
                     names = (one for one in (call.target, call.last) if isinstance(one, str) and is_taken(one, each))
                     for name in names:
@@ -492,7 +491,7 @@ class Machine:
                 self.passed_over.add(frame.source.blocks[index].line)
             self._visited.add(index)
         block, code = frame.source.blocks[index], frame.source.code(index)
-        if frame.jumped and (code.labels or self.language.read(block.text).number):
+        if frame.jumped and (code.labels or code.number):
             self.variables.lose_all(frame.jumped)
             yield ProgramEvent(EventKind.LOST, self._line(frame, index), frame.jumped)
         self.variables.line, frame.at = self._line(frame, index), index + 1

@@ -96,17 +96,15 @@ class ProgramFile:
         """The statements of a line."""
         found = self._codes.get(index)
         if found is None:
-            text = self.blocks[index].text
-            found = self.language.read(text) if self.language.may_say(text) else CodeLine(text)
-            self._codes[index] = found
+            found = self._codes[index] = self.language.read(self.blocks[index].text)
         return found
 
     @cached_property
     def _places(self) -> tuple[dict[str, list[int]], dict[str, list[int]]]:
         """The indices of the lines with each block number, and with each label."""
         numbers, labels = dict[str, list[int]](), dict[str, list[int]]()
-        for index, block in enumerate(self.blocks):
-            code = self.language.read(block.text)
+        for index in range(len(self)):
+            code = self.code(index)
             if code.number:
                 numbers.setdefault(code.number, []).append(index)
             for label in code.labels:

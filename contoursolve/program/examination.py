@@ -182,30 +182,21 @@ class Examination:
             found = findings_of_block(asked, block, apply_modes(here.state, block, modes), here.ahead)
             told_of = [*here.findings, *(each for each in found if each.span not in here.told)]
             findings = untouched(with_slips(asked, view, states, here.ahead, told_of, self._parts), blocks, asked)
-        return self._leave_block(blocks, here, states[1], findings)
-
-    def _leave_block(
-        self, blocks: tuple[Block, ...], here: Cursor, state: State, findings: tuple[Diagnostic, ...]
-    ) -> WalkStep:
-        """The step that takes a block that is no contour; `state` is the one behind it."""
-        ahead = further(here.ahead, blocks, here.state) if blocks[0].words else here.ahead
-        told = tuple(span for span in here.told if span.line > blocks[0].line)
-        behind = Cursor(state, here.marks, here.count, ahead, told)
+        ahead = further(here.ahead, blocks, here.state) if block.words else here.ahead
+        told = tuple(span for span in here.told if span.line > block.line)
+        behind = Cursor(states[1], here.marks, here.count, ahead, told)
         return WalkStep(Step(blocks, here.state, findings=findings), len(blocks), lambda: behind)
 
     def pass_block(self, blocks: Sequence[Block], index: int, cursor: Cursor) -> WalkStep | None:
         """The step that takes a plain line, if it makes no contour with others: what moves behind it is plain, too."""
         block, modes = blocks[index], self.dialect.modes
-        # What a call runs, joins otherwise in Klartext.
-        is_other = modes.follow is not None and bool(block.callers)
-        if is_other or not is_plain(cursor.state, modes) or not self._plain.has(block.text):
+        if block.callers or not is_plain(cursor.state, modes) or not self._plain.has(block.text):
             return None
         begins, behind = modes.syntax.plain.begins, blocks[index + 1 : index + 1 + NEAR]
         for each in takewhile(lambda each: self._plain.has(each.text), behind):
             if begins.search(words_of(each.text, modes.syntax)):
-                passage = Passage(block.line, f"{block.text}\n", 1, modes.syntax)
-                state = advance_plainly(cursor.state, passage, modes)
-                return self._leave_block((block,), cursor, state, cursor.findings)
+                taken = self.pass_by(Passage(block.line, f"{block.text}\n", 1, modes.syntax), cursor)
+                return replace(taken, step=Step((block,), cursor.state, findings=cursor.findings))
         return None
 
     def pass_by(self, passage: Passage, cursor: Cursor) -> WalkStep:

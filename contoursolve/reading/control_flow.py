@@ -5,7 +5,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal
 from functools import partial, reduce
 from itertools import chain
-from operator import attrgetter
 from typing import Any, overload
 
 from msgspec import Struct
@@ -206,14 +205,10 @@ class _Moving:
 
 def _behind(way: ControlFlowPath, state: State, line: int) -> ControlFlowPath:
     """A way behind what ends on a line."""
-    if _MODES(way.state) == _MODES(state):
-        return ControlFlowPath(state, (), way.entered, way.lines)
     before, now = _values(way.state), _values(state)
-    changed = {mode: line for mode, value in before.items() if value != now[mode]}
-    return ControlFlowPath(state, (), way.entered, {**way.lines, **changed})
-
-
-_MODES = attrgetter("motion", "plane", "unit", "is_incremental", "compensation", "diameter")
+    changed = {mode: line for mode, value in before.items() if value != now[mode]} if before != now else {}
+    lines = {**way.lines, **changed} if changed else way.lines
+    return ControlFlowPath(state, (), way.entered, lines)
 
 
 def _values(state: State) -> dict[Mode, Any]:
