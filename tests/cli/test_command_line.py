@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from decimal import Decimal
+from importlib import import_module
 from math import atan2, hypot, tau
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from jsonschema import Draft202012Validator
 from contoursolve import solve
 from contoursolve.cli import main
 from contoursolve.controls import DIALECTS
+from contoursolve.solving import certify
 
 PROGRAMS = Path(__file__).parents[2] / "notebooks" / "programs"
 SHAFT, BROKEN, PLATE = (str(PROGRAMS / name) for name in ("shaft.nc", "shaft_broken.nc", "plate.nc"))
@@ -889,6 +891,23 @@ def test_contours_of_which_nobody_knows_where_they_begin_are_counted(save):
     assert "contour-waits" not in output
     assert output.splitlines()[-1].endswith("1 error; 2 contours wait for an end point")
     assert run("solve", path)[1].count("not checked: it waits for the end point of program line 2") == 2
+
+
+@pytest.mark.parametrize("count", [1, 40])
+def test_a_command_that_shows_no_proof_makes_none(count, save, monkeypatch):
+    made = []
+
+    def certified(*arguments):
+        made.append(arguments)
+        return certify(*arguments)
+
+    for module in ("contoursolve.solving.solve", "contoursolve.program.batch"):
+        monkeypatch.setattr(import_module(module), "certify", certified)
+    path = save("\n".join([GOOD] * count))
+    for command in ("check", "expand"):
+        run(command, path)
+        assert not made, command
+    assert run("solve", path)[1].count("proven") == len(made) == count
 
 
 # --- The command that explains ---------------------------------------------------------------------
