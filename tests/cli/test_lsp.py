@@ -292,6 +292,7 @@ def test_hovers_hints_symbols_folds(served):
     async def use(editor: Editor) -> None:
         client, document = editor.client, types.TextDocumentIdentifier(SHAFT)
         editor.open(SHAFT, TURNED)
+        await editor.findings(SHAFT)
 
         async def hover(line: int, character: int) -> str:
             found = await editor.ask(
@@ -415,6 +416,7 @@ def test_hints_lenses_and_pictures_can_be_switched_off():
             client.text_document_inlay_hint_async(types.InlayHintParams(document, whole(TURNED)))
         )
         assert not await editor.ask(client.text_document_code_lens_async(types.CodeLensParams(document)))
+        await editor.findings(SHAFT)
         hover = await editor.ask(client.text_document_hover_async(types.HoverParams(**about(editor, SHAFT, at(5, 2)))))
         assert "data:image" not in hover.contents.value
 
