@@ -18,6 +18,7 @@ from contoursolve.cli.options import (
     load,
     named_options,
     status_of,
+    tool_options,
 )
 from contoursolve.cli.printing import print_lines, print_pieces, say, style_of_output
 from contoursolve.diagnosis import count
@@ -46,6 +47,7 @@ _NOTHING = "nothing"
 @click.argument("programs", nargs=-1, metavar="PROGRAM...")
 @common_options
 @named_options
+@tool_options
 @click.option(
     "--format",
     "format_",
@@ -240,6 +242,8 @@ class _Telling:
             self._results.append(run.collect())
             for finding in self._results[-1].diagnostics:
                 own.count(finding)
+        if isinstance(run, Collected):
+            own.statuses.update(run.moves())
         if hidden:
             own.hidden[name] += hidden
         self.rows.append((name, own))

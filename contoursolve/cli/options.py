@@ -3,7 +3,7 @@
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
 from glob import glob
@@ -24,7 +24,7 @@ from contoursolve.diagnosis import Policy
 from contoursolve.diagnostics import ProgramError, UserError
 from contoursolve.gcode import STANDARD_INPUT, OpenFile, Program
 from contoursolve.geometry import Length
-from contoursolve.output import EXPLAINING, Totals, harmless, lines_of_findings, short_findings
+from contoursolve.output import EXPLAINING, Collected, Totals, harmless, lines_of_findings, short_findings
 from contoursolve.program import (
     Result,
     Run,
@@ -263,6 +263,33 @@ common_options = together(
 """The options that `solve` and `check` share."""
 
 
+tool_options = together(
+    click.option(
+        "--tool",
+        "tool",
+        metavar="RADIUS",
+        help="The radius of the tool's nose or of the cutter, such as R0.8, in the program's unit; 'program' for what "
+        "the program and contoursolve.toml say. The comment (contoursolve tool: R0.8, tip 3) states it, too.",
+    ),
+    click.option(
+        "--tip", type=int, metavar="NUMBER", help="The number of the imaginary tip of a turning tool, 0 to 9."
+    ),
+    click.option(
+        "--side",
+        type=click.Choice(["left", "right"]),
+        help="The side of the contour on which the tool runs, where the program has no G41 or G42 (RL or RR).",
+    ),
+    click.option(
+        "--outside",
+        type=click.Choice(["roll", "intersect"]),
+        default="roll",
+        show_default=True,
+        help="The way around an outside corner: an arc about it, or to where both offsets meet.",
+    ),
+)
+"""The options that state a tool."""
+
+
 def explain_option(what: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """The option that asks for more than the short text."""
     return click.option("--explain", "is_explained", is_flag=True, help=f"Also print {what}.")
@@ -339,12 +366,26 @@ def examine(program: Program, start: str | None, assignments: Sequence[str], opt
     return follow(program, start, assignments, options).collect()
 
 
-def follow(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Run:
-    """The same as a stream."""
+def follow(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Run | Collected:
+    """The same as a stream; where a tool is stated, with what is said of it."""
+    stated: dict[str, Any] = {name: options[name] for name in ("tool", "tip", "side", "outside") if name in options}
+    options = {name: value for name, value in options.items() if name not in stated}
     with naming(program.name):
         run = follow_program(program, start=start, settings=settings_of(program, assignments), **options)
     check_start(run.asked)
-    return run
+    if stated.get("tool") is None and (not stated or "contoursolve" not in program.text):
+        check_toolless(stated)
+        return run
+    from contoursolve.cli.tool import beside_tool  # noqa: PLC0415 - few programs state a tool
+
+    return beside_tool(run, **stated)
+
+
+def check_toolless(stated: Mapping[str, Any]) -> None:
+    """Refuse the options of a tool where none is stated."""
+    for name in ("tip", "side"):
+        if stated.get(name) is not None:
+            raise click.UsageError(f"--{name} goes with --tool, such as --tool R0.8")
 
 
 @contextmanager

@@ -11,16 +11,18 @@ from contoursolve.cli.options import (
     load,
     named_options,
     status_of,
+    tool_options,
 )
 from contoursolve.cli.printing import print_lines, print_pieces, style_of_output
 from contoursolve.diagnostics import Severity
-from contoursolve.output import Totals, closing_lines, stream_listing
+from contoursolve.output import Collected, Totals, closing_lines, stream_listing, tool_lines
 
 
 @click.command(short_help="Solve every contour block of a program.")
 @click.argument("program", required=False)
 @common_options
 @named_options
+@tool_options
 @click.option(
     "--format",
     "format_",
@@ -65,6 +67,9 @@ def solve(
         print_pieces(stream_json(run, tally))
     else:
         print_lines(stream_listing(run, tally, style_of_output(), is_explained=is_explained, is_derived=is_derived))
+        if isinstance(run, Collected) and run.tool is not None:
+            tally.statuses.update(run.moves())
+            print_lines(tool_lines(run.tool, run.frame))
         if run.is_strict or is_explained or tally.has_something:
             print_lines(closing_lines(run.frame, tally))
     context.exit(status_of(tally, tally.severities[Severity.ERROR]))

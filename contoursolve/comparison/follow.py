@@ -65,6 +65,8 @@ def follow(result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...]
     """The path of a program that has been solved for this control; `unit` is that before any G20 or G21."""
     follower, machine = _Follower(dialect, unit, axes), machine_for(result.program, dialect, result.around)
     if machine is None:
+        for block in result.start.blocks if result.start else ():
+            follower.state = advance(follower.state, block, dialect.modes)
         steps = follower.walk(result.program, result.answers)
     else:
         asked = Request(dialect, unit, result.policy, Depth.VERDICT, result.start)
@@ -141,7 +143,8 @@ class _Follower:
             bend = _bend((first, second), segment.center, segment.start, segment.end, segment.turn)
         is_rapid = self.plain.is_rapid(part.block) if self.plain else part.is_rapid
         motion = Motion.RAPID if is_rapid else Motion.FEED
-        return self._travel(part.block, part.state, motion, (places[0], places[1]), bend)
+        travel = self._travel(part.block, part.state, motion, (places[0], places[1]), bend)
+        return replace(travel, plane=plane, element=segment.name)
 
     def _restated(self, plain: Plain, block: Block) -> Iterator[Step]:
         """The steps of a block that is not programmed in G codes."""
@@ -307,6 +310,7 @@ class _Follower:
             unit=state.unit,
             doubled=tuple(axis in doubled for axis in self.axes),
             file=block.file,
+            plane=state.plane,
         )
 
     def _unfollowed(self, block: Block, reason: str) -> Unfollowed:

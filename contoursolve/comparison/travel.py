@@ -9,7 +9,7 @@ from math import atan2, ceil, cos, hypot, inf, radians, sin, sqrt, tau
 
 from msgspec import Struct
 
-from contoursolve.geometry import Length
+from contoursolve.geometry import Length, Plane
 
 Place = tuple[float | None, ...]
 """Coordinates in mm (X of a lathe as radius), None where not known, in the order of the path's axes."""
@@ -55,6 +55,10 @@ class Travel(Struct, frozen=True):
     doubled: tuple[bool, ...]
     file: str = ""
     """The name of the file of the line, if it is that of a subprogram."""
+    plane: Plane | None = None
+    """The plane in force."""
+    element: str = ""
+    """The name of the element of a contour that it is."""
 
     def at(self, fraction: float) -> Place:
         """The point that lies at a fraction of the way."""

@@ -47,6 +47,10 @@ from .siemens import (
     SIEMENS_808D as SIEMENS_808D,
     SIEMENS_840D as SIEMENS_840D,
 )
+from .tool_facts import (
+    TOOL_FACTS as TOOL_FACTS,
+    ToolFacts as ToolFacts,
+)
 from .yasnac_lx3 import (
     YASNAC_LX3 as YASNAC_LX3,
 )

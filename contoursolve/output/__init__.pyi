@@ -110,6 +110,7 @@ from .listing import (
     stream_listing as stream_listing,
     summary_line as summary_line,
     table_lines as table_lines,
+    tool_lines as tool_lines,
     without_repeated as without_repeated,
 )
 from .map_frames import (

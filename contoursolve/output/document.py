@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from tempfile import SpooledTemporaryFile
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from contoursolve.diagnosis import DECIMALS, Answer, AskedValue, decimals_of, list_solutions, printed_certificate, rank
 from contoursolve.diagnostics import Diagnosis, Diagnostic, Fix, Span, json_text, members, plain
@@ -11,10 +11,15 @@ from contoursolve.output.premises import premise_data
 from contoursolve.program import Result, Run
 from contoursolve.solving import ArcSegment, Certificate, Contour, Point, Proof, Segment
 
+if TYPE_CHECKING:
+    from contoursolve.tool_radius import ToolReport
 
-def to_json(result: Result) -> str:
-    """The contours and findings of one program; lengths in mm, X of a lathe as radius, angles in degrees."""
-    contours = (_indented(_contour(each), 2) for each in result.answers)
+
+def to_json(result: Result, tool: "ToolReport | None" = None) -> str:
+    """The contours and findings of one program; lengths in mm, X of a lathe as radius, angles in degrees. With a tool,
+    there is a contour for each run of cutting moves, with the path of the tool."""
+    rows = (_contour(each) for each in result.answers) if tool is None else _beside_tool(result, tool)
+    contours = (_indented(each, 2) for each in rows)
     findings = (_indented(finding_data(each, result), 2) for each in result.diagnostics)
     return "".join(_document(_head(result), contours=contours, diagnostics=findings))
 
@@ -29,13 +34,13 @@ def _head(result: Result) -> dict[str, Any]:
     }
 
 
-def stream_json(run: Run, tally: Totals) -> Iterator[str]:
+def stream_json(run: Run | Collected, tally: Totals) -> Iterator[str]:
     """The same document in pieces, as its contours are solved; findings wait for their turn outside the memory."""
-    if run.frame.start or run.frame.facts:
+    if run.frame.start or run.frame.facts or isinstance(run, Collected):
         # What is stated apart is shown at the only contour, which is known at the end; such programs are short.
         result = run.collect()
         tally.severities.update(finding.severity for finding in result.diagnostics)
-        yield to_json(result)
+        yield to_json(result, run.tool if isinstance(run, Collected) else None)
         return
     with Shelf() as shelf:
         contours = _shelving(run, tally, shelf, 0, {})
@@ -199,6 +204,50 @@ def _contour(answer: Answer) -> dict[str, Any]:
         **_solutions(answer),
         "diagnosis": _diagnosis(answer.diagnosis) if answer.diagnosis else None,
     }
+
+
+def _beside_tool(result: Result, report: "ToolReport") -> Iterator[dict[str, Any]]:
+    """The runs of a program, as the first contour of each goes on, with the tool; and contours that are in none."""
+    runs = {line: number for number, each in enumerate(report.runs) for line in each.run.lines}
+    firsts = dict[int, Answer]()
+    rows = list[tuple[int, dict[str, Any]]]()
+    for answer in result.answers:
+        number = next((runs[line] for line in answer.lines if line in runs), None)
+        if number is None or answer.contour is None:
+            rows.append((answer.lines[0], {**_contour(answer), "tool": None}))
+        else:
+            firsts.setdefault(number, answer)
+    for number, each in enumerate(report.runs):
+        own, first = each.run, firsts.get(number)
+        data = _contour(first) if first is not None else _PLAIN
+        path, tip = each.path, own.tool.tip if own.is_lathe else None
+        faults = [
+            {
+                "element": fault.element,
+                "kind": fault.kind.value,
+                "short_by_mm": None if fault.short is None else _number(fault.short),
+                "largest_radius": None if fault.largest is None else _number(fault.largest),
+            }
+            for fault in each.faults
+        ]
+        data = {**data, "line": own.lines[0], "lines": list(own.lines), "plane": list(own.plane.axes)}
+        data |= {"start": _point(each.part.start, DECIMALS), **_path(each.part, DECIMALS)}
+        data |= {"points": _path(first.contour, DECIMALS)["points"]} if first is not None else {}
+        tool: dict[str, Any] = {"radius": _number(own.radius), "tip": tip, "side": own.side.value}
+        tool["start"] = _point(path.start, DECIMALS) if path else None
+        tool["elements"] = [_element(element, DECIMALS) for element in path.elements] if path else None
+        rows.append((own.lines[0], {**data, "tool": {**tool, "faults": faults}}))
+    yield from (data for _, data in sorted(rows, key=lambda row: row[0]))
+
+
+_PLAIN = {
+    "form": "moves",
+    "status": "solved",
+    "branch": None,
+    "branches": {},
+    "certificate": {"kind": Proof.EXACT.value, "radius": 0.0, "reason": "", "double": None},
+}
+"""A run of plain moves: its points are those that are programmed."""
 
 
 def _path(contour: Contour | None, decimals: int) -> dict[str, Any]:

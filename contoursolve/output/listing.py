@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from heapq import heappop, heappush
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec import Struct, field
 from msgspec.structs import replace
@@ -11,12 +11,15 @@ from msgspec.structs import replace
 from contoursolve.controls import DIALECTS
 from contoursolve.diagnosis import Answer, count, rank, statuses_text
 from contoursolve.diagnostics import Diagnostic, Fix, Severity
-from contoursolve.output.contours import contour_lines, explaining_lines, title_line
+from contoursolve.output.contours import contour_lines, explaining_lines, path_table, title_line
 from contoursolve.output.findings import EXPLAINING, Style, finding_lines
 from contoursolve.output.plain_text import columns, printable
 from contoursolve.program import ELSEWHERE, Result, Run, what_shows
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import NoteKind, Status
+
+if TYPE_CHECKING:
+    from contoursolve.tool_radius import ToolReport
 
 MOST_ALIKE = 10
 """Findings of one code in one program that are shown where nobody asks for all."""
@@ -37,9 +40,17 @@ class Collected(Struct, frozen=True):
     is_strict: bool
     hidden: int | None = None
     """Number of its findings that a baseline hides; None without a baseline."""
+    tool: "ToolReport | None" = None
+    """The paths of the tool, where one is stated."""
 
     def __iter__(self) -> Iterator[Answer | Diagnostic]:
         return iter(listed(self.frame))
+
+    def moves(self) -> Counter[Status]:
+        """The contours of plain moves alone beside which a tool goes."""
+        solved = {line for answer in self.frame.answers for line in answer.lines}
+        runs = self.tool.runs if self.tool is not None else ()
+        return Counter(Status.SOLVED for each in runs if solved.isdisjoint(each.run.lines))
 
     def collect(self) -> Result:
         """All of it."""
@@ -52,7 +63,12 @@ def listing_lines(result: Result, style: Style, *, is_explained: bool = False) -
 
 
 def stream_listing(
-    run: Run, tally: "Totals", style: Style, *, is_explained: bool = False, is_derived: bool = False
+    run: Run | Collected,
+    tally: "Totals",
+    style: Style,
+    *,
+    is_explained: bool = False,
+    is_derived: bool = False,
 ) -> Iterator[str]:
     """The same of a stream; that there is nothing to solve is one line. With `is_derived`, contours are calculated by
     hand."""
@@ -322,6 +338,20 @@ class Totals(Struct, frozen=True):
 def _is_nothing(finding: Diagnostic) -> bool:
     """Whether it only remarks that there is nothing to solve."""
     return finding.about is ReadIssue.NO_CONTOUR and finding.severity is Severity.INFO
+
+
+def tool_lines(report: "ToolReport", result: Result) -> Iterator[str]:
+    """The path of the tool beside each contour of a program."""
+    for each in report.runs:
+        own, path = each.run, each.path
+        kind = f"nose R{own.tool.radius}, tip {own.tool.tip}" if own.is_lathe else f"cutter R{own.tool.radius}"
+        title = f"{printable(result.program.name)}:{own.lines[0]}: {kind}, {own.side.value} (G{own.side.code})"
+        if path is None:
+            yield from (f"{title}: it does not fit", "")
+            continue
+        table = path_table(path, own.unit)
+        yield f"{title}: path of the {'tip' if own.is_lathe else 'centre'}"
+        yield from (*columns([("", "", *table.header[2:]), *table.rows], table.left), "")
 
 
 def table_lines(programs: Sequence[tuple[str, Totals | None]]) -> Iterator[str]:

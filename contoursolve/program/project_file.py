@@ -31,6 +31,9 @@ CONTROL = "control"
 """The name of what is no setting of a control, but names the control for which programs are."""
 
 
+TOOLS = "tools"
+"""The name of the table of tools by their T or D words, such as T0101 = {radius = 0.8, tip = 3}; mm."""
+
 BASELINE = "baseline"
 """The name of what is no setting either, but names the file of findings that `check` hides."""
 
@@ -53,6 +56,15 @@ def find_baseline(folder: Path) -> Path | None:
     found = _find(folder)
     named = found[0].get(BASELINE) if found is not None else None
     return found[1].parent / named if found is not None and isinstance(named, str) else None
+
+
+def find_tools(folder: Path) -> Mapping[str, Any]:
+    """The table of tools of this file; empty if it has none. Raises SettingError."""
+    found = _find(folder)
+    tools = found[0].get(TOOLS, {}) if found is not None else {}
+    if not isinstance(tools, dict) or not all(isinstance(each, dict) for each in tools.values()):
+        raise SettingError(f"{found and found[1]}: write tools as T0101 = {{radius = 0.8, tip = 3}} below [{TOOLS}]")
+    return tools
 
 
 def _find(folder: Path) -> tuple[dict[str, Any], Path] | None:
@@ -221,6 +233,8 @@ def _text(file: Path) -> str:
 def _settings(table: Mapping[str, Any], file: Path) -> dict[str, str]:
     settings: dict[str, str] = {}
     for control, own in table.items():
+        if control == TOOLS:
+            continue
         if control == CONTROL and own in DIALECTS:
             settings[CONTROL] = own
             continue

@@ -121,6 +121,9 @@ from .events import (
 from .exact_inputs import (
     SMALLEST as SMALLEST,
 )
+from .fitting import (
+    largest_fitting as largest_fitting,
+)
 from .free_cuts import (
     joints_among as joints_among,
     place_cuts as place_cuts,

@@ -26,7 +26,7 @@ FLOORS = (
     "diagnosis controls",
     "program",
     "comparison families",
-    "postprocess pictures",
+    "postprocess pictures tool_radius",
     "api output",
     "notebook try_edits",
     "__init__",

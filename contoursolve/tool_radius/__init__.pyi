@@ -1,0 +1,29 @@
+from .findings import (
+    ToolReport as ToolReport,
+    ToolRun as ToolRun,
+    look_at_tool as look_at_tool,
+)
+from .joint import (
+    Joint as Joint,
+)
+from .offset import (
+    Fault as Fault,
+    FaultKind as FaultKind,
+    Offset as Offset,
+    Piece as Piece,
+    offset as offset,
+)
+from .runs import (
+    Run as Run,
+    ToolRequest as ToolRequest,
+    find_runs as find_runs,
+)
+from .tool import (
+    Outside as Outside,
+    Tool as Tool,
+    ToolError as ToolError,
+    ToolSide as ToolSide,
+    make_tool as make_tool,
+    read_tool as read_tool,
+    tool_in as tool_in,
+)

@@ -1,0 +1,122 @@
+"""Distances of elements that need not be neighbours: where a path comes nearest to the walls of a part."""
+
+from collections.abc import Iterator, Sequence
+from math import atan2, dist, inf, radians, sqrt, tau
+
+import numpy
+from msgspec import Struct
+
+from contoursolve.geometry import cross
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+
+_TURN = 1e-12
+"""rad. By so much an angle may lie before the start of an arc and count as there: the rounding of arctangents."""
+
+
+class Gap(Struct, frozen=True):
+    """The nearest places of an element of a path and of a wall, by their numbers, and their distance, mm."""
+
+    piece: int
+    wall: int
+    distance: float
+    at: Point
+    """On the wall."""
+
+
+def gaps_below(pieces: Sequence[Segment], walls: Sequence[Segment], limit: float) -> Iterator[Gap]:
+    """Every pair that comes nearer than a limit, mm."""
+    if not pieces or not walls:
+        return
+    boxes = numpy.array([_box(each) for each in walls])
+    for number, piece in enumerate(pieces):
+        low_one, low_two, high_one, high_two = _box(piece)
+        first = numpy.maximum(boxes[:, 0] - high_one, low_one - boxes[:, 2])
+        second = numpy.maximum(boxes[:, 1] - high_two, low_two - boxes[:, 3])
+        for wall in numpy.flatnonzero(numpy.maximum(first, second) < limit):
+            distance, at = nearest(piece, walls[int(wall)])
+            if distance < limit:
+                yield Gap(number, int(wall), distance, at)
+
+
+def nearest(one: Segment, other: Segment) -> tuple[float, Point]:
+    """The distance of two elements, mm, and the place on the other one: a crossing, an end, or square to both."""
+    pairs = [(here, _foot(other, here)) for here in _salient(one, other)]
+    pairs += [(_foot(one, there), there) for there in _salient(other, one)]
+    pairs += [(at, at) for at in _crossings(one, other) if _is_on(one, at) and _is_on(other, at)]
+    return min((dist(here, there), there) for here, there in pairs)
+
+
+def _salient(one: Segment, other: Segment) -> Iterator[Point]:
+    """The places of an element that may be nearest to another one: its ends, and where it is square to the way to a
+    centre."""
+    yield from (one.start, one.end)
+    if isinstance(other, ArcSegment):
+        if isinstance(one, ArcSegment):
+            base, unit, places = one.center, _unit(one.center, other.center), [one.radius, -one.radius]
+        else:
+            base, unit = one.start, _unit(one.start, one.end)
+            places = [_along(base, other.center, unit)]
+        yield from (at for at in (ahead(base, unit, place) for place in places) if _is_on(one, at))
+
+
+def _crossings(one: Segment, other: Segment) -> Iterator[Point]:
+    """The places where the lines or circles of two elements cross."""
+    if isinstance(one, ArcSegment) and isinstance(other, ArcSegment):
+        apart, unit = dist(one.center, other.center), _unit(one.center, other.center)
+        along = (apart**2 + one.radius**2 - other.radius**2) / (2 * apart) if apart else inf
+        foot, unit, square = ahead(one.center, unit, along), (-unit[1], unit[0]), one.radius**2 - along**2
+    elif isinstance(one, LineSegment) and isinstance(other, LineSegment):
+        u, v = _unit(one.start, one.end), _unit(other.start, other.end)
+        sine, way = cross(u, v), (other.start[0] - one.start[0], other.start[1] - one.start[1])
+        foot, unit, square = ahead(one.start, u, cross(way, v) / sine) if sine else one.start, u, 0.0 if sine else -1.0
+    else:
+        arc, line = (one, other) if isinstance(one, ArcSegment) else (other, one)
+        unit = _unit(line.start, line.end)
+        foot = (
+            ahead(line.start, unit, _along(line.start, arc.center, unit)) if isinstance(arc, ArcSegment) else line.end
+        )
+        square = arc.radius**2 - dist(foot, arc.center) ** 2 if isinstance(arc, ArcSegment) else -1.0
+    if square >= 0:
+        yield from (ahead(foot, unit, sign * sqrt(square)) for sign in (1, -1))
+
+
+def _unit(start: Point, end: Point) -> Point:
+    length = dist(start, end)
+    return ((end[0] - start[0]) / length, (end[1] - start[1]) / length) if length else (1.0, 0.0)
+
+
+def _along(start: Point, at: Point, unit: Point) -> float:
+    return (at[0] - start[0]) * unit[0] + (at[1] - start[1]) * unit[1]
+
+
+def ahead(at: Point, unit: Point, length: float) -> Point:
+    """The place so far from another one in a direction."""
+    return at[0] + length * unit[0], at[1] + length * unit[1]
+
+
+def _is_on(segment: Segment, at: Point) -> bool:
+    """Whether a place of the line or the circle of an element lies between its ends."""
+    if isinstance(segment, LineSegment):
+        unit = _unit(segment.start, segment.end)
+        return 0 <= _along(segment.start, at, unit) <= segment.length
+    begin, angle = (atan2(place[1] - segment.center[1], place[0] - segment.center[0]) for place in (segment.start, at))
+    return ((angle - begin) * segment.turn.sign + _TURN) % tau <= radians(segment.sweep) + 2 * _TURN
+
+
+def _foot(segment: Segment, at: Point) -> Point:
+    """The place of an element that is nearest to a point."""
+    if isinstance(segment, ArcSegment):
+        foot = ahead(segment.center, _unit(segment.center, at), segment.radius)
+    else:
+        unit = _unit(segment.start, segment.end)
+        foot = ahead(segment.start, unit, _along(segment.start, at, unit))
+    return foot if _is_on(segment, foot) else min(segment.start, segment.end, key=lambda end: dist(end, at))
+
+
+def _box(segment: Segment) -> tuple[float, float, float, float]:
+    """The least and the largest coordinates of an element; of an arc, those of its circle."""
+    if isinstance(segment, ArcSegment):
+        (first, second), radius = segment.center, segment.radius
+        return first - radius, second - radius, first + radius, second + radius
+    (a, b), (c, d) = segment.start, segment.end
+    return min(a, c), min(b, d), max(a, c), max(b, d)

@@ -1,0 +1,262 @@
+"""Runs of cutting moves beside which a tool goes on one side, by G41 and G42 (RL and RR), or as it is asked for."""
+
+from bisect import bisect_right
+from collections.abc import Iterator, Mapping, Sequence
+from decimal import Decimal
+from math import dist
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from contoursolve.comparison import Motion, ToolPath, Travel, Unfollowed
+from contoursolve.gcode import Block
+from contoursolve.geometry import Length, Plane, Turn
+from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+from contoursolve.tolerance import AGREEMENT, LENGTH
+from contoursolve.tool_radius.joint import TANGENT, join
+from contoursolve.tool_radius.tool import Outside, Tool, ToolError, ToolSide, tool_in
+
+SIDES = {side.code: side for side in ToolSide}
+
+
+class ToolRequest(Struct, frozen=True):
+    """A tool as it is asked for: by an option, or in the program and the table of tools; and its side."""
+
+    tool: Tool | None = None
+    tip: int | None = None
+    side: ToolSide | None = None
+    outside: Outside = Outside.ROLL
+    table: Mapping[str, Tool] = {}
+    """Tools by their T or D word, such as `T0101`."""
+
+
+class Run(Struct, frozen=True):
+    """Elements that follow one another in a plane, all on one side of one tool; `radius` is in mm.
+
+    `lead` is the move before, the end of which moves with the tool; `leaving` the one behind, which begins where the
+    tool is. `is_stated` tells that the program says the side.
+    """
+
+    elements: tuple[Segment, ...]
+    travels: tuple[Travel, ...]
+    tool: Tool
+    radius: float
+    side: ToolSide
+    plane: Plane
+    unit: Length
+    lead: Travel | None = None
+    leaving: Travel | None = None
+    is_stated: bool = True
+    is_approached: bool = False
+    """Whether the lead is a cutting move, of which nothing says that it is none of the contour."""
+
+    @property
+    def is_wall(self) -> list[bool]:
+        """Whether each element cuts."""
+        return [travel.motion is Motion.FEED for travel in self.travels]
+
+    @property
+    def lines(self) -> tuple[int, ...]:
+        """The program lines of its elements."""
+        return tuple(dict.fromkeys(travel.line for travel in self.travels))
+
+    @property
+    def is_lathe(self) -> bool:
+        """Whether the programmed point is an imaginary tip."""
+        return any(self.plane.diameters)
+
+    @property
+    def vector(self) -> Point:
+        """From the centre of the tool to the programmed point, mm."""
+        first, second = self.tool.vector() if self.is_lathe else (0.0, 0.0)
+        return self.radius * first, self.radius * second
+
+
+def find_runs(path: ToolPath, asked: ToolRequest, blocks: Sequence[Block]) -> list[Run]:
+    """The runs of a program's path for a tool that is asked for or stated. Raises ToolError."""
+    travels = [step for step in path.steps if isinstance(step, Travel)]
+    stated = next((each for each in travels if each.compensation in SIDES), None)
+    against = [each for each in travels if asked.side and each.compensation not in (40, asked.side.code)]
+    if against and asked.side:
+        code = f"G{against[0].compensation}"
+        raise ToolError(f"--side {asked.side.value} is against {code} in program line {against[0].line}; leave one out")
+    if stated is None and asked.side is None:
+        raise ToolError(
+            "nothing says on which side of the contour the tool runs; write G41 or G42 (RL or RR) before it, or give "
+            "--side left or --side right"
+        )
+    stock = _Stock(asked, blocks)
+    groups = _compensated(path) if stated is not None else _between_rapids(path)
+    return [run for group in groups if (run := _run(group, path.axes, stock, asked.side)) is not None]
+
+
+class _Group(Struct):
+    """Moves that may be a run, in the order of the program."""
+
+    travels: list[Travel]
+    lead: Travel | None = None
+    leaving: Travel | None = None
+    side: ToolSide | None = None
+
+
+def _compensated(path: ToolPath) -> Iterator[_Group]:
+    """Moves under G41 or G42: the first leads to the contour, and the first behind leaves it."""
+    group: _Group | None = None
+    for step in path.steps:
+        if isinstance(step, Unfollowed) or step.motion is Motion.PRESET:
+            if group is not None:
+                yield group
+            group = None
+            continue
+        if not _moves(step, path.axes):
+            continue
+        side = SIDES.get(step.compensation)
+        if group is not None and side is group.side and _continues(group, step, path.axes):
+            group.travels.append(step)
+            continue
+        if group is not None:
+            group.leaving = step
+            yield group
+        # Where only the side or the plane changes, the tool is at the contour already.
+        is_lead = group is None or not group.travels
+        group = None if side is None else _Group([] if is_lead else [step], step if is_lead else None, None, side)
+    if group is not None:
+        yield group
+
+
+def _between_rapids(path: ToolPath) -> Iterator[_Group]:
+    """Cutting moves between those that do not cut in the plane."""
+    group = _Group([])
+    for step in path.steps:
+        move = step if isinstance(step, Travel) and step.motion is not Motion.PRESET else None
+        is_moving = move is not None and _moves(move, path.axes)
+        if move is not None and is_moving and move.motion is Motion.FEED and _is_known(move, path.axes):
+            if not group.travels or _continues(group, move, path.axes):
+                group.travels.append(move)
+                continue
+            yield group
+            group = _Group([move])
+        elif group.travels or is_moving or move is None:
+            group.leaving = move if is_moving else None
+            yield group
+            group = _Group([], move if is_moving else None)
+    yield group
+
+
+def _continues(group: _Group, step: Travel, axes: Sequence[str]) -> bool:
+    """Whether a move goes on where the last one of a group ends, in its plane."""
+    before = group.travels[-1] if group.travels else group.lead
+    if before is None or step.plane is None or before.plane != step.plane:
+        return False
+    ways = zip(place_of(before, axes, at_end=True), place_of(step, axes, at_end=False), strict=True)
+    return all(end is not None and start is not None and abs(end - start) <= AGREEMENT for end, start in ways)
+
+
+def _moves(step: Travel, axes: Sequence[str]) -> bool:
+    """Whether it moves in its plane."""
+    if step.plane is None or not {*step.plane.axes} <= {*axes}:
+        return False
+    ways = zip(place_of(step, axes, at_end=False), place_of(step, axes, at_end=True), strict=True)
+    return step.bend is not None or any(
+        end is not None and (start is None or abs(end - start) > LENGTH) for start, end in ways
+    )
+
+
+def _is_known(step: Travel, axes: Sequence[str]) -> bool:
+    """Whether both its ends are known in its plane."""
+    return None not in (*place_of(step, axes, at_end=False), *place_of(step, axes, at_end=True))
+
+
+def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | None) -> Run | None:
+    """The run of a group; None where nothing is cut. Without a stated side, a move that leads at an angle to the first
+    contour words is no part of it."""
+    travels, lead, leaving, is_approached = group.travels, group.lead, group.leaving, False
+    while travels and travels[-1].motion is not Motion.FEED:
+        travels, leaving = travels[:-1], travels[-1]
+    own = group.side or side
+    if not travels or travels[0].plane is None or own is None:
+        return None
+    plane = travels[0].plane
+    elements = [_segment(each, axes) for each in travels]
+    tool = stock.at(travels[0])
+    radius = float(tool.radius) * (1.0 if tool.is_metric else float(travels[0].unit.in_mm))
+    first = next((number for number, each in enumerate(travels) if each.element), 0) if group.side is None else 0
+    while first and abs(join(elements[first - 1], elements[first], radius, own.sign).turn) <= TANGENT:
+        first -= 1
+    if first:
+        lead, is_approached, travels, elements = travels[first - 1], True, travels[first:], elements[first:]
+    if tool.tip is None and any(plane.diameters):
+        raise ToolError("a turning tool needs the number of its imaginary tip; give --tip 0 to 9, such as --tip 3")
+    if tool.tip is not None and not any(plane.diameters):
+        raise ToolError(f"a cutter has no imaginary tip; leave tip {tool.tip} out")
+    return Run(
+        tuple(elements),
+        tuple(travels),
+        tool,
+        radius,
+        own,
+        plane,
+        travels[0].unit,
+        lead,
+        leaving,
+        group.side is not None,
+        is_approached,
+    )
+
+
+def place_of(step: Travel, axes: Sequence[str], *, at_end: bool) -> tuple[float | None, float | None]:
+    """Where a move begins or ends in its plane, mm; None for what is not known."""
+    place = step.end if at_end else step.start
+    first, second = (place[axes.index(axis)] for axis in (step.plane.axes if step.plane else ()))
+    return first, second
+
+
+def _segment(step: Travel, axes: Sequence[str]) -> Segment:
+    """A move as an element of its plane. The centre of an arc is put as far from one end as from the other: words are
+    rounded."""
+    (a, b), (c, d) = (place_of(step, axes, at_end=at_end) for at_end in (False, True))
+    start, end = (a or 0.0, b or 0.0), (c or 0.0, d or 0.0)
+    if step.bend is None:
+        return LineSegment("", start, end)
+    center, chord = step.bend.center, (end[0] - start[0], end[1] - start[1])
+    square = chord[0] ** 2 + chord[1] ** 2
+    if square > LENGTH**2:
+        middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+        along = ((center[0] - middle[0]) * chord[0] + (center[1] - middle[1]) * chord[1]) / square
+        center = center[0] - along * chord[0], center[1] - along * chord[1]
+    turn = Turn.CCW if step.bend.sweep > 0 else Turn.CW
+    return ArcSegment("", start, end, center, dist(center, start), turn)
+
+
+class _Stock:
+    """The tools that a program states, by the lines from which on they are in use."""
+
+    def __init__(self, asked: ToolRequest, blocks: Sequence[Block]) -> None:
+        self.asked = asked
+        self.lines: list[int] = []
+        self.tools: list[Tool] = []
+        table = {_key(name): tool for name, tool in asked.table.items()}
+        for block in blocks if asked.tool is None else ():
+            found = tool_in(block.text)
+            for word in block.words if table else ():
+                if word.address in "TD" and word.number is not None:
+                    found = found or table.get((word.address, word.number))
+            if found is not None:
+                self.lines.append(block.line)
+                self.tools.append(found)
+
+    def at(self, step: Travel) -> Tool:
+        """The tool that makes a move. Raises ToolError."""
+        place = bisect_right(self.lines, step.line)
+        tool = self.asked.tool or (self.tools[place - 1] if place else None)
+        if tool is None:
+            raise ToolError(
+                f"nothing says which tool cuts program line {step.line}; give --tool R0.8, or write the comment "
+                "(contoursolve tool: R0.8, tip 3) above it"
+            )
+        return tool if self.asked.tip is None else replace(tool, tip=self.asked.tip)
+
+
+def _key(name: str) -> tuple[str, Decimal]:
+    """The address and the number of the word that names a tool."""
+    return name[:1].upper(), Decimal(name[1:])
