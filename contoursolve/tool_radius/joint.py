@@ -29,6 +29,9 @@ from contoursolve.tolerance import LENGTH, RESIDUAL
 TANGENT = radians(0.01)
 """Turn up to which elements whose offsets do not meet are taken for tangent: words are rounded (assumed)."""
 
+STRAY = 1e-7
+"""mm. What straight on strays from the way around an outside corner where that is left out: words are rounded."""
+
 
 class Meeting(Struct, frozen=True):
     """Centre of a tool that touches two elements, and the length (mm) that it leaves of each at their common end."""
@@ -67,7 +70,7 @@ def join(before: Segment, after: Segment, radius: float, side: int) -> Joint:
     """The joint of two elements for a tool of a radius (mm) to the left (`side` +1) or right (-1) of them."""
     one, two = direction(before, at_end=True), direction(after, at_end=False)
     turn = side * atan2(one[0] * two[1] - one[1] * two[0], one[0] * two[0] + one[1] * two[1])
-    if abs(turn) * max(radius, 1.0) <= LENGTH:
+    if abs(turn) * max(radius, 1.0) <= LENGTH or (turn < 0 and radius * turn * turn / 2 <= STRAY):
         return Joint(0.0, None)
     if turn > 0:
         found = meet(before, after, radius)

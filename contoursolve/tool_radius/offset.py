@@ -10,9 +10,9 @@ from msgspec.structs import replace
 
 from contoursolve.geometry import TangentArc, TangentLine, Turn, Values, dot
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, largest_fitting
-from contoursolve.tolerance import LENGTH, REGULAR, RESIDUAL
+from contoursolve.tolerance import LENGTH, REGULAR
 from contoursolve.tool_radius.clearance import ahead, gaps_below
-from contoursolve.tool_radius.joint import Joint, direction, join, meet_outside
+from contoursolve.tool_radius.joint import STRAY, Joint, direction, join, meet_outside
 from contoursolve.tool_radius.tool import Outside
 
 GOUGE = 1e-6
@@ -228,7 +228,7 @@ def _check(elements: Sequence[Segment], pieces: Sequence[Piece], radius: float, 
         if piece.is_own:
             ends = piece.segment.start, piece.segment.end
             off = max(abs(_touching(elements[piece.element], at, radius, side)) for at in ends)
-            if not off <= RESIDUAL:
+            if not off <= 2 * STRAY:
                 yield Fault(FaultKind.NOT_VERIFIED, piece.element, off)
 
 

@@ -1,0 +1,146 @@
+"""The tool: worked examples by hand, and random contours against an oracle of points."""
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy
+import pytest
+from click.testing import CliRunner
+from examples import few_and_many
+from oracle_tool import Part, clearance, draw, is_cut
+
+from contoursolve.cli import main
+
+TABLE = Path(__file__).parent / "tables" / "tool-radius.txt"
+ROWS = [line.split(" | ") for line in TABLE.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+
+
+def run(*words: str) -> Any:
+    done = CliRunner().invoke(main, [*words])
+    assert done.exit_code in (0, 1), done.output
+    return json.loads(done.stdout)
+
+
+def examine(tool: str, start: str, program: str) -> dict[str, Any]:
+    """The only contour of a worked example."""
+    radius, *words = tool.split()
+    tip = [word[1:] for word in words if word.startswith("T")]
+    side, outside = "left" if "G41" in words else "right", "intersect" if "intersect" in words else "roll"
+    blocks = [part for block in program.split(" / ") for part in ("--block", block)]
+    control = ["--control", "fanuc-lathe", "--tip", *tip] if tip else ["--control", "fanuc-mill"]
+    options = ["--tool", radius, "--side", side, "--outside", outside, "--start", start, *control]
+    (contour,) = run("solve", "--format", "json", *options, *blocks)["contours"]
+    return dict(contour)
+
+
+def point(text: str, plane: list[str]) -> list[float]:
+    """A place of the table, X of a lathe as radius."""
+    words = dict(re.findall(r"([XYZ])(-?[\d.]+)", text))
+    return [float(words[axis]) / (2 if axis == "X" and "Z" in plane else 1) for axis in plane]
+
+
+@pytest.mark.parametrize(("number", "tool", "start", "program", "result"), ROWS, ids=[row[0] for row in ROWS])
+def test_worked_examples(number: str, tool: str, start: str, program: str, result: str):
+    contour = examine(tool, start, program)
+    found, plane = contour["tool"], contour["plane"]
+    assert contour["status"] == "solved"
+    faults = [each for each in found["faults"] if each["kind"] != "tip_against_side"]
+    if ">" not in result:
+        kind, block, short, fits = result.split()
+        (fault,) = faults
+        assert (fault["kind"], fault["element"]) == (kind, int(block) - 1)
+        assert (fault["short_by_mm"], fault["largest_radius"]) == pytest.approx((float(short), float(fits)), abs=1e-4)
+        assert found["elements"] is None
+        return
+    assert faults == []
+    begin, *moves = result.split(" > ")
+    assert found["start"] == pytest.approx(point(begin, plane), abs=1e-4)
+    assert len(found["elements"]) == len(moves)
+    for element, move in zip(found["elements"], moves, strict=True):
+        end, _, center = move.partition(" (c ")
+        assert element["end"] == pytest.approx(point(end, plane), abs=1e-4)
+        assert element["kind"] == ("arc" if center else "line")
+        if center:
+            assert element["center"] == pytest.approx(point(center, plane), abs=1e-4)
+            assert element["radius"] == pytest.approx(float(center.rpartition("R")[2].strip(")")), abs=1e-4)
+            assert element["turn"] == ("cw" if "G02" in end else "ccw")
+
+
+def test_a_tip_that_points_away_is_told():
+    contour = examine("R0.8 T3 G41", "X20. Z0.", "G01 X20. Z-10. / X30. Z-20. / X30. Z-30.")
+    deep = [each["short_by_mm"] for each in contour["tool"]["faults"]]
+    assert {each["kind"] for each in contour["tool"]["faults"]} == {"tip_against_side"}
+    assert (deep[0], deep[2]) == pytest.approx((1.6, 1.6))
+
+
+# Random contours --------------------------------------------------------------------------------------------------
+
+
+def program_of(contours: list[list[Part]], *, is_lathe: bool) -> str:
+    """Contours with rapids between them, each number with twelve decimals."""
+    axes, factor = ("ZX", 2) if is_lathe else ("XY", 1)
+
+    def place(at: complex) -> str:
+        return f"{axes[0]}{at.real:.12f} {axes[1]}{at.imag * factor:.12f}"
+
+    lines = ["G18" if is_lathe else "G17"]
+    for parts in contours:
+        lines.append(f"G00 {place(parts[0].start)}")
+        for part in parts:
+            center = part.center - part.start
+            names = ("K", "I") if is_lathe else ("I", "J")
+            words = f" {names[0]}{center.real:.12f} {names[1]}{center.imag:.12f}" if part.turn else ""
+            lines.append(f"G0{1 + (part.turn < 0) + 2 * (part.turn > 0)} {place(part.end)}{words}")
+    return "\n".join(lines)
+
+
+def parts_of(elements: list[dict[str, Any]]) -> list[Part]:
+    return [
+        Part(
+            complex(*each["start"]),
+            complex(*each["end"]),
+            complex(*each.get("center", (0, 0))),
+            {"cw": -1, "ccw": 1}.get(each.get("turn", ""), 0),
+        )
+        for each in elements
+    ]
+
+
+@few_and_many(20, 2000)
+def test_random_contours(count: int, tmp_path: Path):
+    """No path comes nearer to any wall than the radius; each stays at it; what fits is not refused."""
+    random = numpy.random.default_rng(41)
+    tips = {0: 0j, 1: 1 + 1j, 2: -1 + 1j, 3: -1 - 1j, 4: 1 - 1j, 5: 1, 6: 1j, 7: -1, 8: -1j, 9: 0j}
+    refused, undecided = 0, 0
+    for number in range(0, count, 10):
+        contours, radius = [draw(random) for _ in range(10)], round(random.uniform(0.2, 4), 2)
+        side, outside = str(random.choice(["left", "right"])), str(random.choice(["roll", "intersect"]))
+        is_lathe, tip = number % 20 == 0, number // 20 % 10
+        (tmp_path / "drawn.nc").write_text(program_of(contours, is_lathe=is_lathe))
+        options = ["--tool", f"R{radius}", "--side", side, "--outside", outside, "--rules", "off"]
+        options += ["--control", "fanuc-lathe", "--tip", str(tip)] if is_lathe else ["--control", "fanuc-mill"]
+        found = run("solve", "--format", "json", *options, str(tmp_path / "drawn.nc"))["contours"]
+        assert len(found) == len(contours)
+        for parts, contour in zip(contours, found, strict=True):
+            tool = contour["tool"]
+            says = is_cut(parts, radius, 1 if side == "left" else -1)
+            if tool["elements"] is None:
+                refused += 1
+                undecided += says is None
+                kinds = {each["kind"] for each in tool["faults"]} - {"tip_against_side"}
+                # Prolonged, a path comes to walls that it would not reach around the corner.
+                is_prolonged = outside == "intersect" and kinds == {"interference"}
+                assert says is not True or is_prolonged, (kinds, parts, radius, side)
+                continue
+            assert says is not False, (parts, radius, side)
+            path = parts_of(tool["elements"])
+            assert all(abs(one.end - two.start) < 1e-8 for one, two in zip(path, path[1:], strict=False))
+            shift = radius * tips[tip] if is_lathe else 0j
+            for piece in path:
+                off = clearance(piece.at(numpy.linspace(0, 1, 1000))[0] - shift, parts) - radius
+                assert off.min() > -2e-6
+                assert outside == "intersect" or abs(off).max() < 2e-6
+    assert refused < 0.9 * count
+    assert undecided < 0.2 * count

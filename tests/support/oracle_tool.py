@@ -1,0 +1,118 @@
+"""Whether a tool cuts a contour, and how far a path is from one, found out by points alone: no offset is computed here."""
+
+from dataclasses import dataclass
+from math import atan2, ceil, cos, sin, tau
+
+import numpy
+from numpy.typing import NDArray
+
+Points = NDArray[numpy.complex128]
+
+
+@dataclass
+class Part:
+    """A line, or an arc about a centre: `turn` is +1 to the left, -1 to the right, 0 for a line."""
+
+    start: complex
+    end: complex
+    center: complex = 0j
+    turn: int = 0
+
+    @property
+    def radius(self) -> float:
+        return abs(self.start - self.center)
+
+    @property
+    def sweep(self) -> float:
+        ratio = (self.end - self.center) / (self.start - self.center)
+        return (atan2(ratio.imag, ratio.real) * self.turn) % tau or tau
+
+    @property
+    def length(self) -> float:
+        return self.radius * self.sweep if self.turn else abs(self.end - self.start)
+
+    def at(self, shares: Points) -> tuple[Points, Points]:
+        """Places at shares of the way, and the directions of travel there."""
+        if not self.turn:
+            way = self.end - self.start
+            return self.start + shares * way, numpy.full(len(shares), way / abs(way))
+        spokes = (self.start - self.center) * numpy.exp(1j * self.turn * self.sweep * shares)
+        return self.center + spokes, 1j * self.turn * spokes / self.radius
+
+    def distances(self, points: Points) -> Points:
+        """The distance of each point."""
+        ends = numpy.minimum(abs(points - self.start), abs(points - self.end))
+        if self.turn:
+            away = points - self.center
+            angles = (numpy.angle(away / (self.start - self.center)) * self.turn) % tau
+            return numpy.where(angles <= self.sweep, numpy.minimum(abs(abs(away) - self.radius), ends), ends)
+        way = (self.end - self.start) / self.length
+        along = ((points - self.start) * way.conjugate()).real
+        aside = abs(((points - self.start) * way.conjugate()).imag)
+        return numpy.where((along >= 0) & (along <= self.length), aside, ends)
+
+
+def clearance(points: Points, parts: list[Part]) -> Points:
+    """The distance of each point from the nearest part."""
+    return numpy.min([part.distances(points) for part in parts], axis=0)
+
+
+def is_cut(parts: list[Part], radius: float, side: int, step: float = 0.01) -> bool | None:
+    """Whether a tool touches all of a contour but what lies in its inside corners, from where it goes on without a leap;
+    None where points so far apart cannot tell."""
+    before, apart = None, 0.0
+    for number, part in enumerate(parts):
+        count = max(ceil(part.length / step), 8)
+        shares = numpy.linspace(0, 1, count + 1)
+        places, ways = part.at(shares)
+        centers = places + 1j * side * radius * ways
+        off = clearance(centers, parts) - radius
+        touched = off >= -1e-7
+        if not touched.any():
+            return None if part.length < 4 * step or off.max() > -step else False
+        first, last = numpy.flatnonzero(touched)[[0, -1]]
+        if not touched[first : last + 1].all():
+            return None if off[first : last + 1].min() > -step / 10 else False
+        inside = number and _turn(parts[number - 1], part) * side > 0
+        if first and not inside:
+            return None if off[:first].min() > -step / 10 else False
+        apart = max(apart, abs(numpy.diff(centers)).max())
+        if before is not None and inside and abs(centers[first] - before) > 3 * apart:
+            return None if abs(centers[first] - before) < 30 * apart else False
+        is_inside_behind = number + 1 < len(parts) and _turn(part, parts[number + 1]) * side > 0
+        if last < count and not is_inside_behind:
+            return None if off[last + 1 :].min() > -step / 10 else False
+        before = centers[last]
+    return True
+
+
+def _turn(one: Part, other: Part) -> float:
+    """The angle between two parts, to the left positive."""
+    (_, before), (_, behind) = one.at(numpy.array([1.0])), other.at(numpy.array([0.0]))
+    ratio = complex(behind[0] / before[0])
+    return atan2(ratio.imag, ratio.real)
+
+
+def draw(random: numpy.random.Generator) -> list[Part]:
+    """A contour of lines and arcs in a row, some of them tangent, whose ends are decimals of a thousandth."""
+    here, way = complex(*random.integers(-20, 20, 2)), random.uniform(0, tau)
+    parts = list[Part]()
+    for _ in range(random.integers(2, 7)):
+        turn = 0.0 if random.random() < 0.35 and parts else random.choice([-1, 1]) * random.uniform(0.15, 2.2)
+        way += turn if parts else 0.0
+        unit = complex(cos(way), sin(way))
+        if random.random() < 0.5:
+            end = here + unit * random.uniform(0.4, 14)
+            end = complex(round(end.real, 3), round(end.imag, 3))
+            parts.append(Part(here, end))
+            way = atan2((end - here).imag, (end - here).real)
+        else:
+            bend, radius, sweep = int(random.choice([-1, 1])), random.uniform(0.5, 9), random.uniform(0.3, 3.0)
+            center = here + 1j * bend * radius * unit
+            center = complex(round(center.real, 3), round(center.imag, 3))
+            end = center + (here - center) * complex(cos(bend * sweep), sin(bend * sweep))
+            parts.append(Part(here, end, center, bend))
+            spoke = 1j * bend * (end - center)
+            way = atan2(spoke.imag, spoke.real)
+        here = parts[-1].end
+    return parts
