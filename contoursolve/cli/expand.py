@@ -13,6 +13,7 @@ from msgspec.structs import replace
 from contoursolve.api import MOST_DECIMALS
 from contoursolve.cli.options import (
     FOUND_ERRORS,
+    check_toolless,
     common_options,
     control_option,
     explaining,
@@ -21,6 +22,7 @@ from contoursolve.cli.options import (
     settings_of,
     settings_option,
     together,
+    tool_options,
     units_option,
 )
 from contoursolve.cli.printing import print_bytes, say, style_of_output
@@ -30,6 +32,7 @@ from contoursolve.gcode import (
     check_target,
     check_unprotected,
     open_program_file,
+    parse,
     program_file_of,
     write_whole,
 )
@@ -96,6 +99,7 @@ wording_options = together(
     help="For which control: the one that OLD is for, LinuxCNC, or Fanuc; with --formulas, also the others.",
 )
 @wording_options
+@tool_options
 @click.option(
     "--inline",
     "is_inline",
@@ -163,6 +167,10 @@ def expand(
     """
     if bool(blocks) == bool(program):
         raise click.UsageError("name a program (- for standard input), or give --block")
+    if options["tool"] is None:
+        check_toolless(options)
+    elif options["has_formulas"] or options["is_inline"]:
+        raise click.UsageError("--tool goes without --formulas and --inline")
     target = program_itself(program, output) if is_in_place else target_of(program, output, is_forced=is_forced)
     wish = _wish(_post_of(post, options), options)
     source = (
@@ -283,6 +291,7 @@ def _rewrite(
     progress: Callable[[float], None],
 ) -> Rewritten:
     """Expand a program."""
+    tool = {name: options[name] for name in ("tool", "tip", "side", "outside") if name in options}
     with opening as source, naming(source.name):
         return rewrite(
             source,
@@ -294,8 +303,21 @@ def _rewrite(
             control=options["control"],
             settings=settings_of(source, options["assignments"]),
             progress=progress,
-            writer=_formulas(source, wish, options) if options.get("has_formulas") else None,
+            writer=_formulas(source, wish, options)
+            if options.get("has_formulas")
+            else _beside_tool(source, start, tool, options)
+            if tool.get("tool")
+            else None,
         )
+
+
+def _beside_tool(source: OpenFile, start: str | None, tool: Mapping[str, Any], options: Mapping[str, Any]) -> Writer:
+    """The writer of the path of a tool."""
+    from contoursolve.cli.tool import moved_program  # noqa: PLC0415 - few programs need it
+
+    program = parse(source.read(), source.name)
+    asked = {name: options[name] for name in ("units", "rules", "facts", "variables", "folders", "control")}
+    return moved_program(program, start, tool, {**asked, "settings": settings_of(source, options["assignments"])})
 
 
 def _formulas(source: OpenFile, wish: ExpansionOptions, options: Mapping[str, Any]) -> Writer:

@@ -7,9 +7,13 @@ from typing import Any
 
 from msgspec.structs import replace
 
+from contoursolve.api import follow_program
 from contoursolve.cli.options import check_toolless, naming
 from contoursolve.diagnosis import rank
+from contoursolve.execution import needs_running
+from contoursolve.gcode import Program
 from contoursolve.output import Collected
+from contoursolve.postprocess import Left, MovedProgram
 from contoursolve.program import Result, Run, find_tools
 from contoursolve.reading import ReadIssue
 from contoursolve.tool_radius import (
@@ -18,10 +22,14 @@ from contoursolve.tool_radius import (
     ToolError,
     ToolReport,
     ToolRequest,
+    ToolRun,
     ToolSide,
+    lines_of,
     look_at_tool,
     make_tool,
+    moves_of,
     read_tool,
+    title_of,
     tool_in,
 )
 
@@ -44,6 +52,38 @@ def beside_tool(
     kept = [each for each in result.diagnostics if not (is_cut and each.about is ReadIssue.NO_CONTOUR)]
     found = tuple(sorted((*kept, *report.findings), key=rank))
     return Collected(replace(result, diagnostics=found), run.is_strict, tool=report)
+
+
+def moved_program(
+    program: Program, start: str | None, tool: Mapping[str, Any], options: dict[str, Any]
+) -> MovedProgram:
+    """A program along the path of its tool. Raises ToolError."""
+    run = follow_program(program, start=start, **options)
+    report = report_on(run, result := run.collect(), wanted_tool(program.name, **tool))
+    dialect = run.asked.dialect
+    if dialect is not None and needs_running((block.text for block in program.blocks), dialect.modes.language):
+        raise ToolError("a program with calls, jumps or variables has no one path; expand --inline writes it out first")
+    if dialect is not None and dialect.writing is not None:
+        raise ToolError("expand --tool writes G codes; write the program with expand --post linuxcnc first")
+    is_solved = all(answer.contour is not None for answer in result.answers)
+    if not report.runs and is_solved:
+        raise ToolError("no cutting move goes beside a contour; there is nothing to write")
+    texts = {block.line: block.text for block in program.blocks}
+    left, kept, remarks = dict[int, Left](), set[int](), dict[int, str]()
+    good = list[ToolRun]()
+    for each in report.runs:
+        lines = lines_of(each.run)
+        errors = tuple(finding for finding in report.findings if finding.is_error and finding.span.line in lines)
+        if errors:
+            sources = {line: texts[line] for line in lines}
+            left[lines[0]] = Left(lines, f"{errors[0].code}: {errors[0].message}", errors, sources)
+            kept |= {*lines}
+        else:
+            remarks[lines[0]] = title_of(each)
+            good.append(each)
+    # Beside a contour that stays, compensation stays, too.
+    kept |= set() if is_solved else {*texts}
+    return MovedProgram(moves_of(replace(report, runs=tuple(good))), left, kept, remarks)
 
 
 def wanted_tool(program: str, tool: str | None, tip: int | None, side: str | None, outside: str) -> ToolRequest:

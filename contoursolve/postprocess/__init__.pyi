@@ -9,6 +9,7 @@ from .expansion_report import (
     ConversionError as ConversionError,
     Expansion as Expansion,
     ExpansionOptions as ExpansionOptions,
+    Left as Left,
     Summary as Summary,
 )
 from .formatting import (
@@ -17,6 +18,9 @@ from .formatting import (
 from .formulas.formula_request import (
     formulas_for as formulas_for,
     post_of_formulas as post_of_formulas,
+)
+from .moved import (
+    MovedProgram as MovedProgram,
 )
 from .post_processors import (
     POSTS as POSTS,

@@ -6,6 +6,11 @@ from .findings import (
 from .joint import (
     Joint as Joint,
 )
+from .moves import (
+    lines_of as lines_of,
+    moves_of as moves_of,
+    title_of as title_of,
+)
 from .offset import (
     Fault as Fault,
     FaultKind as FaultKind,

@@ -64,6 +64,8 @@ class ToolReport(Struct, frozen=True):
 
     runs: tuple[ToolRun, ...]
     findings: tuple[Diagnostic, ...]
+    axes: tuple[str, ...]
+    """Those of the control, in the order of the places of moves."""
 
 
 class _Row(Struct, frozen=True):
@@ -125,7 +127,7 @@ def look_at_tool(result: Result, dialect: Dialect, asked: Request, wanted: ToolR
     runs = _tool_runs(result, dialect, asked, wanted)
     told = _Findings(result, dialect, asked, wanted)
     found = [each for tool_run in runs for each in told.of(tool_run)]
-    return ToolReport(tuple(runs), tuple(sorted(found, key=rank)))
+    return ToolReport(tuple(runs), tuple(sorted(found, key=rank)), dialect.modes.axes)
 
 
 def _tool_runs(result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest) -> list[ToolRun]:

@@ -1,26 +1,17 @@
 """The tool: worked examples by hand, and random contours against an oracle of points."""
 
-import json
 import re
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy
 import pytest
-from click.testing import CliRunner
 from examples import few_and_many
-from oracle_tool import Part, clearance, draw, is_cut
-
-from contoursolve.cli import main
+from oracle_tool import TIPS, clearance, draw, is_cut, parts_of, program_of, run
 
 TABLE = Path(__file__).parent / "tables" / "tool-radius.txt"
 ROWS = [line.split(" | ") for line in TABLE.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
-
-
-def run(*words: str) -> Any:
-    done = CliRunner().invoke(main, [*words])
-    assert done.exit_code in (0, 1), done.output
-    return json.loads(done.stdout)
 
 
 def examine(tool: str, start: str, program: str) -> dict[str, Any]:
@@ -78,41 +69,10 @@ def test_a_tip_that_points_away_is_told():
 # Random contours --------------------------------------------------------------------------------------------------
 
 
-def program_of(contours: list[list[Part]], *, is_lathe: bool) -> str:
-    """Contours with rapids between them, each number with twelve decimals."""
-    axes, factor = ("ZX", 2) if is_lathe else ("XY", 1)
-
-    def place(at: complex) -> str:
-        return f"{axes[0]}{at.real:.12f} {axes[1]}{at.imag * factor:.12f}"
-
-    lines = ["G18" if is_lathe else "G17"]
-    for parts in contours:
-        lines.append(f"G00 {place(parts[0].start)}")
-        for part in parts:
-            center = part.center - part.start
-            names = ("K", "I") if is_lathe else ("I", "J")
-            words = f" {names[0]}{center.real:.12f} {names[1]}{center.imag:.12f}" if part.turn else ""
-            lines.append(f"G0{1 + (part.turn < 0) + 2 * (part.turn > 0)} {place(part.end)}{words}")
-    return "\n".join(lines)
-
-
-def parts_of(elements: list[dict[str, Any]]) -> list[Part]:
-    return [
-        Part(
-            complex(*each["start"]),
-            complex(*each["end"]),
-            complex(*each.get("center", (0, 0))),
-            {"cw": -1, "ccw": 1}.get(each.get("turn", ""), 0),
-        )
-        for each in elements
-    ]
-
-
 @few_and_many(20, 2000)
 def test_random_contours(count: int, tmp_path: Path):
     """No path comes nearer to any wall than the radius; each stays at it; what fits is not refused."""
     random = numpy.random.default_rng(41)
-    tips = {0: 0j, 1: 1 + 1j, 2: -1 + 1j, 3: -1 - 1j, 4: 1 - 1j, 5: 1, 6: 1j, 7: -1, 8: -1j, 9: 0j}
     refused, undecided = 0, 0
     for number in range(0, count, 10):
         contours, radius = [draw(random) for _ in range(10)], round(random.uniform(0.2, 4), 2)
@@ -136,8 +96,8 @@ def test_random_contours(count: int, tmp_path: Path):
                 continue
             assert says is not False, (parts, radius, side)
             path = parts_of(tool["elements"])
-            assert all(abs(one.end - two.start) < 1e-8 for one, two in zip(path, path[1:], strict=False))
-            shift = radius * tips[tip] if is_lathe else 0j
+            assert all(abs(one.end - two.start) < 1e-8 for one, two in pairwise(path))
+            shift = radius * TIPS[tip] if is_lathe else 0j
             for piece in path:
                 off = clearance(piece.at(numpy.linspace(0, 1, 1000))[0] - shift, parts) - radius
                 assert off.min() > -2e-6

@@ -1,10 +1,15 @@
-"""Whether a tool cuts a contour, and how far a path is from one, found out by points alone: no offset is computed here."""
+"""Whether a tool cuts a contour, and how far a path is from one, by points alone: no offset is computed here."""
 
+import json
 from dataclasses import dataclass
 from math import atan2, ceil, cos, sin, tau
+from typing import Any
 
 import numpy
+from click.testing import CliRunner
 from numpy.typing import NDArray
+
+from contoursolve.cli import main
 
 Points = NDArray[numpy.complex128]
 
@@ -58,9 +63,10 @@ def clearance(points: Points, parts: list[Part]) -> Points:
 
 
 def is_cut(parts: list[Part], radius: float, side: int, step: float = 0.01) -> bool | None:
-    """Whether a tool touches all of a contour but what lies in its inside corners, from where it goes on without a leap;
+    """Whether a tool touches all of a contour but what lies in its inside corners, where it goes on without a leap;
     None where points so far apart cannot tell."""
-    before, apart = None, 0.0
+    before: complex | None = None
+    apart = 0.0
     for number, part in enumerate(parts):
         count = max(ceil(part.length / step), 8)
         shares = numpy.linspace(0, 1, count + 1)
@@ -116,3 +122,43 @@ def draw(random: numpy.random.Generator) -> list[Part]:
             way = atan2(spoke.imag, spoke.real)
         here = parts[-1].end
     return parts
+
+
+TIPS = {0: 0j, 1: 1 + 1j, 2: -1 + 1j, 3: -1 - 1j, 4: 1 - 1j, 5: 1, 6: 1j, 7: -1, 8: -1j, 9: 0j}
+"""From the centre of a nose to the programmed point, in radii, by the number of the tip."""
+
+
+def run(*words: str) -> Any:
+    done = CliRunner().invoke(main, [*words])
+    assert done.exit_code in (0, 1), done.output
+    return json.loads(done.stdout)
+
+
+def program_of(contours: list[list[Part]], *, is_lathe: bool, factor: int = 2) -> str:
+    """Contours with rapids between them, each number with twelve decimals; X of a lathe counts so many times."""
+    axes, factor = ("ZX", factor) if is_lathe else ("XY", 1)
+
+    def place(at: complex) -> str:
+        return f"{axes[0]}{at.real:.12f} {axes[1]}{at.imag * factor:.12f}"
+
+    lines = ["G18" if is_lathe else "G17"]
+    for parts in contours:
+        lines.append(f"G00 {place(parts[0].start)}")
+        for part in parts:
+            center = part.center - part.start
+            names = ("K", "I") if is_lathe else ("I", "J")
+            words = f" {names[0]}{center.real:.12f} {names[1]}{center.imag:.12f}" if part.turn else ""
+            lines.append(f"G0{1 + (part.turn < 0) + 2 * (part.turn > 0)} {place(part.end)}{words}")
+    return "\n".join(lines)
+
+
+def parts_of(elements: list[dict[str, Any]]) -> list[Part]:
+    return [
+        Part(
+            complex(*each["start"]),
+            complex(*each["end"]),
+            complex(*each.get("center", (0, 0))),
+            {"cw": -1, "ccw": 1}.get(each.get("turn", ""), 0),
+        )
+        for each in elements
+    ]

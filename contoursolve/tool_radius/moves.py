@@ -1,0 +1,66 @@
+"""The moves of a program for the path of its tool: what each of its lines makes instead of what it states."""
+
+from collections.abc import Iterator, Mapping
+from math import nan
+
+from contoursolve.comparison import Motion, Travel
+from contoursolve.solving import LineSegment, Point, Segment
+from contoursolve.tool_radius.findings import ToolReport, ToolRun
+from contoursolve.tool_radius.runs import Run, place_of
+
+Moves = tuple[tuple[Segment, bool], ...]
+"""Elements, each with whether it is a rapid."""
+
+
+def moves_of(report: ToolReport) -> Mapping[int, Moves]:
+    """The elements of each line beside which the tool goes, and of the moves that lead there and away."""
+    found, ends = dict[int, list[tuple[Segment, bool]]](), dict[int, Point]()
+    """Where the tool really is behind a move, and before it."""
+    starts = dict[int, Point]()
+    for each in report.runs:
+        if each.path is not None:
+            ends |= {id(each.run.lead): each.path.start} if each.run.lead is not None else {}
+            starts |= {id(each.run.leaving): each.path.end} if each.run.leaving is not None else {}
+    told = set[int]()
+    for each in report.runs:
+        if each.path is None:
+            continue
+        for travel in filter(None, (each.run.lead, *each.run.travels, each.run.leaving)):
+            line = found.setdefault(travel.line, [])
+            if id(travel) in told:
+                continue
+            told.add(id(travel))
+            if travel in (each.run.lead, each.run.leaving):
+                start, end = (_known(travel, report, at_end=at_end) for at_end in (False, True))
+                segment = LineSegment("", starts.get(id(travel), start), ends.get(id(travel), end))
+                line.append((segment, travel.motion is Motion.RAPID))
+                continue
+            if each.run.lead is None and travel is each.run.travels[0]:
+                line.append((LineSegment("", each.part.start, each.path.start), True))
+            line += _pieces(each, travel)
+    return {line: tuple(moves) for line, moves in found.items()}
+
+
+def _pieces(each: ToolRun, travel: Travel) -> Iterator[tuple[Segment, bool]]:
+    for piece in each.offset.pieces or ():
+        if each.run.travels[piece.element] is travel:
+            yield each.written(piece), travel.motion is Motion.RAPID
+
+
+def _known(travel: Travel, report: ToolReport, *, at_end: bool) -> Point:
+    """Where a move begins or ends; what is not known is no number, and is not needed."""
+    first, second = place_of(travel, report.axes, at_end=at_end)
+    return nan if first is None else first, nan if second is None else second
+
+
+def lines_of(own: Run) -> tuple[int, ...]:
+    """The program lines of a run and of what leads there and away."""
+    travels = filter(None, (own.lead, *own.travels, own.leaving))
+    return tuple(dict.fromkeys(travel.line for travel in travels))
+
+
+def title_of(each: ToolRun) -> str:
+    """The tool for which a path holds."""
+    own = each.run
+    kind = f"nose R{own.tool.radius}, tip {own.tool.tip}" if own.is_lathe else f"cutter R{own.tool.radius}"
+    return f"path of the {'tip' if own.is_lathe else 'centre'} for {kind}, {own.side.value} of the contour"
