@@ -1,0 +1,190 @@
+"""The tool on the command line: how it is stated, what is said of it, and what is written."""
+
+import re
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+from oracle_tool import run
+
+from contoursolve.cli import main
+
+TABLES = Path(__file__).parents[1] / "oracles" / "tables"
+LATHE, MILL = ("--control", "fanuc-lathe"), ("--control", "fanuc-mill")
+TAPER = ("--start", "X20. Z0.", "--block", "G01 X20. Z-10.", "--block", "X30. Z-20.", "--block", "X30. Z-30.")
+NOSE = ("--tool", "R0.8", "--tip", "3")
+COMPENSATED = """\
+N1 G21 G40 G18
+N5 G00 X40. Z5.
+N6 G42 G00 X20. Z2. D1
+N10 G01 Z-10. F0.2
+N20 X30. Z-20.
+N30 Z-30.
+N40 G40 X50.
+N50 G00 Z100.
+"""
+
+
+def call(*words: str | Path) -> Result:
+    return CliRunner().invoke(main, [str(word) for word in words])
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (
+            ("--tool", "R-1", "--tip", "3", "--side", "left"),
+            "the radius of the tool is R-1; it must not be less than 0",
+        ),
+        (("--tool", "R0.8", "--tip", "12", "--side", "left"), "there is no tip 12; the tips have the numbers 0 to 9"),
+        (("--tool", "8mm", "--tip", "3", "--side", "left"), "'8mm' is no tool; write its radius, such as R0.8"),
+        (("--tool", "R0.8", "--side", "left"), "a turning tool needs the number of its imaginary tip"),
+        (NOSE, "nothing says on which side of the contour the tool runs"),
+        (("--tool", "program", "--side", "left"), "nothing says which tool cuts program line 1"),
+        (("--tip", "3"), "--tip goes with --tool"),
+        (("--side", "left"), "--side goes with --tool"),
+    ],
+)
+def test_what_is_no_tool_is_told_in_one_sentence(words: tuple[str, ...], told: str):
+    for command in ("check", "solve", "expand"):
+        done = call(command, *LATHE, *words, *TAPER)
+        assert done.exit_code == 2
+        assert told in done.stderr
+        assert done.stdout == ""
+
+
+def test_a_side_against_the_program_and_a_tip_of_a_cutter(tmp_path: Path):
+    (tmp_path / "a.nc").write_text(COMPENSATED)
+    done = call("check", *LATHE, *NOSE, "--side", "left", tmp_path / "a.nc")
+    assert (done.exit_code, done.stderr.count("\n")) == (2, 1)
+    assert "--side left is against G42 in program line 3" in done.stderr
+    assert call("check", *LATHE, *NOSE, "--side", "right", tmp_path / "a.nc").exit_code == 0
+    done = call("check", *MILL, *NOSE, "--side", "left", "--start", "X0 Y0", "--block", "G01 X5. Y5.")
+    assert "a cutter has no imaginary tip" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("statement", "table"),
+    [
+        ("(contoursolve tool: R0.8, tip 3)", ""),
+        ("T0101", "[tools]\nT0101 = {radius = 0.8, tip = 3}\n"),
+        ("(no tool)", "[tools]\nD1 = {radius = 0.8, tip = 3}\n"),
+    ],
+)
+def test_a_program_states_its_tool(statement: str, table: str, tmp_path: Path):
+    (tmp_path / "a.nc").write_text(f"{statement}\n{COMPENSATED}")
+    (tmp_path / "contoursolve.toml").write_text(table)
+    options = ("--tool", "program") if table else ()
+    (contour,) = run("solve", "--format", "json", *LATHE, *options, str(tmp_path / "a.nc"))["contours"]
+    assert (contour["tool"]["radius"], contour["tool"]["tip"], contour["tool"]["side"]) == (0.8, 3, "right")
+    assert contour["lines"] == [5, 6, 7]
+    assert contour["tool"]["elements"][-1]["end"] == [-30.8, 15.0]
+
+
+def test_an_inch_program_states_an_inch_tool():
+    blocks = ("--block", "G20 G18 G01 X.8 Z-.4", "--block", "X1.2 Z-.8", "--start", "X.8 Z0", "--units", "inch")
+    words = ("--tool", "R.0315", "--tip", "3", "--side", "right")
+    (contour,) = run("solve", "--format", "json", *LATHE, *words, *blocks)["contours"]
+    assert contour["tool"]["radius"] == pytest.approx(0.8001)
+
+
+def test_findings_name_the_word_what_fits_and_a_fix_that_was_tried():
+    words = ("--tool", "R2.4", "--tip", "3", "--side", "right")
+    done = call("check", *words, TABLES / "flange.nc")
+    assert done.exit_code == 1
+    text = done.stdout
+    assert "the inside arc of radius 2.0000 mm is 0.4000 mm too small for the nose R2.4" in text
+    assert "flange.nc:14:11" in text
+    assert "a nose of radius up to 2.0000 mm cuts the whole contour (tried)" in text
+    assert "write ,R2.4 for ,R2." in text
+    assert "control: alarm 41 (derived)" in text
+    assert text.endswith("2 contours solved, 1 error, 1 info\n")
+    fixed = (TABLES / "flange.nc").read_text().replace(",R2.", ",R2.4")
+    done = CliRunner().invoke(main, ["check", *words, "-"], input=fixed)
+    assert done.exit_code == 0
+
+
+def test_a_groove_and_a_neck_are_told_with_their_widths():
+    groove = ["X30. Z-10.", "X20. Z-10.", "X20. Z-11.5", "X30. Z-11.5", "X30. Z-20."]
+    blocks = [word for block in groove for word in ("--block", f"G01 {block}")]
+    text = call("check", *LATHE, *NOSE, "--side", "right", "--start", "X30. Z0.", *blocks).stdout
+    assert "the groove is 1.5000 mm wide; this nose needs 1.6000 mm" in text
+    neck = ["G01 X-4. Y9.1652", "G03 X4. Y9.1652 I4. J-9.1652", "G01 X4. Y20."]
+    blocks = [word for block in neck for word in ("--block", block)]
+    words = ("--explain", "--tool", "R6", "--side", "left", "--start", "X-4. Y20.")
+    text = call("check", *MILL, *words, *blocks).stdout
+    assert "the cutter R6 cuts 4.0000 mm into program line 3 while it works on program line 1" in text
+    assert "the control looks two moves ahead (printed)" in text
+
+
+def test_entry_and_exit(tmp_path: Path):
+    program = COMPENSATED.replace("Z2. D1", "Z0.5").replace("Z5.", "Z1.").replace("X40.", "X20.")
+    (tmp_path / "a.nc").write_text(program)
+    text = call("check", *LATHE, *NOSE, tmp_path / "a.nc").stdout
+    assert "warning[tool-entry-too-short]: the move to the contour is 0.5000 mm long, 0.3000 mm shorter" in text
+    (tmp_path / "a.nc").write_text(COMPENSATED.replace("G42 G00 X20. Z2. D1", "G42 G03 X20. Z2. R20."))
+    done = call("check", *LATHE, *NOSE, tmp_path / "a.nc")
+    assert (done.exit_code, "control: alarm 34 (printed)" in done.stdout) == (1, True)
+
+
+# What is written --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("source", "path", "words"),
+    [
+        ("flange.nc", "flange-tip.nc", ("--tool", "R0.8", "--tip", "3", "--side", "right", *LATHE)),
+        ("plate.nc", "plate-centre.nc", ("--tool", "R4", "--side", "left", *MILL)),
+    ],
+)
+def test_whole_programs_are_written_as_by_hand(source: str, path: str, words: tuple[str, ...], tmp_path: Path):
+    done = call("expand", TABLES / source, *words, "-o", tmp_path / "new.nc")
+    assert done.exit_code == 0, done.stderr
+    assert "1 contour expanded, at most 0.0006 mm off" in done.stderr or "at most 0.0005 mm off" in done.stderr
+    done = call("diff", tmp_path / "new.nc", TABLES / path, *words[-2:], "--tolerance", "0.0012")
+    assert done.exit_code == 0, done.stdout
+
+
+def test_compensation_is_taken_out_and_all_else_stays(tmp_path: Path):
+    (tmp_path / "a.nc").write_text(COMPENSATED)
+    text = call("expand", *LATHE, *NOSE, "--no-comments", tmp_path / "a.nc").stdout
+    assert text.splitlines() == [
+        "N1 G21 G18",
+        "N5 G00 X40. Z5.",
+        "(path of the tip for nose R0.8, tip 3, right of the contour)",
+        "N6 G00 X20. Z1.2",
+        "N10 G01 X20. Z-10.611 F0.2",
+        "N20 G01 X29.831 Z-20.442",
+        "G03 X30. Z-20.8 I-0.716 K-0.358",
+        "N30 G01 X30. Z-30.8",
+        "N40 G01 X50. Z-30.",
+        "N50 G00 Z100.",
+    ]
+
+
+def test_increments_lead_to_the_same_places(tmp_path: Path):
+    """The same contour in absolute and in incremental words, with a move of a third axis in each of its rapids."""
+    places = [(10, 10), (10, 35), (20, 45), (30, 35), (30, 10), (50, 0), (55, 5)]
+    words = ["G41 G01 {} F100", "{}", "{}", "G02 {} I0 J-10.", "G01 {}", "G40 {}", "G00 {} Z5."]
+    absolute, steps, before = ["G17 G90 G00 X0 Y0 Z9."], ["G17 G90 G00 X0 Y0 Z9.", "G91"], (0, 0)
+    for place, word in zip(places, words, strict=True):
+        absolute.append(word.format(f"X{place[0]}. Y{place[1]}."))
+        steps.append(word.format(f"X{place[0] - before[0]}. Y{place[1] - before[1]}.").replace("Z5.", "Z-4."))
+        before = place
+    for name, lines in (("absolute.nc", absolute), ("steps.nc", steps)):
+        (tmp_path / name).write_text("\n".join(lines) + "\n")
+        done = call("expand", *MILL, "--tool", "R4", "--no-comments", tmp_path / name, "-o", tmp_path / f"new-{name}")
+        assert done.exit_code == 0, done.stderr
+        assert not re.search(r"G4[012]|D\d", (tmp_path / f"new-{name}").read_text())
+    done = call("diff", tmp_path / "new-absolute.nc", tmp_path / "new-steps.nc", *MILL, "--tolerance", "0.005")
+    assert done.exit_code == 0, done.stdout
+
+
+def test_nothing_is_written_where_the_tool_does_not_fit(tmp_path: Path):
+    words = ("--tool", "R2.4", "--tip", "3", "--side", "right")
+    done = call("expand", TABLES / "flange.nc", *words, "-o", tmp_path / "new.nc")
+    assert (done.exit_code, (tmp_path / "new.nc").exists()) == (1, False)
+    done = call("expand", TABLES / "flange.nc", *words, "--keep-going")
+    assert done.exit_code == 1
+    assert "N60 Z-70. ,R2." in done.stdout.splitlines()
+    assert "NOT EXPANDED: tool-arc-too-small" in done.stdout
