@@ -16,7 +16,6 @@ from .offset import (
     FaultKind as FaultKind,
     Offset as Offset,
     Piece as Piece,
-    offset as offset,
 )
 from .runs import (
     Run as Run,

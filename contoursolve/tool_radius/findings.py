@@ -17,7 +17,7 @@ from contoursolve.reading import Dialect
 from contoursolve.solving import ArcSegment, Contour, LineSegment, Segment
 from contoursolve.tolerance import LENGTH
 from contoursolve.tool_radius.joint import direction
-from contoursolve.tool_radius.offset import Fault, FaultKind, Offset, Piece, offset, tip_faults
+from contoursolve.tool_radius.offset import Fault, FaultKind, Offset, Piece, tip_faults
 from contoursolve.tool_radius.runs import Run, ToolRequest, find_runs, place_of
 
 _SOURCE = Source(OWN, "geometry of the tool's radius", Evidence.DERIVED)
@@ -137,7 +137,7 @@ def _tool_runs(result: Result, dialect: Dialect, asked: Request, wanted: ToolReq
 
 
 def _with_faults(each: Run, axes: tuple[str, ...], wanted: ToolRequest, facts: ToolFacts) -> ToolRun:
-    made = offset(each.elements, each.radius, each.side.sign, wanted.outside, each.is_wall)
+    made = Offset(each.elements, each.radius, each.side.sign, wanted.outside, each.is_wall)
     faults, lead, leaving = list(made.faults), each.lead if each.is_stated else None, each.leaving
     if lead is not None and lead.bend is not None:
         faults.append(Fault(FaultKind.ENTRY_BY_ARC, 0))
@@ -223,7 +223,7 @@ class _Findings:
         """What fits, and where."""
         kind, unit = _kind(own), own.unit
         if fault.largest is not None and fault.largest > LENGTH:
-            tried = offset(own.elements, fault.largest, own.side.sign, self.wanted.outside, own.is_wall)
+            tried = Offset(own.elements, fault.largest, own.side.sign, self.wanted.outside, own.is_wall)
             fits = written(fault.largest / float(unit.in_mm), unit.value, 1)
             whole = "the whole contour (tried)" if not tried.faults else "this place"
             yield f"a {kind} of radius up to {fits} cuts {whole}"

@@ -49,9 +49,9 @@ class Joint(Struct, frozen=True):
     meeting: Meeting | None
 
     @property
-    def is_inside(self) -> bool:
-        """Whether the tool stands in the corner."""
-        return self.turn > 0
+    def is_lost(self) -> bool:
+        """Whether the tool does not come into the corner, in which it would have to stand."""
+        return self.turn > 0 and self.meeting is None
 
 
 def direction(segment: Segment, *, at_end: bool) -> Point:

@@ -2,17 +2,18 @@
 
 from collections.abc import Iterator, Sequence
 from enum import Enum
+from functools import cached_property
 from itertools import pairwise
 from math import dist, nan
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.geometry import TangentArc, TangentLine, Turn, Values, dot
+from contoursolve.geometry import FIRST, SECOND, Fact, TangentArc, TangentLine, Turn, Values, dot
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, largest_fitting
 from contoursolve.tolerance import LENGTH, REGULAR
 from contoursolve.tool_radius.clearance import ahead, gaps_below
-from contoursolve.tool_radius.joint import STRAY, Joint, direction, join, meet_outside
+from contoursolve.tool_radius.joint import STRAY, direction, join, meet_outside
 from contoursolve.tool_radius.tool import Outside
 
 GOUGE = 1e-6
@@ -65,32 +66,181 @@ class Piece(Struct, frozen=True):
     is_own: bool = True
 
 
-class Offset(Struct, frozen=True):
-    """The path of a tool's centre beside elements, None where it does not fit, its faults, and the joints."""
+class Gouge(Struct, frozen=True):
+    """How deep (mm) a tool cuts into a wall while it works on another element, and where."""
 
-    pieces: tuple[Piece, ...] | None
-    faults: tuple[Fault, ...]
-    joints: tuple[Joint, ...]
+    depth: float
+    wall: int
+    working: int
+    at: Point
+
+    def is_like(self, other: "Gouge", radius: float) -> bool:
+        """Whether it is one fault with another: near it, on the same wall, or seen from the other side."""
+        is_turned = abs(self.wall - other.working) <= 1 and abs(self.working - other.wall) <= 1
+        return is_turned or self.wall == other.wall or dist(self.at, other.at) <= 2 * radius
 
 
-def offset(
-    elements: Sequence[Segment],
-    radius: float,
-    side: int,
-    outside: Outside = Outside.ROLL,
-    is_wall: Sequence[bool] | None = None,
-) -> Offset:
+class Offset:
     """The path of the centre of a tool of a radius (mm) to the left (`side` +1) or right (-1) of elements, square to
     the first and the last one at its ends; those that are no wall are rapids, into which nothing cuts."""
-    joints = [join(one, two, radius, side) for one, two in pairwise(elements)]
-    faults = list(_local_faults(elements, joints, radius, side))
-    if faults:
-        return Offset(None, tuple(faults), tuple(joints))
-    pieces = tuple(_pieces(elements, joints, radius, side, outside))
-    faults += _check(elements, pieces, radius, side)
-    if not faults:
-        faults += _interferences(elements, pieces, radius, side, outside, is_wall)
-    return Offset(None if faults else pieces, tuple(faults), tuple(joints))
+
+    def __init__(
+        self,
+        elements: Sequence[Segment],
+        radius: float,
+        side: int,
+        outside: Outside = Outside.ROLL,
+        is_wall: Sequence[bool] | None = None,
+    ) -> None:
+        self.elements, self.radius, self.side, self.outside = elements, radius, side, outside
+        self.is_wall = is_wall or [True] * len(elements)
+        self.joints = [join(one, two, radius, side) for one, two in pairwise(elements)]
+
+    @cached_property
+    def faults(self) -> tuple[Fault, ...]:
+        """What does not fit: of neighbours, or else what our own check finds, or else of any elements."""
+        return tuple(self._local()) or tuple(self._unverified()) or tuple(self._interferences())
+
+    @cached_property
+    def pieces(self) -> tuple[Piece, ...] | None:
+        """The path; None where it does not fit."""
+        return None if self.faults else self._pieces
+
+    # What fits --------------------------------------------------------------------------------------------------
+
+    def _local(self) -> Iterator[Fault]:
+        """The faults that each element has with its neighbours."""
+        small = set[int]()
+        for number, element in enumerate(self.elements):
+            short = self.radius - element.radius if isinstance(element, ArcSegment) else 0.0
+            if isinstance(element, ArcSegment) and element.turn.sign == self.side and short > LENGTH:
+                yield Fault(FaultKind.ARC_TOO_SMALL, number, short, element.radius, element.length)
+                small |= {number - 1, number, number + 1}
+        for number, joint in enumerate(self.joints):
+            if joint.is_lost and number not in small:
+                yield self._fault(FaultKind.NO_INTERSECTION, number, None, slice(number, number + 2))
+                small |= {number, number + 1}
+        for number in range(len(self.elements)):
+            if (room := self._room(number)) < -LENGTH and number not in small:
+                near = slice(max(0, number - 1), number + 2)
+                yield self._fault(FaultKind.ELEMENT_VANISHES, number, -room, near)
+
+    def _fault(self, kind: FaultKind, number: int, short: float | None, near: slice) -> Fault:
+        largest = self.largest(near)
+        short = self.radius - largest if short is None else short
+        return Fault(kind, number, short, largest, self.elements[number].length)
+
+    def largest(self, near: slice) -> float:
+        """The largest radius (mm) with which some elements in a row, at most all, can be cut."""
+
+        def left(size: float) -> float:
+            part = Offset(self.elements[near], size, self.side, self.outside, self.is_wall[near])
+            arcs = [
+                each.radius for each in part.elements if isinstance(each, ArcSegment) and each.turn.sign == self.side
+            ]
+            if any(joint.is_lost for joint in part.joints) or any(size > radius + LENGTH for radius in arcs):
+                return nan
+            room = min(part._room(number) for number in range(len(part.elements)))
+            deepest = max((each.depth for each in part._gouges()), default=-GOUGE) if room >= 0 else 0.0
+            return min(room, -deepest)
+
+        return largest_fitting(left, self.radius)
+
+    def _room(self, number: int) -> float:
+        """What the corners at both ends leave of an element, mm."""
+        before = self.joints[number - 1].meeting if number else None
+        behind = self.joints[number].meeting if number < len(self.joints) else None
+        taken = (before.ahead if before else 0.0) + (behind.back if behind else 0.0)
+        return self.elements[number].length - taken
+
+    # The path ---------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _pieces(self) -> tuple[Piece, ...]:
+        moved = [self._moved(element) for element in self.elements]
+        found = list[Piece]()
+        for number, element in enumerate(self.elements):
+            around: list[Segment] = []
+            if number < len(self.joints):
+                moved[number], around, moved[number + 1] = self._joined(number, moved[number], moved[number + 1])
+            own = moved[number]
+            is_full = isinstance(own, ArcSegment) and own.radius > LENGTH and dist(element.start, element.end) <= LENGTH
+            found += [Piece(own, number)] if is_full or dist(own.start, own.end) > LENGTH else []
+            found += [Piece(each, number, is_own=False) for each in around if dist(each.start, each.end) > LENGTH]
+        return tuple(found)
+
+    def _moved(self, element: Segment) -> Segment:
+        """An element moved to the side: a line as it is, an arc about the same centre."""
+        if isinstance(element, ArcSegment):
+            reach = max(element.radius - self.side * element.turn.sign * self.radius, 0.0)
+            base, share, ends = element.center, reach / element.radius, (element.start, element.end)
+            start, end = (ahead(base, (at[0] - base[0], at[1] - base[1]), share) for at in ends)
+            return replace(element, start=start, end=end, radius=reach)
+        normal = normal_of(element, self.side, at_end=False)
+        start, end = (ahead(at, normal, self.radius) for at in (element.start, element.end))
+        return replace(element, start=start, end=end)
+
+    def _joined(self, number: int, before: Segment, after: Segment) -> tuple[Segment, list[Segment], Segment]:
+        """The offsets of an element and the next one, and the way around the corner between them."""
+        joint, here, there = self.joints[number], before.end, after.start
+        one, other = self.elements[number], self.elements[number + 1]
+        if joint.meeting is not None:
+            return replace(before, end=joint.meeting.center), [], replace(after, start=joint.meeting.center)
+        if joint.turn >= 0:
+            return before, [], replace(after, start=here)
+        if self.outside is Outside.ROLL:
+            turn = Turn.CW if self.side > 0 else Turn.CCW
+            return before, [ArcSegment("", here, there, one.end, self.radius, turn)], after
+        way, on = direction(one, at_end=True), direction(other, at_end=False)
+        found = meet_outside(one, other, self.radius) if dot(way, on) >= -REGULAR else None
+        places = [ahead(here, way, self.radius), ahead(there, on, -self.radius)]
+        places = [found.center] if found is not None else places
+        # A line goes on to where the way around begins; beside an arc, its tangent does.
+        if isinstance(before, LineSegment):
+            before = replace(before, end=places[0])
+        if isinstance(after, LineSegment):
+            after = replace(after, start=places[-1])
+        places = [before.end, *places, after.start]
+        return before, [LineSegment("", a, b) for a, b in pairwise(places)], after
+
+    # Our own check ----------------------------------------------------------------------------------------------
+
+    def _unverified(self) -> Iterator[Fault]:
+        """The elements along which the centre is not at the radius, by the equation of a circle that touches them."""
+        for piece in self._pieces:
+            ends = (piece.segment.start, piece.segment.end) if piece.is_own else ()
+            off = max((abs(self._touching(self.elements[piece.element], at)) for at in ends), default=0.0)
+            if not off <= 2 * STRAY:
+                yield Fault(FaultKind.NOT_VERIFIED, piece.element, off)
+
+    def _touching(self, element: Segment, at: Point) -> float:
+        """By how much (mm) a circle of the radius about a place does not touch an element on the tool's side."""
+        scalars = {"P.0": at[0] - element.start[0], "P.1": at[1] - element.start[1], "R": self.radius}
+        fact: Fact
+        if isinstance(element, ArcSegment):
+            scalars |= {f"C.{axis}": element.center[axis] - element.start[axis] for axis in (FIRST, SECOND)}
+            fact, scalars["r"] = TangentArc(("C", "r"), element.turn, "P", "R", self.side), element.radius
+        else:
+            scalars["L.off"], (scalars["L.cos"], scalars["L.sin"]) = 0.0, direction(element, at_end=False)
+            fact = TangentLine("L", "P", "R", self.side)
+        return float(fact.residual(Values(scalars, {}, {})))
+
+    def _gouges(self) -> Iterator[Gouge]:
+        walls = [number for number in range(len(self.elements)) if self.is_wall[number]]
+        paths, parts = [piece.segment for piece in self._pieces], [self.elements[number] for number in walls]
+        for gap in gaps_below(paths, parts, self.radius - GOUGE):
+            yield Gouge(self.radius - gap.distance, walls[gap.wall], self._pieces[gap.piece].element, gap.at)
+
+    def _interferences(self) -> Iterator[Fault]:
+        """Walls into which the tool cuts beside another element: of each place, the deepest."""
+        told, largest = list[Gouge](), 0.0
+        for each in sorted(self._gouges(), key=lambda gouge: (-round(gouge.depth, 6), -gouge.wall)):
+            if any(each.is_like(other, self.radius) for other in told):
+                continue
+            largest = largest if told else self.largest(slice(None))
+            told.append(each)
+            length = self.elements[each.wall].length
+            yield Fault(FaultKind.INTERFERENCE, each.wall, each.depth, largest, length, each.working, each.at)
 
 
 def tip_faults(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[Fault]:
@@ -107,175 +257,3 @@ def normal_of(element: Segment, side: int, *, at_end: bool) -> Point:
     """The unit normal from the surface to the tool at an end of an element."""
     first, second = direction(element, at_end=at_end)
     return -second * side, first * side
-
-
-# What fits ------------------------------------------------------------------------------------------------------
-
-
-def _local_faults(elements: Sequence[Segment], joints: Sequence[Joint], radius: float, side: int) -> Iterator[Fault]:
-    """The faults that each element has with its neighbours."""
-    small = set[int]()
-    for number, element in enumerate(elements):
-        if isinstance(element, ArcSegment) and element.turn.sign == side and radius - element.radius > LENGTH:
-            yield Fault(FaultKind.ARC_TOO_SMALL, number, radius - element.radius, element.radius, element.length)
-            small |= {number - 1, number, number + 1}
-    for number, joint in enumerate(joints):
-        if joint.is_inside and joint.meeting is None and number not in small:
-            one, two = elements[number], elements[number + 1]
-
-            def meets(size: float, one: Segment = one, two: Segment = two) -> float:
-                return -1.0 if join(one, two, size, side).meeting is None else 1.0
-
-            largest = largest_fitting(meets, radius)
-            yield Fault(FaultKind.NO_INTERSECTION, number, radius - largest, largest, one.length, at=one.end)
-            small |= {number, number + 1}
-    for number, element in enumerate(elements):
-        room = _room(elements, number, joints)
-        if room < -LENGTH and number not in small:
-            near = elements[max(0, number - 1) : number + 2]
-            place = min(number, 1)
-
-            def left(size: float, near: Sequence[Segment] = near, place: int = place) -> float:
-                several = [join(one, two, size, side) for one, two in pairwise(near)]
-                is_lost = any(each.is_inside and each.meeting is None for each in several)
-                return nan if is_lost else _room(near, place, several)
-
-            largest = largest_fitting(left, radius)
-            yield Fault(FaultKind.ELEMENT_VANISHES, number, -room, largest, element.length)
-
-
-def _room(elements: Sequence[Segment], number: int, joints: Sequence[Joint]) -> float:
-    """What the corners at both ends leave of an element, mm."""
-    room = elements[number].length
-    if number and (before := joints[number - 1].meeting) is not None:
-        room -= before.ahead
-    if number < len(joints) and (behind := joints[number].meeting) is not None:
-        room -= behind.back
-    return room
-
-
-# The path -------------------------------------------------------------------------------------------------------
-
-
-def _moved(element: Segment, radius: float, side: int) -> Segment:
-    """An element moved to the side: a line as it is, an arc about the same centre."""
-    if isinstance(element, ArcSegment):
-        reach = max(element.radius - side * element.turn.sign * radius, 0.0)
-        start, end = (
-            (
-                element.center[0] + (at[0] - element.center[0]) * reach / element.radius,
-                element.center[1] + (at[1] - element.center[1]) * reach / element.radius,
-            )
-            for at in (element.start, element.end)
-        )
-        return replace(element, start=start, end=end, radius=reach)
-    normal = normal_of(element, side, at_end=False)
-    start, end = (ahead(at, normal, radius) for at in (element.start, element.end))
-    return replace(element, start=start, end=end)
-
-
-def _pieces(
-    elements: Sequence[Segment], joints: Sequence[Joint], radius: float, side: int, outside: Outside
-) -> Iterator[Piece]:
-    moved = [_moved(element, radius, side) for element in elements]
-    for number, joint in enumerate(joints):
-        if joint.meeting is not None:
-            moved[number] = replace(moved[number], end=joint.meeting.center)
-            moved[number + 1] = replace(moved[number + 1], start=joint.meeting.center)
-        elif joint.turn >= 0:
-            moved[number + 1] = replace(moved[number + 1], start=moved[number].end)
-    for number, element in enumerate(elements):
-        around: list[Segment] = []
-        if number < len(joints) and joints[number].turn < 0:
-            ends, around = _around(element, elements[number + 1], moved[number : number + 2], radius, side, outside)
-            moved[number : number + 2] = ends
-        own = moved[number]
-        is_full = isinstance(own, ArcSegment) and own.radius > LENGTH and dist(element.start, element.end) <= LENGTH
-        if is_full or dist(own.start, own.end) > LENGTH:
-            yield Piece(own, number)
-        yield from (Piece(each, number, is_own=False) for each in around if dist(each.start, each.end) > LENGTH)
-
-
-def _around(
-    one: Segment, other: Segment, moved: Sequence[Segment], radius: float, side: int, outside: Outside
-) -> tuple[tuple[Segment, Segment], list[Segment]]:
-    """The offsets of two elements at an outside corner, and the way around it between them."""
-    before, after = moved
-    here, there = before.end, after.start
-    if outside is Outside.ROLL:
-        return (before, after), [ArcSegment("", here, there, one.end, radius, Turn.CW if side > 0 else Turn.CCW)]
-    way, on = direction(one, at_end=True), direction(other, at_end=False)
-    found = meet_outside(one, other, radius) if dot(way, on) >= -REGULAR else None
-    places = [found.center] if found is not None else [ahead(here, way, radius), ahead(there, on, -radius)]
-    # A line goes on to where the way around begins; beside an arc, its tangent does.
-    if isinstance(before, LineSegment):
-        before = replace(before, end=places[0])
-    else:
-        places.insert(0, here)
-    if isinstance(after, LineSegment):
-        after = replace(after, start=places[-1])
-    else:
-        places.append(there)
-    return (before, after), [LineSegment("", a, b) for a, b in pairwise(places)]
-
-
-# Our own check --------------------------------------------------------------------------------------------------
-
-
-def _check(elements: Sequence[Segment], pieces: Sequence[Piece], radius: float, side: int) -> Iterator[Fault]:
-    """The elements along which the centre is not at the radius, by the equation of a circle that touches them."""
-    for piece in pieces:
-        if piece.is_own:
-            ends = piece.segment.start, piece.segment.end
-            off = max(abs(_touching(elements[piece.element], at, radius, side)) for at in ends)
-            if not off <= 2 * STRAY:
-                yield Fault(FaultKind.NOT_VERIFIED, piece.element, off)
-
-
-def _touching(element: Segment, at: Point, radius: float, side: int) -> float:
-    """By how much (mm) a circle of the radius about a place does not touch an element on that side."""
-    scalars = {"P.0": at[0] - element.start[0], "P.1": at[1] - element.start[1], "R": radius}
-    if isinstance(element, ArcSegment):
-        scalars |= {"C.0": element.center[0] - element.start[0], "C.1": element.center[1] - element.start[1]}
-        fact = TangentArc(("C", "r"), element.turn, "P", "R", side)
-        return float(fact.residual(Values({**scalars, "r": element.radius}, {}, {})))
-    first, second = direction(element, at_end=False)
-    scalars |= {"L.cos": first, "L.sin": second, "L.off": 0.0}
-    return float(TangentLine("L", "P", "R", side).residual(Values(scalars, {}, {})))
-
-
-def _interferences(
-    elements: Sequence[Segment],
-    pieces: Sequence[Piece],
-    radius: float,
-    side: int,
-    outside: Outside,
-    is_wall: Sequence[bool] | None,
-) -> Iterator[Fault]:
-    """Walls into which the tool cuts beside another element: of each place, the deepest."""
-    walls = [number for number in range(len(elements)) if is_wall is None or is_wall[number]]
-
-    def found(path: Sequence[Piece], size: float) -> list[tuple[float, int, int, Point]]:
-        paths, parts = [piece.segment for piece in path], [elements[number] for number in walls]
-        gaps = gaps_below(paths, parts, size - GOUGE)
-        return [(size - gap.distance, walls[gap.wall], path[gap.piece].element, gap.at) for gap in gaps]
-
-    def left(size: float) -> float:
-        joints = [join(one, two, size, side) for one, two in pairwise(elements)]
-        if any(_local_faults(elements, joints, size, side)):
-            return nan
-        path = tuple(_pieces(elements, joints, size, side, outside))
-        return -max((depth for depth, *_ in found(path, size)), default=-GOUGE)
-
-    told: list[tuple[Point, int, int]] = []
-    largest = 0.0
-    for depth, wall, working, at in sorted(found(pieces, radius), key=lambda each: (-round(each[0], 6), -each[1])):
-        # What is seen from the other side, too, or at the end of the same wall, is one fault.
-        if any(
-            dist(at, place) <= 2 * radius or wall == known or (abs(wall - other) <= 1 and abs(working - known) <= 1)
-            for place, known, other in told
-        ):
-            continue
-        largest = largest if told else largest_fitting(left, radius)
-        told.append((at, wall, working))
-        yield Fault(FaultKind.INTERFERENCE, wall, depth, largest, elements[wall].length, working, at)

@@ -8,7 +8,7 @@ from math import dist
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.comparison import Motion, ToolPath, Travel, Unfollowed
+from contoursolve.comparison import Motion, ToolPath, Travel
 from contoursolve.gcode import Block
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
@@ -86,7 +86,7 @@ def find_runs(path: ToolPath, asked: ToolRequest, blocks: Sequence[Block]) -> li
             "--side left or --side right"
         )
     stock = _Stock(asked, blocks)
-    groups = _compensated(path) if stated is not None else _between_rapids(path)
+    groups = _groups(path, is_stated=stated is not None)
     return [run for group in groups if (run := _run(group, path.axes, stock, asked.side)) is not None]
 
 
@@ -99,53 +99,33 @@ class _Group(Struct):
     side: ToolSide | None = None
 
 
-def _compensated(path: ToolPath) -> Iterator[_Group]:
-    """Moves under G41 or G42: the first leads to the contour, and the first behind leaves it."""
-    group: _Group | None = None
-    for step in path.steps:
-        if isinstance(step, Unfollowed) or step.motion is Motion.PRESET:
-            if group is not None:
-                yield group
-            group = None
-            continue
-        if not _moves(step, path.axes):
-            continue
-        side = SIDES.get(step.compensation)
-        if group is not None and side is group.side and _continues(group, step, path.axes):
-            group.travels.append(step)
-            continue
-        if group is not None:
-            group.leaving = step
-            yield group
-        # Where only the side or the plane changes, the tool is at the contour already.
-        is_lead = group is None or not group.travels
-        group = None if side is None else _Group([] if is_lead else [step], step if is_lead else None, None, side)
-    if group is not None:
-        yield group
-
-
-def _between_rapids(path: ToolPath) -> Iterator[_Group]:
-    """Cutting moves between those that do not cut in the plane."""
-    group = _Group([])
+def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
+    """Moves under G41 or G42, of which the first leads to the contour; or else cutting moves between those that do not
+    cut. The first move behind leaves the contour."""
+    group, before = _Group([]), None
     for step in path.steps:
         move = step if isinstance(step, Travel) and step.motion is not Motion.PRESET else None
-        is_moving = move is not None and _moves(move, path.axes)
-        if move is not None and is_moving and move.motion is Motion.FEED and _is_known(move, path.axes):
-            if not group.travels or _continues(group, move, path.axes):
-                group.travels.append(move)
-                continue
-            yield group
-            group = _Group([move])
-        elif group.travels or is_moving or move is None:
-            group.leaving = move if is_moving else None
-            yield group
-            group = _Group([], move if is_moving else None)
+        if move is not None and not _moves(move, path.axes) and (is_stated or not group.travels):
+            continue
+        move = move if move is not None and _moves(move, path.axes) else None
+        side = SIDES.get(move.compensation) if move is not None and is_stated else None
+        is_known = move is not None and None not in place_of(move, path.axes, at_end=False)
+        is_cut = side is not None if is_stated else move is not None and move.motion is Motion.FEED and is_known
+        if move is not None and is_cut and side is group.side and _continues(before, move, path.axes):
+            group.travels.append(move)
+            before = move
+            continue
+        group.leaving = move
+        yield group
+        # Where only the side or the plane changes, the tool is at the contour already.
+        is_there = is_cut and move is not None and (bool(group.travels) or not is_stated)
+        group = _Group([move] if is_there and move else [], None if is_there else move, None, side)
+        before = move
     yield group
 
 
-def _continues(group: _Group, step: Travel, axes: Sequence[str]) -> bool:
-    """Whether a move goes on where the last one of a group ends, in its plane."""
-    before = group.travels[-1] if group.travels else group.lead
+def _continues(before: Travel | None, step: Travel, axes: Sequence[str]) -> bool:
+    """Whether a move goes on where another one ends, in its plane."""
     if before is None or step.plane is None or before.plane != step.plane:
         return False
     ways = zip(place_of(before, axes, at_end=True), place_of(step, axes, at_end=False), strict=True)
@@ -160,11 +140,6 @@ def _moves(step: Travel, axes: Sequence[str]) -> bool:
     return step.bend is not None or any(
         end is not None and (start is None or abs(end - start) > LENGTH) for start, end in ways
     )
-
-
-def _is_known(step: Travel, axes: Sequence[str]) -> bool:
-    """Whether both its ends are known in its plane."""
-    return None not in (*place_of(step, axes, at_end=False), *place_of(step, axes, at_end=True))
 
 
 def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | None) -> Run | None:
