@@ -74,16 +74,20 @@ def moved_program(
     for each in report.runs:
         lines = lines_of(each.run)
         errors = tuple(finding for finding in report.findings if finding.is_error and finding.span.line in lines)
-        if errors:
+        is_skipped = len({travel.is_skippable for travel in each.run.travels}) > 1
+        if errors or is_skipped:
             sources = {line: texts[line] for line in lines}
-            left[lines[0]] = Left(lines, f"{errors[0].code}: {errors[0].message}", errors, sources)
+            told = "some of its blocks begin with / and some do not: with them skipped, it is another contour"
+            reason = f"{errors[0].code}: {errors[0].message}" if errors else told
+            left[lines[0]] = Left(lines, reason, errors, sources)
             kept |= {*lines}
         else:
             remarks[lines[0]] = title_of(each)
             good.append(each)
     # Beside a contour that stays, compensation stays, too.
     kept |= set() if is_solved else {*texts}
-    return MovedProgram(moves_of(replace(report, runs=tuple(good))), left, kept, remarks)
+    moves, leaving = moves_of(replace(report, runs=tuple(good)))
+    return MovedProgram(moves, left, kept, remarks, leaving)
 
 
 def wanted_tool(program: str, tool: str | None, tip: int | None, side: str | None, outside: str) -> ToolRequest:

@@ -26,8 +26,13 @@ def to_sarif(results: Sequence[Result], version: str, own: Dialect | None = None
     controls = [*DIALECTS.values(), *([own] if own else [])]
     rules = sorted({rule.code: rule for dialect in controls for rule in dialect.rules}.items())
     index = {code: number for number, (code, _) in enumerate(rules)}
+    declared = [_rule(rule) for _, rule in rules]
+    for finding in (each for result in results for each in result.diagnostics if each.code not in index):
+        # What a tool cannot cut is in the catalogue of no control.
+        index[finding.code] = len(declared)
+        declared.append({"id": finding.code, "help": {"text": finding.help}})
     run = {
-        "tool": {"driver": {"name": "contoursolve", "version": version, "rules": [_rule(rule) for _, rule in rules]}},
+        "tool": {"driver": {"name": "contoursolve", "version": version, "rules": declared}},
         "columnKind": "unicodeCodePoints",
         "results": [each for result in results for each in _results(result, index)],
     }

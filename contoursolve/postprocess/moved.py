@@ -25,6 +25,8 @@ class MovedProgram(Struct, frozen=True):
     left: Mapping[int, Left]
     kept: Set[int]
     remarks: Mapping[int, str]
+    leaving: Set[int]
+    """The lines behind which the tool is where the program has it."""
 
     def lines(self, *args: Any, **options: Any) -> Lines:
         """The lines of the program on their way."""
@@ -37,17 +39,21 @@ class MovedProgram(Struct, frozen=True):
         return found
 
 
+_PLAIN = (Effect.MOTION, Effect.COMPENSATION, Effect.NONE)
+"""Codes beside which coordinates are a move."""
+
+
 class MovedExpander(Expander):
     """One pass over one program."""
 
     moved: MovedProgram
     here: Point | None = None
-    """Where the tool is behind the last move that was written here; None behind others."""
+    """Where the tool is, as long as that is not where the program has it."""
 
     def _pass(self, passage: Passage, state: State) -> Iterator[str | object]:
         numbers = range(passage.line, passage.line + len(passage.lines))
-        if self.moved.moves.keys().isdisjoint(numbers) and self.moved.left.keys().isdisjoint(numbers):
-            self.here = None
+        is_touched = not (self.moved.moves.keys() | self.moved.left.keys()).isdisjoint(numbers)
+        if not is_touched and self.here is None:
             yield from super()._pass(passage, state)
             return
         for number, line in zip(numbers, passage.lines, strict=True):
@@ -61,11 +67,11 @@ class MovedExpander(Expander):
             self.summary.left.append(left)
             yield remark(left.reason, self._syntax_of(block)) + self.lines.end
         moves = self.moved.moves.get(block.line)
+        if moves is None and self.here is not None and self._stays(block, state):
+            moves = ()
         if moves is not None:
             yield from self._move(block, apply_modes(state, block, self.modes), moves)
             return
-        if block.words:
-            self.here = None
         if block.line not in self.moved.kept:
             bare = self._without_compensation(block)
             if block.words and not bare.words and not bare.text.strip(" /"):
@@ -83,7 +89,6 @@ class MovedExpander(Expander):
                 state = apply_modes(state, block, self.modes)
             return
         if lines.isdisjoint(self.moved.moves):
-            self.here = None
             yield from super()._replace(step, answer)
             return
         parts = {part.block.line: part for part in blocks_of(answer.claim, step.before, self.modes)}
@@ -125,7 +130,15 @@ class MovedExpander(Expander):
         text = self._write(block, written, end, state, bare)
         yield block.text + end if text.endswith("\n" + block.text + end) else text
         self.is_marked = False
+        self.here = None if block.line in self.moved.leaving else self.here
         self.motion = None if not written or written[-1].code == state.motion else written[-1].code
+
+    def _stays(self, block: Block, state: State) -> bool:
+        """Whether a block states where the tool is already: said again, it would lead to the contour itself."""
+        after, codes = advance(state, block, self.modes), codes_of(block, self.modes)
+        is_plain = all(not isinstance(code, Word) and code.effect in _PLAIN for code in codes)
+        rows = (self.modes.lexicon.addresses.get(word.address) for word in block.words)
+        return is_plain and after.start() == state.start() and any(row and row.axis in after.plane.axes for row in rows)
 
     def _without_compensation(self, block: Block) -> Block:
         """A block without G40, G41, G42 and D."""

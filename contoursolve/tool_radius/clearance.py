@@ -42,7 +42,7 @@ def nearest(one: Segment, other: Segment) -> tuple[float, Point]:
     """The distance of two elements, mm, and the place on the other one: a crossing, an end, or square to both."""
     pairs = [(here, _foot(other, here)) for here in _salient(one, other)]
     pairs += [(_foot(one, there), there) for there in _salient(other, one)]
-    pairs += [(at, at) for at in _crossings(one, other) if _is_on(one, at) and _is_on(other, at)]
+    pairs += [(at, at) for at in _crossings(one, other) if is_on(one, at) and is_on(other, at)]
     return min((dist(here, there), there) for here, there in pairs)
 
 
@@ -56,7 +56,7 @@ def _salient(one: Segment, other: Segment) -> Iterator[Point]:
         else:
             base, unit = one.start, _unit(one.start, one.end)
             places = [_along(base, other.center, unit)]
-        yield from (at for at in (ahead(base, unit, place) for place in places) if _is_on(one, at))
+        yield from (at for at in (ahead(base, unit, place) for place in places) if is_on(one, at))
 
 
 def _crossings(one: Segment, other: Segment) -> Iterator[Point]:
@@ -94,7 +94,7 @@ def ahead(at: Point, unit: Point, length: float) -> Point:
     return at[0] + length * unit[0], at[1] + length * unit[1]
 
 
-def _is_on(segment: Segment, at: Point) -> bool:
+def is_on(segment: Segment, at: Point) -> bool:
     """Whether a place of the line or the circle of an element lies between its ends."""
     if isinstance(segment, LineSegment):
         unit = _unit(segment.start, segment.end)
@@ -110,7 +110,7 @@ def _foot(segment: Segment, at: Point) -> Point:
     else:
         unit = _unit(segment.start, segment.end)
         foot = ahead(segment.start, unit, _along(segment.start, at, unit))
-    return foot if _is_on(segment, foot) else min(segment.start, segment.end, key=lambda end: dist(end, at))
+    return foot if is_on(segment, foot) else min(segment.start, segment.end, key=lambda end: dist(end, at))
 
 
 def _box(segment: Segment) -> tuple[float, float, float, float]:

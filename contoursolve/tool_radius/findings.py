@@ -17,8 +17,11 @@ from contoursolve.reading import Dialect
 from contoursolve.solving import ArcSegment, Contour, LineSegment, Segment
 from contoursolve.tolerance import LENGTH
 from contoursolve.tool_radius.joint import direction
-from contoursolve.tool_radius.offset import Fault, FaultKind, Offset, Piece, tip_faults
+from contoursolve.tool_radius.offset import Fault, FaultKind, Offset, Piece, excess, tip_faults
 from contoursolve.tool_radius.runs import Run, ToolRequest, find_runs, place_of
+
+_NOTICED = 0.005
+"""mm. A smaller error is not told (assumed)."""
 
 _SOURCE = Source(OWN, "geometry of the tool's radius", Evidence.DERIVED)
 
@@ -168,6 +171,52 @@ class _Findings:
             yield self._approach(own, own.lead.line)
         for fault in tool_run.faults:
             yield self._finding(own, fault)
+        if not own.is_stated:
+            yield from self._uncompensated(own)
+        for element, travel, joint in zip(own.elements, own.travels, tool_run.offset.joints, strict=False):
+            rest = dist(joint.meeting.center, element.end) - own.radius if joint.meeting is not None else 0.0
+            if joint.meeting is not None and rest >= _NOTICED and tool_run.offset.pieces is not None:
+                sides = " and ".join(length_in(each, own.unit) for each in (joint.meeting.back, joint.meeting.ahead))
+                told = f"the inside corner behind this block keeps the radius of the {_kind(own)}"
+                message = f"{told}: {length_in(rest, own.unit)} stays in it, {sides} along its sides"
+                yield self._told("inside-corner", message, travel.line, rest, Severity.INFO)
+
+    def _uncompensated(self, own: Run) -> Iterator[Diagnostic]:
+        """What comes out where the program runs as it is, without compensation."""
+        tip, unit = own.tool.vector() if own.is_lathe else (0.0, 0.0), own.unit
+        errors = [excess(element, own.side.sign, own.radius, tip) for element in own.elements]
+        for element, travel, off in zip(own.elements, own.travels, errors, strict=True):
+            if abs(off) < _NOTICED:
+                continue
+            subject, more = self._result(own, element, off) if any(tip) else ("contour", "")
+            much = f"{length_in(abs(off), unit)} too {'thick' if off > 0 else 'deep'}"
+            message = f"without G{own.side.code} this {subject} comes out {much}{more}"
+            yield self._told("uncompensated", message, travel.line, off)
+            if not any(tip):
+                return
+
+    def _result(self, own: Run, element: Segment, off: float) -> tuple[str, str]:
+        """An element of a turned part, and what it becomes without compensation."""
+        if isinstance(element, ArcSegment):
+            radius = element.radius + own.side.sign * element.turn.sign * own.radius
+            left = f"radius {length_in(radius, own.unit)}" if radius > LENGTH else "a square corner"
+            return f"arc of radius {length_in(element.radius, own.unit)}", f": it becomes {left}"
+        across, along = map(abs, direction(element, at_end=False))
+        ways = (
+            (2 / across, "on the diameter") if across > LENGTH else None,
+            (1 / along, "along Z") if along > LENGTH else None,
+        )
+        return "line", "".join(f", {length_in(abs(off) * way[0], own.unit)} {way[1]}" for way in ways if way)
+
+    def _told(
+        self, name: str, message: str, line: int, off: float, severity: Severity = Severity.WARNING
+    ) -> Diagnostic:
+        span = self._span(line)
+        told = "write the compensation, or the path of the tool: contoursolve expand --tool"
+        told = told if severity is Severity.WARNING else "a smaller tool leaves less"
+        labels, values = (Label(span, ""),), {"off_by_mm": off}
+        kind = (f"tool-{name}", severity, Basis.NUMERICAL, span, message, _SOURCE)
+        return Diagnostic(*kind, labels, values=values, help=told)
 
     def _approach(self, own: Run, line: int) -> Diagnostic:
         span = self.blocks[line].span

@@ -12,8 +12,9 @@ Moves = tuple[tuple[Segment, bool], ...]
 """Elements, each with whether it is a rapid."""
 
 
-def moves_of(report: ToolReport) -> Mapping[int, Moves]:
-    """The elements of each line beside which the tool goes, and of the moves that lead there and away."""
+def moves_of(report: ToolReport) -> tuple[Mapping[int, Moves], frozenset[int]]:
+    """The elements of each line beside which the tool goes, and of the moves that lead there and away; and the lines
+    behind which the tool is where the program has it."""
     found, ends = dict[int, list[tuple[Segment, bool]]](), dict[int, Point]()
     """Where the tool really is behind a move, and before it."""
     starts = dict[int, Point]()
@@ -38,7 +39,8 @@ def moves_of(report: ToolReport) -> Mapping[int, Moves]:
             if each.run.lead is None and travel is each.run.travels[0]:
                 line.append((LineSegment("", each.part.start, each.path.start), True))
             line += _pieces(each, travel)
-    return {line: tuple(moves) for line, moves in found.items()}
+    leaving = {each.run.leaving for each in report.runs if each.run.leaving and id(each.run.leaving) not in ends}
+    return {line: tuple(moves) for line, moves in found.items()}, frozenset(travel.line for travel in leaving)
 
 
 def _pieces(each: ToolRun, travel: Travel) -> Iterator[tuple[Segment, bool]]:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from enum import Enum
 from functools import cached_property
 from itertools import pairwise
-from math import dist, nan
+from math import dist, hypot, nan
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from contoursolve.geometry import FIRST, SECOND, Fact, TangentArc, TangentLine, Turn, Values, dot
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, largest_fitting
 from contoursolve.tolerance import LENGTH, REGULAR
-from contoursolve.tool_radius.clearance import ahead, gaps_below
+from contoursolve.tool_radius.clearance import ahead, gaps_below, is_on
 from contoursolve.tool_radius.joint import STRAY, direction, join, meet_outside
 from contoursolve.tool_radius.tool import Outside
 
@@ -257,3 +257,15 @@ def normal_of(element: Segment, side: int, *, at_end: bool) -> Point:
     """The unit normal from the surface to the tool at an end of an element."""
     first, second = direction(element, at_end=at_end)
     return -second * side, first * side
+
+
+def excess(element: Segment, side: int, radius: float, tip: Point) -> float:
+    """How much too thick (mm; below 0: too deep) an element comes out where the tip runs along it without compensation,
+    square to the surface; of an arc, where it is most."""
+    normals = [normal_of(element, side, at_end=at_end) for at_end in (False, True)]
+    length = hypot(*tip)
+    for sign in (1, -1) if length and isinstance(element, ArcSegment) else ():
+        normal = sign * tip[0] / length, sign * tip[1] / length
+        if isinstance(element, ArcSegment) and is_on(element, ahead(element.center, normal, -side * element.turn.sign)):
+            normals.append(normal)
+    return max((-radius * (1 + float(dot(tip, normal))) for normal in normals), key=abs)

@@ -104,7 +104,7 @@ def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
     cut. The first move behind leaves the contour."""
     group, before = _Group([]), None
     for step in path.steps:
-        move = step if isinstance(step, Travel) and step.motion is not Motion.PRESET else None
+        move = step if isinstance(step, Travel) and step.motion in (Motion.RAPID, Motion.FEED) else None
         if move is not None and not _moves(move, path.axes) and (is_stated or not group.travels):
             continue
         move = move if move is not None and _moves(move, path.axes) else None

@@ -1,5 +1,6 @@
 """The tool on the command line: how it is stated, what is said of it, and what is written."""
 
+import json
 import re
 from pathlib import Path
 
@@ -98,7 +99,10 @@ def test_findings_name_the_word_what_fits_and_a_fix_that_was_tried():
     assert "a nose of radius up to 2.0000 mm cuts the whole contour (tried)" in text
     assert "write ,R2.4 for ,R2." in text
     assert "control: alarm 41 (derived)" in text
-    assert text.endswith("2 contours solved, 1 error, 1 info\n")
+    assert text.endswith("2 contours solved, 1 error, 8 warnings, 1 info\n")
+    log = json.loads(call("check", *words, "--format", "sarif", TABLES / "flange.nc").stdout)["runs"][0]
+    told = {log["tool"]["driver"]["rules"][each["ruleIndex"]]["id"] for each in log["results"]}
+    assert told == {"tool-arc-too-small", "tool-approach", "tool-uncompensated"}
     fixed = (TABLES / "flange.nc").read_text().replace(",R2.", ",R2.4")
     done = CliRunner().invoke(main, ["check", *words, "-"], input=fixed)
     assert done.exit_code == 0
@@ -125,6 +129,32 @@ def test_entry_and_exit(tmp_path: Path):
     (tmp_path / "a.nc").write_text(COMPENSATED.replace("G42 G00 X20. Z2. D1", "G42 G03 X20. Z2. R20."))
     done = call("check", *LATHE, *NOSE, tmp_path / "a.nc")
     assert (done.exit_code, "control: alarm 34 (printed)" in done.stdout) == (1, True)
+
+
+@pytest.mark.parametrize(
+    ("tip", "radius", "blocks", "told"),
+    [
+        (3, "R0.8", "X0. Z0./G01 X18. Z0./X20. Z-1./X20. Z-20.", ["line comes out 0.3314 mm too thick"]),
+        (3, "R0.8", "X0. Z0./G01 X14. Z0./G03 X20. Z-3. R3./G01 X20. Z-15.", ["0.3314", "it becomes radius 2.2000 mm"]),
+        (3, "R0.8", "X20. Z0./G01 X20. Z-12./G02 X26. Z-15. R3./G01 X40. Z-15.", ["it becomes radius 3.8000 mm"]),
+        (3, "R0.4", "X30. Z0./G01 X30. Z-10./X18.453 Z-20./X18.453 Z-30.", ["line comes out 0.2536 mm too deep"]),
+        (3, "R0.8", "X0. Z0./G03 X20. Z-10. R10./G01 X20. Z-25.", ["it becomes radius 9.2000 mm"]),
+        (
+            3,
+            "R0.8",
+            "X20. Z0./G01 X20. Z-10./X30. Z-20./X30. Z-30.",
+            ["0.2733", "0.6111 mm on the diameter, 0.6111 mm"],
+        ),
+        (8, "R0.8", "X20. Z0./G01 X20. Z-10./X30. Z-20./X30. Z-30.", ["line comes out 0.0845 mm too deep"]),
+        (9, "R0.8", "X20. Z0./G01 X20. Z-10./X30. Z-20./X30. Z-30.", ["contour comes out 0.8000 mm too deep"]),
+    ],
+)
+def test_what_comes_out_without_compensation(tip: int, radius: str, blocks: str, told: list[str]):
+    start, *others = blocks.split("/")
+    words = [word for block in others for word in ("--block", block)]
+    done = call("check", *LATHE, "--tool", radius, "--tip", str(tip), "--side", "right", "--start", start, *words)
+    assert (done.exit_code, done.stdout.count("[tool-uncompensated]")) == (0, 1)
+    assert all(text in done.stdout for text in told)
 
 
 # What is written --------------------------------------------------------------------------------------------------
