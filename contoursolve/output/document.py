@@ -224,7 +224,7 @@ def _beside_tool(result: Result, report: "ToolReport") -> Iterator[dict[str, Any
         faults = [
             {
                 "element": fault.element,
-                "kind": fault.kind.value,
+                "kind": fault.kind.name.lower(),
                 "short_by_mm": None if fault.short is None else _number(fault.short),
                 "largest_radius": None if fault.largest is None else _number(fault.largest),
             }

@@ -23,16 +23,15 @@ def to_sarif(results: Sequence[Result], version: str, own: Dialect | None = None
     A result's fingerprint is made of the rule, the text of the line and how often both have occurred
     before, so that it stays the same when lines are inserted elsewhere.
     """
+    from contoursolve.tool_radius import FaultKind  # noqa: PLC0415 - only here
+
     controls = [*DIALECTS.values(), *([own] if own else [])]
-    rules = sorted({rule.code: rule for dialect in controls for rule in dialect.rules}.items())
+    known = {rule.code: rule for dialect in controls for rule in dialect.rules}
+    told = {finding.code for result in results for finding in result.diagnostics}
+    rules = sorted((known | {kind.code: kind.rule for kind in FaultKind if kind.code in told}).items())
     index = {code: number for number, (code, _) in enumerate(rules)}
-    declared = [_rule(rule) for _, rule in rules]
-    for finding in (each for result in results for each in result.diagnostics if each.code not in index):
-        # What a tool cannot cut is in the catalogue of no control.
-        index[finding.code] = len(declared)
-        declared.append({"id": finding.code, "help": {"text": finding.help}})
     run = {
-        "tool": {"driver": {"name": "contoursolve", "version": version, "rules": declared}},
+        "tool": {"driver": {"name": "contoursolve", "version": version, "rules": [_rule(rule) for _, rule in rules]}},
         "columnKind": "unicodeCodePoints",
         "results": [each for result in results for each in _results(result, index)],
     }

@@ -1,3 +1,7 @@
+from .faults import (
+    Fault as Fault,
+    FaultKind as FaultKind,
+)
 from .findings import (
     ToolReport as ToolReport,
     ToolRun as ToolRun,
@@ -12,8 +16,6 @@ from .moves import (
     title_of as title_of,
 )
 from .offset import (
-    Fault as Fault,
-    FaultKind as FaultKind,
     Offset as Offset,
     Piece as Piece,
 )

@@ -1,7 +1,6 @@
 """The path of a tool's centre beside a contour, and what of the contour it cannot cut."""
 
 from collections.abc import Iterator, Sequence
-from enum import Enum
 from functools import cached_property
 from itertools import pairwise
 from math import dist, hypot, nan
@@ -13,6 +12,7 @@ from contoursolve.geometry import FIRST, SECOND, Fact, TangentArc, TangentLine, 
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, largest_fitting
 from contoursolve.tolerance import LENGTH, REGULAR
 from contoursolve.tool_radius.clearance import ahead, gaps_below, is_on
+from contoursolve.tool_radius.faults import Fault, FaultKind
 from contoursolve.tool_radius.joint import STRAY, direction, join, meet_outside
 from contoursolve.tool_radius.tool import Outside
 
@@ -21,40 +21,6 @@ GOUGE = 1e-6
 
 _CLEAR = 1e-3
 """d.N. By more than this the tip points away from the surface (assumed)."""
-
-
-class FaultKind(Enum):
-    """What a tool cannot do on a contour."""
-
-    ARC_TOO_SMALL = "arc_too_small"
-    """An inside arc has a smaller radius than the tool."""
-    ELEMENT_VANISHES = "element_vanishes"
-    """The tool needs more of an element for the corners at its ends than there is."""
-    NO_INTERSECTION = "no_intersection"
-    """The offsets of two elements do not meet in the inside corner between them."""
-    INTERFERENCE = "interference"
-    """Beside one element, the tool cuts into another one."""
-    NOT_VERIFIED = "not_verified"
-    """A path that does not pass our own check."""
-    ENTRY_BY_ARC = "entry_by_arc"
-    EXIT_BY_ARC = "exit_by_arc"
-    ENTRY_TOO_SHORT = "entry_too_short"
-    TIP_AGAINST_SIDE = "tip_against_side"
-    """The tip points away from the surface."""
-
-
-class Fault(Struct, frozen=True):
-    """A fault at an element (its number, from 0): by how much it misses (mm), the largest radius that fits (mm), the
-    element on which the tool works, and where, mm."""
-
-    kind: FaultKind
-    element: int
-    short: float | None = None
-    largest: float | None = None
-    length: float = 0.0
-    """Of the element, mm."""
-    working: int | None = None
-    at: Point | None = None
 
 
 class Piece(Struct, frozen=True):
@@ -243,29 +209,45 @@ class Offset:
             yield Fault(FaultKind.INTERFERENCE, each.wall, each.depth, largest, length, each.working, each.at)
 
 
+NOTICED = 0.005
+"""mm. A smaller error is not told (assumed)."""
+
+
 def tip_faults(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[Fault]:
     """The elements from whose surface the tip of a tool points away, each with how deep the nose would lie."""
     for number, element in enumerate(elements):
         normals = [normal_of(element, side, at_end=at_end) for at_end in (False, True)]
         # An arc over the top of a ball begins towards the tip; the flanks decide how far it may go.
-        along = min(tip[0] * normal[0] + tip[1] * normal[1] for normal in normals)
+        along = min(float(dot(tip, normal)) for normal in normals)
         if along > _CLEAR:
             yield Fault(FaultKind.TIP_AGAINST_SIDE, number, radius * (1 + along))
+
+
+def uncompensated(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[Fault]:
+    """How much too thick (mm; below 0: too deep) elements come out where the tip runs along them without compensation,
+    square to the surface; of an arc, where it is most. A centre has it the same on all of them."""
+    for number, element in enumerate(elements):
+        normals = [normal_of(element, side, at_end=at_end) for at_end in (False, True)]
+        for sign in (1, -1) if any(tip) and isinstance(element, ArcSegment) else ():
+            normal = sign * tip[0] / hypot(*tip), sign * tip[1] / hypot(*tip)
+            if isinstance(element, ArcSegment) and is_on(
+                element, ahead(element.center, normal, -side * element.turn.sign)
+            ):
+                normals.append(normal)
+        off = max((-radius * (1 + float(dot(tip, normal))) for normal in normals), key=abs)
+        if abs(off) >= NOTICED and (any(tip) or not number):
+            yield Fault(FaultKind.UNCOMPENSATED, number, off)
+
+
+def uncut(made: Offset) -> Iterator[Fault]:
+    """What a tool leaves in the inside corners of a contour that it cuts."""
+    for number, joint in enumerate(made.joints if made.pieces is not None else ()):
+        meeting, element = joint.meeting, made.elements[number]
+        if meeting is not None and (rest := dist(meeting.center, element.end) - made.radius) >= NOTICED:
+            yield Fault(FaultKind.INSIDE_CORNER, number, rest, rest=(meeting.back, meeting.ahead))
 
 
 def normal_of(element: Segment, side: int, *, at_end: bool) -> Point:
     """The unit normal from the surface to the tool at an end of an element."""
     first, second = direction(element, at_end=at_end)
     return -second * side, first * side
-
-
-def excess(element: Segment, side: int, radius: float, tip: Point) -> float:
-    """How much too thick (mm; below 0: too deep) an element comes out where the tip runs along it without compensation,
-    square to the surface; of an arc, where it is most."""
-    normals = [normal_of(element, side, at_end=at_end) for at_end in (False, True)]
-    length = hypot(*tip)
-    for sign in (1, -1) if length and isinstance(element, ArcSegment) else ():
-        normal = sign * tip[0] / length, sign * tip[1] / length
-        if isinstance(element, ArcSegment) and is_on(element, ahead(element.center, normal, -side * element.turn.sign)):
-            normals.append(normal)
-    return max((-radius * (1 + float(dot(tip, normal))) for normal in normals), key=abs)

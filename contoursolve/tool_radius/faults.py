@@ -1,0 +1,100 @@
+"""What a tool cannot do on a contour, and what it leaves: one row a kind."""
+
+from enum import Enum
+from typing import NamedTuple
+
+from msgspec import Struct
+
+from contoursolve.diagnostics import OWN, Evidence, Severity, Source
+from contoursolve.reading import Rule
+from contoursolve.solving import Point
+
+
+class _Row(NamedTuple):
+    """What is said of a kind, and what to do."""
+
+    message: str
+    help: str
+    severity: Severity = Severity.ERROR
+
+
+class FaultKind(Enum):
+    """Kinds of what is told about a tool; the first five leave no path."""
+
+    ARC_TOO_SMALL = _Row(
+        "the inside arc of radius {radius} is {short} too small for the {tool}",
+        "take a smaller tool or a larger radius",
+    )
+    ELEMENT_VANISHES = _Row(
+        "the {element} is {length} long, the {tool} needs {needs} between its corners: {short} short",
+        "take a smaller tool or make it longer",
+    )
+    NO_INTERSECTION = _Row(
+        "the {tool} does not reach the corner at the end of this {element}", "take a smaller tool or a wider corner"
+    )
+    INTERFERENCE = _Row(
+        "the {tool} cuts {short} into program line {wall} while it works on program line {line}",
+        "take a smaller tool or make the gap wider",
+    )
+    NOT_VERIFIED = _Row("the path of the tool misses this {element} by {short}: it is not used", "report it")
+    ENTRY_BY_ARC = _Row("compensation begins in an arc", "write {code} in a straight move before it")
+    EXIT_BY_ARC = _Row("compensation ends in an arc", "write G40 in a straight move behind it")
+    ENTRY_TOO_SHORT = _Row(
+        "the move to the contour is {length} long, {short} shorter than the radius of the {tool}",
+        "begin farther away",
+        Severity.WARNING,
+    )
+    TIP_AGAINST_SIDE = _Row(
+        "tip {tip} points away from this {element}, with the tool {side} of it: the nose would lie {short} deep",
+        "check the number of the tip, and G41 or G42",
+        Severity.WARNING,
+    )
+    UNCOMPENSATED = _Row(
+        "without {code} this {comes_out}",
+        "write {code}, or the path of the tool: contoursolve expand --tool",
+        Severity.WARNING,
+    )
+    INSIDE_CORNER = _Row(
+        "the inside corner behind this {element} keeps the radius of the {tool}: {short} stays in it, {rest}",
+        "a smaller tool leaves less",
+        Severity.INFO,
+    )
+    APPROACH = _Row(
+        "this block is taken to lead to the contour, which begins with program line {begin}",
+        "write {code} into the block before it if it cuts the part",
+        Severity.INFO,
+    )
+
+    @property
+    def code(self) -> str:
+        """The code of its findings."""
+        return f"tool-{self.name.lower().replace('_', '-')}"
+
+    @property
+    def source(self) -> Source:
+        """What it rests on."""
+        if self is FaultKind.APPROACH:
+            return Source(OWN, "where a contour begins without G41 and G42", Evidence.ASSUMED)
+        return Source(OWN, "geometry of the tool's radius", Evidence.DERIVED)
+
+    @property
+    def rule(self) -> Rule:
+        """Its row in a catalogue; no block alone shows it."""
+        row = self.value
+        return Rule(self.code, row.message, row.help, self.source, (), (), about=self, severity=row.severity)
+
+
+class Fault(Struct, frozen=True):
+    """A fault at an element (its number, from 0): by how much it misses (mm), the largest radius that fits (mm), the
+    element on which the tool works, and where, mm."""
+
+    kind: FaultKind
+    element: int
+    short: float | None = None
+    largest: float | None = None
+    length: float = 0.0
+    """Of the element, mm."""
+    working: int | None = None
+    at: Point | None = None
+    rest: tuple[float, float] = (0.0, 0.0)
+    """The lengths (mm) that stay uncut at both sides of a corner."""
