@@ -113,9 +113,14 @@ def report_on(run: Run, result: Result, wanted: ToolRequest) -> ToolReport:
 
 def _tool_of(name: str, row: Mapping[str, Any]) -> Tool:
     """A tool of the table in the project file, in mm. Raises ToolError."""
-    radius, tip, others = row.get("radius"), row.get("tip"), row.keys() - {"radius", "tip"}
-    is_number = isinstance(radius, int | float) and not isinstance(radius, bool)
-    is_named = name[:1].upper() in ("T", "D") and name[1:].isdigit()
-    if others or not is_number or not is_named or not (tip is None or (isinstance(tip, int) and tip is not True)):
+    radius, tip, flanks = (
+        row.get("radius"),
+        row.get("tip"),
+        {each: row[each] for each in ("back", "front") if each in row},
+    )
+    numbers = (radius, 0 if tip is None else tip, *flanks.values())
+    are_numbers = all(isinstance(each, int | float) and not isinstance(each, bool) for each in numbers)
+    is_named = name[:1].upper() in ("T", "D") and name[1:].isdecimal()
+    if row.keys() - {"radius", "tip", "back", "front"} or not are_numbers or not is_named or isinstance(tip, float):
         raise ToolError(f"tools.{name} is no tool; write T0101 = {{radius = 0.8, tip = 3}} or D1 = {{radius = 5.0}}")
-    return make_tool(Decimal(str(radius)), tip, is_metric=True)
+    return make_tool(Decimal(str(radius)), tip, is_metric=True, **flanks)

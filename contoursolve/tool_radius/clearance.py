@@ -30,9 +30,9 @@ def gaps_below(pieces: Sequence[Segment], walls: Sequence[Segment], limit: float
     boxes = numpy.array([_box(each) for each in walls])
     for number, piece in enumerate(pieces):
         low_one, low_two, high_one, high_two = _box(piece)
-        first = numpy.maximum(boxes[:, 0] - high_one, low_one - boxes[:, 2])
-        second = numpy.maximum(boxes[:, 1] - high_two, low_two - boxes[:, 3])
-        for wall in numpy.flatnonzero(numpy.maximum(first, second) < limit):
+        first = numpy.maximum(boxes[:, 0] - high_one, low_one - boxes[:, 2]).clip(0)
+        second = numpy.maximum(boxes[:, 1] - high_two, low_two - boxes[:, 3]).clip(0)
+        for wall in numpy.flatnonzero(first * first + second * second < limit * limit):
             distance, at = nearest(piece, walls[int(wall)])
             if distance < limit:
                 yield Gap(number, int(wall), distance, at)
@@ -114,9 +114,10 @@ def _foot(segment: Segment, at: Point) -> Point:
 
 
 def _box(segment: Segment) -> tuple[float, float, float, float]:
-    """The least and the largest coordinates of an element; of an arc, those of its circle."""
+    """The least and the largest coordinates of an element."""
+    places = [segment.start, segment.end]
     if isinstance(segment, ArcSegment):
-        (first, second), radius = segment.center, segment.radius
-        return first - radius, second - radius, first + radius, second + radius
-    (a, b), (c, d) = segment.start, segment.end
-    return min(a, c), min(b, d), max(a, c), max(b, d)
+        turning = (ahead(segment.center, unit, segment.radius) for unit in ((1, 0), (0, 1), (-1, 0), (0, -1)))
+        places += [at for at in turning if is_on(segment, at)]
+    firsts, seconds = zip(*places, strict=True)
+    return min(firsts), min(seconds), max(firsts), max(seconds)

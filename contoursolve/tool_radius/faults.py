@@ -49,6 +49,10 @@ class FaultKind(Enum):
         "check the number of the tip, and G41 or G42",
         Severity.WARNING,
     )
+    FLANK = _Row(
+        "this {element} needs a clearance of {needed} {where} the nose; the tool has {stated}",
+        "take a tool with more clearance",
+    )
     UNCOMPENSATED = _Row(
         "without {code} this {comes_out}",
         "write {code}, or the path of the tool: contoursolve expand --tool",
@@ -97,4 +101,4 @@ class Fault(Struct, frozen=True):
     working: int | None = None
     at: Point | None = None
     rest: tuple[float, float] = (0.0, 0.0)
-    """The lengths (mm) that stay uncut at both sides of a corner."""
+    """The lengths (mm) that stay uncut at both sides of a corner; the angle (deg) that a flank needs, and has."""

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from contoursolve.comparison import follow
 from contoursolve.controls import TOOL_FACTS, ToolFacts
-from contoursolve.diagnosis import apply_edits, change, coordinates, length_in, rank, write_word, written
+from contoursolve.diagnosis import angle_text, apply_edits, change, coordinates, length_in, rank, write_word, written
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, Label, Severity, Span
 from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.program import Request, Result, run
@@ -19,7 +19,7 @@ from contoursolve.solving import ArcSegment, Contour, LineSegment, Segment
 from contoursolve.tolerance import LENGTH
 from contoursolve.tool_radius.faults import Fault, FaultKind
 from contoursolve.tool_radius.joint import direction
-from contoursolve.tool_radius.offset import Offset, Piece, tip_faults, uncompensated, uncut
+from contoursolve.tool_radius.offset import Offset, Piece, flank_faults, tip_faults, uncompensated, uncut
 from contoursolve.tool_radius.runs import Run, ToolRequest, find_runs, place_of
 
 
@@ -38,7 +38,7 @@ class ToolRun(Struct, frozen=True, dict=True):
     @cached_property
     def path(self) -> Contour | None:
         """The path of the programmed point: the imaginary tip, or the centre; None where the tool does not fit."""
-        if self.offset.pieces is None or not self.offset.pieces:
+        if not self.offset.pieces or any(each.kind.value.severity is Severity.ERROR for each in self.faults):
             return None
         names = [self.run.travels[each.element].element if each.is_own else "around" for each in self.offset.pieces]
         return _contour(self.run, names, [self.written(each) for each in self.offset.pieces])
@@ -96,6 +96,7 @@ def _with_faults(each: Run, axes: tuple[str, ...], wanted: ToolRequest, facts: T
             faults.append(Fault(FaultKind.ENTRY_TOO_SHORT, 0, each.radius - length, length=length))
     if any(each.vector):
         faults += tip_faults(each.elements, each.side.sign, each.radius, each.tool.vector())
+        faults += flank_faults(each.elements, each.side.sign, each.tool)
     return ToolRun(each, made, tuple(faults))
 
 
@@ -158,6 +159,9 @@ class _Findings:
             "tip": str(own.tool.tip),
             "side": own.side.value,
             "code": f"G{own.side.code}",
+            "where": "before" if fault.working else "behind",
+            "needed": angle_text(fault.rest[0]),
+            "stated": angle_text(fault.rest[1]),
             "rest": f"{back} and {on} along its sides",
             "comes_out": self._comes_out(own, element, short) if fault.kind is FaultKind.UNCOMPENSATED else "",
         }

@@ -1,6 +1,6 @@
 """The moves of a program for the path of its tool: what each of its lines makes instead of what it states."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from math import nan
 
 from contoursolve.comparison import Motion, Travel
@@ -22,10 +22,13 @@ def moves_of(report: ToolReport) -> tuple[Mapping[int, Moves], frozenset[int]]:
         if each.path is not None:
             ends |= {id(each.run.lead): each.path.start} if each.run.lead is not None else {}
             starts |= {id(each.run.leaving): each.path.end} if each.run.leaving is not None else {}
-    told = set[int]()
+    told, pieces = set[int](), dict[int, list[tuple[Segment, bool]]]()
     for each in report.runs:
         if each.path is None:
             continue
+        for piece in each.offset.pieces or ():
+            travel = each.run.travels[piece.element]
+            pieces.setdefault(id(travel), []).append((each.written(piece), travel.motion is Motion.RAPID))
         for travel in filter(None, (each.run.lead, *each.run.travels, each.run.leaving)):
             line = found.setdefault(travel.line, [])
             if id(travel) in told:
@@ -38,15 +41,9 @@ def moves_of(report: ToolReport) -> tuple[Mapping[int, Moves], frozenset[int]]:
                 continue
             if each.run.lead is None and travel is each.run.travels[0]:
                 line.append((LineSegment("", each.part.start, each.path.start), True))
-            line += _pieces(each, travel)
+            line += pieces.get(id(travel), ())
     leaving = {each.run.leaving for each in report.runs if each.run.leaving and id(each.run.leaving) not in ends}
     return {line: tuple(moves) for line, moves in found.items()}, frozenset(travel.line for travel in leaving)
-
-
-def _pieces(each: ToolRun, travel: Travel) -> Iterator[tuple[Segment, bool]]:
-    for piece in each.offset.pieces or ():
-        if each.run.travels[piece.element] is travel:
-            yield each.written(piece), travel.motion is Motion.RAPID
 
 
 def _known(travel: Travel, report: ToolReport, *, at_end: bool) -> Point:

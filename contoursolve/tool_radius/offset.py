@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import pairwise
-from math import dist, hypot, nan
+from math import atan2, degrees, dist, hypot, nan, pi
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -14,10 +14,13 @@ from contoursolve.tolerance import LENGTH, REGULAR
 from contoursolve.tool_radius.clearance import ahead, gaps_below, is_on
 from contoursolve.tool_radius.faults import Fault, FaultKind
 from contoursolve.tool_radius.joint import STRAY, direction, join, meet_outside
-from contoursolve.tool_radius.tool import Outside
+from contoursolve.tool_radius.tool import Outside, Tool
 
 GOUGE = 1e-6
 """mm. Nearer than the radius by less than this is no gouge: a thousandth of the controls' least increment."""
+
+_FLANK = 1e-6
+"""deg. Rounding of an angle."""
 
 _CLEAR = 1e-3
 """d.N. By more than this the tip points away from the surface (assumed)."""
@@ -221,6 +224,22 @@ def tip_faults(elements: Sequence[Segment], side: int, radius: float, tip: Point
         along = min(float(dot(tip, normal)) for normal in normals)
         if along > _CLEAR:
             yield Fault(FaultKind.TIP_AGAINST_SIDE, number, radius * (1 + along))
+
+
+def flank_faults(elements: Sequence[Segment], side: int, tool: Tool) -> Iterator[Fault]:
+    """The elements into which the flank behind or before a tip 1 to 4 cuts: the nose would touch them farther around
+    than where its straight edge begins."""
+    (first, second), stated = tool.vector(), (tool.back, tool.front)
+    for number, element in enumerate(elements if first and second else ()):
+        normals = [normal_of(element, side, at_end=at_end) for at_end in (False, True)]
+        around = [(-first * one, -second * two) for one, two in normals]
+        needs = (
+            [degrees(max(atan2(-one, two), -pi / 2)) for one, two in around],
+            [degrees(max(atan2(-two, one), -pi / 2)) for one, two in around],
+        )
+        for place, (needed, has) in enumerate(zip(map(max, needs), stated, strict=True)):
+            if has is not None and needed > has + _FLANK:
+                yield Fault(FaultKind.FLANK, number, working=place, rest=(needed, has))
 
 
 def uncompensated(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[Fault]:

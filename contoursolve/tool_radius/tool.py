@@ -4,12 +4,14 @@ import re
 from collections.abc import Mapping
 from decimal import Decimal
 from enum import Enum
+from typing import Any
 
 from msgspec import Struct
 
 from contoursolve.diagnostics import ProgramError
 from contoursolve.gcode import late_pattern
 from contoursolve.solving import Point
+from contoursolve.tolerance import LARGEST
 
 TIPS: Mapping[int, Point] = {
     0: (0.0, 0.0),
@@ -64,20 +66,25 @@ class Tool(Struct, frozen=True):
     tip: int | None = None
     is_metric: bool = False
     """Whether the radius is in mm whatever the program's unit."""
+    back: float | None = None
+    """How far (deg) a contour may fall behind a tip 1 to 4 before its flank cuts into it, where that is stated."""
+    front: float | None = None
+    """The same of a face that leans over before the tip."""
 
     def vector(self) -> Point:
         """From the centre to the programmed point, in radii."""
         return TIPS[self.tip or 0]
 
 
-_RADIUS = late_pattern(r"R?\s*+(?P<number>[-+]?(?:\d++\.?\d*+|\.\d++))", re.IGNORECASE)
-_TIP = late_pattern(r"tip\s*+(?P<number>[-+]?\d++)", re.IGNORECASE)
+_RADIUS = late_pattern(r"R?\s*+(?P<number>[-+]?(?:\d++\.?\d*+|\.\d++))", re.IGNORECASE | re.ASCII)
+_MORE = late_pattern(r"(?P<name>tip|back|front)\s*+(?P<number>-?\d{1,9}(?:\.\d{0,9})?)", re.IGNORECASE | re.ASCII)
 _STATED = late_pattern(r"[(;]\s*+contoursolve\s++tool\s*+:(?P<stated>[^()\r\n]*+)", re.IGNORECASE)
 """A comment that states the tool of what follows."""
 
 
 def read_tool(text: str, tip: int | None = None) -> Tool:
-    """A tool from `R0.8` or `0.8`, with `tip 3` behind a comma where it has one. Raises ToolError.
+    """A tool from `R0.8` or `0.8`, behind commas with `tip 3` where it has one, and its flanks, such as `back 32`.
+    Raises ToolError.
 
     >>> read_tool("R0.8, tip 3").tip
     3
@@ -86,21 +93,30 @@ def read_tool(text: str, tip: int | None = None) -> Tool:
     found = _RADIUS.fullmatch(radius)
     if found is None:
         raise ToolError(f"{text.strip()!r} is no tool; write its radius, such as R0.8")
+    more: dict[str, Any] = {}
     for other in others:
-        stated = _TIP.fullmatch(other)
-        if stated is None:
+        stated = _MORE.fullmatch(other)
+        if stated is None or (stated["name"].lower() == "tip" and "." in stated["number"]):
             raise ToolError(f"{other!r} is not known of a tool; write its radius and its tip, such as R0.8, tip 3")
-        tip = int(stated["number"]) if tip is None else tip
-    return make_tool(Decimal(found["number"]), tip)
+        more[stated["name"].lower()] = float(stated["number"])
+    tip = int(more.pop("tip", -1)) if tip is None and "tip" in more else tip
+    more.pop("tip", None)
+    return make_tool(Decimal(found["number"]), tip, **more)
 
 
-def make_tool(radius: Decimal, tip: int | None, *, is_metric: bool = False) -> Tool:
+def make_tool(
+    radius: Decimal, tip: int | None, *, is_metric: bool = False, back: float | None = None, front: float | None = None
+) -> Tool:
     """A tool that there can be. Raises ToolError."""
-    if radius < 0 or not radius.is_finite():
-        raise ToolError(f"the radius of the tool is R{radius}; it must not be less than 0")
+    for name, angle in (("back", back), ("front", front)):
+        if angle is not None and not 0 <= angle < 180:  # noqa: PLR2004 - half a turn
+            raise ToolError(f"the {name} angle of the tool is {angle:g} deg; it must be 0 to less than 180 deg")
+    if not radius.is_finite() or not 0 <= radius <= Decimal(LARGEST):
+        told = "be less than 0" if radius.is_signed() else f"be more than {LARGEST:,.0f}"
+        raise ToolError(f"the radius of the tool is R{radius}; it must not {told}")
     if tip is not None and tip not in TIPS:
         raise ToolError(f"there is no tip {tip}; the tips have the numbers 0 to 9")
-    return Tool(radius, tip, is_metric)
+    return Tool(radius, tip, is_metric, back, front)
 
 
 def tool_in(line: str) -> Tool | None:

@@ -121,6 +121,23 @@ def test_a_groove_and_a_neck_are_told_with_their_widths():
     assert "the control looks two moves ahead (printed)" in text
 
 
+@pytest.mark.parametrize(
+    ("tool", "side", "blocks", "needed"),
+    [
+        ("R0.4, tip 3, back {}", "right", "X30. Z0./G01 X30. Z-10./X18.453 Z-20.", 30.0),
+        ("R0.4, tip 2, back {}", "left", "X30. Z0./G01 X30. Z-10./X40. Z-20.", 26.5651),
+        ("R0.4, tip 3, front {}", "right", "X30. Z-10./G01 X50. Z-9.5", 2.8624),
+        ("R0.4, tip 4, back {}", "left", "X20. Z-30./G01 X20. Z-20./X10. Z-12.", 32.0054),
+    ],
+)
+def test_flanks_that_are_stated(tool: str, side: str, blocks: str, needed: float):
+    start, *others = blocks.split("/")
+    words = ["--start", start, *(word for block in others for word in ("--block", block))]
+    for stated, is_free in ((needed - 0.01, False), (needed + 0.01, True)):
+        done = call("check", *LATHE, "--side", side, "--tool", tool.format(round(stated, 4)), *words)
+        assert (f"clearance of {needed:.3f} deg" in done.stdout, done.exit_code) == (not is_free, int(not is_free))
+
+
 def test_entry_and_exit(tmp_path: Path):
     program = COMPENSATED.replace("Z2. D1", "Z0.5").replace("Z5.", "Z1.").replace("X40.", "X20.")
     (tmp_path / "a.nc").write_text(program)

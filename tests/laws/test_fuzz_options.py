@@ -24,9 +24,10 @@ BLOCKS = (
     ("part.nc",),
     ("odd.nc",),
 )
+TOOL = ("--tool", "R0.8", "--tip", "3", "--side", "right")
 COMMANDS = {
-    "check": ((), ("--format", "json"), ("--format", "sarif"), ("--format", "github"), ("--fail-on", "warning")),
-    "solve": ((), ("--format", "json"), ("--explain",), ("--rules", "off"), ("--units", "inch")),
+    "check": ((), ("--format", "json"), ("--format", "sarif"), ("--format", "github"), ("--fail-on", "warning"), TOOL),
+    "solve": ((), ("--format", "json"), ("--explain",), ("--rules", "off"), ("--units", "inch"), TOOL),
     "expand": (
         (),
         ("--post", "linuxcnc"),
@@ -34,6 +35,7 @@ COMMANDS = {
         ("--arcs", "radius"),
         ("--keep-going",),
         ("-o", "x.nc"),
+        TOOL,
     ),
     "diff": (("part.nc",), ("odd.nc", "--format", "json")),
     "plot": (("-o", "x.svg", "--force"), ("-o", "x.dxf")),

@@ -7,8 +7,11 @@ from typing import Any
 
 import numpy
 import pytest
+from click.testing import CliRunner
 from examples import few_and_many
-from oracle_tool import TIPS, clearance, draw, is_cut, parts_of, program_of, run
+from oracle_tool import TIPS, Part, clearance, draw, is_cut, parts_of, program_of, run
+
+from contoursolve.cli import main
 
 TABLE = Path(__file__).parent / "tables" / "tool-radius.txt"
 ROWS = [line.split(" | ") for line in TABLE.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
@@ -69,6 +72,19 @@ def test_a_tip_that_points_away_is_told():
 # Random contours --------------------------------------------------------------------------------------------------
 
 
+def expanded(contours: list[list[Part]], options: list[str], folder: Path, *, is_lathe: bool) -> list[list[Part]]:
+    """The paths that are written for contours that a tool cuts, read as contours for a tool without a radius."""
+    (folder / "drawn.nc").write_text(program_of(contours, is_lathe=is_lathe))
+    output = folder / "written.nc"
+    done = CliRunner().invoke(main, ["expand", *options, str(folder / "drawn.nc"), "-o", str(output), "--force"])
+    assert done.exit_code == 0 or not contours, done.output
+    words = [
+        word for name in ("--control", "--tip") if name in options for word in (name, options[options.index(name) + 1])
+    ]
+    found = run("solve", "--format", "json", "--tool", "0", "--side", "left", *words, str(output)) if contours else {}
+    return [parts_of(each["elements"]) for each in found.get("contours", [])]
+
+
 @few_and_many(20, 2000)
 def test_random_contours(count: int, tmp_path: Path):
     """No path comes nearer to any wall than the radius; each stays at it; what fits is not refused."""
@@ -83,6 +99,12 @@ def test_random_contours(count: int, tmp_path: Path):
         options += ["--control", "fanuc-lathe", "--tip", str(tip)] if is_lathe else ["--control", "fanuc-mill"]
         found = run("solve", "--format", "json", *options, str(tmp_path / "drawn.nc"))["contours"]
         assert len(found) == len(contours)
+        fitting = [parts for parts, each in zip(contours, found, strict=True) if each["tool"]["elements"]]
+        written = expanded(fitting, options, tmp_path, is_lathe=is_lathe)
+        for parts, path in zip(fitting, written, strict=True):
+            shift = radius * TIPS[tip] if is_lathe else 0j
+            places = [each.at(numpy.linspace(0, 1, 200))[0] - shift for each in path]
+            assert min(clearance(each, parts).min() for each in places) > radius - 0.002
         for parts, contour in zip(contours, found, strict=True):
             tool = contour["tool"]
             says = is_cut(parts, radius, 1 if side == "left" else -1)
