@@ -113,11 +113,8 @@ def report_on(run: Run, result: Result, wanted: ToolRequest) -> ToolReport:
 
 def _tool_of(name: str, row: Mapping[str, Any]) -> Tool:
     """A tool of the table in the project file, in mm. Raises ToolError."""
-    radius, tip, flanks = (
-        row.get("radius"),
-        row.get("tip"),
-        {each: row[each] for each in ("back", "front") if each in row},
-    )
+    radius, tip = row.get("radius"), row.get("tip")
+    flanks = {each: row[each] for each in ("back", "front") if each in row}
     numbers = (radius, 0 if tip is None else tip, *flanks.values())
     are_numbers = all(isinstance(each, int | float) and not isinstance(each, bool) for each in numbers)
     is_named = name[:1].upper() in ("T", "D") and name[1:].isdecimal()

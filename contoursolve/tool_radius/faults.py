@@ -49,8 +49,12 @@ class FaultKind(Enum):
         "check the number of the tip, and G41 or G42",
         Severity.WARNING,
     )
-    FLANK = _Row(
-        "this {element} needs a clearance of {needed} {where} the nose; the tool has {stated}",
+    BACK_FLANK = _Row(
+        "this {element} needs a clearance of {needed} behind the nose; the tool has {stated}",
+        "take a tool with more clearance",
+    )
+    FRONT_FLANK = _Row(
+        "this {element} needs a clearance of {needed} before the nose; the tool has {stated}",
         "take a tool with more clearance",
     )
     UNCOMPENSATED = _Row(

@@ -159,7 +159,6 @@ class _Findings:
             "tip": str(own.tool.tip),
             "side": own.side.value,
             "code": f"G{own.side.code}",
-            "where": "before" if fault.working else "behind",
             "needed": angle_text(fault.rest[0]),
             "stated": angle_text(fault.rest[1]),
             "rest": f"{back} and {on} along its sides",

@@ -19,6 +19,7 @@ from contoursolve.tool_radius.tool import Outside, Tool
 GOUGE = 1e-6
 """mm. Nearer than the radius by less than this is no gouge: a thousandth of the controls' least increment."""
 
+_FLANKS = (FaultKind.BACK_FLANK, FaultKind.FRONT_FLANK)
 _FLANK = 1e-6
 """deg. Rounding of an angle."""
 
@@ -237,9 +238,9 @@ def flank_faults(elements: Sequence[Segment], side: int, tool: Tool) -> Iterator
             [degrees(max(atan2(-one, two), -pi / 2)) for one, two in around],
             [degrees(max(atan2(-two, one), -pi / 2)) for one, two in around],
         )
-        for place, (needed, has) in enumerate(zip(map(max, needs), stated, strict=True)):
+        for kind, needed, has in zip(_FLANKS, map(max, needs), stated, strict=True):
             if has is not None and needed > has + _FLANK:
-                yield Fault(FaultKind.FLANK, number, working=place, rest=(needed, has))
+                yield Fault(kind, number, rest=(needed, has))
 
 
 def uncompensated(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[Fault]:

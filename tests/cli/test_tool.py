@@ -27,7 +27,9 @@ N50 G00 Z100.
 
 
 def call(*words: str | Path) -> Result:
-    return CliRunner().invoke(main, [str(word) for word in words])
+    done = CliRunner().invoke(main, [str(word) for word in words])
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exc_info
+    return done
 
 
 @pytest.mark.parametrize(

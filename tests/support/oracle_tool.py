@@ -130,6 +130,7 @@ TIPS = {0: 0j, 1: 1 + 1j, 2: -1 + 1j, 3: -1 - 1j, 4: 1 - 1j, 5: 1, 6: 1j, 7: -1,
 
 def run(*words: str) -> Any:
     done = CliRunner().invoke(main, [*words])
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exc_info
     assert done.exit_code in (0, 1), done.output
     return json.loads(done.stdout)
 
