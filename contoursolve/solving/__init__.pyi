@@ -122,6 +122,7 @@ from .exact_inputs import (
     SMALLEST as SMALLEST,
 )
 from .fitting import (
+    LEAST as LEAST,
     largest_fitting as largest_fitting,
 )
 from .free_cuts import (

@@ -40,8 +40,8 @@ def gaps_below(pieces: Sequence[Segment], walls: Sequence[Segment], limit: float
 
 def nearest(one: Segment, other: Segment) -> tuple[float, Point]:
     """The distance of two elements, mm, and the place on the other one: a crossing, an end, or square to both."""
-    pairs = [(here, _foot(other, here)) for here in _salient(one, other)]
-    pairs += [(_foot(one, there), there) for there in _salient(other, one)]
+    pairs = [(here, foot(other, here)) for here in _salient(one, other)]
+    pairs += [(foot(one, there), there) for there in _salient(other, one)]
     pairs += [(at, at) for at in _crossings(one, other) if is_on(one, at) and is_on(other, at)]
     return min((dist(here, there), there) for here, there in pairs)
 
@@ -103,7 +103,7 @@ def is_on(segment: Segment, at: Point) -> bool:
     return ((angle - begin) * segment.turn.sign + _TURN) % tau <= radians(segment.sweep) + 2 * _TURN
 
 
-def _foot(segment: Segment, at: Point) -> Point:
+def foot(segment: Segment, at: Point) -> Point:
     """The place of an element that is nearest to a point."""
     if isinstance(segment, ArcSegment):
         foot = ahead(segment.center, _unit(segment.center, at), segment.radius)

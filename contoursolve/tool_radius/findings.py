@@ -15,7 +15,7 @@ from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, Labe
 from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.program import Request, Result, run
 from contoursolve.reading import Dialect
-from contoursolve.solving import ArcSegment, Contour, LineSegment, Segment
+from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment
 from contoursolve.tolerance import LENGTH
 from contoursolve.tool_radius.faults import Fault, FaultKind
 from contoursolve.tool_radius.joint import direction
@@ -182,7 +182,9 @@ class _Findings:
     def _notes(self, own: Run, fault: Fault) -> Iterator[str]:
         """What fits, and where."""
         kind, unit = _kind(own), own.unit
-        if fault.largest is not None and fault.largest > LENGTH:
+        if fault.largest is not None and fault.largest < LEAST:
+            yield f"no {kind} fits here"
+        elif fault.largest is not None:
             tried = Offset(own.elements, fault.largest, own.side.sign, self.wanted.outside, own.is_wall)
             fits = written(fault.largest / float(unit.in_mm), unit.value, 1)
             whole = "the whole contour (tried)" if not tried.faults else "this place"

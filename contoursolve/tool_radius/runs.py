@@ -13,6 +13,7 @@ from contoursolve.gcode import Block
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import AGREEMENT, LENGTH
+from contoursolve.tool_radius.clearance import foot
 from contoursolve.tool_radius.joint import TANGENT, join
 from contoursolve.tool_radius.tool import Outside, Tool, ToolError, ToolSide, tool_in
 
@@ -52,8 +53,18 @@ class Run(Struct, frozen=True):
 
     @property
     def is_wall(self) -> list[bool]:
-        """Whether each element cuts."""
-        return [travel.motion is Motion.FEED for travel in self.travels]
+        """Whether each element is a surface: it cuts, and does not lead to or from a closed contour."""
+        parts, last = self.elements, len(self.elements) - 1
+        ends = range(max(last - _LEADS, 0), last + 1)
+        firsts = (first for first in range(min(_LEADS, last) + 1) if any(_closes(parts, first, each) for each in ends))
+        first = next(firsts, None)
+        if first is not None:
+            lasts = (each for each in reversed(ends) if each >= first and _closes(parts, first, each, is_end=True))
+            last = next(lasts, last)
+        return [
+            travel.motion is Motion.FEED and (first or 0) <= number <= last
+            for number, travel in enumerate(self.travels)
+        ]
 
     @property
     def lines(self) -> tuple[int, ...]:
@@ -70,6 +81,19 @@ class Run(Struct, frozen=True):
         """From the centre of the tool to the programmed point, mm."""
         first, second = self.tool.vector() if self.is_lathe else (0.0, 0.0)
         return self.radius * first, self.radius * second
+
+
+_LEADS = 3
+"""Elements that may lead to a closed contour, or away from it."""
+
+
+def _closes(parts: Sequence[Segment], first: int, last: int, *, is_end: bool = False) -> bool:
+    """Whether a contour that begins with one element comes back there in another one; or its end lies on the first."""
+    start, end = parts[first].start, parts[last].end
+    if last >= first and dist(start, end) <= AGREEMENT:
+        return True
+    at, on = (end, parts[first]) if is_end else (start, parts[last])
+    return last > first + 1 and dist(at, foot(on, at)) <= AGREEMENT
 
 
 def find_runs(path: ToolPath, asked: ToolRequest, blocks: Sequence[Block]) -> list[Run]:

@@ -229,6 +229,23 @@ def test_increments_lead_to_the_same_places(tmp_path: Path):
     assert done.exit_code == 0, done.stdout
 
 
+@pytest.mark.parametrize(
+    ("around", "loop"),
+    [
+        ("X10. Y-10./G03 X20. Y0 J10./X10. Y10. I-10./X0 Y0", "G03 X20. Y0 I-20. J0"),
+        ("X-8. Y-10./G03 X0 Y-2. J8./G03 X-8. Y8. I-8./X-20. Y20.", "G01 Y30./X40./Y-20./X0/Y0"),
+    ],
+)
+def test_arcs_that_lead_to_a_closed_contour_are_no_walls(around: str, loop: str, tmp_path: Path):
+    start, arc, behind, end = around.split("/")
+    blocks = ["G17 G90 G00 X-20. Y-30.", f"G41 D1 G01 {start} F300", arc, *loop.split("/"), behind, f"G40 G01 {end}"]
+    (tmp_path / "a.nc").write_text("\n".join(blocks) + "\n")
+    done = call("expand", *MILL, "--tool", "R6", tmp_path / "a.nc")
+    assert done.exit_code == 0, done.stderr
+    done = call("check", *MILL, "--tool", "R12", tmp_path / "a.nc")
+    assert "inside arc of radius" in done.stdout
+
+
 def test_nothing_is_written_where_the_tool_does_not_fit(tmp_path: Path):
     words = ("--tool", "R2.4", "--tip", "3", "--side", "right")
     done = call("expand", TABLES / "flange.nc", *words, "-o", tmp_path / "new.nc")
