@@ -83,7 +83,7 @@ def _tool_runs(result: Result, dialect: Dialect, asked: Request, wanted: ToolReq
 
 
 def _with_faults(each: Run, axes: tuple[str, ...], wanted: ToolRequest, facts: ToolFacts) -> ToolRun:
-    made = Offset(each.elements, each.radius, each.side.sign, wanted.outside, each.is_wall)
+    made = Offset(each.elements, each.radius, each.side.sign, wanted.outside, each.levels)
     faults, lead, leaving = list(made.faults), each.lead if each.is_stated else None, each.leaving
     if lead is not None and lead.bend is not None:
         faults.append(Fault(FaultKind.ENTRY_BY_ARC, 0))
@@ -185,7 +185,7 @@ class _Findings:
         if fault.largest is not None and fault.largest < LEAST:
             yield f"no {kind} fits here"
         elif fault.largest is not None:
-            tried = Offset(own.elements, fault.largest, own.side.sign, self.wanted.outside, own.is_wall)
+            tried = Offset(own.elements, fault.largest, own.side.sign, self.wanted.outside, own.levels)
             fits = written(fault.largest / float(unit.in_mm), unit.value, 1)
             whole = "the whole contour (tried)" if not tried.faults else "this place"
             yield f"a {kind} of radius up to {fits} cuts {whole}"

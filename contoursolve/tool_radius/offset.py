@@ -52,7 +52,8 @@ class Gouge(Struct, frozen=True):
 
 class Offset:
     """The path of the centre of a tool of a radius (mm) to the left (`side` +1) or right (-1) of elements, square to
-    the first and the last one at its ends; those that are no wall are rapids, into which nothing cuts."""
+    the first and the last one at its ends. `levels` are the numbers of the pass of each, from 1, negative for what is
+    no surface, into which nothing can cut."""
 
     def __init__(
         self,
@@ -60,10 +61,10 @@ class Offset:
         radius: float,
         side: int,
         outside: Outside = Outside.ROLL,
-        is_wall: Sequence[bool] | None = None,
+        levels: Sequence[int] | None = None,
     ) -> None:
         self.elements, self.radius, self.side, self.outside = elements, radius, side, outside
-        self.is_wall = is_wall or [True] * len(elements)
+        self.levels = levels or [1] * len(elements)
         self.joints = [join(one, two, radius, side) for one, two in pairwise(elements)]
 
     @cached_property
@@ -104,7 +105,7 @@ class Offset:
         """The largest radius (mm) with which some elements in a row, at most all, can be cut."""
 
         def left(size: float) -> float:
-            part = Offset(self.elements[near], size, self.side, self.outside, self.is_wall[near])
+            part = Offset(self.elements[near], size, self.side, self.outside, self.levels[near])
             arcs = [
                 each.radius for each in part.elements if isinstance(each, ArcSegment) and each.turn.sign == self.side
             ]
@@ -196,10 +197,12 @@ class Offset:
         return float(fact.residual(Values(scalars, {}, {})))
 
     def _gouges(self) -> Iterator[Gouge]:
-        walls = [number for number in range(len(self.elements)) if self.is_wall[number]]
-        paths, parts = [piece.segment for piece in self._pieces], [self.elements[number] for number in walls]
-        for gap in gaps_below(paths, parts, self.radius - GOUGE):
-            yield Gouge(self.radius - gap.distance, walls[gap.wall], self._pieces[gap.piece].element, gap.at)
+        for level in sorted({each for each in self.levels if each > 0}):
+            walls = [number for number, each in enumerate(self.levels) if each == level]
+            pieces = [piece for piece in self._pieces if abs(self.levels[piece.element]) == level]
+            paths, parts = [piece.segment for piece in pieces], [self.elements[number] for number in walls]
+            for gap in gaps_below(paths, parts, self.radius - GOUGE):
+                yield Gouge(self.radius - gap.distance, walls[gap.wall], pieces[gap.piece].element, gap.at)
 
     def _interferences(self) -> Iterator[Fault]:
         """Walls into which the tool cuts beside another element: of each place, the deepest."""
@@ -263,7 +266,8 @@ def uncut(made: Offset) -> Iterator[Fault]:
     """What a tool leaves in the inside corners of a contour that it cuts."""
     for number, joint in enumerate(made.joints if made.pieces is not None else ()):
         meeting, element = joint.meeting, made.elements[number]
-        if meeting is not None and (rest := dist(meeting.center, element.end) - made.radius) >= NOTICED:
+        is_wall = min(made.levels[number : number + 2]) > 0
+        if meeting is not None and is_wall and (rest := dist(meeting.center, element.end) - made.radius) >= NOTICED:
             yield Fault(FaultKind.INSIDE_CORNER, number, rest, rest=(meeting.back, meeting.ahead))
 
 

@@ -3,6 +3,7 @@
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
+from itertools import groupby
 from math import dist
 
 from msgspec import Struct
@@ -45,26 +46,13 @@ class Run(Struct, frozen=True):
     side: ToolSide
     plane: Plane
     unit: Length
+    levels: tuple[int, ...]
+    """As `Offset` has them."""
     lead: Travel | None = None
     leaving: Travel | None = None
     is_stated: bool = True
     is_approached: bool = False
     """Whether the lead is a cutting move, of which nothing says that it is none of the contour."""
-
-    @property
-    def is_wall(self) -> list[bool]:
-        """Whether each element is a surface: it cuts, and does not lead to or from a closed contour."""
-        parts, last = self.elements, len(self.elements) - 1
-        ends = range(max(last - _LEADS, 0), last + 1)
-        firsts = (first for first in range(min(_LEADS, last) + 1) if any(_closes(parts, first, each) for each in ends))
-        first = next(firsts, None)
-        if first is not None:
-            lasts = (each for each in reversed(ends) if each >= first and _closes(parts, first, each, is_end=True))
-            last = next(lasts, last)
-        return [
-            travel.motion is Motion.FEED and (first or 0) <= number <= last
-            for number, travel in enumerate(self.travels)
-        ]
 
     @property
     def lines(self) -> tuple[int, ...]:
@@ -85,6 +73,29 @@ class Run(Struct, frozen=True):
 
 _LEADS = 3
 """Elements that may lead to a closed contour, or away from it."""
+
+
+def _levels(elements: Sequence[Segment], travels: Sequence[Travel], axes: Sequence[str]) -> Iterator[int]:
+    """The number of the pass of each element, from 1, negative for what is no surface: rapids, and what leads to a
+    closed contour or away from it. A rapid, and another depth, begin another pass."""
+
+    def depth(place: int) -> object:
+        plane = travels[place].plane
+        ends = zip(axes, travels[place].end, strict=True)
+        return travels[place].motion, [at for axis, at in ends if plane and axis not in plane.axes]
+
+    passes = groupby(range(len(travels)), depth)
+    for number, places in enumerate((list(each) for _, each in passes), 1):
+        parts, last = [elements[place] for place in places], len(places) - 1
+        ends = range(max(last - _LEADS, 0), last + 1)
+        firsts = (first for first in range(min(_LEADS, last) + 1) if any(_closes(parts, first, each) for each in ends))
+        first = next(firsts, None)
+        if first is not None:
+            lasts = (each for each in reversed(ends) if each >= first and _closes(parts, first, each, is_end=True))
+            last = next(lasts, last)
+        for place, own in enumerate(places):
+            is_wall = travels[own].motion is Motion.FEED and (first or 0) <= place <= last
+            yield number if is_wall else -number
 
 
 def _closes(parts: Sequence[Segment], first: int, last: int, *, is_end: bool = False) -> bool:
@@ -196,6 +207,7 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
         own,
         plane,
         travels[0].unit,
+        tuple(_levels(elements, travels, axes)),
         lead,
         leaving,
         group.side is not None,

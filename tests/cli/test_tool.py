@@ -239,9 +239,11 @@ def test_increments_lead_to_the_same_places(tmp_path: Path):
 def test_arcs_that_lead_to_a_closed_contour_are_no_walls(around: str, loop: str, tmp_path: Path):
     start, arc, behind, end = around.split("/")
     blocks = ["G17 G90 G00 X-20. Y-30.", f"G41 D1 G01 {start} F300", arc, *loop.split("/"), behind, f"G40 G01 {end}"]
-    (tmp_path / "a.nc").write_text("\n".join(blocks) + "\n")
-    done = call("expand", *MILL, "--tool", "R6", tmp_path / "a.nc")
-    assert done.exit_code == 0, done.stderr
+    twice = [*blocks[:-1], f"G01 {end}", "Z-10.", start, *blocks[2:]]
+    for lines, radius in ((blocks, "R6"), (twice, "R2")):
+        (tmp_path / "a.nc").write_text("\n".join(lines) + "\n")
+        done = call("expand", *MILL, "--tool", radius, tmp_path / "a.nc")
+        assert done.exit_code == 0, done.stderr
     done = call("check", *MILL, "--tool", "R12", tmp_path / "a.nc")
     assert "inside arc of radius" in done.stdout
 
