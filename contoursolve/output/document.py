@@ -214,7 +214,8 @@ def _beside_tool(result: Result, report: "ToolReport") -> Iterator[dict[str, Any
     for answer in result.answers:
         number = next((runs[line] for line in answer.lines if line in runs), None)
         if number is None or answer.contour is None:
-            rows.append((answer.lines[0], {**_contour(answer), "tool": None}))
+            none = dict.fromkeys(("radius", "tip", "side", "start", "elements"))
+            rows.append((answer.lines[0], {**_contour(answer), "tool": {**none, "faults": []}}))
         else:
             firsts.setdefault(number, answer)
     for number, each in enumerate(report.runs):

@@ -345,7 +345,7 @@ def tool_lines(report: "ToolReport", result: Result) -> Iterator[str]:
     for each in report.runs:
         own, path = each.run, each.path
         kind = f"nose R{own.tool.radius}, tip {own.tool.tip}" if own.is_lathe else f"cutter R{own.tool.radius}"
-        title = f"{printable(result.program.name)}:{own.lines[0]}: {kind}, {own.side.value} (G{own.side.code})"
+        title = f"{printable(result.program.name)}:{own.lines[0]}: {kind}, {own.side.value} of the contour"
         if path is None:
             yield from (f"{title}: it does not fit", "")
             continue

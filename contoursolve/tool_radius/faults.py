@@ -67,6 +67,11 @@ class FaultKind(Enum):
         "a smaller tool leaves less",
         Severity.INFO,
     )
+    SWITCHED = _Row(
+        "the path of the tool begins anew here: the side or the plane changes without a move away",
+        "lead the tool away from the contour before",
+        Severity.WARNING,
+    )
     APPROACH = _Row(
         "this block is taken to lead to the contour, which begins with program line {begin}",
         "write {code} into the block before it if it cuts the part",

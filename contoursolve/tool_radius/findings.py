@@ -72,7 +72,7 @@ def look_at_tool(result: Result, dialect: Dialect, asked: Request, wanted: ToolR
     """The runs of a solved program with the paths of the tool, and what it cannot cut. Raises ToolError."""
     runs = _tool_runs(result, dialect, asked, wanted)
     told = _Findings(result, dialect, asked, wanted)
-    found = [each for tool_run in runs for each in told.of(tool_run)]
+    found = [each for number, tool_run in enumerate(runs) for each in told.of(tool_run, is_first=not number)]
     return ToolReport(tuple(runs), tuple(sorted(found, key=rank)), dialect.modes.axes)
 
 
@@ -108,10 +108,11 @@ class _Findings:
         self.facts = TOOL_FACTS.get(dialect.name, ToolFacts())
         self.blocks = {block.line: block for block in result.program.blocks}
 
-    def of(self, tool_run: ToolRun) -> Iterator[Diagnostic]:
+    def of(self, tool_run: ToolRun, *, is_first: bool) -> Iterator[Diagnostic]:
         """The findings about one run."""
         own, tip = tool_run.run, tool_run.run.tool.vector() if tool_run.run.is_lathe else (0.0, 0.0)
         told = [Fault(FaultKind.APPROACH, 0)] if own.is_approached else []
+        told += [Fault(FaultKind.SWITCHED, 0)] if own.lead is None and not is_first else []
         if not own.is_stated:
             told += uncompensated(own.elements, own.side.sign, own.radius, tip)
         yield from (self._finding(own, fault) for fault in (*told, *tool_run.faults, *uncut(tool_run.offset)))
@@ -158,7 +159,7 @@ class _Findings:
             "begin": str(own.lines[0]),
             "tip": str(own.tool.tip),
             "side": own.side.value,
-            "code": f"G{own.side.code}",
+            "code": self.dialect.modes.codes[own.side.code].text,
             "needed": angle_text(fault.rest[0]),
             "stated": angle_text(fault.rest[1]),
             "rest": f"{back} and {on} along its sides",

@@ -40,7 +40,7 @@ def moves_of(report: ToolReport) -> tuple[Mapping[int, Moves], frozenset[int]]:
                 line.append((segment, travel.motion is Motion.RAPID))
                 continue
             if each.run.lead is None and travel is each.run.travels[0]:
-                line.append((LineSegment("", each.part.start, each.path.start), True))
+                line.append((LineSegment("", each.part.start, each.path.start), each is report.runs[0]))
             line += pieces.get(id(travel), ())
     leaving = {each.run.leaving for each in report.runs if each.run.leaving and id(each.run.leaving) not in ends}
     return {line: tuple(moves) for line, moves in found.items()}, frozenset(travel.line for travel in leaving)

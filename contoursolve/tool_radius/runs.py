@@ -150,10 +150,10 @@ def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
             group.travels.append(move)
             before = move
             continue
-        group.leaving = move
-        yield group
         # Where only the side or the plane changes, the tool is at the contour already.
         is_there = is_cut and move is not None and (bool(group.travels) or not is_stated)
+        group.leaving = None if is_there else move
+        yield group
         group = _Group([move] if is_there and move else [], None if is_there else move, None, side)
         before = move
     yield group

@@ -9,6 +9,8 @@ from click.testing import CliRunner, Result
 from oracle_tool import run
 
 from contoursolve.cli import main
+from contoursolve.controls import TOOL_FACTS
+from contoursolve.tool_radius import FaultKind
 
 TABLES = Path(__file__).parents[1] / "oracles" / "tables"
 LATHE, MILL = ("--control", "fanuc-lathe"), ("--control", "fanuc-mill")
@@ -246,6 +248,25 @@ def test_arcs_that_lead_to_a_closed_contour_are_no_walls(around: str, loop: str,
         assert done.exit_code == 0, done.stderr
     done = call("check", *MILL, "--tool", "R12", tmp_path / "a.nc")
     assert "inside arc of radius" in done.stdout
+
+
+def test_a_change_of_the_side_is_told_and_written(tmp_path: Path):
+    blocks = ["G17 G00 X-10. Y-10.", "G41 D1 G01 X0 Y0 F300", "Y20.", "X20.", "G42 Y40.", "X40.", "G40 X60."]
+    (tmp_path / "a.nc").write_text("\n".join(blocks) + "\n")
+    done = call("check", *MILL, "--tool", "R3", tmp_path / "a.nc")
+    assert "warning[tool-switched]" in done.stdout
+    text = call("expand", *MILL, "--tool", "R3", "--no-comments", tmp_path / "a.nc").stdout
+    assert "G01 X20. Y23.\n(path of the centre for cutter R3, right of the contour)\nG01 X23. Y20.\n" in text
+
+
+def test_no_alarm_is_invented():
+    printed = {
+        *("33", "34", "41", "340", "341", "342", "10751", "90008", "90017", "90123", "P151", "P152", "P153", "3048"),
+        "Tool radius too large",
+    }
+    assert {alarm.number for facts in TOOL_FACTS.values() for alarm in facts.alarms.values()} == printed
+    kinds = {kind.name.lower() for kind in FaultKind}
+    assert all({*facts.alarms} <= kinds for facts in TOOL_FACTS.values())
 
 
 def test_nothing_is_written_where_the_tool_does_not_fit(tmp_path: Path):
