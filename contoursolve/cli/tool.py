@@ -64,7 +64,7 @@ def moved_program(
     if dialect is not None and needs_running((block.text for block in program.blocks), dialect.modes.language):
         raise ToolError("a program with calls, jumps or variables has no one path; expand --inline writes it out first")
     if dialect is not None and dialect.writing is not None:
-        raise ToolError("expand --tool writes G codes; write the program with expand --post linuxcnc first")
+        raise ToolError("expand --tool reads G codes; write the program with expand --post fanuc first")
     is_solved = all(answer.contour is not None for answer in result.answers)
     if not report.runs and is_solved:
         raise ToolError("no cutting move goes beside a contour; there is nothing to write")

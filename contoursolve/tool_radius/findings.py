@@ -71,7 +71,7 @@ class ToolReport(Struct, frozen=True):
 def look_at_tool(result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest) -> ToolReport:
     """The runs of a solved program with the paths of the tool, and what it cannot cut. Raises ToolError."""
     runs = _tool_runs(result, dialect, asked, wanted)
-    told = _Findings(result, dialect, asked, wanted)
+    told = _Findings(result, dialect, asked, wanted, runs)
     found = [each for number, tool_run in enumerate(runs) for each in told.of(tool_run, is_first=not number)]
     return ToolReport(tuple(runs), tuple(sorted(found, key=rank)), dialect.modes.axes)
 
@@ -103,8 +103,11 @@ def _with_faults(each: Run, axes: tuple[str, ...], wanted: ToolRequest, facts: T
 class _Findings:
     """Faults as findings about the lines and words of one program."""
 
-    def __init__(self, result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest) -> None:
-        self.result, self.dialect, self.asked, self.wanted = result, dialect, asked, wanted
+    def __init__(
+        self, result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest, runs: Sequence[ToolRun]
+    ) -> None:
+        self.result, self.dialect, self.asked, self.wanted, self.runs = result, dialect, asked, wanted, runs
+        self.wholes = dict[int, float | None]()
         self.facts = TOOL_FACTS.get(dialect.name, ToolFacts())
         self.blocks = {block.line: block for block in result.program.blocks}
 
@@ -186,10 +189,11 @@ class _Findings:
         if fault.largest is not None and fault.largest < LEAST:
             yield f"no {kind} fits here"
         elif fault.largest is not None:
-            tried = Offset(own.elements, fault.largest, own.side.sign, self.wanted.outside, own.levels)
-            fits = written(fault.largest / float(unit.in_mm), unit.value, 1)
-            whole = "the whole contour (tried)" if not tried.faults else "this place"
-            yield f"a {kind} of radius up to {fits} cuts {whole}"
+            whole = self._whole(own)
+            fits, all_ = (written(each / float(unit.in_mm), unit.value, 1) for each in (fault.largest, whole or 0.0))
+            where = "the whole contour (tried)" if fault.largest == whole else "this place"
+            more = f"; {all_} the whole contour (tried)" if whole and fault.largest != whole else ""
+            yield f"a {kind} of radius up to {fits} cuts {where}{more}"
         if fault.kind is FaultKind.ARC_TOO_SMALL:
             yield f"the smallest inside radius that this {kind} makes is {length_in(own.radius, unit)}"
         if fault.kind is FaultKind.ELEMENT_VANISHES and 0 < fault.element < len(own.elements) - 1:
@@ -201,6 +205,18 @@ class _Findings:
             yield f"it cuts at {coordinates(fault.at, own.plane, unit)}"
             if self.facts.notice:
                 yield self.facts.notice
+
+    def _whole(self, own: Run) -> float | None:
+        """The largest radius (mm) with which a tool cuts a whole run (tried); None if a few trials find none."""
+        if id(own) not in self.wholes:
+            faults, least = next(each.offset.faults for each in self.runs if each.run is own), own.radius
+            for _ in range(_TRIALS if faults else 0):
+                least = min((each.largest for each in faults if each.largest is not None), default=0.0)
+                faults = Offset(own.elements, least, own.side.sign, self.wanted.outside, own.levels).faults
+                if not faults:
+                    break
+            self.wholes[id(own)] = None if faults or least < LEAST else least
+        return self.wholes[id(own)]
 
     def _word(self, own: Run, fault: Fault) -> Word | None:
         """The word that states the radius of an arc: that of a corner, or R."""
@@ -235,6 +251,9 @@ class _Findings:
         runs = _tool_runs(tried, self.dialect, self.asked, self.wanted)
         return all(not each.offset.faults for each in runs if {*each.run.lines} & {*own.lines})
 
+
+_TRIALS = 8
+"""Radii that are tried for a whole contour, each the largest that the faults of the one before allow."""
 
 _ENTRIES = (FaultKind.ENTRY_BY_ARC, FaultKind.ENTRY_TOO_SHORT, FaultKind.APPROACH)
 

@@ -19,6 +19,9 @@ from contoursolve.tool_radius.tool import Outside, Tool
 GOUGE = 1e-6
 """mm. Nearer than the radius by less than this is no gouge: a thousandth of the controls' least increment."""
 
+_LOOKED = 500
+"""Elements among which the largest radius is looked for where a tool cuts into others; of more, none is told."""
+
 _FLANKS = (FaultKind.BACK_FLANK, FaultKind.FRONT_FLANK)
 _FLANK = 1e-6
 """deg. Rounding of an angle."""
@@ -206,13 +209,15 @@ class Offset:
 
     def _interferences(self) -> Iterator[Fault]:
         """Walls into which the tool cuts beside another element: of each place, the deepest."""
-        told, largest = list[Gouge](), 0.0
+        told, looked = list[Gouge](), 0
         for each in sorted(self._gouges(), key=lambda gouge: (-round(gouge.depth, 6), -gouge.wall)):
             if any(each.is_like(other, self.radius) for other in told):
                 continue
-            largest = largest if told else self.largest(slice(None))
             told.append(each)
-            length = self.elements[each.wall].length
+            first, last = sorted((each.wall, each.working))
+            length, near = self.elements[each.wall].length, slice(max(first - 1, 0), last + 2)
+            looked += last - first
+            largest = self.largest(near) if looked <= _LOOKED else None
             yield Fault(FaultKind.INTERFERENCE, each.wall, each.depth, largest, length, each.working, each.at)
 
 
