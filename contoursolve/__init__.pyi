@@ -11,6 +11,7 @@ from .api import (
     solve as solve,
     solve_file as solve_file,
     solve_program as solve_program,
+    solve_with_tool as solve_with_tool,
     system as system,
 )
 from .controls import (
@@ -66,6 +67,7 @@ from .notebook import (
 )
 from .output import (
     StatedWord as StatedWord,
+    beside_of as beside_of,
     construction_lines as construction_lines,
     end_text as end_text,
     equations_of as equations_of,
@@ -77,6 +79,7 @@ from .output import (
     start_text as start_text,
     stated_words as stated_words,
     to_dxf as to_dxf,
+    tool_text as tool_text,
 )
 from .postprocess import (
     BlockNumber as BlockNumber,
@@ -96,6 +99,7 @@ from .program import (
     UnknownControlError as UnknownControlError,
     changes_of as changes_of,
     find_settings as find_settings,
+    find_tools as find_tools,
     likely_fixes as likely_fixes,
     mend_open as mend_open,
     safe_fixes as safe_fixes,
@@ -111,6 +115,9 @@ from .solving import (
     LineSegment as LineSegment,
     Sketch as Sketch,
     Status as Status,
+)
+from .tool_radius import (
+    ToolReport as ToolReport,
 )
 from .try_edits import (
     Completion as Completion,

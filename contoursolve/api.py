@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from contoursolve.diagnosis import EquationSystem
     from contoursolve.postprocess import Conversion, Expansion, Post
     from contoursolve.program import Mended
+    from contoursolve.tool_radius import ToolReport
 
 __all__ = [
     "UnreadableProgramError",
@@ -51,6 +52,7 @@ __all__ = [
     "solve",
     "solve_file",
     "solve_program",
+    "solve_with_tool",
     "system",
 ]
 
@@ -240,6 +242,36 @@ def solve_program(
 ) -> Result:
     """Solve every contour of a program that was parsed or read before; as `solve`."""
     return _follow(program, SolveOptions(**options)).collect()
+
+
+@takes(SolveKeywords)
+def solve_with_tool(
+    text: str,
+    tool: str = "program",
+    *,
+    tip: int | None = None,
+    side: str | None = None,
+    outside: str = "roll",
+    name: str = "<program>",
+    **options: Unpack[SolveKeywords],
+) -> tuple[Result, ToolReport]:
+    """Solve every contour of a program for a tool: its radius in the unit of the program, and its tip on a lathe, such
+    as `"R0.8, tip 3"`; or `program` for what the program and the project file state.
+
+    `tip`, `side` (`left` or `right`), `outside` (`roll` or `intersect`) are as the options of `contoursolve check`; all
+    others, and errors, as for `solve`. Raises ToolError, a ValueError, for a tool that there cannot be, or without its
+    side or tip. Returns the result with the findings about the tool, and its `runs`: each has its `path` (mm, X of a
+    lathe as radius; None where the tool does not fit) and its `faults`.
+
+    >>> text = "G42 G01 X18. Z0.\\nX20. Z-1.\\nZ-20."
+    >>> _, found = solve_with_tool(text, "R0.8, tip 3", control="fanuc-lathe", start="X0. Z0.")
+    >>> [f"{value:.4f}" for value in found.runs[0].path.end]
+    ['-20.8000', '10.0000']
+    """
+    from contoursolve.tool_radius import result_beside_tool, wanted_tool  # noqa: PLC0415 - only this needs them
+
+    run = _follow(_read(text, name), SolveOptions(**options))
+    return result_beside_tool(run, wanted_tool(name, tool, tip, side, outside))
 
 
 @takes(FollowKeywords)

@@ -361,13 +361,9 @@ def named_after(program: str | None, suffix: str) -> Path:
     return Path(f"{Path(program).stem if program and is_named else 'contour'}{suffix}")
 
 
-def examine(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Result:
-    """The result of a program under the options of the command; what makes no sense ends the command."""
-    return follow(program, start, assignments, options).collect()
-
-
 def follow(program: Program, start: str | None, assignments: Sequence[str], options: dict[str, Any]) -> Run | Collected:
-    """The same as a stream; where a tool is stated, with what is said of it."""
+    """A program under the options of the command as a stream; where a tool is stated, with what is said of it. What
+    makes no sense ends the command."""
     stated: dict[str, Any] = {name: options[name] for name in ("tool", "tip", "side", "outside") if name in options}
     options = {name: value for name, value in options.items() if name not in stated}
     with naming(program.name):

@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,19 +12,23 @@ from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
     common_options,
-    examine,
     explain_option,
+    follow,
     load,
     named_after,
     print_findings,
+    tool_options,
 )
 from contoursolve.cli.printing import say
 from contoursolve.diagnosis import Answer, count, status_text
 from contoursolve.diagnostics import importing
 from contoursolve.gcode import check_target, write_whole
-from contoursolve.output import summary_line
-from contoursolve.pictures import Picture, Theme, draw_answer, draw_result
+from contoursolve.output import Collected, summary_line
+from contoursolve.pictures import Beside, Picture, Theme, draw_answer, draw_result
 from contoursolve.program import Result
+
+if TYPE_CHECKING:
+    from contoursolve.tool_radius import ToolReport
 
 SVG, PNG = ".svg", ".png"
 
@@ -91,6 +95,7 @@ Written = tuple[Path, bytes, str]
     "--force", "is_forced", is_flag=True, help="Replace drawings that exist; without -o, its own are replaced anyway."
 )
 @common_options
+@tool_options
 @click.pass_context
 def plot(
     context: click.Context,
@@ -137,17 +142,18 @@ def plot(
     source = Path(program) if program else None
     if not is_each:
         check_target(target, source, is_forced=_may_replace(target, output, is_forced=is_forced))
-    result = examine(loader(), start, assignments, options)
+    run = follow(loader(), start, assignments, options)
+    result, tool = run.collect(), run.tool if isinstance(run, Collected) else None
     print_findings(result, program)
     if kind == _DXF:
-        files = _drawings_for_cad(result, target)
+        files = _drawings_for_cad(result, target, tool)
     else:
-        files = list(_pictures(result, target, line, Theme(theme), is_each=is_each, is_whole=is_whole))
+        files = list(_pictures(result, target, line, Theme(theme), tool, is_each=is_each, is_whole=is_whole))
     for path, _, _ in files if is_each else ():
         check_target(path, source, is_forced=_may_replace(path, output, is_forced=is_forced))
     for path, data, _ in files:
         write_whole(path, [data], keeps_backup=False)
-    say(summary_line(result))
+    say(summary_line(result, tool=tool))
     for path, _, content in files:
         say(f"{path}: {content}")
     if not files:
@@ -156,40 +162,66 @@ def plot(
 
 
 def _pictures(
-    result: Result, target: Path, line: int | None, theme: Theme, *, is_each: bool, is_whole: bool | None
+    result: Result,
+    target: Path,
+    line: int | None,
+    theme: Theme,
+    tool: "ToolReport | None",
+    *,
+    is_each: bool,
+    is_whole: bool | None,
 ) -> Iterator[Written]:
     """The pictures that are asked for."""
-    if not result.answers:
+
+    def of_one(answer: Answer) -> bytes:
+        return bytes_of(draw_answer(answer, theme=theme, beside=_beside(tool, answer)), target)
+
+    beside = _beside(tool)
+    if not result.answers and not beside:
         return
     if is_each:
         for answer in result.answers:
-            path = target.with_name(f"{target.stem}-{answer.lines[0]}{target.suffix}")
-            yield path, bytes_of(draw_answer(answer, theme=theme), target), _about(answer)
+            yield target.with_name(f"{target.stem}-{answer.lines[0]}{target.suffix}"), of_one(answer), _about(answer)
         return
     if line is not None:
         try:
             answer = result.contour_at(line)
         except ValueError as error:
             raise CouldNotRunError(str(error)) from error
-        yield target, bytes_of(draw_answer(answer, theme=theme), target), _about(answer)
+        yield target, of_one(answer), _about(answer)
         return
-    picture = draw_result(result, theme=theme, is_whole=is_whole)
-    yield target, bytes_of(picture, target), count(len(result.answers), "contour")
+    picture = draw_result(result, theme=theme, is_whole=is_whole, beside=beside)
+    told = count(len(result.answers) or len(beside), "contour") + (" with the tool" if beside else "")
+    yield target, bytes_of(picture, target), told
+
+
+def _beside(tool: "ToolReport | None", answer: Answer | None = None) -> tuple[Beside, ...]:
+    """What is drawn of a tool."""
+    if tool is None:
+        return ()
+    from contoursolve.output import beside_of  # noqa: PLC0415 - few programs state a tool
+
+    return beside_of(tool, answer)
 
 
 def _about(answer: Answer) -> str:
     return f"program line {answer.lines[0]}, {status_text(answer.status)}"
 
 
-def _drawings_for_cad(result: Result, target: Path) -> list[Written]:
+def _drawings_for_cad(result: Result, target: Path, tool: "ToolReport | None") -> list[Written]:
     """The DXF drawing, if anything is solved."""
     with importing("dxf", "a DXF drawing"):
         from contoursolve.output import to_dxf  # noqa: PLC0415 - needs an extra
     contours = [answer.contour for answer in result.answers if answer.contour]
-    if not contours:
+    runs, solved = tool.runs if tool else (), {line for answer in result.answers for line in answer.lines}
+    paths = {f"tool - program line {each.run.lines[0]}": each.path for each in runs if each.path}
+    beside = f", {count(len(paths), 'path')} of the tool" if paths else ""
+    plain = [each for each in runs if solved.isdisjoint(each.run.lines)]
+    paths |= {f"part - program line {each.run.lines[0]}": each.part for each in plain}
+    if not contours and not paths:
         return []
     elements = count(sum(len(contour.elements) for contour in contours), "element")
-    return [(target, to_dxf(result.answers), f"{elements} of {count(len(contours), 'contour')}")]
+    return [(target, to_dxf(result.answers, paths), f"{elements} of {count(len(contours), 'contour')}{beside}")]
 
 
 @click.command(short_help="Make a page about a program, to read, send and print.")
@@ -206,6 +238,7 @@ def _drawings_for_cad(result: Result, target: Path) -> list[Written]:
 )
 @explain_option("the equations and the construction of each contour")
 @common_options
+@tool_options
 @click.pass_context
 def report(
     context: click.Context,
@@ -237,16 +270,17 @@ def report(
         from contoursolve.output import report_page  # noqa: PLC0415 - needs an extra
     may_replace = _may_replace(target, output, is_forced=is_forced)
     check_target(target, Path(program) if program else None, is_forced=may_replace)
-    result = examine(loader(), start, assignments, options)
-    if not result.answers:
+    run = follow(loader(), start, assignments, options)
+    result, tool = run.collect(), run.tool if isinstance(run, Collected) else None
+    if not result.answers and (tool is None or not tool.runs):
         print_findings(result, program)
         say(f"{summary_line(result)}\n{target}: not written")
         context.exit(FOUND_ERRORS)
     with click.progressbar(
         length=len(result.answers), label="drawing", file=sys.stderr, hidden=not sys.stderr.isatty()
     ) as bar:
-        pieces = report_page(result, __version__, lambda: bar.update(1), is_explained=is_explained)
+        pieces = report_page(result, __version__, lambda: bar.update(1), is_explained=is_explained, tool=tool)
         write_whole(target, (piece.encode("utf-8", "replace") for piece in pieces), keeps_backup=False)
-    say(summary_line(result, is_explained=True))
+    say(summary_line(result, is_explained=True, tool=tool))
     say(f"{target} written")
     context.exit(FOUND_ERRORS if result.has_errors else 0)

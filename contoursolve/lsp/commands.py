@@ -8,7 +8,7 @@ from lsprotocol import types
 
 import contoursolve
 from contoursolve import Conversion, Expansion, standing_alone, stated_words
-from contoursolve.lsp.language_features import stretch
+from contoursolve.lsp.language_features import stretch, tool_beside
 from contoursolve.lsp.opened import Opened
 from contoursolve.pictures import Theme, draw_answer
 
@@ -39,7 +39,7 @@ def picture_of(opened: Opened, position: types.Position) -> Any:
     answer = opened.program.contour_at(line)
     if answer is None:
         return None
-    picture = draw_answer(answer, theme=Theme.PAGE)
+    picture = draw_answer(answer, theme=Theme.PAGE, beside=tool_beside(opened, answer))
     words = [
         {"key": each.key, "text": each.word.text.strip(), "range": opened.places.range(*stretch(each.word))}
         for each in stated_words(answer)
@@ -104,10 +104,13 @@ def report_on(opened: Opened | None) -> Reply:
     if program.dialect is None and opened.troubles:
         return {"html": None, "message": "; ".join(opened.troubles)}
     try:
-        result = contoursolve.solve(program.text, control=program.dialect, name=program.name)
+        result, tool = contoursolve.solve(program.text, control=program.dialect, name=program.name), None
+        if isinstance(opened.tool(), contoursolve.ToolReport):
+            name = str(opened.path or program.name)
+            result, tool = contoursolve.solve_with_tool(program.text, control=program.dialect, name=name)
         if not result.answers:
             return {"html": None, "message": "the program has no contour block"}
-        page = contoursolve.report_page(result, contoursolve.__version__)
+        page = contoursolve.report_page(result, contoursolve.__version__, tool=tool)
     except (ValueError, ImportError) as error:
         return {"html": None, "message": str(error)}
     return {"html": "".join(page), "message": ""}
@@ -154,7 +157,7 @@ def file_of(opened: Opened | None, what: str, line: int) -> tuple[str, str | Non
         answer = opened.program.contour_at(line + 1)
         if answer is None:
             return "there is no contour under the cursor", None
-        return f"{stem}-{line + 1}.svg", draw_answer(answer).svg
+        return f"{stem}-{line + 1}.svg", draw_answer(answer, beside=tool_beside(opened, answer)).svg
     if what == "explore":
         found = notebook_of(opened, line)
         return (f"{stem}-{line + 1}.ipynb", found["notebook"]) if found["notebook"] else (found["message"] or "", None)

@@ -15,17 +15,19 @@ from contoursolve import (
     StatedWord,
     Status,
     Word,
+    beside_of,
     end_text,
     equations_of,
     form_text,
     legal_blocks,
     path_table,
     stated_words,
+    tool_text,
     ways_to_complete,
     words_to_add,
 )
 from contoursolve.lsp.opened import Opened
-from contoursolve.pictures import draw_answer
+from contoursolve.pictures import Beside, draw_answer
 
 WIDE = 420
 """Pixels of a picture in a hover."""
@@ -46,9 +48,10 @@ def hover_of(opened: Opened, position: types.Position) -> types.Hover | None:
     if answer is not None:
         stated = next((each for each in stated_words(answer) if word and each.word.span == word.span), None)
         if stated is not None and word is not None:
-            return _hover(opened, _about_word(stated, answer), word)
+            return _hover(opened, _with_tool(opened, _about_word(stated, answer), line), word)
         is_drawn = opened.options.has_pictures and opened.reads_markdown
-        return _shown(opened, _about_contour(answer, is_drawn=is_drawn), _lines_of(opened, line))
+        text = _about_contour(answer, is_drawn=is_drawn, beside=tool_beside(opened, answer))
+        return _shown(opened, _with_tool(opened, text, line), _lines_of(opened, line))
     text = _about_plain_word(opened, word) if word is not None else ""
     examined = opened.program.examined
     if text and examined < line:
@@ -56,6 +59,19 @@ def hover_of(opened: Opened, position: types.Position) -> types.Hover | None:
             f"\n\nThe contours here are not known yet: {examined} of {len(opened.program.blocks)} lines are examined."
         )
     return _hover(opened, text, word) if text and word is not None else None
+
+
+def tool_beside(opened: Opened, answer: Answer) -> Sequence[Beside]:
+    """What is drawn of the tool beside a contour."""
+    tool = opened.tool()
+    return () if tool is None or isinstance(tool, str) else beside_of(tool, answer)
+
+
+def _with_tool(opened: Opened, text: str, line: int) -> str:
+    """A text, and which tool cuts the contour on a line."""
+    tool = opened.tool()
+    told = tool if isinstance(tool, str) or tool is None else tool_text(tool, line)
+    return f"{text}\n\nTool: {_plain(told)}." if told else text
 
 
 def _hover(opened: Opened, text: str, word: Word) -> types.Hover:
@@ -118,11 +134,11 @@ def _about_plain_word(opened: Opened, word: Word) -> str:
     return f"**{_plain(word.text)}** {row.meaning}" if row else ""
 
 
-def _about_contour(answer: Answer, *, is_drawn: bool) -> str:
+def _about_contour(answer: Answer, *, is_drawn: bool, beside: Sequence[Beside] = ()) -> str:
     end = end_text(answer)
     lines = [f"**{_plain(form_text(answer))}**: {answer.status.value}" + (f", ends at {end}" if end else "")]
     if is_drawn:
-        lines.append(f"![the contour]({image_of(answer)})")
+        lines.append(f"![the contour]({image_of(answer, beside)})")
     if answer.contour is not None:
         table = path_table(answer.contour, answer.unit)
         shown = [[*row[:4]] for row in table.rows]
@@ -131,9 +147,9 @@ def _about_contour(answer: Answer, *, is_drawn: bool) -> str:
     return "\n\n".join(lines)
 
 
-def image_of(answer: Answer) -> str:
+def image_of(answer: Answer, beside: Sequence[Beside] = ()) -> str:
     """A small picture of a contour, as an address that holds all of it."""
-    picture = draw_answer(answer)
+    picture = draw_answer(answer, beside=beside)
     scale = WIDE / picture.width
     size = f'width="{WIDE}" height="{picture.height * scale:.0f}" '
     svg = re.sub(r'width="[\d.]+" height="[\d.]+" ', size, picture.svg, count=1)

@@ -16,6 +16,10 @@ FIX_ALL = f"{types.CodeActionKind.SourceFixAll.value}.contoursolve"
 """The kind of the action that applies all fixes that keep the contour; an editor may ask for it when it saves."""
 
 
+_LONGEST = 5_000
+"""Lines of a program that is solved again for its tool while somebody waits."""
+
+
 class ClientSettings(Struct, frozen=True):
     """Settings of the client, in its section `contoursolve`."""
 
@@ -67,6 +71,7 @@ class Opened:
         self.uri, self.version, self.path, self.pages = item.uri, item.version, path, pages
         self.client = client
         self.options, self._project = options, _project_of(path)
+        self._tool: tuple[int, contoursolve.ToolReport | str | None] | None = None
         name = path.name if path else item.uri
         self.program = contoursolve.OpenProgram(item.text, settings=self._settings(), name=name)
         self.places = ClientPositions(self.program, encoding)
@@ -81,6 +86,7 @@ class Opened:
         """Follow other options, or another project file."""
         self.options, self._project = options, _project_of(self.path)
         self.program.configure(None, self._settings())
+        self._tool = None
 
     def change(self, version: int, changes: Sequence[types.TextDocumentContentChangeEvent]) -> None:
         """Follow what was typed."""
@@ -120,6 +126,24 @@ class Opened:
             return types.WorkspaceEdit({self.uri: [*changes]})
         document = types.OptionalVersionedTextDocumentIdentifier(self.uri, self.version)
         return types.WorkspaceEdit(document_changes=[types.TextDocumentEdit(document, [*changes])])
+
+    def tool(self) -> "contoursolve.ToolReport | str | None":
+        """What is said of the tool that the program or its project file states; the reason where nothing can be said,
+        None where no tool is stated."""
+        if self._tool is None or self._tool[0] != self.version:
+            self._tool = self.version, self._look_at_tool()
+        return self._tool[1]
+
+    def _look_at_tool(self) -> "contoursolve.ToolReport | str | None":
+        program, name = self.program, str(self.path) if self.path is not None else "<program>"
+        is_stated = "contoursolve tool" in program.text
+        try:
+            has_table = self.path is not None and contoursolve.find_tools(self.path.parent)
+            if program.dialect is None or not (is_stated or has_table) or len(program.blocks) > _LONGEST:
+                return None
+            return contoursolve.solve_with_tool(program.text, name=name, control=program.dialect, depth="verdict")[1]
+        except (OSError, ValueError) as error:
+            return str(error) if is_stated else None
 
     @property
     def conventions(self) -> dict[str, str]:

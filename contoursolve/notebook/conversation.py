@@ -57,7 +57,7 @@ class Conversation:
         """The contour as it was last solved."""
         self._edits = ReaderEdits(exploration) if is_calm(exploration) else None
         """The contour as it was when nothing was found about it."""
-        self._drawn = picture_of(exploration.answer) if exploration.answer else None
+        self._drawn = picture_of(exploration.answer, None, exploration.tool) if exploration.answer else None
         self.state: Data = {"view": self._viewed(is_new=True), "ranges": {}, "ghost": {}, "sections": {}, "number": 0}
 
     def answer(self, action: Data) -> Data:
@@ -122,7 +122,7 @@ class Conversation:
         if self._edits is not None and kind in _CHANGES:
             self._edits = ReaderEdits(self._edits.calm, is_pulled=is_held)
         self._solved = self.exploration if answer is not None and answer.contour is not None else self._solved
-        self._drawn = picture_of(answer, self._drawn if is_held else None) if answer else None
+        self._drawn = picture_of(answer, self._drawn if is_held else None, self.exploration.tool) if answer else None
         asks: list[Data] = []
         if kind == "fix" and self.exploration is not before:
             example = explorations.apply_fix(before, int(action["finding"]), int(action["fix"]), is_example=True)

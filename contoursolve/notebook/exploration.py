@@ -9,7 +9,7 @@ from typing import Any
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from contoursolve.api import solve
+from contoursolve.api import solve, solve_with_tool
 from contoursolve.diagnosis import (
     FARTHEST,
     Answer,
@@ -21,7 +21,7 @@ from contoursolve.diagnosis import (
     word_keys,
     write_word,
 )
-from contoursolve.diagnostics import Diagnostic
+from contoursolve.diagnostics import Diagnostic, Span
 from contoursolve.gcode import FACT, Word, number_of, parse, spell, split_lines
 from contoursolve.geometry import Pick, Unit
 from contoursolve.notebook.block_place import BlockPlace
@@ -29,9 +29,16 @@ from contoursolve.output import stated_words
 from contoursolve.program import Changes, Result, UnknownControlError, changed, changes_of
 from contoursolve.reading import Dialect
 from contoursolve.solving import Status
+from contoursolve.tool_radius import Tool, ToolReport, make_tool, radius_in, read_tool, tool_in
 
 SAME = 1e-3
 """mm. Contours whose points are this close are one: a fact that selects is written with three decimals."""
+
+TOOL = "tool"
+"""The key of the radius of the tool, beside those of words."""
+
+_STEP = Decimal("0.0001")
+"""To so much a radius is rounded, in the unit of the program."""
 
 MOST_DIGITS = 8
 """Of a number; controls read no more."""
@@ -55,6 +62,10 @@ class Exploration(Struct, frozen=True):
     """Text of a word before it was freed, by its key."""
     is_recognised: bool = False
     """Whether the words told the control, so that others may tell another one."""
+    side: str | None = None
+    """The side of the contour on which the tool runs, where the text does not say it."""
+    tool: ToolReport | None = None
+    """What is said of the tool that the text states, if it states one."""
 
     @property
     def answer(self) -> Answer | None:
@@ -87,25 +98,43 @@ class Exploration(Struct, frozen=True):
         ]
 
 
-def begin(text: str, facts: Iterable[str] = (), line: int | None = None, **options: Any) -> Exploration:
-    """An exploration of the only contour of a text, or of the one to which a line of it belongs. Facts are written into
-    it as comments.
+def begin(
+    text: str,
+    facts: Iterable[str] = (),
+    line: int | None = None,
+    tool: str | None = None,
+    side: str | None = None,
+    **options: Any,
+) -> Exploration:
+    """An exploration of the only contour of a text, or of the one to which a line of it belongs. Facts and a tool are
+    written into it as comments.
 
     Raises ValueError if the text has several contours and no line chooses, or that belongs to none; and as `solve`.
     """
-    result, place = solve(text, **options), None
+    (result, report), place = _examined(text, side, options), None
     if line is not None:
         lines = result.contour_at(line).lines
         place = BlockPlace(lines[0] - 1, len(result.program.blocks) - lines[-1])
     # A reader may take out the word by which the control is recognised.
     is_recognised = options.get("control") is None
     kept = {**options, "control": options["control"] if isinstance(options.get("control"), Dialect) else result.control}
-    now = Exploration(text, kept, result, (text, place), place, is_recognised=is_recognised)
+    now = Exploration(text, kept, result, (text, place), place, {}, is_recognised, side, report)
     _check_single(now)
+    if tool is not None:
+        read_tool(tool)
+        first = now.answer.lines[0] if now.answer is not None else 1
+        stated = result.program.syntax.remark.format(f"contoursolve tool: {tool.strip()}")
+        now = _edited(now, [Edit(EditKind.ADD, FACT, text=stated, line=first)])
     several = [facts] if isinstance(facts, str) else list(facts)
     if several:
         now = _edited(now, [_fact_edit(now, several)])
     return replace(now, origin=(now.text, now.place))
+
+
+def _examined(text: str, side: str | None, options: Mapping[str, Any]) -> tuple[Result, ToolReport | None]:
+    """What a text comes to, with what is said of the tool that it states."""
+    is_stated = any(tool_in(line) is not None for line in split_lines(text))
+    return solve_with_tool(text, side=side, **options) if is_stated else (solve(text, **options), None)
 
 
 def _check_single(exploration: Exploration) -> None:
@@ -141,11 +170,13 @@ def write(exploration: Exploration, text: str) -> Exploration:
 
 
 def _solved(exploration: Exploration, text: str, place: BlockPlace | None) -> Exploration:
-    return _with_result(exploration, text, place, solve(text, **exploration.options))
+    return _with_result(exploration, text, place, *_examined(text, exploration.side, exploration.options))
 
 
-def _with_result(exploration: Exploration, text: str, place: BlockPlace | None, result: Result) -> Exploration:
-    now = replace(exploration, text=text, place=place, result=result)
+def _with_result(
+    exploration: Exploration, text: str, place: BlockPlace | None, result: Result, tool: ToolReport | None
+) -> Exploration:
+    now = replace(exploration, text=text, place=place, result=result, tool=tool)
     if place is not None and now.answer is not None:  # a contour may take in the lines beside it
         lines, count = now.answer.lines, len(result.program.blocks)
         widened = BlockPlace(min(place.before, lines[0] - 1), min(place.behind, count - lines[-1]))
@@ -179,12 +210,12 @@ def _rewritten(now: Exploration) -> Exploration:
     """Text that a reader typed, read for another control if it is for that one alone."""
     if now.is_recognised:
         try:
-            other = solve(now.text, **{**now.options, "control": None})
+            other, tool = _examined(now.text, now.side, {**now.options, "control": None})
         except UnknownControlError:
-            other = None  # several read it, or none
+            other, tool = None, None  # several read it, or none
         if other is not None and other.answers and other.control != now.result.control:
             options = {**now.options, "control": other.control}
-            now = _with_result(replace(now, options=options), now.text, now.place, other)
+            now = _with_result(replace(now, options=options), now.text, now.place, other, tool)
     _check_single(now)
     return now
 
@@ -206,6 +237,8 @@ def values_of(exploration: Exploration) -> dict[str, float]:
     """The values of the words as they are typed, by their keys; none of those that are asked for."""
     answer = exploration.answer
     found = {} if answer is None else {each.key: each.value for each in stated_words(answer)}
+    tool = tool_place(exploration)
+    found |= {TOOL: float(tool[1].radius)} if tool is not None else {}
     return {key: value for key, value in found.items() if value is not None and key != FACT}
 
 
@@ -219,9 +252,25 @@ def set_words(exploration: Exploration, values: Mapping[str, float | str]) -> Ex
     """The contour with several words at other values at once; as `set_word`."""
     edits = []
     for key, value in values.items():
+        place = tool_place(exploration) if key == TOOL else None
+        if place is not None:
+            span, old = place
+            text = f"{make_tool(Decimal(str(value)).quantize(_STEP), None).radius.normalize():f}"
+            edits.append(Edit(EditKind.CHANGE, FACT, span, f"{old.radius}", text))
+            continue
         answer, word = _find(exploration, key)
         edits.append(Edit(EditKind.CHANGE, word.address, word.span, word.text, _written(answer, word, value)))
     return _edited(exploration, edits)
+
+
+def tool_place(exploration: Exploration) -> tuple[Span, Tool] | None:
+    """Where the text states the radius of the tool that cuts the contour, and that tool."""
+    last = exploration.answer.lines[0] if exploration.answer is not None else 0
+    for block in reversed(exploration.result.program.blocks[:last]):
+        found, tool = radius_in(block.text), tool_in(block.text)
+        if found is not None and tool is not None:
+            return Span(block.line, *found), tool
+    return None
 
 
 def is_movable(answer: Answer, word: Word) -> bool:

@@ -11,16 +11,17 @@ from msgspec import to_builtins
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer, AskedValue, count, inward, join, list_solutions, meaning_of, written
-from contoursolve.diagnostics import Applicability, Diagnostic
+from contoursolve.diagnostics import Applicability, Diagnostic, Span
 from contoursolve.families import End, FamilyError, Feasible, Way, called, feasible
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Question, Unit
-from contoursolve.notebook.exploration import Exploration, free, is_movable, words_of
+from contoursolve.notebook.exploration import TOOL, Exploration, free, is_movable, tool_place, words_of
 from contoursolve.notebook.handles import Handle, HandleKind, derivatives_of, handles_of, moving_of
 from contoursolve.notebook.range_text import range_texts
 from contoursolve.notebook.reader_edits import MOST_FIXES, ArrangedFix, ReaderEdits, arranged
 from contoursolve.notebook.standing_alone import standing_alone
 from contoursolve.output import (
+    beside_of,
     bounded,
     count_text,
     effect_of,
@@ -47,6 +48,7 @@ from contoursolve.pictures import (
 )
 from contoursolve.reading import ReadIssue
 from contoursolve.solving import Point, lookup, scalars_of
+from contoursolve.tool_radius import ToolReport
 
 MOST_FINDINGS, MOST_SOLUTIONS = 12, 24
 
@@ -72,7 +74,7 @@ def view_of(
     """Everything that is shown but the ranges in which words have a contour; with a picture that is drawn already, the
     words that no handle changes, those of a handle that is held, and what the reader has changed."""
     answer = exploration.answer
-    drawn = drawn if drawn is not None or answer is None else picture_of(answer)
+    drawn = drawn if drawn is not None or answer is None else picture_of(answer, None, exploration.tool)
     motion = derivatives_of(answer) if answer is not None and drawn is not None else None
     handles = handles_of(answer, drawn, motion, pinned, held) if answer is not None and drawn is not None else []
     moved = {key for handle in handles for key in handle.keys}
@@ -85,7 +87,7 @@ def view_of(
         "frame": _frame_of(drawn),
         "handles": [_handle(handle) for handle in handles],
         "elements": to_builtins(moving_of(motion, drawn, moved)) if motion is not None and drawn is not None else [],
-        "fields": list(_fields(answer, pinned)) if answer else [],
+        "fields": [*_fields(answer, pinned), *_tool_field(exploration, answer)] if answer else [],
         "findings": list(_findings(exploration, edits)),
         "elsewhere": _elsewhere(exploration),
         "solutions": _solutions(answer) if answer else {"text": "", "items": []},
@@ -100,11 +102,12 @@ def _status(exploration: Exploration) -> Data:
     return {"kind": worst, "text": answer.status.value, "form": short(form_text(answer))}
 
 
-def picture_of(answer: Answer, like: Picture | None = None) -> Picture | None:
-    """The picture of a contour, which may stand like the one before; without findings, which are told beside it. None
-    if it cannot be drawn."""
+def picture_of(answer: Answer, like: Picture | None = None, tool: ToolReport | None = None) -> Picture | None:
+    """The picture of a contour with its tool, which may stand like the one before; without findings, which are told
+    beside it. None if it cannot be drawn."""
     try:
-        return draw_answer(answer, theme=Theme.PAGE, like=like, has_remarks=False)
+        beside = beside_of(tool, answer) if tool is not None else ()
+        return draw_answer(answer, theme=Theme.PAGE, like=like, has_remarks=False, beside=beside)
     except Exception:  # the tables say the same, and the next value may be drawn again
         return None
 
@@ -151,6 +154,17 @@ def _fields(answer: Answer, pinned: Collection[str]) -> Iterator[Data]:
             "step": step,
             "size": TURN if row.unit is Unit.DEGREE else size,
         }
+
+
+def _tool_field(exploration: Exploration, answer: Answer) -> Iterator[Data]:
+    """A field for the radius of the tool, if one is stated."""
+    place = tool_place(exploration)
+    if place is not None:
+        radius, size = float(place[1].radius), _size(answer)
+        high = _round_up(3 * radius or size / 10)
+        scale = {"low": 0.0, "high": high, "step": 10.0 ** floor(log10(high / STEPS)), "size": size}
+        about = {"word": f"R{place[1].radius}", "meaning": "radius of the tool", "unit": answer.unit.value}
+        yield {"key": TOOL, **about, "value": radius, "state": TOOL, "is_pinned": False, "increment": 0.001, **scale}
 
 
 def _size(answer: Answer) -> float:
@@ -367,13 +381,16 @@ def frames_of(exploration: Exploration) -> dict[str, str]:
     rest = "\n".join(each.text for each in blocks if not exploration.has(each.line))
     mark = f"{crc32(rest.encode()):08x}\n" if rest else ""
     own = [each for each in blocks if exploration.has(each.line)]
-    return {key: mark + _frame(own, word) for key, word in words_of(answer).items() if word.number is not None}
+    spans = {key: word.span for key, word in words_of(answer).items() if word.number is not None}
+    tool = tool_place(exploration)
+    spans |= {TOOL: tool[0]} if tool is not None else {}
+    return {key: mark + _frame(own, span) for key, span in spans.items()}
 
 
-def _frame(blocks: Sequence[Block], word: Word) -> str:
+def _frame(blocks: Sequence[Block], span: Span) -> str:
     return "\n".join(
-        block.text[: word.span.column - 1] + "\0" + block.text[word.span.end_column - 1 :]
-        if block.line == word.span.line
+        block.text[: span.column - 1] + "\0" + block.text[span.end_column - 1 :]
+        if block.line == span.line
         else block.text
         for block in blocks
     )
@@ -382,6 +399,8 @@ def _frame(blocks: Sequence[Block], word: Word) -> str:
 def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
     """The ranges of the word of a field, and the ends that its slider needs to show them; nothing for a word of which
     no range can be told."""
+    if field["key"] == TOOL:
+        return _range_of_tool(exploration, field)
     if any(each.about is ReadIssue.UNDERDETERMINED for _, each in exploration.findings):
         return {}  # whatever this word says, others are missing
     low, high = field["low"], field["high"]
@@ -418,6 +437,19 @@ def range_of(exploration: Exploration, field: Mapping[str, Any]) -> Data:
         "reason": "; ".join(_reasons(found)).replace(called(name), label),
         "snaps": snaps_of(exploration, field["key"]),
     }
+
+
+def _range_of_tool(exploration: Exploration, field: Mapping[str, Any]) -> Data:
+    """The radii of tools that cut the contour."""
+    answer = exploration.answer
+    runs = exploration.tool.runs if exploration.tool is not None else ()
+    own = [each for each in runs if answer is not None and not {*answer.lines}.isdisjoint(each.run.lines)]
+    largest = min((each for each in (one.largest_radius for one in own) if each is not None), default=None)
+    if answer is None or not own or largest is None:
+        return {"low": field["low"], "high": field["high"], "note": "every tool fits" if own else ""}
+    most = floor(largest / float(answer.unit.in_mm) * 1e4) / 1e4
+    told = {"note": f"R ≤ {most:g}", "ends": [["", "the tool does not fit"]], "stops": [[0.0, most]], "snaps": []}
+    return {"intervals": [[0.0, most]], "low": 0.0, "high": field["high"], "whole": "", "reason": "", **told}
 
 
 def _alone(exploration: Exploration, key: str) -> tuple[str, str, str, Mapping[str, Any]] | None:

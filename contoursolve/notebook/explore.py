@@ -24,6 +24,8 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     facts: Iterable[str] = (),
     settings: Mapping[str, str] | None = None,
     variables: Mapping[str, float] | None = None,
+    tool: str | None = None,
+    side: str | None = None,
 ) -> "Explorer":
     """A contour to move, in a notebook: a slider for each word, the picture, the findings and their fixes.
 
@@ -31,7 +33,9 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     and the contour is the one to which that line belongs; all other lines stay as they are, and each change goes back
     into the program. The widget's traits `text` and `values` are what it is now, and may be set; `answer` and `result`
     are what it comes to, and can be observed. Without a kernel the notebook shows the picture as it last was.
-    Numbers take the place of variables, and the words that hold them have the sliders.
+    Numbers take the place of variables, and the words that hold them have the sliders. A `tool`, such as
+    `"R0.8, tip 3"`, is written into the block as a comment and has a slider for its radius; `side` is `left` or `right`
+    where the program has no G41 or G42.
 
     Raises FamilyError for a variable without a value, and MissingExtraError without the packages of
     `contoursolve[notebook]`. Raises ValueError for several contours without `line`, and for a line that belongs to
@@ -43,10 +47,10 @@ def explore(  # noqa: PLR0913 - what `solve` takes
     if variables and line is not None:
         now = begin(block, line=line, variables=variables, **options)
         own = with_numbers(now.block, now.options["control"], settings, variables)
-        return Explorer(begin(rewrite_block(now, own).text, facts, line, variables=variables, **options))
+        return Explorer(begin(rewrite_block(now, own).text, facts, line, tool, side, variables=variables, **options))
     if variables:
         block = with_numbers(block, control, settings, variables)
-    return Explorer(begin(block, facts, line, **options))
+    return Explorer(begin(block, facts, line, tool, side, **options))
 
 
 def explore_map(found: Family | Region, result: str | None = None) -> "MapExplorer":

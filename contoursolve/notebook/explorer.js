@@ -331,6 +331,7 @@ function render({ model, el }) {
       row.slider.disabled = isFree;
       row.free.setAttribute("aria-pressed", String(isFree));
       row.pin.setAttribute("aria-pressed", String(field.is_pinned));
+      for (const each of [row.free, row.pin]) each.style.visibility = field.state === "tool" ? "hidden" : "";
       row.label.textContent = field.word;
       row.row.dataset.state = field.state;
       row.range.dataset.state = field.state;

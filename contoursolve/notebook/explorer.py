@@ -21,7 +21,7 @@ class Explorer(anywidget.AnyWidget):
     """A contour whose words can be moved; see `explore`."""
 
     _esm = (_HOUSE / "explorer.js").read_text(encoding="utf-8")
-    _css = notebook_style() + (_HOUSE / "explorer.css").read_text(encoding="utf-8")
+    _css = notebook_style(has_tool=True) + (_HOUSE / "explorer.css").read_text(encoding="utf-8")
 
     view = traitlets.Dict().tag(sync=True)
     ranges = traitlets.Dict().tag(sync=True)

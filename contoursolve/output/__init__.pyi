@@ -139,6 +139,10 @@ from .receipts import (
 from .report import (
     report_page as report_page,
 )
+from .tool_picture import (
+    beside_of as beside_of,
+    tool_text as tool_text,
+)
 from .word_meanings import (
     StatedWord as StatedWord,
     end_text as end_text,

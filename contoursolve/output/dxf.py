@@ -6,9 +6,10 @@ layer begins with its plane. No text of the program enters it.
 """
 
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from math import atan2, degrees, hypot
+from types import MappingProxyType
 
 import ezdxf
 from ezdxf.document import Drawing
@@ -35,25 +36,29 @@ _MARK = 0.01
 _FULL = 360.0
 
 
-def to_dxf(answers: Sequence[Answer]) -> bytes:
-    """The drawing of every contour that is solved; in inches if all of them are programmed in inches, else in mm.
+def to_dxf(answers: Sequence[Answer], paths: Mapping[str, Contour] = MappingProxyType({})) -> bytes:
+    """The drawing of every contour that is solved, and of further paths, each on a layer of its name; in inches if all
+    contours are programmed in inches, else in mm.
 
-    Raises ValueError if none is solved.
+    Raises ValueError if none is solved and there are no paths.
     """
     drawn = [(number, answer) for number, answer in enumerate(answers, 1) if answer.contour]
-    if not drawn:
+    if not drawn and not paths:
         raise ValueError("no contour is solved: the drawing would be empty")
-    unit = Length.INCH if all(answer.unit is Length.INCH for _, answer in drawn) else Length.MM
+    unit = Length.INCH if drawn and all(answer.unit is Length.INCH for _, answer in drawn) else Length.MM
     is_split = has_several_planes(answers)
     with _same_bytes():
         document = new(_RELEASE)
-        _set_header(document, unit, [answer.plane for _, answer in drawn])
+        _set_header(document, unit, [*(answer.plane for _, answer in drawn), *(each.plane for each in paths.values())])
         for name in dict.fromkeys(construction_name(answer, is_split=is_split) for _, answer in drawn):
             document.layers.add(name, color=_GREY)
         page = document.modelspace()
-        height = _MARK * _larger_side([answer.contour for _, answer in drawn if answer.contour], unit)
+        height = _MARK * _larger_side([*(each.contour for _, each in drawn if each.contour), *paths.values()], unit)
         for number, answer in drawn:
             _draw(document, page, number, answer, unit, height, is_split=is_split)
+        for name, path in paths.items():
+            for element in path.elements:
+                _draw_element(document, page, element, name, float(unit.in_mm), _GREY)
         for kind in sorted(document.entitydb.dxf_types_in_use()):
             document.classes.add_class(kind)  # ezdxf would list them in the order of a set
         stream = io.StringIO()
@@ -123,26 +128,30 @@ def _draw(
         return at[0] / scale, at[1] / scale
 
     for element in contour.elements:
-        layer = layer_name(number, answer, element, is_split=is_split)
-        if not document.layers.has_entry(layer):
-            document.layers.add(layer, color=_RED if isinstance(element, ArcSegment) else _BLACK)
-        style = {"layer": layer}
-        start, end = place(element.start), place(element.end)
-        if not isinstance(element, ArcSegment):
-            page.add_line(start, end, dxfattribs=style)
-            continue
-        center, radius = place(element.center), element.radius / scale
-        if hypot(element.end[0] - element.start[0], element.end[1] - element.start[1]) <= LENGTH:
-            page.add_circle(center, radius, dxfattribs=style)
-            continue
-        # An arc of DXF runs counter-clockwise.
-        first, last = (start, end) if element.turn is Turn.CCW else (end, start)
-        page.add_arc(center, radius, _angle(center, first), _angle(center, last), dxfattribs=style)
+        color = _RED if isinstance(element, ArcSegment) else _BLACK
+        _draw_element(document, page, element, layer_name(number, answer, element, is_split=is_split), scale, color)
     beside = {"layer": construction_name(answer, is_split=is_split)}
     for name, at in contour.points.items():
         page.add_point(place(at), dxfattribs=beside)
         text = page.add_text(f"{number}: {name}", height=height, dxfattribs=beside)
         text.set_placement(place(at), align=TextEntityAlignment.BOTTOM_LEFT)
+
+
+def _draw_element(document: Drawing, page: Modelspace, element: Segment, layer: str, scale: float, color: int) -> None:
+    if not document.layers.has_entry(layer):
+        document.layers.add(layer, color=color)
+    style = {"layer": layer}
+    start, end = ((at[0] / scale, at[1] / scale) for at in (element.start, element.end))
+    if not isinstance(element, ArcSegment):
+        page.add_line(start, end, dxfattribs=style)
+        return
+    center, radius = (element.center[0] / scale, element.center[1] / scale), element.radius / scale
+    if hypot(element.end[0] - element.start[0], element.end[1] - element.start[1]) <= LENGTH:
+        page.add_circle(center, radius, dxfattribs=style)
+        return
+    # An arc of DXF runs counter-clockwise.
+    first, last = (start, end) if element.turn is Turn.CCW else (end, start)
+    page.add_arc(center, radius, _angle(center, first), _angle(center, last), dxfattribs=style)
 
 
 def _angle(center: Point, at: Point) -> float:

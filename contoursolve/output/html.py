@@ -1,9 +1,10 @@
 """HTML of contours, findings and tables, escaped by htpy, with its style sheet: for notebooks and the report alike."""
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from importlib.resources import files
+from typing import TYPE_CHECKING
 
 import htpy as h
 from markupsafe import Markup
@@ -21,7 +22,10 @@ from contoursolve.output.contours import (
 from contoursolve.output.findings import Piece, finding_pieces
 from contoursolve.output.plain_text import NAMELESS, Name, Table, printable
 from contoursolve.output.premises import premise_texts
-from contoursolve.pictures import CHAINS, DARK_COLORS, LEVELS, LIGHT_COLORS, Drawable, Role, Theme, draw
+from contoursolve.pictures import CHAINS, DARK_COLORS, LEVELS, LIGHT_COLORS, TOOLS, Beside, Drawable, Role, Theme, draw
+
+if TYPE_CHECKING:
+    from contoursolve.tool_radius import ToolReport
 
 WIDEST, LONGEST = 200, 400
 """Characters of a cell, and of a line."""
@@ -105,11 +109,16 @@ def short(text: str) -> str:
     return shown if len(shown) <= WIDEST else f"{shown[: WIDEST - 4]} ..."
 
 
-def figure(record: Drawable, *, is_inline: bool = False) -> h.Element:
-    """The picture, as an image or as an element of SVG; where it cannot be drawn the page says so, and its tables say
-    the same."""
+def figure(record: Drawable, *, is_inline: bool = False, tool: "ToolReport | None" = None) -> h.Element:
+    """The picture with its tool, as an image or as an element of SVG; where it cannot be drawn the page says so, and
+    its tables say the same."""
     try:
-        drawn = draw(record, theme=Theme.PAGE)
+        beside: tuple[Beside, ...] = ()
+        if tool is not None:
+            from contoursolve.output.tool_picture import beside_of  # noqa: PLC0415 - few programs state a tool
+
+            beside = beside_of(tool, record if isinstance(record, Answer) else None)
+        drawn = draw(record, theme=Theme.PAGE, beside=beside)
         if is_inline:  # so that arrow keys scroll it
             return h.figure(tabindex="0", aria_label="Picture")[Markup(drawn.svg)]  # our own painter escapes
         return h.figure[Markup(drawn._repr_html_())]
@@ -263,6 +272,8 @@ LIGHT, DARK = (
 )
 """Colours of a page, by their names; `map_style` has those of levels."""
 
+_TOOLS = [role.value for role in TOOLS]
+
 _NOTEBOOK_COLORS = {
     Role.INK.value: "--jp-content-font-color1, var(--vscode-editor-foreground, {})",
     Role.PAPER.value: "--jp-layout-color0, var(--vscode-editor-background, {})",
@@ -281,10 +292,10 @@ def style_rules(name: str = "style.css") -> str:
 
 
 @lru_cache
-def notebook_style() -> str:
+def notebook_style(*, has_tool: bool = False) -> str:
     """The style sheet for an output of a notebook, in the notebook's own theme."""
     light, dark = (
-        f"color-scheme: {scheme}; {_declarations(colors, _NOTEBOOK_COLORS)}"
+        f"color-scheme: {scheme}; {_declarations(colors, () if has_tool else _TOOLS, _NOTEBOOK_COLORS)}"
         for scheme, colors in (("light", LIGHT), ("dark", DARK))
     )
     themed = "".join(
@@ -298,21 +309,20 @@ def notebook_style() -> str:
 
 
 @lru_cache
-def page_style(*, has_chains: bool = True) -> str:
+def page_style(*, has_chains: bool = True, has_tool: bool = False) -> str:
     """The style sheet for a page of its own: as the reader prefers, and light on paper."""
-    left_out = () if has_chains else [role.value for role in CHAINS]
-    light, dark = (
-        _declarations({name: color for name, color in colors.items() if name not in left_out})
-        for colors in (LIGHT, DARK)
-    )
+    left_out = [*([] if has_chains else [role.value for role in CHAINS]), *([] if has_tool else _TOOLS)]
+    light, dark = (_declarations(colors, left_out) for colors in (LIGHT, DARK))
     return (
         f":root {{ color-scheme: light dark; {light} }}\n"
         f"@media screen and (prefers-color-scheme: dark) {{ :root {{ {dark} }} }}\n{style_rules()}"
     )
 
 
-def _declarations(colors: Mapping[str, str], page: Mapping[str, str] | None = None) -> str:
+def _declarations(colors: Mapping[str, str], left_out: Collection[str], page: Mapping[str, str] | None = None) -> str:
     values = {
-        name: f"var({page[name].format(color)})" if page and name in page else color for name, color in colors.items()
+        name: f"var({page[name].format(color)})" if page and name in page else color
+        for name, color in colors.items()
+        if name not in left_out
     }
     return " ".join(f"--cs-{name}: {value};" for name, value in values.items())

@@ -48,9 +48,7 @@ class Collected(Struct, frozen=True):
 
     def moves(self) -> Counter[Status]:
         """The contours of plain moves alone beside which a tool goes."""
-        solved = {line for answer in self.frame.answers for line in answer.lines}
-        runs = self.tool.runs if self.tool is not None else ()
-        return Counter(Status.SOLVED for each in runs if solved.isdisjoint(each.run.lines))
+        return _plain_runs(self.frame, self.tool)
 
     def collect(self) -> Result:
         """All of it."""
@@ -264,10 +262,18 @@ def closing_lines(result: Result, tally: "Totals | None" = None) -> Iterator[str
     yield (tally or _tally(result, is_explained=True)).line(1)
 
 
-def summary_line(result: Result, *, is_explained: bool = False) -> str:
-    """The last line of a listing: the contours examined and the findings. Nothing examined is not the same as nothing
-    found."""
-    return _tally(result, is_explained=is_explained).line(1)
+def summary_line(result: Result, *, is_explained: bool = False, tool: "ToolReport | None" = None) -> str:
+    """The last line of a listing: the contours examined, with those of plain moves beside a tool, and the findings.
+    Nothing examined is not the same as nothing found."""
+    tally = _tally(result, is_explained=is_explained)
+    tally.statuses.update(_plain_runs(result, tool))
+    return tally.line(1)
+
+
+def _plain_runs(result: Result, tool: "ToolReport | None") -> Counter[Status]:
+    solved = {line for answer in result.answers for line in answer.lines}
+    runs = tool.runs if tool is not None else ()
+    return Counter(Status.SOLVED for each in runs if solved.isdisjoint(each.run.lines))
 
 
 UNEXAMINED = (ReadIssue.NO_CONTOUR, ReadIssue.CONTROL_UNKNOWN)
@@ -344,8 +350,7 @@ def tool_lines(report: "ToolReport", result: Result) -> Iterator[str]:
     """The path of the tool beside each contour of a program."""
     for each in report.runs:
         own, path = each.run, each.path
-        kind = f"nose R{own.tool.radius}, tip {own.tool.tip}" if own.is_lathe else f"cutter R{own.tool.radius}"
-        title = f"{printable(result.program.name)}:{own.lines[0]}: {kind}, {own.side.value} of the contour"
+        title = f"{printable(result.program.name)}:{own.lines[0]}: {each.title}"
         if path is None:
             yield from (f"{title}: it does not fit", "")
             continue

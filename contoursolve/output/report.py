@@ -4,6 +4,7 @@ that it opens anywhere and says the same in ten years."""
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import PurePath
+from typing import TYPE_CHECKING
 
 import htpy as h
 from markupsafe import Markup
@@ -35,6 +36,9 @@ from contoursolve.output.word_meanings import form_text
 from contoursolve.pictures import About, named_words
 from contoursolve.program import Result
 
+if TYPE_CHECKING:
+    from contoursolve.tool_radius import ToolReport, ToolRun
+
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 """Tells the browser to load and to run nothing."""
 
@@ -58,12 +62,13 @@ Marked = tuple[Label, Diagnostic]
 
 class PageAnchors(Struct, frozen=True):
     """The addresses on the page: the lines that it shows, the numbers of contours by line and of findings by identity,
-    both from 1, and what findings mark, by line."""
+    both from 1, and what findings mark, by line; and the tool whose path is shown."""
 
     lines: frozenset[int]
     contours: Mapping[int, int]
     findings: Mapping[int, int]
     marks: Mapping[int, Sequence[Marked]]
+    tool: "ToolReport | None" = None
 
     def line(self, number: int) -> str | None:
         """The address of a line; None for what was stated apart from the program."""
@@ -74,7 +79,7 @@ class PageAnchors(Struct, frozen=True):
         return f"finding-{self.findings[id(finding)]}"
 
 
-def _find_places(result: Result) -> PageAnchors:
+def _find_places(result: Result, tool: "ToolReport | None") -> PageAnchors:
     """The places of everything that a result holds."""
     numbered = list(enumerate(result.answers, 1))
     marks: dict[int, list[Marked]] = {}
@@ -86,21 +91,29 @@ def _find_places(result: Result) -> PageAnchors:
         {line: number for number, answer in reversed(numbered) for line in answer.lines},  # of several, the first
         {id(each): number for number, each in enumerate(result.diagnostics, 1)},
         marks,
+        tool,
     )
 
 
 def report_page(
-    result: Result, version: str, progress: Progress = lambda: None, *, is_explained: bool = False
+    result: Result,
+    version: str,
+    progress: Progress = lambda: None,
+    *,
+    is_explained: bool = False,
+    tool: "ToolReport | None" = None,
 ) -> Iterator[str]:
-    """The page in pieces, explained with equations; `progress` is called after each contour."""
-    yield from _page(result, version, progress, is_explained=is_explained).iter_chunks()
+    """The page in pieces, explained with equations, with the path of a tool; `progress` is called after each
+    contour."""
+    yield from _page(result, version, progress, _find_places(result, tool), is_explained=is_explained).iter_chunks()
     yield "\n"
 
 
-def _page(result: Result, version: str, progress: Progress, *, is_explained: bool) -> h.Element:
-    places = _find_places(result)
+def _page(result: Result, version: str, progress: Progress, places: PageAnchors, *, is_explained: bool) -> h.Element:
     lighting = _lighting(result)
     has_chains = any(answer.claim.form.is_general for answer in result.answers)
+    style = page_style(has_chains=has_chains, has_tool=places.tool is not None)
+    summary = summary_line(result, is_explained=True, tool=places.tool)
     name = short(PurePath(result.program.name).name)
     return h.html(lang="en")[
         h.head[
@@ -111,10 +124,10 @@ def _page(result: Result, version: str, progress: Progress, *, is_explained: boo
             h.meta(name="generator", content=f"contoursolve {version}"),
             h.title[f"{name}: contours"],
             # Our own files and names.
-            h.style[Markup(page_style(has_chains=has_chains) + style_rules("report.css") + lighting)],
+            h.style[Markup(style + style_rules("report.css") + lighting)],
         ],
         h.body(".contoursolve")[
-            h.header[h.h1[name], h.p(".lead")[summary_line(result, is_explained=True)], _conditions(result)],
+            h.header[h.h1[name], h.p(".lead")[summary], _conditions(result, places)],
             h.nav(aria_label="Parts of this page")[
                 h.a(href="#contours")["Contours"],
                 h.a(href="#program")["Program"],
@@ -147,7 +160,7 @@ def _lighting(result: Result) -> str:
         return ""
 
 
-def _conditions(result: Result) -> h.Element:
+def _conditions(result: Result, places: PageAnchors) -> h.Element:
     """The control, and everything apart from the program that the result depends on."""
     dialect = DIALECTS.get(result.control or "")
     rows = [("program", result.program.name)]
@@ -158,14 +171,16 @@ def _conditions(result: Result) -> h.Element:
     if result.start:
         rows.append(("start", result.start.text))
     rows += [("further fact", fact.text) for fact in result.facts]
+    rows += [("tool", told) for told in dict.fromkeys(each.title for each in _runs(places))]
     return h.dl[([h.dt[name], h.dd[short(value)]] for name, value in rows)]
 
 
 def _contours(
     result: Result, places: PageAnchors, progress: Progress, *, is_lit: bool, is_explained: bool
 ) -> h.Element | None:
+    together = figure(result, is_inline=True, tool=places.tool) if len(result.answers) > 1 or _runs(places) else None
     if not result.answers:
-        return h.section(id="contours")[h.h2["Contours"], h.p["The program has no contour."]]
+        return h.section(id="contours")[h.h2["Contours"], together or h.p["The program has no contour."]]
     header = ("contour", "line", "form", "status", "ends at", "findings")
     rows = [
         (
@@ -182,13 +197,17 @@ def _contours(
     return h.section(".long" if is_long else "", id="contours")[
         h.h2["Contours"],
         table("Every contour, with what became of it", header, rows),
-        figure(result, is_inline=True) if len(result.answers) > 1 else None,
+        together,
         h.p(".hint")[_HINT] if is_lit else None,
         (
             _contour(answer, number, result, places, progress, is_explained=is_explained)
             for number, answer in enumerate(result.answers, 1)
         ),
     ]
+
+
+def _runs(places: PageAnchors) -> Sequence["ToolRun"]:
+    return places.tool.runs if places.tool is not None else ()
 
 
 def _contour(
@@ -209,7 +228,10 @@ def _contour(
                 for block in answer.profile.blocks
             )
         ],
-        h.div(".beside")[figure(answer, is_inline=True), h.div[path or words, *remarks(answer, result.control or "")]],
+        h.div(".beside")[
+            figure(answer, is_inline=True, tool=places.tool),
+            h.div[path or words, *remarks(answer, result.control or "")],
+        ],
         found,
         solutions_table(answer),
         words if path else None,

@@ -1,6 +1,7 @@
 from .compose import (
     compose as compose,
     describe as describe,
+    remarks_of as remarks_of,
 )
 from .drawing import (
     Drawable as Drawable,
@@ -30,10 +31,20 @@ from .overview import (
 )
 from .page import (
     About as About,
+    TextRun as TextRun,
 )
 from .plots import plot_record as plot_record
 from .scene import (
+    Beside as Beside,
+    Closeup as Closeup,
+    Leader as Leader,
+    Mark as Mark,
+    MarkKind as MarkKind,
+    Part as Part,
+    Trail as Trail,
     Viewport as Viewport,
+    Weight as Weight,
+    number as number,
 )
 from .subject import (
     corner_segment as corner_segment,
@@ -52,6 +63,7 @@ from .theme import (
     DARK_COLORS as DARK_COLORS,
     LEVELS as LEVELS,
     LIGHT_COLORS as LIGHT_COLORS,
+    TOOLS as TOOLS,
     Role as Role,
     Theme as Theme,
 )
@@ -62,6 +74,8 @@ from .vectors import (
     direction as direction,
     distance as distance,
     extent as extent,
+    foot as foot,
     middle as middle,
     minus as minus,
+    on_arc as on_arc,
 )

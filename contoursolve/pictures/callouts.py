@@ -40,7 +40,7 @@ _OFF, _CROSS = 9.0, 5.0
 
 def keep_signs(canvas: Canvas, scene: Scene) -> None:
     """No text stands on the cross of a centre or of a virtual intersection."""
-    crosses = (mark for mark in scene.each(Mark) if mark.kind not in _DOTS)
+    crosses = (mark for mark in scene.each(Mark) if mark.kind not in _DOTS or mark.kind is MarkKind.TIP)
     canvas.signs += [Box(*at, *at).grow(_CROSS) for at in (canvas.view.place(mark.at) for mark in crosses)]
 
 
@@ -178,6 +178,7 @@ _DOTS: Mapping[MarkKind, tuple[float, bool]] = {
     MarkKind.OTHER: (3.2, False),
     MarkKind.END: (4.0, True),
     MarkKind.PLACE: (2.8, True),
+    MarkKind.TIP: (2.8, True),
 }
 """Pixels of the radius of a point's sign, and whether it is filled; the others are crosses."""
 

@@ -11,7 +11,7 @@ from contoursolve.geometry import SECOND, Turn
 from contoursolve.pictures.auxiliary import list_auxiliary
 from contoursolve.pictures.dimensions import Others, list_dimensions, list_marks, noted_points
 from contoursolve.pictures.page import About, TextRun, visible
-from contoursolve.pictures.scene import Closeup, Scene, Trail, Weight, axis_names, coordinates, number
+from contoursolve.pictures.scene import Beside, Closeup, Scene, Trail, Weight, axis_names, coordinates, number
 from contoursolve.pictures.subject import Subject, fitting, subject_of, trace_known
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance
@@ -36,8 +36,8 @@ MOST_ELEMENTS = 24
 """Elements that are told in words."""
 
 
-def compose(answer: Answer, title: str | None = None) -> Scene:
-    """The scene of one contour, whatever its status."""
+def compose(answer: Answer, title: str | None = None, beside: Sequence[Beside] = ()) -> Scene:
+    """The scene of one contour, whatever its status, with what else is drawn in its plane."""
     subject = subject_of(answer)
     noted = noted_points(subject)
     ghosts, others = _other_ways(subject) if subject.is_chain else _ghosts(subject)
@@ -58,6 +58,7 @@ def compose(answer: Answer, title: str | None = None) -> Scene:
         is_one_contour=True,
         closeups=tuple(_corners(subject.trails)),
     )
+    scene = scene.with_beside(each for each in beside if each.plane == answer.plane)
     return replace(scene, most_labels=MOST_LABELS) if subject.is_chain else scene
 
 
@@ -180,6 +181,13 @@ def remarks_of(diagnostics: Sequence[Diagnostic]) -> Iterator[tuple[TextRun, ...
         yield (TextRun(visible(f"{finding.severity.value}: {finding.message}"), role, About(finding=str(place))),)
     if len(findings) > MOST_REMARKS:
         yield (TextRun(f"... and {len(findings) - MOST_REMARKS} more findings", Role.MUTED),)
+
+
+def told_of(beside: Sequence[Beside]) -> Iterator[str]:
+    """What is drawn beside contours, and what is said of it, in words."""
+    for each in beside:
+        told = (each.title, *("".join(run.text for run in runs) for runs in each.remarks))
+        yield from (f"{text[0].upper()}{text[1:]}." for text in told)
 
 
 def describe(answer: Answer) -> str:

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, TypeAlias
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
-from contoursolve.pictures.compose import compose, describe
+from contoursolve.pictures.compose import compose, describe, told_of
 from contoursolve.pictures.layout import lay_out
+from contoursolve.pictures.scene import Beside
 from contoursolve.pictures.sheet import stack_sheets
 from contoursolve.pictures.svg import Picture, finish
 from contoursolve.pictures.theme import Theme
@@ -26,9 +27,12 @@ Drawable: TypeAlias = "Answer | Result | Family | Feasible | Region | Sketch | D
 """Types that `draw` accepts."""
 
 
-def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None = None) -> Picture:
+def draw(
+    record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None = None, beside: Sequence[Beside] = ()
+) -> Picture:
     """The picture of a contour, of all contours of a program, of where a block has one by one or two of its words, or
-    of every way to draw a sketch. `is_whole` is for a program: see `draw_result`.
+    of every way to draw a sketch. `is_whole` is for a program: see `draw_result`. `beside` is what else is drawn
+    with contours.
 
     Raises ValueError for a family that is no grid of two words, and for a sketch whose facts make no sense.
     """
@@ -36,14 +40,16 @@ def draw(record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None 
     from contoursolve.solving import Drawings, Drawn, Sketch  # noqa: PLC0415 - as above
 
     if isinstance(record, Result):
-        return draw_result(record, theme=theme, is_whole=is_whole)
+        return draw_result(record, theme=theme, is_whole=is_whole, beside=beside)
     if isinstance(record, Family):
         return draw_family_map(record, theme=theme)
     if isinstance(record, Feasible):
         return draw_range(record, theme=theme)
     if isinstance(record, Sketch | Drawings | Drawn):
         return draw_drawings(record.solve() if isinstance(record, Sketch) else record, theme=theme)
-    return draw_region(record, theme=theme) if isinstance(record, Region) else draw_answer(record, theme=theme)
+    if isinstance(record, Region):
+        return draw_region(record, theme=theme)
+    return draw_answer(record, theme=theme, beside=beside)
 
 
 def draw_answer(
@@ -53,38 +59,46 @@ def draw_answer(
     title: str | None = None,
     like: Picture | None = None,
     has_remarks: bool = True,
+    beside: Sequence[Beside] = (),
 ) -> Picture:
     """The picture of one contour: its path where there is one, and what is missing or wrong where there is none.
 
     `like` is a picture of the contour before a word was moved: scale, origin and height stay, labels keep their sides.
-    Without remarks, the findings are not written below.
+    Without remarks, the findings are not written below. `beside` is what else is drawn in its plane, such as a tool.
 
     >>> import contoursolve
     >>> answer = contoursolve.solve("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.").answers[0]
     >>> draw_answer(answer).title
     'G111 (taper multiple cornering), program line 1: solved'
     """
-    scene = compose(answer, title)
+    scene = compose(answer, title, beside)
     scene = scene if has_remarks else replace(scene, remarks=())
-    return finish(lay_out(scene, like.sheet.placement if like else None), theme, describe(answer))
+    told = " ".join((describe(answer), *told_of(beside)))
+    return finish(lay_out(scene, like.sheet.placement if like else None), theme, told)
 
 
 def draw_result(
-    result: Result, *, theme: Theme = Theme.LIGHT, title: str | None = None, is_whole: bool | None = None
+    result: Result,
+    *,
+    theme: Theme = Theme.LIGHT,
+    title: str | None = None,
+    is_whole: bool | None = None,
+    beside: Sequence[Beside] = (),
 ) -> Picture:
-    """The picture of a whole program: its only contour, or all of them in one drawing for each plane.
+    """The picture of a whole program: its only contour, or all of them in one drawing for each plane, with what else is
+    drawn there.
 
     `is_whole` draws turned parts with both halves, or only with the programmed one; without it, with both where the
     contours stay at least half as large.
     """
     from contoursolve.pictures.overview import compose_overview, describe_overview  # noqa: PLC0415 - not needed for one contour
 
-    if len(result.answers) == 1:
-        return draw_answer(result.answers[0], theme=theme, title=title)
+    if len(result.answers) == 1 and all(each.plane == result.answers[0].plane for each in beside):
+        return draw_answer(result.answers[0], theme=theme, title=title, beside=beside)
     return finish(
-        stack_sheets([*map(lay_out, compose_overview(result, title, is_whole=is_whole))]),
+        stack_sheets([*map(lay_out, compose_overview(result, title, is_whole=is_whole, beside=beside))]),
         theme,
-        describe_overview(result),
+        " ".join((describe_overview(result), *told_of(beside))),
     )
 
 

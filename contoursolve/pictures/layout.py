@@ -38,7 +38,7 @@ from contoursolve.pictures.page import (
 from contoursolve.pictures.scene import Dimension, Mark, Ring, Scene, Slide, Thin, Trail, Viewport, Weight
 from contoursolve.pictures.sheet import Sheet
 from contoursolve.pictures.svg import steps_text
-from contoursolve.pictures.theme import CHAINS, DASHES, MEANINGS, Role
+from contoursolve.pictures.theme import CHAINS, DASHES, MEANINGS, TOOLS, Role
 from contoursolve.pictures.vectors import along, direction, distance, middle, sweep_of
 from contoursolve.solving import ArcSegment, Segment
 
@@ -292,6 +292,7 @@ def _bar(unit: Length, scale: float, y: float) -> Iterator[Item]:
 _STATES = (
     Role.INK,
     *CHAINS,
+    *TOOLS,
     Role.RAPID,
     Role.GIVEN,
     Role.DERIVED,

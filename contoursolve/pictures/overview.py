@@ -13,7 +13,7 @@ from contoursolve.diagnosis import Answer, status_text, statuses_text
 from contoursolve.geometry import SECOND, Length, Plane, Turn
 from contoursolve.pictures.compose import MOST_ELEMENTS, remarks_of
 from contoursolve.pictures.page import TextRun, visible
-from contoursolve.pictures.scene import Closeup, Mark, MarkKind, Part, Scene, Trail, Weight, axis_names
+from contoursolve.pictures.scene import Beside, Closeup, Mark, MarkKind, Part, Scene, Trail, Weight, axis_names
 from contoursolve.pictures.subject import find_known, list_trails
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.turned_part import crosses_axis, cylinders_of, turn_part
@@ -75,43 +75,58 @@ class PlaneMove(Struct, frozen=True):
     is_between: bool
 
 
-def compose_overview(result: Result, title: str | None, *, is_whole: bool | None = None) -> list[Scene]:
-    """A scene for each plane in which the program has contours, in their order. `is_whole` shows turned parts with both
-    halves; without it, where that leaves the contours at least half as large."""
+def compose_overview(
+    result: Result, title: str | None, *, is_whole: bool | None = None, beside: Sequence[Beside] = ()
+) -> list[Scene]:
+    """A scene for each plane in which the program has contours, or something is drawn beside them, in their order.
+    `is_whole` shows turned parts with both halves; without it, where that leaves the contours half as large."""
     total = len(result.answers)
     told = statuses_text(Counter(answer.status for answer in result.answers))
     named = f"{PurePath(result.program.name).name}: {total} contour{'' if total == 1 else 's'}"
     shown = title if title is not None else named + (f" ({told})" if told else "")
-    if not total:
+    if not total and beside:
+        shown = title if title is not None else f"{PurePath(result.program.name).name}: {beside[0].title}"
+    elif not total:
         none = (TextRun("The program has no contour.", Role.MUTED),)
         return [Scene(shown, ("", ""), remarks=(none, *remarks_of(result.diagnostics)))]
-    moves = _moves(result)
-    unit = Length.INCH if all(answer.unit is Length.INCH for answer in result.answers) else Length.MM
+    moves = _moves(result) if total else []
+    everything: list[Answer | Beside] = [*result.answers, *beside]
+    unit = Length.INCH if all(each.unit is Length.INCH for each in everything) else Length.MM
     scenes: list[Scene] = []
-    for plane in dict.fromkeys(answer.plane for answer in result.answers):
+    for plane in dict.fromkeys(each.plane for each in everything):
         own = [(number, answer) for number, answer in enumerate(result.answers, 1) if answer.plane == plane]
         drawn = [DrawnContour(number, answer, tuple(_trails(answer))) for number, answer in own[:MOST_CONTOURS]]
         told = shown if not scenes else f"{plane.code}: {' and '.join(plane.axes)}"
-        beside = [each for each in moves if each.axes == plane.axes]
+        near = [each for each in moves if each.axes == plane.axes]
+        more = [each for each in beside if each.plane == plane]
         scene = Scene(
             told,
             axis_names(plane),  # it has no numbers, so that contours in mm and in inches may stand together
-            (*_profile_parts(result.profiles, plane, beside), *_move_trails(beside), *_contour_parts(drawn)),
+            (*_profile_parts(result.profiles, plane, near), *_move_trails(near), *_contour_parts(drawn)),
             remarks=tuple(_remarks(drawn, len(own))),
-            meanings={Role.CONFLICTING: "no contour", **_meaning_of(beside)},
+            meanings={Role.CONFLICTING: "no contour", **_meaning_of(near)},
             has_turning_axis=plane.diameters[SECOND],
             closeups=tuple(_closeups(drawn)),
             scale_unit=unit,
-        )
-        scenes.append(_turned(scene, drawn, beside, is_whole=is_whole) if plane.diameters[SECOND] else scene)
+        ).with_beside(more)
+        scenes.append(_turned(scene, drawn, near, more, is_whole=is_whole) if plane.diameters[SECOND] else scene)
     return scenes
 
 
-def _turned(scene: Scene, drawn: Sequence[DrawnContour], moves: Sequence[PlaneMove], *, is_whole: bool | None) -> Scene:
+def _turned(
+    scene: Scene,
+    drawn: Sequence[DrawnContour],
+    moves: Sequence[PlaneMove],
+    beside: Sequence[Beside],
+    *,
+    is_whole: bool | None,
+) -> Scene:
     """The scene of contours on a lathe: the part around its axis."""
     solved = [each for each in drawn if each.answer.contour is not None]
     cut = [segment for each in solved for segment in each.segments]
     cut += [move.segment for move in moves if move.is_between]
+    known = {(segment.start, segment.end) for segment in cut}
+    cut += [each for one in beside for each in one.cut if (each.start, each.end) not in known]
     cylinders = [each for one in solved for each in cylinders_of(one.segments, one.answer.unit)]
     told = [
         (TextRun(f"{each.number}, program line {each.answer.lines[0]}: the path crosses the turning axis", Role.INK),)

@@ -8,6 +8,7 @@ from enum import Enum
 from typing import TypeVar
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Length, Plane
 from contoursolve.pictures.page import ANYTHING, About, Spot, TextRun, visible
@@ -65,6 +66,8 @@ class MarkKind(Enum):
     VIRTUAL = "virtual"
     PLACE = "place"
     CENTER = "center"
+    TIP = "tip"
+    """Where a tool is programmed, off the path."""
     OTHER = "other"
     """A place that one word gives to a point, other than the one that the others give."""
 
@@ -164,6 +167,20 @@ Dimension = LinearDimension | Aligned | Ordinate | Angle | Leader
 Part = Trail | Thin | Ring | Mark | Slide | Dimension
 """Parts of a drawing."""
 
+
+class Beside(Struct, frozen=True):
+    """What else is drawn beside contours in their plane, such as a tool; `cut` is what of the part is in no contour."""
+
+    plane: Plane
+    unit: Length
+    title: str
+    parts: tuple[Part, ...]
+    cut: tuple[Segment, ...] = ()
+    remarks: tuple[tuple[TextRun, ...], ...] = ()
+    meanings: Mapping[Role, str] = field(default_factory=dict)
+    closeups: tuple[Closeup, ...] = ()
+
+
 _Kind = TypeVar("_Kind", bound=Part)
 
 
@@ -192,6 +209,14 @@ class Scene(Struct, frozen=True):
     def each(self, kind: type[_Kind]) -> list[_Kind]:
         """The parts of one kind."""
         return [part for part in self.parts if isinstance(part, kind)]
+
+    def with_beside(self, beside: "Iterable[Beside]") -> "Scene":
+        """The scene with what is drawn beside it."""
+        scene = self
+        for each in beside:
+            lists = {name: (*getattr(scene, name), *getattr(each, name)) for name in ("parts", "remarks", "closeups")}
+            scene = replace(scene, meanings={**scene.meanings, **each.meanings}, **lists)
+        return scene
 
     @property
     def dimensions(self) -> list[Dimension]:

@@ -18,7 +18,7 @@ from zlib import crc32
 from contoursolve.diagnostics import MissingExtraError, importing
 from contoursolve.pictures.page import ANYTHING, WIDTH, About, Dot, Item, Shape, Spot, Stroke, Sweep, Text, TextRun
 from contoursolve.pictures.sheet import Sheet
-from contoursolve.pictures.theme import CHAINS, DARK_COLORS, LEVELS, LIGHT_COLORS, Role, Theme
+from contoursolve.pictures.theme import CHAINS, DARK_COLORS, LEVELS, LIGHT_COLORS, TOOLS, Role, Theme
 
 SANS = "'DejaVu Sans', Verdana, 'Liberation Sans', Arial, sans-serif"
 MONO = "'DejaVu Sans Mono', Menlo, Consolas, 'Liberation Mono', monospace"
@@ -136,7 +136,7 @@ def write_svg(sheet: Sheet, theme: Theme, description: str) -> str:
 
 def _style(name: str, body: str) -> str:
     """Rules that colour one picture as the page or its reader wants it."""
-    roles = [role for role in Role if role not in (*CHAINS, *LEVELS) or f'-{role.value}"' in body]
+    roles = [role for role in Role if role not in (*CHAINS, *TOOLS, *LEVELS) or f'-{role.value}"' in body]
     light = "".join(_rule(f"#{name}", role, LIGHT_COLORS[role]) for role in roles)
     dark = "".join(_rule(f"#{name}", role, DARK_COLORS[role]) for role in roles)
     return f"<style>{light}@media (prefers-color-scheme:dark){{{dark}}}</style>"

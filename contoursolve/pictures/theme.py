@@ -33,6 +33,11 @@ class Role(Enum):
     REFUSED_FIELD = "refused-field"
     OTHER_FIELD = "other-field"
     """Fields of a map."""
+    TOOL = "tool"
+    TRACK = "track"
+    """A tool, and its path beside a contour."""
+    REST = "rest"
+    """Material that the tool leaves."""
     LEVEL_1 = "level-1"
     LEVEL_2 = "level-2"
     LEVEL_3 = "level-3"
@@ -50,6 +55,9 @@ LEVELS = tuple(role for role in Role if role.value.startswith("level-"))
 CHAINS = (Role.DETERMINED, Role.SEVERAL, Role.OPEN)
 """Roles of elements of chains alone."""
 
+TOOLS = (Role.TRACK, Role.TOOL, Role.REST)
+"""Roles of pictures with a tool alone."""
+
 MEANINGS: Mapping[Role, str] = {
     Role.GIVEN: "given",
     Role.DERIVED: "worked out",
@@ -59,6 +67,7 @@ MEANINGS: Mapping[Role, str] = {
     Role.DETERMINED: "determined",
     Role.SEVERAL: "one of several solutions",
     Role.OPEN: "too few data",
+    Role.REST: "stays in the corner",
     Role.CANDIDATE: "one of several solutions",
     Role.RAPID: "rapid move",
     Role.GHOST: "another solution",
@@ -77,6 +86,7 @@ DASHES: Mapping[Role, tuple[float, ...]] = {
     Role.FREE: (4.0, 3.0),
     Role.SEVERAL: (14.0, 4.0),
     Role.OPEN: (3.0, 5.0),
+    Role.TRACK: (9.0, 2.5),
 }
 """Pixels on and off of a role's thin lines; solid without. They tell the states apart without colour."""
 
@@ -95,6 +105,9 @@ _COLORS: dict[Role, tuple[str, ...]] = {
     Role.DETERMINED: ("#0b3fb3", "#5ea3ff"),
     Role.SEVERAL: ("#3d7a00", "#9be31c"),
     Role.OPEN: ("#c8102e", "#ff7a85"),
+    Role.TOOL: ("#0f6f78", "#5eead4"),
+    Role.TRACK: ("#0f6f78", "#5eead4"),
+    Role.REST: ("#8a4b00", "#fcd34d"),
     Role.SOLVED_FIELD: ("#eaf1fd", "#1b3050"),
     Role.REFUSED_FIELD: ("#f0cdc8", "#5a2a27"),
     Role.OTHER_FIELD: ("#dccfee", "#3a2a55"),

@@ -1,3 +1,6 @@
+from .clearance import (
+    nearest as nearest,
+)
 from .faults import (
     Fault as Fault,
     FaultKind as FaultKind,
@@ -9,6 +12,7 @@ from .findings import (
 )
 from .joint import (
     Joint as Joint,
+    meet as meet,
 )
 from .moves import (
     lines_of as lines_of,
@@ -24,12 +28,18 @@ from .runs import (
     ToolRequest as ToolRequest,
     find_runs as find_runs,
 )
+from .stated import (
+    report_on as report_on,
+    result_beside_tool as result_beside_tool,
+    wanted_tool as wanted_tool,
+)
 from .tool import (
     Outside as Outside,
     Tool as Tool,
     ToolError as ToolError,
     ToolSide as ToolSide,
     make_tool as make_tool,
+    radius_in as radius_in,
     read_tool as read_tool,
     tool_in as tool_in,
 )

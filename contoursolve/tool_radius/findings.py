@@ -15,8 +15,8 @@ from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, Labe
 from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.program import Request, Result, run
 from contoursolve.reading import Dialect
-from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment
-from contoursolve.tolerance import LENGTH
+from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Point, Segment
+from contoursolve.tolerance import LARGEST, LENGTH
 from contoursolve.tool_radius.faults import Fault, FaultKind
 from contoursolve.tool_radius.joint import direction
 from contoursolve.tool_radius.offset import Offset, Piece, flank_faults, tip_faults, uncompensated, uncut
@@ -45,9 +45,36 @@ class ToolRun(Struct, frozen=True, dict=True):
 
     def written(self, piece: Piece) -> Segment:
         """A piece of the centre's path as that of the programmed point."""
-        (first, second), segment = self.run.vector, piece.segment
-        places = {name: getattr(segment, name) for name in ("start", "end", "center") if hasattr(segment, name)}
-        return replace(segment, **{name: (at[0] + first, at[1] + second) for name, at in places.items()})
+        return shifted(piece.segment, self.run.vector)
+
+    @property
+    def title(self) -> str:
+        """The tool, and its side."""
+        own = self.run
+        kind = f"nose R{own.tool.radius}, tip {own.tool.tip}" if own.is_lathe else f"cutter R{own.tool.radius}"
+        return f"{kind}, {own.side.value} of the contour"
+
+    @cached_property
+    def largest_radius(self) -> float | None:
+        """The largest radius (mm) of a tool that cuts all of it; None where every tool does."""
+        own = self.run
+        found = Offset(own.elements, LARGEST, own.side.sign, self.offset.outside, own.levels)
+        return found.largest(slice(None)) if found.faults else None
+
+    @cached_property
+    def uncompensated(self) -> tuple[Segment, ...]:
+        """What comes out where the programmed point itself runs along the contour: the outline of the nose's way; empty
+        where it is not simple, and where the program states compensation."""
+        own, (first, second) = self.run, self.run.vector
+        way = [shifted(each, (-first, -second)) for each in own.elements]
+        pieces = None if own.is_stated else Offset(way, own.radius, -own.side.sign, levels=own.levels).pieces
+        return tuple(each.segment for each in pieces or ())
+
+
+def shifted(segment: Segment, by: Point) -> Segment:
+    """A segment moved by a vector."""
+    places = {name: getattr(segment, name) for name in ("start", "end", "center") if hasattr(segment, name)}
+    return replace(segment, **{name: (at[0] + by[0], at[1] + by[1]) for name, at in places.items()})
 
 
 def _contour(own: Run, names: Sequence[str], segments: Sequence[Segment]) -> Contour:

@@ -60,6 +60,4 @@ def lines_of(own: Run) -> tuple[int, ...]:
 
 def title_of(each: ToolRun) -> str:
     """The tool for which a path holds."""
-    own = each.run
-    kind = f"nose R{own.tool.radius}, tip {own.tool.tip}" if own.is_lathe else f"cutter R{own.tool.radius}"
-    return f"path of the {'tip' if own.is_lathe else 'centre'} for {kind}, {own.side.value} of the contour"
+    return f"path of the {'tip' if each.run.is_lathe else 'centre'} for {each.title}"

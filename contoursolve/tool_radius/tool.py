@@ -119,6 +119,20 @@ def make_tool(
     return Tool(radius, tip, is_metric, back, front)
 
 
+def radius_in(line: str) -> tuple[int, int] | None:
+    """Where the radius of a tool stands that a comment in a line states: its first column and the one behind, from 1.
+
+    >>> radius_in("N5 (contoursolve tool: R0.8, tip 3)")
+    (25, 28)
+    """
+    comment = _STATED.search(line)
+    found = _RADIUS.search(comment["stated"]) if comment is not None else None
+    if comment is None or found is None:
+        return None
+    first, last = (comment.start("stated") + 1 + each for each in found.span("number"))
+    return first, last
+
+
 def tool_in(line: str) -> Tool | None:
     """The tool that a comment in a line states, `(contoursolve tool: R0.8, tip 3)`. Raises ToolError."""
     comment = _STATED.search(line)

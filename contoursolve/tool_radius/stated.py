@@ -1,0 +1,59 @@
+"""The tool that a program, a project file or a caller states, and a program's result with what is said of it."""
+
+from collections.abc import Mapping
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+from msgspec.structs import replace
+
+from contoursolve.diagnosis import rank
+from contoursolve.program import Result, Run, find_tools
+from contoursolve.reading import ReadIssue
+from contoursolve.tool_radius.findings import ToolReport, look_at_tool
+from contoursolve.tool_radius.runs import ToolRequest
+from contoursolve.tool_radius.tool import Outside, Tool, ToolError, ToolSide, make_tool, read_tool
+
+FROM_PROGRAM = "program"
+"""In the place of a tool: what the program and the project file say."""
+
+
+def result_beside_tool(run: Run, wanted: ToolRequest) -> tuple[Result, ToolReport]:
+    """The result of a run with the findings about its tool, and the path of the tool. Raises ToolError."""
+    report = report_on(run, result := run.collect(), wanted)
+    is_cut = bool(report.runs)
+    kept = [each for each in result.diagnostics if not (is_cut and each.about is ReadIssue.NO_CONTOUR)]
+    return replace(result, diagnostics=tuple(sorted((*kept, *report.findings), key=rank))), report
+
+
+def wanted_tool(program: str, tool: str | None, tip: int | None, side: str | None, outside: str) -> ToolRequest:
+    """The tool as it is asked for. Raises ToolError, SettingError."""
+    folder = Path() if program.startswith("<") else Path(program).parent
+    is_own = tool is None or tool.strip().lower() == FROM_PROGRAM
+    make_tool(Decimal(0), tip)
+    return ToolRequest(
+        None if is_own or tool is None else read_tool(tool, tip),
+        tip,
+        ToolSide(side) if side else None,
+        Outside(outside),
+        {name: _tool_of(name, row) for name, row in find_tools(folder).items()} if is_own else {},
+    )
+
+
+def report_on(run: Run, result: Result, wanted: ToolRequest) -> ToolReport:
+    """What is said of a tool. Raises ToolError."""
+    if run.asked.dialect is None:
+        raise ToolError("no block shows the control, which says how moves are read; say which with --control")
+    return look_at_tool(result, run.asked.dialect, run.asked, wanted)
+
+
+def _tool_of(name: str, row: Mapping[str, Any]) -> Tool:
+    """A tool of the table in the project file, in mm. Raises ToolError."""
+    radius, tip = row.get("radius"), row.get("tip")
+    flanks = {each: row[each] for each in ("back", "front") if each in row}
+    numbers = (radius, 0 if tip is None else tip, *flanks.values())
+    are_numbers = all(isinstance(each, int | float) and not isinstance(each, bool) for each in numbers)
+    is_named = name[:1].upper() in ("T", "D") and name[1:].isdecimal()
+    if row.keys() - {"radius", "tip", "back", "front"} or not are_numbers or not is_named or isinstance(tip, float):
+        raise ToolError(f"tools.{name} is no tool; write T0101 = {{radius = 0.8, tip = 3}} or D1 = {{radius = 5.0}}")
+    return make_tool(Decimal(str(radius)), tip, is_metric=True, **flanks)
