@@ -394,6 +394,41 @@ def test_no_word_is_offered_within_a_number(served):
     served(use)
 
 
+@pytest.mark.parametrize(
+    ("first", "table", "told"),
+    [
+        ("(contoursolve tool: R6, tip 3)", "", "nose R6, tip 3, right (G42): it does not fit; a nose up to R5 cuts"),
+        ("T0101", "T0101 = {radius = 0.8, tip = 3}", "nose R0.8, tip 3, right (G42): it fits; a nose up to R5 cuts"),
+        ("(contoursolve tool: R0.8)", "", "a turning tool needs the number of its imaginary tip"),
+        ("T0202", "T0101 = {radius = 0.8, tip = 3}", ""),
+    ],
+)
+def test_a_hover_says_which_tool_fits_and_the_picture_shows_it(served, tmp_path, first, table, told):
+    (tmp_path / "contoursolve.toml").write_text(f"[tools]\n{table}\n")
+    uri = (tmp_path / "a.nc").as_uri()
+
+    async def use(editor: Editor) -> None:
+        editor.open(uri, f"{first}\nG00 G42 X40. Z0.\nG111 X100. A180. K-30. B120. P5. Q5.\nG00 G40 X120.\n")
+        await editor.findings(uri)
+        word, contour = [
+            (
+                await editor.ask(
+                    editor.client.text_document_hover_async(types.HoverParams(**about(editor, uri, at(3, column))))
+                )
+            ).contents.value
+            for column in (20, 2)
+        ]
+        assert (f"Tool: {told}" in word) is (f"Tool: {told}" in contour) is bool(told)
+        assert ("Tool: " in word) is bool(told)
+        params = {"textDocument": {"uri": uri}, "position": {"line": 2, "character": 1}}
+        picture = await editor.ask(editor.client.protocol.send_request_async("contoursolve/picture", params))
+        drawn = {"R6": "arc too small: 1 mm", "R0": "path of the tip"}.get(told[5:7] if told[:4] == "nose" else "", "")
+        assert drawn in picture.svg
+        assert ("tip 3" in picture.svg) is bool(drawn)
+
+    served(use)
+
+
 def test_a_broken_project_file_is_a_finding(served, tmp_path):
     (tmp_path / "contoursolve.toml").write_text('control = "fanuc-mil"\n')
     uri = (tmp_path / "a.nc").as_uri()

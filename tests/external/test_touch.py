@@ -169,6 +169,29 @@ def test_all_handles_follow_the_arrow_keys(desk):
     desk.check()
 
 
+def test_the_slider_of_the_tool_moves_the_picture_and_the_findings(browser, tmp_path, artefacts):
+    desk = Desk(browser, tmp_path, BLOCK, start="X40. Z0.", tool="R0.8, tip 3", side="right")
+    row = desk.page.locator(".row[data-word='tool']")
+    desk.page.locator(".row[data-word='tool'] .range", has_text="R ≤ 5").wait_for()
+    assert not row.locator("button.free").is_visible()
+    assert desk.page.locator(".paper .s-track").count() > 0
+    desk.page.screenshot(path=artefacts / "touch-tool.png")
+    row.locator("input[type=number]").fill("6")
+    row.locator("input[type=number]").press("Enter")
+    desk.page.locator(".finding.error").wait_for()
+    assert "(contoursolve tool: R6, tip 3)" in desk.text
+    assert desk.page.locator(".paper .s-track").count() == 0
+    desk.page.screenshot(path=artefacts / "touch-tool-large.png")
+    desk.page.locator("button.fix", has_text="write P6. for P5.").click()
+    desk.page.locator(".paper .s-track").first.wait_for(state="attached")
+    row.locator("input[type=range]").focus()
+    desk.page.keyboard.press("ArrowLeft")
+    desk.page.wait_for_timeout(900)
+    assert "R5.9" in desk.text
+    desk.check()
+    desk.page.close()
+
+
 def test_a_pinned_word_stays(desk):
     desk.page.locator(".row[data-word='K'] button.pin").click()
     desk.settle()

@@ -1,0 +1,234 @@
+"""The tool in pictures, pages, drawings for CAD and the explorer: what is drawn against the numbers of the JSON."""
+
+import json
+import re
+from math import dist
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from click.testing import CliRunner
+from test_pictures import check
+
+import contoursolve
+from contoursolve.cli import main
+from contoursolve.notebook.conversation import Conversation
+from contoursolve.notebook.exploration import begin
+from contoursolve.pictures import DARK_COLORS, LIGHT_COLORS, Role, Theme, draw_result
+
+SVG = "{http://www.w3.org/2000/svg}"
+TAPER = "G00 X20. Z2.\nG01 G42 X20. Z0. F0.2\nZ-10.\nX30. Z-20.\nZ-30.\nG40 X40."
+BORE = "G00 X50. Z3.\nG01 G41 X40. Z0. F0.2\nX36. Z-2.\nZ-18. ,R2.\nX24.\nZ-24.\nG40 X20."
+POCKET = "G17\nG00 X-20. Y20.\nG01 G41 X0. Y0. F300.\nX40. ,R8.\nY30.\nX10.\nG40 Y15."
+NECK = "G17\nG00 X-4. Y40.\nG01 G41 Y20. F300.\nY9.1652\nG03 X4. Y9.1652 I4. J-9.1652\nG01 Y20.\nG40 Y40."
+SMALL = "G00 X20. Z2.\nG01 G42 X20. Z0. F0.2\nZ-14.6\nG02 X20.8 Z-15. R0.4\nG01 X40.\nG40 X44."
+NOSE, CUTTER = ("fanuc-lathe", "--tool", "R0.8", "--tip", "3"), ("fanuc-mill", "--tool", "R5")
+LATHE = ("--control", "fanuc-lathe")
+BLOCK = "G111 X100. A180. K-30. B120. P5. Q5."
+RIGHT = {
+    "taper": (TAPER, NOSE),
+    "bore": (BORE, ("fanuc-lathe", "--tool", "R0.4", "--tip", "2")),
+    "pocket": (POCKET, CUTTER),
+    "intersect": (TAPER, (*NOSE, "--outside", "intersect")),
+}
+
+
+def call(*words: str | Path) -> str:
+    done = CliRunner().invoke(main, [*map(str, words)])
+    assert done.exit_code in (0, 1), done.output
+    return done.stdout
+
+
+class Drawn:
+    """The picture that `plot` draws of a program with a tool, and its JSON."""
+
+    def __init__(self, folder: Path, text: str, words: tuple[str, ...]) -> None:
+        (folder / "a.nc").write_text(text)
+        asked = ("--control", *words)
+        call("plot", folder / "a.nc", "-o", folder / "a.svg", "--force", "--theme", "page", *asked)
+        self.contours = json.loads(call("solve", folder / "a.nc", "--format", "json", *asked))["contours"]
+        self.svg = (folder / "a.svg").read_text()
+        self.tree = ElementTree.fromstring(self.svg)
+
+    def strokes(self, role: Role) -> list[list[tuple[float, ...]]]:
+        """The lines and arcs of a role in the drawing itself: each start, then each end (px); an end of an arc has its
+        radius, too."""
+        group = next(each for each in self.tree.iter(f"{SVG}g") if each.get("clip-path"))
+        paths = [each.get("d") for each in group.iter(f"{SVG}path") if _is_of(each, role)]
+        return [[_end(*step) for step in re.findall(r"([MLA])([^MLA]+)", path)] for path in paths]
+
+
+def _is_of(path: ElementTree.Element, role: Role) -> bool:
+    """Whether a stroke is of a role, and no leader of a text."""
+    return path.get("class") == f"s-{role.value}" and path.get("stroke-width") != "0.9"
+
+
+def _end(kind: str, numbers: str) -> tuple[float, ...]:
+    found = [float(each) for each in re.split(r"[ ,]", numbers)]
+    return (*found[-2:], found[0]) if kind == "A" else tuple(found)
+
+
+def scale_of(drawn: Drawn) -> tuple[float, float, float]:
+    """Pixels in a mm, and where the origin is on the page, from the ends of the path of the tool alone."""
+    (track,), tool = drawn.strokes(Role.TRACK), drawn.contours[-1]["tool"]
+    places = [tool["start"], *(each["end"] for each in tool["elements"])]
+    assert len(track) == len(places)
+    low, high = (pick(range(len(places)), key=lambda number: places[number][0]) for pick in (min, max))
+    scale = (track[high][0] - track[low][0]) / (places[high][0] - places[low][0])
+    across, down = track[low][0] - scale * places[low][0], track[low][1] + scale * places[low][1]
+    for spot, (first, second), element in zip(track, places, [None, *tool["elements"]], strict=True):
+        assert dist(spot[:2], (across + scale * first, down - scale * second)) < 0.02
+        assert len(spot) == (3 if element and element["kind"] == "arc" else 2)
+        assert len(spot) == 2 or abs(spot[2] - scale * element["radius"]) < 0.02
+    return scale, across, down
+
+
+def circles(drawn: Drawn, role: Role, scale: float, across: float, down: float) -> list[tuple[float, float, float]]:
+    """The centres and the radii (mm) of the whole circles in the colour of a role."""
+    found = [each for each in drawn.strokes(role) if len(each) == 3 and each[0] == each[2][:2] and len(each[1]) == 3]
+    middles = [((a[0] + b[0]) / 2, (a[1] + b[1]) / 2, b[2]) for a, b, _ in found]
+    return [((x - across) / scale, (down - y) / scale, radius / scale) for x, y, radius in middles]
+
+
+@pytest.mark.parametrize("name", RIGHT)
+def test_the_path_of_the_tool_is_that_of_the_json_and_the_tool_stands_on_it(name, tmp_path):
+    drawn = Drawn(tmp_path, *RIGHT[name])
+    scale, across, down = scale_of(drawn)
+    contour = drawn.contours[-1]
+    tool, vertices = contour["tool"], [each["end"] for each in contour["elements"]]
+    signs = {3: (-1, -1), 2: (-1, 1), None: (0, 0)}[tool["tip"]]
+    found = circles(drawn, Role.TOOL, scale, across, down)
+    path = [tool["start"], *(each["end"] for each in tool["elements"])]
+    assert len(found) == {"taper": 2, "bore": 1, "pocket": 2, "intersect": 2}[name]
+    for x, y, radius in found:
+        assert abs(radius - tool["radius"]) < 0.005
+        tip = x + signs[0] * radius, y + signs[1] * radius
+        assert min(dist(tip, place) for place in path) < 0.01
+    # What stays lies beyond the tool, towards the corner.
+    center = found[-1][:2]
+    corner = min(vertices, key=lambda place: dist(place, center))
+    for stroke in drawn.strokes(Role.REST):
+        for spot in stroke if len(stroke) == 2 else ():
+            place = (spot[0] - across) / scale, (down - spot[1]) / scale
+            if dist(place, corner) < tool["radius"]:
+                assert tool["radius"] * 0.997 - 0.01 <= dist(place, center) <= dist(corner, center) + 0.01
+    assert bool(drawn.strokes(Role.REST)) is (name != "bore")
+
+
+@pytest.mark.parametrize(
+    ("text", "words", "at", "told", "stays"),
+    [
+        # TR-22: the tool rests between both neighbours, 0.1657 from the arc.
+        (SMALL, NOSE, (-14.2, 10.8), "arc too small: 0.4 mm", True),
+        # TR-25: beside one wall of the neck, 4 mm in the other one.
+        (NECK, ("fanuc-mill", "--tool", "R6"), (2.0, 9.1652), "interference: 4 mm", False),
+    ],
+)
+def test_what_does_not_fit_is_red_at_its_place_with_the_amount(tmp_path, text, words, at, told, stays):
+    drawn = Drawn(tmp_path, text, words)
+    assert drawn.contours[-1]["tool"]["elements"] is None
+    assert not drawn.strokes(Role.TRACK)
+    assert not drawn.strokes(Role.TOOL)
+    (part,) = [each for each in drawn.strokes(Role.INK) if len(each) == len(drawn.contours[-1]["elements"]) + 1]
+    places = [drawn.contours[-1]["start"], *(each["end"] for each in drawn.contours[-1]["elements"])]
+    low, high = (pick(range(len(places)), key=lambda number: places[number][0]) for pick in (min, max))
+    scale = (part[high][0] - part[low][0]) / (places[high][0] - places[low][0])
+    across, down = part[0][0] - scale * places[0][0], part[0][1] + scale * places[0][1]
+    ((*center, radius),) = circles(drawn, Role.CONFLICTING, scale, across, down)
+    assert dist(center, at) < 0.01
+    assert abs(radius - drawn.contours[-1]["tool"]["radius"]) < 0.01
+    texts = [
+        "".join(each.itertext())
+        for each in drawn.tree.iter(f"{SVG}text")
+        if each.get("fill") == LIGHT_COLORS[Role.CONFLICTING]
+    ]
+    assert told in texts
+    assert any(each.startswith("error: ") for each in texts)
+    assert bool(drawn.strokes(Role.REST)) is stays
+
+
+@pytest.mark.parametrize("case", [*RIGHT.values(), (SMALL, NOSE), (NECK, ("fanuc-mill", "--tool", "R6"))])
+def test_texts_stand_apart_and_are_those_of_the_tool(case):
+    text, (control, _, radius, *rest) = case
+    tip = int(rest[1]) if rest else None
+    result, report = contoursolve.solve_with_tool(text, radius, tip=tip, control=control)
+    for theme in Theme:
+        tree = check(draw_result(result, theme=theme, beside=contoursolve.beside_of(report)))
+    said = " ".join("".join(each.itertext()) for each in tree.iter())
+    assert f"{'nose' if tip else 'cutter'} {radius}" in said
+    assert (f"tip {tip}" in said) is bool(tip)
+
+
+def test_without_compensation_the_part_that_comes_out_is_drawn_over_it(tmp_path):
+    """The tip of an R0.8 nose runs along a fillet R3 and an arc R4 (sheet: they become R3.8 and R3.2)."""
+    text = (
+        "G00 X16. Z2.\nG01 Z0.\nX20. Z-2.\nZ-8.\nG02 X26. Z-11. R3.\nG01 X28.\nG03 X36. Z-15. R4.\nG01 Z-30.\nG00 X50."
+    )
+    drawn = Drawn(tmp_path, text, (*NOSE, "--side", "right"))
+    scale, *_ = scale_of(drawn)
+    (ghost,) = drawn.strokes(Role.GHOST)
+    radii = [each[2] / scale for each in ghost if len(each) == 3]
+    assert [round(each, 2) for each in radii if each > 1] == [3.8, 3.2]
+    assert not Drawn(tmp_path, text.replace("G01 Z0.", "G01 G42 Z0."), NOSE).strokes(Role.GHOST)
+
+
+def test_without_a_tool_nothing_of_it_is_drawn(tmp_path):
+    (tmp_path / "a.nc").write_text(BORE)
+    for theme in ("light", "page"):
+        call(
+            "plot", tmp_path / "a.nc", "-o", tmp_path / "a.svg", "--force", "--control", "fanuc-lathe", "--theme", theme
+        )
+        svg = (tmp_path / "a.svg").read_text()
+        assert "cs-track" not in svg
+        assert LIGHT_COLORS[Role.TRACK] not in svg
+    call("report", tmp_path / "a.nc", "-o", tmp_path / "a.html", *LATHE)
+    assert "--cs-track" not in (tmp_path / "a.html").read_text()
+
+
+def test_a_report_has_the_path_of_the_tool_in_its_pictures(tmp_path):
+    (tmp_path / "a.nc").write_text(BORE)
+    asked = ("--control", *RIGHT["bore"][1])
+    assert "1 contour solved, no problems" in call("report", tmp_path / "a.nc", "-o", tmp_path / "a.html", *asked)
+    page = (tmp_path / "a.html").read_text()
+    assert page.count('class="s-track"') >= 2
+    assert f"--cs-track: {DARK_COLORS[Role.TRACK]};" in page
+    assert "<dd>nose R0.4, tip 2, left (G41)</dd>" in page
+
+
+def test_a_drawing_for_cad_has_the_path_of_the_tool_on_its_layer(tmp_path):
+    ezdxf = pytest.importorskip("ezdxf")
+    (tmp_path / "a.nc").write_text(TAPER)
+    told = call("plot", tmp_path / "a.nc", "-o", tmp_path / "a.dxf", "--control", *NOSE)
+    assert "a.dxf: 0 elements of 0 contours, 1 path of the tool" in told
+    page = ezdxf.readfile(tmp_path / "a.dxf").modelspace()
+    lines = [each for each in page if each.dxf.layer == "tool - program line 3" and each.dxftype() == "LINE"]
+    assert [round(each, 4) for each in lines[0].dxf.end][:2] == [-10.6111, 10.0]
+    assert sum(each.dxf.layer == "part - program line 3" for each in page) == 3
+
+
+def test_the_explorer_moves_the_radius_of_the_tool():
+    talk = Conversation(begin(BLOCK, start="X40. Z0.", tool="R0.8, tip 3", side="right"))
+    field = next(each for each in talk.state["view"]["fields"] if each["key"] == "tool")
+    assert (field["word"], field["value"], field["unit"]) == ("R0.8", 0.8, "mm")
+    assert 'class="s-track"' in talk.state["view"]["picture"]
+    talk.answer({"do": "range", "key": "tool", "number": 1})
+    assert talk.state["ranges"]["tool"]["intervals"] == [[0.0, 5.0]]
+    view = talk.answer({"do": "move", "values": {"tool": 6.0}, "number": 2})["view"]
+    assert view["text"].endswith("(contoursolve tool: R6, tip 3)")
+    assert view["findings"][0]["lines"][0][0][0] == "error[tool-arc-too-small]"
+    assert view["findings"][0]["fixes"][0]["text"] == "write P6. for P5."
+    assert "arc too small: 1 mm" in view["picture"]
+    assert 'class="s-track"' not in view["picture"]
+    view = talk.answer({"do": "fix", "finding": view["findings"][0]["fixes"][0]["finding"], "fix": 0, "number": 3})[
+        "view"
+    ]
+    assert 'class="s-track"' in view["picture"]
+    talk.answer({"do": "undo", "number": 4})
+    assert "R6, tip 3" in talk.answer({"do": "move", "values": {"tool": -1.0}, "number": 5})["view"]["text"]
+    assert "must not be less than 0" in talk.state["view"]["trouble"]
+
+
+@pytest.mark.parametrize(("tool", "side"), [("R0.8", "right"), ("R0.8, tip 3", None), ("8 mm", "right")])
+def test_an_explorer_of_what_is_no_tool_says_what_to_write(tool, side):
+    with pytest.raises(ValueError, match=r"write|give"):
+        begin("G111 X100. A180. K-30. B120. P5. Q5.", start="X40. Z0.", tool=tool, side=side)
