@@ -6,6 +6,7 @@ from tempfile import TemporaryDirectory
 
 import pytest
 from test_readme import PAGES, PICTURES, ROOT, SHOWN, compare
+from tip_numbers import tip_numbers
 
 
 def rewrite() -> None:
@@ -27,3 +28,4 @@ def rewrite() -> None:
 if __name__ == "__main__":
     assert PAGES
     rewrite()
+    tip_numbers().save(PICTURES / "tips.svg")

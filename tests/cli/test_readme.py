@@ -14,9 +14,11 @@ from pathlib import Path
 import pytest
 from click import Context
 from click.testing import CliRunner
+from tip_numbers import tip_numbers
 
 from contoursolve.__main__ import commands
-from contoursolve.controls import DIALECTS
+from contoursolve.controls import DIALECTS, TOOL_FACTS
+from contoursolve.tool_radius import FaultKind
 
 ROOT = Path(__file__).parents[2]
 PICTURES = ROOT / "notebooks" / "pictures"
@@ -76,7 +78,22 @@ def test_a_command_prints_what_the_page_shows(tmp_path, monkeypatch, page, comma
 def test_every_picture_is_drawn_by_a_command_but_those_that_show_measurements() -> None:
     shown = {Path(link).name for text in PAGES.values() for link in links(text) if link.endswith(".svg")}
     drawn = {each.values[1].split()[-1] for each in SHOWN if each.values[1].endswith(".svg")}
-    assert shown - drawn == {"family_growth.svg", "waiting_growth.svg"}
+    assert shown - drawn == {"family_growth.svg", "waiting_growth.svg", "tips.svg"}
+    assert (PICTURES / "tips.svg").read_text(encoding="utf-8") == tip_numbers().svg + "\n"
+
+
+def test_the_page_about_tools_has_every_alarm_and_every_finding_with_its_grade() -> None:
+    (text,) = (text for page, text in PAGES.items() if page.endswith("tool.md"))
+    rows = re.findall(r"^\| (`.*?) \| (.*) \|$", text.partition("## What your control does")[2], re.MULTILINE)
+    shown = {name: row for names, row in rows for name in re.findall(r"`([\w-]+)`", names)}
+    assert shown.keys() == DIALECTS.keys()
+    kinds = ("arc_too_small", "element_vanishes", "no_intersection", "interference", "entry_by_arc", "exit_by_arc")
+    for name, row in shown.items():
+        alarms = TOOL_FACTS[name].alarms if name in TOOL_FACTS else {}
+        told = [alarms.get(kind) for kind in (*kinds, "entry_too_short")]
+        cells = [f"{each.number} ({each.evidence.value})" if each else "" for each in told]
+        assert [cell.strip() for cell in row.split("|")] == cells, name
+    assert {*re.findall(r"`(tool-[\w-]+)`", text)} == {kind.code for kind in FaultKind} - {"tool-not-verified"}
 
 
 @pytest.mark.parametrize("page", CODE)

@@ -13,7 +13,7 @@ from interpreter import RS274
 from run_notebooks import CHECKS, NOTEBOOKS
 
 RUNNER = Path(__file__).parent / "run_notebooks.py"
-NAMES = ["01", "02", "03", "04", "05", "06", "07", "08", "09", "10", "11"]
+NAMES = ["01", "02", "03", "04", "05", "06", "07", "08", "09", "10", "11", "12"]
 MOST_BYTES = 400_000
 LINUXCNC = "linuxcnc"
 """The tag of cells that run LinuxCNC's interpreter; without it their outputs are others."""
