@@ -397,8 +397,16 @@ def test_no_word_is_offered_within_a_number(served):
 @pytest.mark.parametrize(
     ("first", "table", "told"),
     [
-        ("(contoursolve tool: R6, tip 3)", "", "nose R6, tip 3, right (G42): it does not fit; a nose up to R5 cuts"),
-        ("T0101", "T0101 = {radius = 0.8, tip = 3}", "nose R0.8, tip 3, right (G42): it fits; a nose up to R5 cuts"),
+        (
+            "(contoursolve tool: R6, tip 3)",
+            "",
+            "nose R6, tip 3, right of the contour: it does not fit; a nose up to R5 cuts all",
+        ),
+        (
+            "T0101",
+            "T0101 = {radius = 0.8, tip = 3}",
+            "nose R0.8, tip 3, right of the contour: it fits; a nose up to R5 cuts all",
+        ),
         ("(contoursolve tool: R0.8)", "", "a turning tool needs the number of its imaginary tip"),
         ("T0202", "T0101 = {radius = 0.8, tip = 3}", ""),
     ],

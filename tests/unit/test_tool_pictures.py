@@ -192,7 +192,7 @@ def test_a_report_has_the_path_of_the_tool_in_its_pictures(tmp_path):
     page = (tmp_path / "a.html").read_text()
     assert page.count('class="s-track"') >= 2
     assert f"--cs-track: {DARK_COLORS[Role.TRACK]};" in page
-    assert "<dd>nose R0.4, tip 2, left (G41)</dd>" in page
+    assert "<dd>nose R0.4, tip 2, left of the contour</dd>" in page
 
 
 def test_a_drawing_for_cad_has_the_path_of_the_tool_on_its_layer(tmp_path):
