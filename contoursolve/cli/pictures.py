@@ -23,8 +23,8 @@ from contoursolve.cli.printing import say
 from contoursolve.diagnosis import Answer, count, status_text
 from contoursolve.diagnostics import importing
 from contoursolve.gcode import check_target, write_whole
-from contoursolve.output import Collected, summary_line
-from contoursolve.pictures import Beside, Picture, Theme, draw_answer, draw_result
+from contoursolve.output import Collected, beside_of, summary_line
+from contoursolve.pictures import Picture, Theme, draw_answer, draw_result
 from contoursolve.program import Result
 
 if TYPE_CHECKING:
@@ -174,9 +174,9 @@ def _pictures(
     """The pictures that are asked for."""
 
     def of_one(answer: Answer) -> bytes:
-        return bytes_of(draw_answer(answer, theme=theme, beside=_beside(tool, answer)), target)
+        return bytes_of(draw_answer(answer, theme=theme, beside=beside_of(tool, answer)), target)
 
-    beside = _beside(tool)
+    beside = beside_of(tool)
     if not result.answers and not beside:
         return
     if is_each:
@@ -193,15 +193,6 @@ def _pictures(
     picture = draw_result(result, theme=theme, is_whole=is_whole, beside=beside)
     told = count(len(result.answers) or len(beside), "contour") + (" with the tool" if beside else "")
     yield target, bytes_of(picture, target), told
-
-
-def _beside(tool: "ToolReport | None", answer: Answer | None = None) -> tuple[Beside, ...]:
-    """What is drawn of a tool."""
-    if tool is None:
-        return ()
-    from contoursolve.output import beside_of  # noqa: PLC0415 - few programs state a tool
-
-    return beside_of(tool, answer)
 
 
 def _about(answer: Answer) -> str:

@@ -64,7 +64,7 @@ def hover_of(opened: Opened, position: types.Position) -> types.Hover | None:
 def tool_beside(opened: Opened, answer: Answer) -> Sequence[Beside]:
     """What is drawn of the tool beside a contour."""
     tool = opened.tool()
-    return () if tool is None or isinstance(tool, str) else beside_of(tool, answer)
+    return beside_of(None if isinstance(tool, str) else tool, answer)
 
 
 def _with_tool(opened: Opened, text: str, line: int) -> str:

@@ -106,8 +106,7 @@ def picture_of(answer: Answer, like: Picture | None = None, tool: ToolReport | N
     """The picture of a contour with its tool, which may stand like the one before; without findings, which are told
     beside it. None if it cannot be drawn."""
     try:
-        beside = beside_of(tool, answer) if tool is not None else ()
-        return draw_answer(answer, theme=Theme.PAGE, like=like, has_remarks=False, beside=beside)
+        return draw_answer(answer, theme=Theme.PAGE, like=like, has_remarks=False, beside=beside_of(tool, answer))
     except Exception:  # the tables say the same, and the next value may be drawn again
         return None
 

@@ -100,6 +100,7 @@ from .listing import (
     MOST_ALIKE as MOST_ALIKE,
     Collected as Collected,
     Totals as Totals,
+    beside_of as beside_of,
     closing_lines as closing_lines,
     lines_of_findings as lines_of_findings,
     listed as listed,
@@ -140,7 +141,6 @@ from .report import (
     report_page as report_page,
 )
 from .tool_picture import (
-    beside_of as beside_of,
     tool_text as tool_text,
 )
 from .word_meanings import (

@@ -20,9 +20,10 @@ from contoursolve.output.contours import (
     solution_rows,
 )
 from contoursolve.output.findings import Piece, finding_pieces
+from contoursolve.output.listing import beside_of
 from contoursolve.output.plain_text import NAMELESS, Name, Table, printable
 from contoursolve.output.premises import premise_texts
-from contoursolve.pictures import CHAINS, DARK_COLORS, LEVELS, LIGHT_COLORS, TOOLS, Beside, Drawable, Role, Theme, draw
+from contoursolve.pictures import CHAINS, DARK_COLORS, LEVELS, LIGHT_COLORS, TOOLS, Drawable, Role, Theme, draw
 
 if TYPE_CHECKING:
     from contoursolve.tool_radius import ToolReport
@@ -113,11 +114,7 @@ def figure(record: Drawable, *, is_inline: bool = False, tool: "ToolReport | Non
     """The picture with its tool, as an image or as an element of SVG; where it cannot be drawn the page says so, and
     its tables say the same."""
     try:
-        beside: tuple[Beside, ...] = ()
-        if tool is not None:
-            from contoursolve.output.tool_picture import beside_of  # noqa: PLC0415 - few programs state a tool
-
-            beside = beside_of(tool, record if isinstance(record, Answer) else None)
+        beside = beside_of(tool, record if isinstance(record, Answer) else None)
         drawn = draw(record, theme=Theme.PAGE, beside=beside)
         if is_inline:  # so that arrow keys scroll it
             return h.figure(tabindex="0", aria_label="Picture")[Markup(drawn.svg)]  # our own painter escapes

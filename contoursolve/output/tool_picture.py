@@ -53,7 +53,7 @@ class Stance(Struct, frozen=True):
     depth: float = 0.0
 
 
-def beside_of(report: ToolReport, answer: Answer | None = None) -> tuple[Beside, ...]:
+def parts_beside(report: ToolReport, answer: Answer | None = None) -> tuple[Beside, ...]:
     """What is drawn of a tool beside the contours of a program, in each plane, or beside one of them."""
     lines = answer.lines if answer is not None else ()
     drawn = []

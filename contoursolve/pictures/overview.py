@@ -1,7 +1,7 @@
 """Several contours in one picture: those of a program with the moves between them, and one block for several values."""
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import PurePath
 
 from msgspec import Struct
@@ -109,24 +109,17 @@ def compose_overview(
             closeups=tuple(_closeups(drawn)),
             scale_unit=unit,
         ).with_beside(more)
-        scenes.append(_turned(scene, drawn, near, more, is_whole=is_whole) if plane.diameters[SECOND] else scene)
+        between = [move.segment for move in near if move.is_between]
+        known = {(segment.start, segment.end) for segment in between}
+        between += [each for one in more for each in one.cut if (each.start, each.end) not in known]
+        scenes.append(_turned(scene, drawn, between, is_whole=is_whole) if plane.diameters[SECOND] else scene)
     return scenes
 
 
-def _turned(
-    scene: Scene,
-    drawn: Sequence[DrawnContour],
-    moves: Sequence[PlaneMove],
-    beside: Sequence[Beside],
-    *,
-    is_whole: bool | None,
-) -> Scene:
+def _turned(scene: Scene, drawn: Sequence[DrawnContour], cut: Iterable[Segment], *, is_whole: bool | None) -> Scene:
     """The scene of contours on a lathe: the part around its axis."""
     solved = [each for each in drawn if each.answer.contour is not None]
-    cut = [segment for each in solved for segment in each.segments]
-    cut += [move.segment for move in moves if move.is_between]
-    known = {(segment.start, segment.end) for segment in cut}
-    cut += [each for one in beside for each in one.cut if (each.start, each.end) not in known]
+    cut = [*(segment for each in solved for segment in each.segments), *cut]
     cylinders = [each for one in solved for each in cylinders_of(one.segments, one.answer.unit)]
     told = [
         (TextRun(f"{each.number}, program line {each.answer.lines[0]}: the path crosses the turning axis", Role.INK),)
