@@ -37,9 +37,6 @@ SAME = 1e-3
 TOOL = "tool"
 """The key of the radius of the tool, beside those of words."""
 
-_STEP = Decimal("0.0001")
-"""To so much a radius is rounded, in the unit of the program."""
-
 MOST_DIGITS = 8
 """Of a number; controls read no more."""
 
@@ -255,7 +252,8 @@ def set_words(exploration: Exploration, values: Mapping[str, float | str]) -> Ex
         place = tool_place(exploration) if key == TOOL else None
         if place is not None:
             span, old = place
-            text = f"{make_tool(Decimal(str(value)).quantize(_STEP), None).radius.normalize():f}"
+            radius = make_tool(Decimal(f"{float(value):.4f}"), None).radius
+            text = f"{radius.normalize():f}"
             edits.append(Edit(EditKind.CHANGE, FACT, span, f"{old.radius}", text))
             continue
         answer, word = _find(exploration, key)
