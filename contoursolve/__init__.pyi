@@ -118,6 +118,9 @@ from .solving import (
 )
 from .tool_radius import (
     ToolReport as ToolReport,
+    ToolError as ToolError,
+    family_of_tools as family_of_tools,
+    find_tools as find_tools,
 )
 from .try_edits import (
     Completion as Completion,

@@ -3,7 +3,7 @@
 import csv
 import re
 from array import array
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
@@ -28,13 +28,18 @@ from contoursolve.cli.options import (
 )
 from contoursolve.cli.printing import say
 from contoursolve.diagnostics import json_text, need
-from contoursolve.families import FamilyError, RefusedError, name_of
+from contoursolve.families import TOOL, FamilyError, RefusedError, name_of
 from contoursolve.gcode import parse
 from contoursolve.reading import ReadIssue
 from contoursolve.tolerance import LARGEST
 
-block_options = together(
-    click.option("--block", "blocks", multiple=True, required=True, metavar="TEXT", help="The block; may be repeated."),
+
+def _about_block(*, is_required: bool) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    told = "The block; may be repeated."
+    return click.option("--block", "blocks", multiple=True, required=is_required, metavar="TEXT", help=told)
+
+
+_reading_options = together(
     click.option(
         "--start",
         metavar="WORDS",
@@ -46,7 +51,12 @@ block_options = together(
     rules_option,
     settings_option,
 )
+
+block_options = together(_about_block(is_required=True), _reading_options)
 """The options that say which block is meant, and how it is read."""
+
+program_options = together(_about_block(is_required=False), _reading_options)
+"""The same for a command that takes a program, too."""
 
 format_option = click.option(
     "--format", "format_", type=click.Choice(["text", "json"]), default="text", show_default=True, help="What to print."
@@ -70,15 +80,20 @@ def read_options(options: dict[str, Any]) -> dict[str, Any]:
 
 
 @contextmanager
-def usage() -> Iterator[None]:
-    """Errors about a block as one line and exit status 2; before it, the findings about a block that is refused
-    whatever the values."""
+def usage(program: str = "") -> Iterator[None]:
+    """Errors about a block, or a program, as one line and exit status 2; before it, the findings about a block that is
+    refused whatever the values."""
     try:
-        with naming():
+        with naming(program):
             yield
     except RefusedError as error:
         print_findings(error.result, err=True)
         raise CouldNotRunError("the control refuses the block for every value; nothing is computed") from None
+
+
+def is_about_tool(words: Iterable[str]) -> bool:
+    """Whether the radius of the tool is among some words."""
+    return TOOL in map(name_of, words)
 
 
 def read_within(text: str) -> tuple[float, float]:

@@ -263,14 +263,7 @@ common_options = together(
 """The options that `solve` and `check` share."""
 
 
-tool_options = together(
-    click.option(
-        "--tool",
-        "tool",
-        metavar="RADIUS",
-        help="The radius of the tool's nose or of the cutter, such as R0.8, in the program's unit; 'program' for what "
-        "the program and contoursolve.toml say. The comment (contoursolve tool: R0.8, tip 3) states it, too.",
-    ),
+side_options = together(
     click.option(
         "--tip", type=int, metavar="NUMBER", help="The number of the imaginary tip of a turning tool, 0 to 9."
     ),
@@ -286,6 +279,19 @@ tool_options = together(
         show_default=True,
         help="The way around an outside corner: an arc about it, or to where both offsets meet.",
     ),
+)
+"""The options that state a tool but for its radius."""
+
+
+tool_options = together(
+    click.option(
+        "--tool",
+        "tool",
+        metavar="RADIUS",
+        help="The radius of the tool's nose or of the cutter, such as R0.8, in the program's unit; 'program' for what "
+        "the program and contoursolve.toml say. The comment (contoursolve tool: R0.8, tip 3) states it, too.",
+    ),
+    side_options,
 )
 """The options that state a tool."""
 
@@ -377,11 +383,11 @@ def follow(program: Program, start: str | None, assignments: Sequence[str], opti
     return beside_tool(run, **stated)
 
 
-def check_toolless(stated: Mapping[str, Any]) -> None:
+def check_toolless(stated: Mapping[str, Any], remedy: str = "--tool, such as --tool R0.8") -> None:
     """Refuse the options of a tool where none is stated."""
     for name in ("tip", "side"):
         if stated.get(name) is not None:
-            raise click.UsageError(f"--{name} goes with --tool, such as --tool R0.8")
+            raise click.UsageError(f"--{name} goes with {remedy}")
 
 
 @contextmanager

@@ -7,17 +7,21 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
+from contoursolve.api import follow_program
 from contoursolve.cli.block_options import (
     block_options,
     fact_option,
     format_option,
+    is_about_tool,
     print_json,
+    program_options,
     read_options,
     read_within,
     usage,
 )
-from contoursolve.cli.options import FOUND_ERRORS
+from contoursolve.cli.options import FOUND_ERRORS, check_toolless, load, settings_of, side_options
 from contoursolve.cli.printing import print_lines
+from contoursolve.cli.tool import wanted_tool
 from contoursolve.families import feasible, find_word, region, tolerance_for, tolerances
 from contoursolve.output import (
     found_data,
@@ -28,9 +32,13 @@ from contoursolve.output import (
     region_lines,
     tolerances_data,
     tolerances_lines,
+    tools_data,
+    tools_lines,
     word_tolerance_data,
     word_tolerance_lines,
 )
+from contoursolve.program import check_start
+from contoursolve.tool_radius import ToolTrials, find_tools, largest_tools
 
 
 @click.command("range", short_help="Tell for which values of a word, or of two, a contour exists.")
@@ -43,7 +51,7 @@ from contoursolve.output import (
     required=True,
     metavar="WORD",
     help="A word of the block, such as P, or 2:,A for program line 2; start.X of the start point; a fact, by what it "
-    "gives the value of. Given twice, the region of both.",
+    "gives the value of. Given twice, the region of both. 'tool' is the radius of the tool that cuts it.",
 )
 @click.option(
     "--within",
@@ -52,6 +60,7 @@ from contoursolve.output import (
     help="The range to search, for each word in turn, in mm, inches or degrees; X is a diameter where that of the "
     "block is; without it, one turn for an angle, 1 m to either side for a length.",
 )
+@side_options
 @fact_option
 @click.pass_context
 def range_(
@@ -59,6 +68,9 @@ def range_(
     /,
     words: tuple[str, ...],
     within: tuple[str, ...],
+    tip: int | None,
+    side: str | None,
+    outside: str,
     facts: tuple[str, ...],
     format_: str,
     **options: Any,
@@ -71,18 +83,36 @@ def range_(
     points. With facts or ? it follows all solutions: the contour exists where exactly one can be made. Where they leave
     no formula, use sweep, which solves the block value by value.
 
+    With --word tool it tells which tools cut the contour, by the radius of the nose or of the cutter, and what stops a
+    larger one. It takes every cutting move of the block, with contour words or without.
+
     Exit status: 0 the contour exists for some value, 1 for none, 2 could not run.
 
     \b
     contoursolve range --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." --word P
+    contoursolve range --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
+      --word tool --side right --tip 3
     """
     ranges = [read_within(each) for each in within]
+    is_tool, stated = is_about_tool(words), dict[str, Any](tip=tip, side=side, outside=outside)
+    if is_tool and len(words) > 1:
+        told = "sweep tries both: --vary tool=0.2:1.2:0.05 and --vary with the other word"
+        raise click.UsageError(f"--word tool stands alone; {told}")
+    if not is_tool:
+        check_toolless(stated, "--word tool")
     if len(words) > 2 or (len(words) == 2 and len(ranges) != 2) or len(ranges) > len(words):  # noqa: PLR2004
         raise click.UsageError("name one --word, or two with a --within LOW:HIGH for each")
     with usage():
         about = {"facts": facts, **read_options(options)}
         if len(words) == 1:
-            found = feasible(word=words[0], within=ranges[0] if ranges else None, **about)
+            limits = ranges[0] if ranges else None
+            if is_tool:
+                found = min(
+                    find_tools(about.pop("block"), within=limits, **about, **stated).values(),
+                    key=lambda each: each.largest,
+                )
+            else:
+                found = feasible(word=words[0], within=limits, **about)
             exists, lines, document = bool(found.intervals), range_lines(found), range_data(found)
         else:
             both = region(words=(words[0], words[1]), within=(ranges[0], ranges[1]), **about)
@@ -95,19 +125,19 @@ def range_(
 
 
 @click.command("find", short_help="Find the value of a word that brings a point where it is wanted.")
-@block_options
+@click.argument("program", required=False)
+@program_options
 @format_option
 @click.option(
     "--word",
     required=True,
     metavar="WORD",
     help="A word of the block, such as A, or 2:,A for program line 2; start.X of the start point; a fact, by what it "
-    "gives the value of.",
+    "gives the value of. 'tool' is the largest tool for all contours of PROGRAM, or of the block.",
 )
 @click.option(
     "--bring",
     "goal",
-    required=True,
     metavar="GOAL",
     help="A point and where it is wanted, in words as the control reads them: 'end Z-50.', 'V1 X44.', "
     "'corner 1.center Z-20.'. With both coordinates, find looks for what comes nearest.",
@@ -118,14 +148,19 @@ def range_(
     help="The range to search, in mm, inches or degrees; X is a diameter where that of the block is; without it, "
     "one turn for an angle, 1 m to either side for a length.",
 )
+@side_options
 @fact_option
 @click.pass_context
 def find(
     context: click.Context,
     /,
+    program: str | None,
     word: str,
-    goal: str,
+    goal: str | None,
     within: str | None,
+    tip: int | None,
+    side: str | None,
+    outside: str,
     facts: tuple[str, ...],
     format_: str,
     **options: Any,
@@ -135,19 +170,57 @@ def find(
     find solves and certifies each value by itself. It also prints the block to write, with the value rounded to the
     control's least increment. It says how far the point is off then.
 
+    With --word tool it finds the largest tool that cuts all contours of PROGRAM, what limits it, and the largest for
+    each contour. --block, --start and --fact may stand in for PROGRAM; --bring is not needed.
+
     Exit status: 0 found, 1 no such value, 2 could not run.
 
     \b
     contoursolve find --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." --word A --bring "end Z-50."
+    contoursolve find part.nc --word tool --side right --tip 3
     """
+    limits = read_within(within) if within else None
+    if is_about_tool([word]):
+        _find_tool(context, program, (tip, side, outside), limits, {"facts": facts, **options}, goal, format_)
+        return
+    check_toolless({"tip": tip, "side": side}, "--word tool")
+    if program is not None or not options["blocks"]:
+        raise click.UsageError("give the block with --block; only --word tool takes a PROGRAM")
+    if goal is None:
+        raise click.UsageError("missing --bring: name a point and where it is wanted, such as 'end Z-50.'")
     with usage():
-        limits = read_within(within) if within else None
         found = find_word(word=word, goal=goal, within=limits, facts=facts, **read_options(options))
     if format_ == "json":
         print_json(found_data(found))
     else:
         print_lines(found_lines(found))
     context.exit(0 if found.hits else FOUND_ERRORS)
+
+
+def _find_tool(
+    context: click.Context,
+    name: str | None,
+    tool: tuple[int | None, str | None, str],
+    within: tuple[float, float] | None,
+    options: dict[str, Any],
+    goal: str | None,
+    format_: str,
+) -> None:
+    """Print the largest tool for all contours of a program."""
+    if goal is not None:
+        raise click.UsageError("--bring goes with a word of the block, not with --word tool")
+    (program,) = (read() for read in load([name] if name is not None else [], options.pop("blocks")))
+    with usage(program.name):
+        settings = settings_of(program, options.pop("assignments"))
+        run = follow_program(program, settings=settings, **options)
+        check_start(run.asked)
+        wanted = wanted_tool(program.name, None, *tool)
+        found = largest_tools(ToolTrials(result := run.collect(), run.asked.dialect, run.asked, wanted), result, within)
+    if format_ == "json":
+        print_json(tools_data(found))
+    else:
+        print_lines(tools_lines(found))
+    context.exit(0 if all(each.intervals for each in found.values()) else FOUND_ERRORS)
 
 
 @click.command("sensitivity", short_help="Tell which word moves a point most, and what tolerances come to.")

@@ -16,17 +16,19 @@ from contoursolve.cli.block_options import (
     block_options,
     fact_option,
     format_option,
+    is_about_tool,
     print_json,
     read_options,
     read_range,
     usage,
 )
-from contoursolve.cli.options import CouldNotRunError
+from contoursolve.cli.options import CouldNotRunError, check_toolless, side_options
 from contoursolve.cli.pictures import bytes_of, check_picture, theme_option
 from contoursolve.cli.printing import say
 from contoursolve.cli.progress import STOPPED, duration, leave_threads, progress, stoppable
 from contoursolve.diagnostics import need
 from contoursolve.families import (
+    CUT,
     MOST_ROWS,
     Checkpoints,
     CompiledSweep,
@@ -47,6 +49,7 @@ from contoursolve.gcode import CannotWriteError, check_target, open_whole, write
 from contoursolve.output import columns, premise_data, rest_lines
 from contoursolve.pictures import Theme, draw_sweep, sweep_title
 from contoursolve.solving import REASONS, StatusCode
+from contoursolve.tool_radius import ToolSweep, sweep_tools
 
 PATIENCE = 1.0
 """Seconds between two looks at whether the scheduler is still there."""
@@ -170,8 +173,10 @@ def size(count: float) -> str:
     metavar="WORD=VALUES",
     help="A word of the block and its values, as they stand: START:STOP:STEP with both ends, V1,V2,..., or "
     "@FILE:COLUMN, a column of a CSV or Parquet file; may be repeated. Where several blocks have the word, LINE:WORD, "
-    "such as 2:,A=10:20:1; start.X is the X of --start, and 'length of line 1' the value of that --fact.",
+    "such as 2:,A=10:20:1; start.X is the X of --start, and 'length of line 1' the value of that --fact. 'tool' is the "
+    "radius of a tool: for each contour, whether that one cuts it.",
 )
+@side_options
 @fact_option
 @click.option("--paired", "is_paired", is_flag=True, help="Values side by side; without it, every combination.")
 @click.option("-o", "--output", metavar="FILE", help="Where to write every row: FILE.parquet or FILE.csv.")
@@ -205,6 +210,9 @@ def sweep_(
     context: click.Context,
     /,
     varied: tuple[str, ...],
+    tip: int | None,
+    side: str | None,
+    outside: str,
     facts: tuple[str, ...],
     is_paired: bool,
     output: str | None,
@@ -229,24 +237,39 @@ def sweep_(
     Until FILE is whole, sweep keeps finished rows beside it, in a folder .FILE.NUMBER.parts. After Ctrl-C, SIGTERM or a
     crash the same command goes on where it stopped. sweep names the folders that other sweeps have left.
 
+    With tool=VALUES it also tells for each contour which of these tools cut it: the columns tool, tool.fits,
+    tool.largest (of these tools, in mm) and tool.fault, which is what stops the tool. The contour keeps its status.
+
     Exit status: 0 done, whatever became of the contours, 2 could not run, 130 stopped by Ctrl-C or SIGTERM.
 
     \b
     contoursolve sweep --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
       --vary A=170:190:0.1 --vary P=1,2,5 -o family.parquet
+    contoursolve sweep --block "G111 X100. A180. K-30. B120. P5. Q5." --start "X40. Z0." \\
+      --vary P=0.5:5:0.5 --vary tool=0.2:1.2:0.2 --side right --tip 3
     """
     if workers is not None and dask is not None:
         raise click.UsageError("--workers are threads of this machine; with --dask, the cluster has its own workers")
     if result is not None and picture is None:
         raise click.UsageError("--result colours a map; name its file with --plot")
+    vary, stated = _read_varied(varied), dict[str, Any](tip=tip, side=side, outside=outside)
+    is_tool = is_about_tool(vary)
+    if not is_tool:
+        check_toolless(stated, "--vary tool=VALUES")
+    elif picture is not None or dask is not None:
+        option, does = ("--plot", "draws") if picture is not None else ("--dask", "solves")
+        raise click.UsageError(f"{option} {does} contours, not tools; leave out {option}, or --vary tool")
     target = _target(output, is_forced)
     if picture is not None:
         check_picture(picture, is_forced=is_forced)
     parts, tally = None, None
     try:
         with usage(), stoppable():
-            ready = sweep(vary=_read_varied(varied), facts=facts, paired=is_paired, **read_options(options))
-            parts, tally = parts_of(target, ready) if target is not None else None, Tally(tuple(ready.ranges.values))
+            about = {"vary": vary, "facts": facts, "paired": is_paired, **read_options(options)}
+            ready = sweep_tools(**about, **stated) if is_tool else sweep(**about)
+            contours = ready.contours if isinstance(ready, ToolSweep) else ready
+            tally = Tally(tuple(contours.ranges.values), many=ready.ranges.count // contours.ranges.count)
+            parts = parts_of(target, ready) if target is not None else None
             check_extent(ready, parts, target, is_forced=is_forced)
             if picture is not None:
                 # What cannot be drawn is told before anything else is done.
@@ -257,17 +280,19 @@ def sweep_(
                 title = sweep_title(ready.ranges, summary_of(tally.counts.sum(axis=1)))
                 drawn = bytes_of(draw_sweep(ready, result=result, theme=Theme(theme), title=title), picture)
                 write_whole(picture, [drawn], keeps_backup=False)
-            failures = failure_summary(ready, tally)
+            failures = failure_summary(contours, tally)
     except KeyboardInterrupt:
         say(_stopped(parts, tally), err=True)
         leave_threads(STOPPED)
         context.exit(STOPPED)
     if format_ == "json":
         told = {"remark": ready.remark or None, **premise_data(ready.premises)}
+        if is_tool:
+            told["tools"] = [{"radius": radius, "contours": own} for radius, own in sorted(tally.tools.items())]
         print_json({**_summary_data(tally.counts, failures), **told})
     else:
         notes = filter(None, (ready.remark, *rest_lines(ready)))
-        say("\n".join([*_summary(tally.counts, failures), *notes]))
+        say("\n".join([*_summary(tally.counts, failures), *_tools(tally), *notes]))
     for path in filter(None, (target, picture)):
         say(f"{path} written", err=True)
 
@@ -383,6 +408,15 @@ def _summary(counts: Any, failures: FailureSummary | None) -> list[str]:
         values = ", ".join(f"{word}={value!r}" for word, value in failures.values.items())
         lines.append(f"{failures.count:,} of them, such as {values}: {failures.message}")
     return lines
+
+
+def _tools(tally: Tally) -> list[str]:
+    """A line for each tool: how many contours it cuts, and what stops it at the others."""
+    rows = []
+    for radius, told in sorted(tally.tools.items()):
+        others = ", ".join(f"{count:,} {kind.replace('_', ' ')}" for kind, count in told.most_common() if kind != CUT)
+        rows.append((f"{told[CUT]:,}", f"cut by the tool R{radius:g}{others and '; not '}{others}"))
+    return columns(rows, left=(1,), indent="") if rows else []
 
 
 def _summary_data(counts: Any, failures: FailureSummary | None) -> dict[str, Any]:

@@ -1,10 +1,12 @@
 from .block_template import (
+    BlockOptions as BlockOptions,
     Branches as Branches,
     RefusedError as RefusedError,
     Template as Template,
     called as called,
     errors_of as errors_of,
     first_error as first_error,
+    spec_of as spec_of,
     unit_word as unit_word,
     with_value as with_value,
     write as write,
@@ -26,6 +28,7 @@ from .compiled_sweep import (
 )
 from .errors import FamilyError as FamilyError
 from .evaluate import (
+    CUT as CUT,
     THREADS as THREADS,
     FailureSummary as FailureSummary,
     Tally as Tally,
@@ -99,6 +102,9 @@ from .word_tolerance import (
     tolerance_for as tolerance_for,
 )
 from .word_values import (
+    TOOL as TOOL,
     Ranges as Ranges,
     name_of as name_of,
+    ranges_of as ranges_of,
+    read_limits as read_limits,
 )

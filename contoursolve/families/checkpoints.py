@@ -131,7 +131,8 @@ def others(parts: Checkpoints, target: Path) -> Collection[Path]:
 
 def digest(ready: CompiledSweep) -> str:
     """A name for everything that the results depend on: the block, its options, its values, and the versions."""
-    found = hashlib.sha256(repr((ready.spec, ready.ranges.is_paired, STRETCH, versions())).encode())
+    about = (ready.spec, ready.ranges.is_paired, STRETCH, versions(), *filter(None, [ready.tool]))
+    found = hashlib.sha256(repr(about).encode())
     for word, values in ready.ranges.values.items():
         found.update(f"{word} {values.size} {values.dtype.str}".encode())
         found.update(numpy.ascontiguousarray(values).data)

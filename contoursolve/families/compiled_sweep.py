@@ -64,6 +64,8 @@ class CompiledSweep(Struct, eq=False):
     """The way in which rows are read one by one, by their key."""
     only: int | None = None
     """Of several solutions of each row, the one that counts; what words choose without it."""
+    tool: Any = None
+    """What is asked about tools besides the contours; the results depend on it, too."""
     local: threading.local = field(default_factory=threading.local)
 
     @property
@@ -184,7 +186,7 @@ class _ClassRows:
 
     def _solve_closed(self, ranges: Ranges, places: Mapping[str, Places], target: Target, table: Results) -> None:
         """The rows of a class with one function for all of them."""
-        rows = next(iter(places.values())).size
+        rows = target.stop - target.start if isinstance(target, slice) else target.size
         function, names = self._function(ranges, places, rows), names_of(self.case)
         into = {output: table[name][target] for output, name in names.items()} if isinstance(target, slice) else {}
         out = function.evaluate(rows, into)

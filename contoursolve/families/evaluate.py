@@ -2,7 +2,7 @@
 
 import pickle
 import threading
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import AbstractContextManager, contextmanager
@@ -23,7 +23,7 @@ from contoursolve.families.errors import FamilyError
 from contoursolve.families.export import Family
 from contoursolve.families.free_words import Examples, check_block, examples_of
 from contoursolve.families.solutions_of_rows import names_of_solutions, without_defaults
-from contoursolve.families.word_values import Ranges, ranges_of, stretches
+from contoursolve.families.word_values import TOOL, Ranges, ranges_of, stretches
 from contoursolve.numeric import Array
 from contoursolve.reading import Dialect
 from contoursolve.solving import REASONS, Status, StatusCode
@@ -303,17 +303,33 @@ class FailureSummary(Struct, frozen=True):
     message: str
 
 
+CUT = "cut"
+"""What is counted of a tool that cuts a contour, among what stops it."""
+
+
 class Tally(Struct):
-    """The number of rows with each status and reason, and the values of the first of each."""
+    """The number of rows with each status and reason, and the values of the first of each; where tools vary, too, those
+    of contours, and for each radius how many it cuts, and how many it does not, by what stops it."""
 
     words: tuple[str, ...]
     counts: NDArray[numpy.int64] = field(
         default_factory=lambda: numpy.zeros((len(StatusCode), len(REASONS)), numpy.int64)
     )
     firsts: dict[tuple[int, int], dict[str, float]] = field(default_factory=dict)
+    many: int = 1
+    """Rows of each contour, one after the other."""
+    rows: int = 0
+    tools: dict[float, Counter[str]] = field(default_factory=dict)
 
     def add(self, table: Table) -> None:
         """Count some rows, in their order."""
+        if TOOL in table:
+            told = numpy.where(table["tool.fits"], CUT, table["tool.fault"])
+            for radius in numpy.unique(table[TOOL]).tolist():
+                own = self.tools.setdefault(radius, Counter())
+                own.update(filter(None, told[table[TOOL] == radius].tolist()))
+            firsts = numpy.arange(self.rows, self.rows + told.size) % self.many == 0
+            self.rows, table = self.rows + told.size, {name: column[firsts] for name, column in table.items()}
         status, reason = table["status"], table["reason"]
         known = self.counts > 0
         numpy.add.at(self.counts, (status, reason), 1)

@@ -18,7 +18,7 @@ from contoursolve.families.case_classes import asked_of
 from contoursolve.families.errors import FamilyError
 from contoursolve.families.free_words import kind_of
 from contoursolve.families.results import find_result, lengths_of, names_of_results
-from contoursolve.families.word_values import Ranges
+from contoursolve.families.word_values import TOOL, Ranges
 from contoursolve.gcode import Word
 from contoursolve.geometry import Unit
 from contoursolve.reading import Premises
@@ -52,8 +52,10 @@ def measures_of(template: Template, ranges: Ranges, columns: Iterable[str]) -> d
         head, _, axis = name.rpartition(".")
         if name in template.words:
             found[name] = measure_of_word(template.words[name], answer)
-        elif name in ("status", "reason") or head == "branch":
+        elif name in ("status", "reason", "tool.fits", "tool.fault") or head == "branch":
             found[name] = Measure("")
+        elif name == TOOL:
+            found[name] = Measure(answer.unit.value)
         elif name in asked:
             is_angle = asked[name].unit is Unit.DEGREE
             found[name] = Measure("deg" if is_angle else "mm", "radius" if asked[name].is_diameter else "")
@@ -303,4 +305,4 @@ def csv_lines(tables: Iterable[Mapping[str, NDArray[Any]]]) -> Iterator[str]:
 def _cells(name: str, values: list[Any]) -> list[str]:
     if name in _WORDS:
         return [_WORDS[name][value] or "" for value in values]
-    return ["" if value != value else repr(value) for value in values]
+    return ["" if value != value else value if isinstance(value, str) else repr(value) for value in values]

@@ -117,11 +117,18 @@ class Feasible(Shown, Struct, frozen=True):
     """Whether it is a variable of which nobody says the value; `stated` says nothing then."""
     premises: Premises = Premises()
     """Premises of the contours beside the words."""
+    holds: str = "with a contour"
+    """What the ranges are, in a sentence."""
 
     @property
     def is_complete(self) -> bool:
         """Whether these are proven to be all."""
         return not self.doubts
+
+    @property
+    def largest(self) -> float:
+        """The upper end of the last range; 0 without one."""
+        return self.intervals[-1].high.value if self.intervals else 0.0
 
     def __contains__(self, value: float) -> bool:
         return any(value in each for each in self.intervals)

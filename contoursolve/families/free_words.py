@@ -192,6 +192,8 @@ MOST_BY_ROW = 200_000
 def examples_of(template: Template, ranges: Ranges) -> Examples:
     """A row of each class. What decides how a row is read divides the rows until none is left that is read in another
     way than its example. Raises FamilyError."""
+    if not ranges.values:
+        return Examples((), (Example(0, (), 1),))
     names, known = list(ranges.values), dict[tuple[float, ...], Reading]()
     first = {name: float(values[0]) for name, values in ranges.values.items()}
     limits, is_compared = tuple(limits_of(template, first)), are_compared(template, template.solve(first).claim)

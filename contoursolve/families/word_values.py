@@ -76,19 +76,23 @@ class Ranges(Struct, frozen=True, eq=False):
     @property
     def is_long(self) -> bool:
         """Whether there are too many values to prepare all of them beforehand."""
-        return self.is_paired or max(self.shape) > LONGEST
+        return self.is_paired or max(self.shape, default=0) > LONGEST
 
 
 def name_of(text: str) -> str:
-    """The name of a word, upper case; of a word of the start point, `start.X`; of a fact, its text."""
+    """The name of a word, upper case; of a word of the start point, `start.X`; of a fact, its text; of a tool, TOOL."""
     parts = text.split()
     if len(parts) > 1:
         return " ".join(parts)
     head, dot, rest = text.strip().partition(".")
+    if head.lower() == TOOL:
+        return TOOL
     return f"{START}.{rest.upper()}" if dot and head.lower() == START else text.strip().upper()
 
 
 START = "start"
+TOOL = "tool"
+"""The name that stands for the radius of a tool among words."""
 
 
 def ranges_of(vary: Mapping[str, ArrayLike], *, is_paired: bool) -> Ranges:

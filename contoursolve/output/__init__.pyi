@@ -66,6 +66,8 @@ from .families import (
     tolerances_data as tolerances_data,
     tolerances_lines as tolerances_lines,
     tolerances_title as tolerances_title,
+    tools_data as tools_data,
+    tools_lines as tools_lines,
     word_tolerance_data as word_tolerance_data,
     word_tolerance_lines as word_tolerance_lines,
     word_tolerance_notes as word_tolerance_notes,

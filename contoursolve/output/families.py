@@ -1,6 +1,6 @@
 """Answers about a family as text and as plain data: ranges, regions, values that reach a goal, tolerances."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from math import isnan
 from typing import Any
 
@@ -22,7 +22,7 @@ from contoursolve.families import (
     WordTolerance,
 )
 from contoursolve.geometry import Length
-from contoursolve.output.plain_text import Table
+from contoursolve.output.plain_text import Table, columns
 from contoursolve.output.premises import premise_data, premise_texts
 
 # Ranges of a word --------------------------------------------------------------------------------------------
@@ -56,7 +56,7 @@ def range_title(found: Feasible) -> str:
         number, proof = "no range", "proven" if found.is_complete else "none was found, which is no proof"
     stated = written(found.stated, found.unit)
     now = "" if found.is_open else f" now {stated},"
-    return f"{found.word},{now} from {low} to {high}: {number} with a contour ({proof})"
+    return f"{found.word},{now} from {low} to {high}: {number} {found.holds} ({proof})"
 
 
 def _proof(*, is_complete: bool) -> str:
@@ -101,6 +101,26 @@ def _end_data(end: End) -> dict[str, Any]:
 
 def _reason_data(reason: Reason) -> dict[str, str | None]:
     return {"text": reason.text, "code": reason.code or None, "message": reason.message or None}
+
+
+def tools_lines(found: Mapping[tuple[int, ...], Feasible]) -> Iterator[str]:
+    """The largest tool for all contours of a program, and that for each contour, by its lines."""
+    least, rows = min(found.values(), key=lambda each: each.largest), []
+    whole = f"all {len(found)} contours" if len(found) > 1 else "the contour"
+    largest = f"largest tool for {whole}: {written(least.largest, least.unit, 1)}"
+    yield largest if least.intervals else f"no tool of the range searched cuts {whole}"
+    for place, (lines, each) in enumerate(found.items(), 1):
+        end = _end_cells(each.intervals[0].high, each.unit, 1) if each.intervals else ("none", each.refusal)
+        rows.append((f"{place}.", f"lines {lines[0]} to {lines[-1]}" if len(lines) > 1 else f"line {lines[0]}", *end))
+    yield from columns(rows, left=(0, 1, 3))
+    yield from (f"  {each}" for each in rest_lines(least))
+
+
+def tools_data(found: Mapping[tuple[int, ...], Feasible]) -> dict[str, Any]:
+    """The same as plain data: schema contoursolve/find-tool/1."""
+    contours = [{"lines": [*lines], **range_data(each)} for lines, each in found.items()]
+    least = min(found.values(), key=lambda each: each.largest)
+    return {"schema": "contoursolve/find-tool/1", "largest": least.largest or None, "contours": contours}
 
 
 # Regions of two words ----------------------------------------------------------------------------------------

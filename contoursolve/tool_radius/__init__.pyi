@@ -14,6 +14,11 @@ from .joint import (
     Joint as Joint,
     meet as meet,
 )
+from .largest import (
+    ToolTrials as ToolTrials,
+    find_tools as find_tools,
+    largest_tools as largest_tools,
+)
 from .moves import (
     lines_of as lines_of,
     moves_of as moves_of,
@@ -42,4 +47,9 @@ from .tool import (
     radius_in as radius_in,
     read_tool as read_tool,
     tool_in as tool_in,
+)
+from .tool_sweep import (
+    ToolSweep as ToolSweep,
+    family_of_tools as family_of_tools,
+    sweep_tools as sweep_tools,
 )

@@ -98,7 +98,7 @@ class ToolReport(Struct, frozen=True):
 def look_at_tool(result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest) -> ToolReport:
     """The runs of a solved program with the paths of the tool, and what it cannot cut. Raises ToolError."""
     runs = _tool_runs(result, dialect, asked, wanted)
-    told = _Findings(result, dialect, asked, wanted, runs)
+    told = Findings(result, dialect, asked, wanted, runs)
     found = [each for number, tool_run in enumerate(runs) for each in told.of(tool_run, is_first=not number)]
     return ToolReport(tuple(runs), tuple(sorted(found, key=rank)), dialect.modes.axes)
 
@@ -106,11 +106,14 @@ def look_at_tool(result: Result, dialect: Dialect, asked: Request, wanted: ToolR
 def _tool_runs(result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest) -> list[ToolRun]:
     path = follow(result, dialect, asked.unit, dialect.modes.axes)
     facts = TOOL_FACTS.get(dialect.name, ToolFacts())
-    return [_with_faults(each, path.axes, wanted, facts) for each in find_runs(path, wanted, result.program.blocks)]
+    return [with_faults(each, path.axes, wanted, facts) for each in find_runs(path, wanted, result.program.blocks)]
 
 
-def _with_faults(each: Run, axes: tuple[str, ...], wanted: ToolRequest, facts: ToolFacts) -> ToolRun:
-    made = Offset(each.elements, each.radius, each.side.sign, wanted.outside, each.levels)
+def with_faults(
+    each: Run, axes: tuple[str, ...], wanted: ToolRequest, facts: ToolFacts, kind: type[Offset] = Offset
+) -> ToolRun:
+    """A run with the path of its tool, and all faults."""
+    made = kind(each.elements, each.radius, each.side.sign, wanted.outside, each.levels)
     faults, lead, leaving = list(made.faults), each.lead if each.is_stated else None, each.leaving
     if lead is not None and lead.bend is not None:
         faults.append(Fault(FaultKind.ENTRY_BY_ARC, 0))
@@ -127,7 +130,7 @@ def _with_faults(each: Run, axes: tuple[str, ...], wanted: ToolRequest, facts: T
     return ToolRun(each, made, tuple(faults))
 
 
-class _Findings:
+class Findings:
     """Faults as findings about the lines and words of one program."""
 
     def __init__(
@@ -151,10 +154,10 @@ class _Findings:
         row, travel = fault.kind.value, own.travels[fault.element]
         is_entry, is_exit = fault.kind in _ENTRIES, fault.kind is FaultKind.EXIT_BY_ARC
         shown = own.lead if is_entry and own.lead else own.leaving if is_exit and own.leaving else travel
-        word = self._word(own, fault) if fault.kind is FaultKind.ARC_TOO_SMALL else None
+        word = self.word(own, fault) if fault.kind is FaultKind.ARC_TOO_SMALL else None
         block = self.blocks.get(shown.line)
         span = word.span if word is not None else block.span if block is not None else Span(shown.line, 1, 2)
-        texts, values = self._texts(own, fault), {"off_by_mm": fault.short} if fault.short is not None else {}
+        texts, values = self.texts(own, fault), {"off_by_mm": fault.short} if fault.short is not None else {}
         is_refused = fault.kind is FaultKind.ENTRY_TOO_SHORT and self.facts.needs_entry
         return Diagnostic(
             fault.kind.code,
@@ -173,7 +176,7 @@ class _Findings:
             fault.kind,
         )
 
-    def _texts(self, own: Run, fault: Fault) -> dict[str, str]:
+    def texts(self, own: Run, fault: Fault) -> dict[str, str]:
         """The numbers and names of a message."""
         element, unit, short = own.elements[fault.element], own.unit, fault.short or 0.0
         back, on = (length_in(each, unit) for each in fault.rest)
@@ -245,7 +248,7 @@ class _Findings:
             self.wholes[id(own)] = None if faults or least < LEAST else least
         return self.wholes[id(own)]
 
-    def _word(self, own: Run, fault: Fault) -> Word | None:
+    def word(self, own: Run, fault: Fault) -> Word | None:
         """The word that states the radius of an arc: that of a corner, or R."""
         travel = own.travels[fault.element]
         for answer in self.result.answers:

@@ -30,6 +30,8 @@ class ToolRequest(Struct, frozen=True):
     outside: Outside = Outside.ROLL
     table: Mapping[str, Tool] = {}
     """Tools by their T or D word, such as `T0101`."""
+    default: Tool | None = None
+    """The tool where none is stated."""
 
 
 class Run(Struct, frozen=True):
@@ -259,7 +261,7 @@ class _Stock:
     def at(self, step: Travel) -> Tool:
         """The tool that makes a move. Raises ToolError."""
         place = bisect_right(self.lines, step.line)
-        tool = self.asked.tool or (self.tools[place - 1] if place else None)
+        tool = self.asked.tool or (self.tools[place - 1] if place else self.asked.default)
         if tool is None:
             raise ToolError(
                 f"nothing says which tool cuts program line {step.line}; give --tool R0.8, or write the comment "

@@ -1,0 +1,166 @@
+"""The largest tool: up to which radius tools cut contours, and what ends it."""
+
+from collections.abc import Mapping
+from decimal import Decimal
+from typing import Unpack
+
+from msgspec.structs import replace
+
+from contoursolve.comparison import follow
+from contoursolve.controls import TOOL_FACTS, ToolFacts
+from contoursolve.diagnosis import Depth, limit_text
+from contoursolve.diagnostics import Severity, choice_of
+from contoursolve.families import (
+    TOOL,
+    BlockOptions,
+    End,
+    Feasible,
+    Interval,
+    Reason,
+    RefusedError,
+    Way,
+    errors_of,
+    read_limits,
+    spec_of,
+)
+from contoursolve.program import Request, Result
+from contoursolve.reading import Dialect, join_premises
+from contoursolve.solving import largest_fitting
+from contoursolve.tolerance import INCREMENT, LARGEST, RESIDUAL
+from contoursolve.tool_radius.faults import Fault, FaultKind
+from contoursolve.tool_radius.findings import Findings, ToolRun, with_faults
+from contoursolve.tool_radius.offset import GOUGE, Offset
+from contoursolve.tool_radius.runs import ToolRequest, find_runs
+from contoursolve.tool_radius.tool import Outside, Tool, ToolError, ToolSide, make_tool
+
+_REACH = 1000.0
+"""mm. Up to which a radius is looked for where no range is given, as for any length."""
+
+_ASIDE = (10 * RESIDUAL, GOUGE, INCREMENT)
+"""mm. How far beyond a limit a tool is tried, until one does not fit."""
+
+
+_UNSTATED = Tool(Decimal(1))
+"""The tool with which runs are found where none is stated."""
+
+
+class _Trial(Offset):
+    def largest(self, near: slice) -> float:  # noqa: ARG002 - nobody asks a trial what would fit instead
+        return 0.0
+
+
+class ToolTrials:
+    """The runs of a solved program, and what keeps tools of any radius from each. Raises ToolError."""
+
+    def __init__(self, result: Result, dialect: Dialect | None, asked: Request, wanted: ToolRequest) -> None:
+        if dialect is None:
+            raise ToolError("no block shows the control, which says how moves are read")
+        self.axes, self.facts = dialect.modes.axes, TOOL_FACTS.get(dialect.name, ToolFacts())
+        self.wanted = replace(wanted, default=_UNSTATED)
+        self.told = Findings(result, dialect, asked, wanted, ())
+        self.runs = find_runs(follow(result, dialect, asked.unit, self.axes), self.wanted, result.program.blocks)
+        self.premises = join_premises([each.premises for each in result.answers], dialect.name)
+
+    def at(self, number: int, radius: float) -> ToolRun:
+        """A run with a tool of a radius, mm."""
+        own = self.runs[number]
+        shown = Decimal(repr(round(radius / float(own.unit.in_mm), 9)))
+        moved = replace(own, radius=radius, tool=replace(own.tool, radius=shown, is_metric=False))
+        return with_faults(moved, self.axes, self.wanted, self.facts, _Trial)
+
+    def stops(self, number: int, radius: float) -> list[Fault]:
+        """What keeps a tool of a radius (mm) from a run."""
+        short = FaultKind.ENTRY_TOO_SHORT if self.facts.needs_entry else None
+        faults = self.at(number, radius).faults
+        return [each for each in faults if each.kind.value.severity is Severity.ERROR or each.kind is short]
+
+    def radii(self, number: int, within: tuple[float, float] | None) -> Feasible:
+        """The radii that fit a run. Raises FamilyError, ToolError."""
+        own = self.runs[number]
+        unit, scale = own.unit.value, float(own.unit.in_mm)
+        low, high = (0.0, _REACH / scale) if within is None else read_limits(TOOL, within, LARGEST / scale, unit)
+        if low < 0:
+            raise ToolError(f"the radius of a tool is not below 0; search from 0, such as 0:{high:g}")
+        end = End(high, Way.RANGE, None, True, None, None)
+        if self.stops(number, high * scale):
+            largest = largest_fitting(lambda size: -1.0 if self.stops(number, size) else 1.0, high * scale)
+            tried = (*(largest + each for each in _ASIDE), high * scale)
+            beyond = next(each for each in tried if self.stops(number, each))
+            largest -= GOUGE if self.stops(number, beyond)[0].kind is FaultKind.INTERFERENCE else 0.0
+            reason = self._reason(number, largest, max(beyond, largest + INCREMENT))
+            largest = round(largest / scale, 12)
+            end = End(largest, Way.BISECTION, reason, True, largest, beyond / scale)
+        begin, has_any = End(low, Way.RANGE, None, True, None, None), end.value >= max(low, GOUGE)
+        is_open = own.tool.radius is _UNSTATED.radius
+        about = TOOL, unit, 0.0 if is_open else own.radius / scale, (low, high), (Interval(begin, end),) * has_any, ()
+        refusal = "" if end.reason is None or has_any else end.reason.text
+        return Feasible(*about, refusal, False, is_open, self.premises, "of tools that cut the contour")
+
+    def _reason(self, number: int, largest: float, beyond: float) -> Reason:
+        """The finding about a tool beyond the largest, with its place."""
+        fault, made = self.stops(number, beyond)[0], self.at(number, beyond).run
+        word = self.told.word(made, fault) if fault.kind is FaultKind.ARC_TOO_SMALL else None
+        where = f"program line {made.travels[fault.element].line}{f', {word.text}' if word is not None else ''}"
+        message = fault.kind.value.message.format(**self.told.texts(made, fault))
+        limit = limit_text(largest / float(made.unit.in_mm), made.unit.value, 1)
+        return Reason(f"{where}: {message}: tool at most {limit}", fault.kind.code, message)
+
+
+def largest_tools(
+    trials: ToolTrials, result: Result, within: tuple[float, float] | None
+) -> dict[tuple[int, ...], Feasible]:
+    """The tools that cut each contour of a program, by its lines. Raises ToolError, FamilyError, RefusedError."""
+    if any(each.contour is None for each in result.answers) or (errors_of(result) and not trials.runs):
+        raise RefusedError(result)
+    if not trials.runs:
+        raise ToolError("no cutting move goes beside a contour; there is nothing for a tool to cut")
+    found = dict[tuple[int, ...], Feasible]()
+    for number, own in enumerate(trials.runs):
+        each = trials.radii(number, within)
+        # A contour that runs several times may begin elsewhere each time.
+        found[own.lines] = min(found.get(own.lines, each), each, key=lambda one: one.largest)
+    return found
+
+
+class ToolOptions(BlockOptions, total=False):
+    """Options of every question about tools beside a block (see `find_tools`)."""
+
+    side: str | None
+    tip: int | None
+    outside: str
+
+
+def find_tools(
+    text: str, *, within: tuple[float, float] | None = None, **options: Unpack[ToolOptions]
+) -> Mapping[tuple[int, ...], Feasible]:
+    """The radii of tools that cut each contour of a program, by its lines, in its unit, and what ends them.
+
+    Args:
+        text: the program, or a block; every run of cutting moves is a contour, with contour words or without.
+        within: the range of radii to search; without it, up to 1 m.
+        side: `left` or `right`; without it what the program's G41 or G42 (RL, RR) says.
+        tip: the number of the imaginary tip of a turning tool, 0 to 9.
+        outside: the way around an outside corner, `roll` (without it) or `intersect`.
+        options: as for `feasible`, with the same errors; also raises ToolError for a tool that there cannot be, a side
+            that nothing says, and a program without a cutting move.
+
+    A smaller tool fits wherever a larger one does, so there is one range at most; both sides of its end are tried.
+
+    >>> blocks = "G01 X20. Z-14.6\\nG02 X20.8 Z-15. R0.4\\nG01 X40. Z-15."
+    >>> found = find_tools(blocks, side="right", tip=3, start="X20. Z0.", control="fanuc-lathe")
+    >>> found[1, 2, 3].intervals[0].high.value
+    0.4
+    """
+    wanted, rest = request_of(options)
+    template = spec_of(text, **rest).template()
+    result = template.examined(Depth.VERDICT)
+    return largest_tools(ToolTrials(result, template.asked.dialect, template.asked, wanted), result, within)
+
+
+def request_of(options: ToolOptions) -> tuple[ToolRequest, BlockOptions]:
+    """A tool of any radius, and the options about the block. Raises ToolError, ValueError."""
+    rest: BlockOptions = {name: value for name, value in options.items() if name in BlockOptions.__annotations__}  # type: ignore[assignment]
+    side, tip = options.get("side"), options.get("tip")
+    make_tool(Decimal(0), tip)
+    outside = choice_of(Outside, options.get("outside", Outside.ROLL.value), "outside")
+    return ToolRequest(None, tip, choice_of(ToolSide, side, "side") if side is not None else None, outside), rest
