@@ -26,7 +26,7 @@ from contoursolve.families import (
 from contoursolve.program import Request, Result
 from contoursolve.reading import Dialect, join_premises
 from contoursolve.solving import largest_fitting
-from contoursolve.tolerance import INCREMENT, LARGEST, RESIDUAL
+from contoursolve.tolerance import INCREMENT, LARGEST, LENGTH
 from contoursolve.tool_radius.faults import Fault, FaultKind
 from contoursolve.tool_radius.findings import Findings, ToolRun, with_faults
 from contoursolve.tool_radius.offset import GOUGE, Offset
@@ -36,9 +36,12 @@ from contoursolve.tool_radius.tool import Outside, Tool, ToolError, ToolSide, ma
 _REACH = 1000.0
 """mm. Up to which a radius is looked for where no range is given, as for any length."""
 
-_ASIDE = (10 * RESIDUAL, GOUGE, INCREMENT)
+_ASIDE = (10 * LENGTH, GOUGE, INCREMENT)
 """mm. How far beyond a limit a tool is tried, until one does not fit."""
 
+
+_SLACK = 0.7 * LENGTH
+"""mm. By so much a tool may be too large and still counts as one that fits: the limit itself lies below."""
 
 _UNSTATED = Tool(Decimal(1))
 """The tool with which runs are found where none is stated."""
@@ -83,7 +86,7 @@ class ToolTrials:
             raise ToolError(f"the radius of a tool is not below 0; search from 0, such as 0:{high:g}")
         end = End(high, Way.RANGE, None, True, None, None)
         if self.stops(number, high * scale):
-            largest = largest_fitting(lambda size: -1.0 if self.stops(number, size) else 1.0, high * scale)
+            largest = largest_fitting(lambda size: -1.0 if self.stops(number, size + _SLACK) else 1.0, high * scale)
             tried = (*(largest + each for each in _ASIDE), high * scale)
             beyond = next(each for each in tried if self.stops(number, each))
             largest -= GOUGE if self.stops(number, beyond)[0].kind is FaultKind.INTERFERENCE else 0.0
