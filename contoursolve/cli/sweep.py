@@ -414,7 +414,7 @@ def _tools(tally: Tally) -> list[str]:
     """A line for each tool: how many contours it cuts, and what stops it at the others."""
     rows = []
     for radius, told in sorted(tally.tools.items()):
-        others = ", ".join(f"{count:,} {kind.replace('_', ' ')}" for kind, count in told.most_common() if kind != CUT)
+        others = ", ".join(f"{count:,} ({kind.replace('_', ' ')})" for kind, count in told.most_common() if kind != CUT)
         rows.append((f"{told[CUT]:,}", f"cut by the tool R{radius:g}{others and '; not '}{others}"))
     return columns(rows, left=(1,), indent="") if rows else []
 

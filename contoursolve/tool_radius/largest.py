@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from contoursolve.comparison import follow
 from contoursolve.controls import TOOL_FACTS, ToolFacts
-from contoursolve.diagnosis import Depth, limit_text
+from contoursolve.diagnosis import Depth, inward, limit_text
 from contoursolve.diagnostics import Severity, choice_of
 from contoursolve.families import (
     TOOL,
@@ -90,7 +90,8 @@ class ToolTrials:
             tried = (*(largest + each for each in _ASIDE), high * scale)
             beyond = next(each for each in tried if self.stops(number, each))
             largest -= GOUGE if self.stops(number, beyond)[0].kind is FaultKind.INTERFERENCE else 0.0
-            reason = self._reason(number, largest, max(beyond, largest + INCREMENT))
+            more = float(inward(Decimal(repr(beyond / scale)), unit, -1)) * scale
+            reason = self._reason(number, largest, more if self.stops(number, more) else beyond)
             largest = round(largest / scale, 12)
             end = End(largest, Way.BISECTION, reason, True, largest, beyond / scale)
         begin, has_any = End(low, Way.RANGE, None, True, None, None), end.value >= max(low, GOUGE)
