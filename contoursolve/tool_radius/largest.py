@@ -106,8 +106,8 @@ class ToolTrials:
         word = self.told.word(made, fault) if fault.kind is FaultKind.ARC_TOO_SMALL else None
         where = f"program line {made.travels[fault.element].line}{f', {word.text}' if word is not None else ''}"
         message = fault.kind.value.message.format(**self.told.texts(made, fault))
-        limit = limit_text(largest / float(made.unit.in_mm), made.unit.value, 1)
-        return Reason(f"{where}: {message}: tool at most {limit}", fault.kind.code, message)
+        limit = f"tool at most {limit_text(largest / float(made.unit.in_mm), made.unit.value, 1)}"
+        return Reason(f"{where}: {message}: {limit if largest >= GOUGE else 'no tool fits'}", fault.kind.code, message)
 
 
 def largest_tools(

@@ -97,7 +97,7 @@ def sweep_tools(
     if (radii := values.pop(TOOL, None)) is None:
         raise FamilyError("no tool varies; name its radii as tool")
     make_tool(Decimal(repr(float(radii.min()))), None)
-    spec, is_paired = spec_of(block, **rest), paired and bool(values)
+    spec, is_paired = spec_of(block, values, **rest), paired and bool(values)
     template = spec.template()
     as_it_stands = template.examined(Depth.VERDICT)
     # What is wrong with the tool is told before anything is solved.

@@ -91,6 +91,15 @@ def test_what_ends_the_range_is_told_with_its_place():
     assert call("range", "--within", "0.1:0.2", *about).stdout.count("end of the range searched") == 2
 
 
+def test_what_no_tool_cuts_has_no_range():
+    crossing = ("--block", "G01 X10. Y0", "--block", "X5. Y5.", "--block", "X5. Y-5.", "--start", "X0 Y0")
+    done = call("range", "--word", "tool", *MILL, "--side", "left", *crossing)
+    assert (done.exit_code, "no tool fits" in done.stdout) == (1, True)
+    arc = ("--block", "G42 G02 X20. Z-10. R10.", "--block", "G01 X40. Z-20.", "--start", "X20. Z0.")
+    done = call("range", "--word", "tool", *LATHE, *arc)
+    assert (done.exit_code, "compensation begins in an arc: no tool fits" in done.stdout) == (1, True)
+
+
 def test_a_tool_is_in_the_unit_of_the_block():
     block = ("--block", "G20 G18 G01 X.8 Z-1. ,R.2", "--block", "X3. Z-2.", "--start", "X.8 Z0", "--units", "inch")
     found = data_of("range", "--word", "tool", *LATHE, "--side", "right", *block)
@@ -246,6 +255,12 @@ def test_arrays_have_the_tool_as_their_last_axis():
     assert found["tool.fault"][0].tolist() == ["arc_too_small"] * 2
     assert [found.measures()[name].unit for name in ("tool", "tool.largest", "tool.fits")] == ["inch", "mm", ""]
     assert found.to_arrow()["tool.fault"].to_pylist()[3] == ""
+
+
+def test_a_variable_varies_beside_the_tool():
+    blocks = ("--block", "G01 X20. Z-10. ,R#100", "--block", "X40. ,A150.", "--block", "Z-30.", "--start", "X20. Z0.")
+    found = data_of("sweep", *blocks, *LATHE, "--side", "right", "--vary", "#100=1,2", "--vary", "tool=0.5,1.5")
+    assert [each["contours"] for each in found["tools"]] == [{"cut": 2}, {"arc_too_small": 1, "cut": 1}]
 
 
 def test_another_side_is_another_sweep(tmp_path: Path):
