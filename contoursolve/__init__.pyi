@@ -99,7 +99,7 @@ from .program import (
     UnknownControlError as UnknownControlError,
     changes_of as changes_of,
     find_settings as find_settings,
-    find_tools as find_tools,
+    find_tool_table as find_tool_table,
     likely_fixes as likely_fixes,
     mend_open as mend_open,
     safe_fixes as safe_fixes,
@@ -117,8 +117,8 @@ from .solving import (
     Status as Status,
 )
 from .tool_radius import (
-    ToolReport as ToolReport,
     ToolError as ToolError,
+    ToolReport as ToolReport,
     family_of_tools as family_of_tools,
     find_tools as find_tools,
 )

@@ -21,7 +21,6 @@ from contoursolve.cli.block_options import (
 )
 from contoursolve.cli.options import FOUND_ERRORS, check_toolless, load, settings_of, side_options
 from contoursolve.cli.printing import print_lines
-from contoursolve.cli.tool import wanted_tool
 from contoursolve.families import feasible, find_word, region, tolerance_for, tolerances
 from contoursolve.output import (
     found_data,
@@ -38,7 +37,7 @@ from contoursolve.output import (
     word_tolerance_lines,
 )
 from contoursolve.program import check_start
-from contoursolve.tool_radius import ToolTrials, find_tools, largest_tools
+from contoursolve.tool_radius import ToolTrials, find_tools, largest_tools, wanted_tool
 
 
 @click.command("range", short_help="Tell for which values of a word, or of two, a contour exists.")

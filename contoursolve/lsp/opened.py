@@ -138,7 +138,7 @@ class Opened:
         program, name = self.program, str(self.path) if self.path is not None else "<program>"
         is_stated = "contoursolve tool" in program.text
         try:
-            has_table = self.path is not None and contoursolve.find_tools(self.path.parent)
+            has_table = self.path is not None and contoursolve.find_tool_table(self.path.parent)
             if program.dialect is None or not (is_stated or has_table) or len(program.blocks) > _LONGEST:
                 return None
             return contoursolve.solve_with_tool(program.text, name=name, control=program.dialect, depth="verdict")[1]

@@ -57,7 +57,7 @@ from .project_file import (
     configure as configure,
     find_baseline as find_baseline,
     find_settings as find_settings,
-    find_tools as find_tools,
+    find_tool_table as find_tool_table,
     read_setting as read_setting,
     restate_control as restate_control,
     stated_settings as stated_settings,

@@ -58,7 +58,7 @@ def find_baseline(folder: Path) -> Path | None:
     return found[1].parent / named if found is not None and isinstance(named, str) else None
 
 
-def find_tools(folder: Path) -> Mapping[str, Any]:
+def find_tool_table(folder: Path) -> Mapping[str, Any]:
     """The table of tools of this file; empty if it has none. Raises SettingError."""
     found = _find(folder)
     tools = found[0].get(TOOLS, {}) if found is not None else {}

@@ -8,7 +8,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import rank
-from contoursolve.program import Result, Run, find_tools
+from contoursolve.program import Result, Run, find_tool_table
 from contoursolve.reading import ReadIssue
 from contoursolve.tool_radius.findings import ToolReport, look_at_tool
 from contoursolve.tool_radius.runs import ToolRequest
@@ -36,7 +36,7 @@ def wanted_tool(program: str, tool: str | None, tip: int | None, side: str | Non
         tip,
         ToolSide(side) if side else None,
         Outside(outside),
-        {name: _tool_of(name, row) for name, row in find_tools(folder).items()} if is_own else {},
+        {name: _tool_of(name, row) for name, row in find_tool_table(folder).items()} if is_own else {},
     )
 
 
