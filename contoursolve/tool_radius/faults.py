@@ -62,6 +62,16 @@ class FaultKind(Enum):
         "write {code}, or the path of the tool: contoursolve expand --tool",
         Severity.WARNING,
     )
+    BY_HAND = _Row(
+        "the path is made by hand for a {kind} of radius {made}: its arcs of this radius lead around corners",
+        "program the part itself with {code}, and expand --tool writes the path of any tool",
+        Severity.INFO,
+    )
+    OTHER_RADIUS = _Row(
+        "the path is made by hand for radius {made}: with the {tool} this {comes_out}",
+        "take a tool of radius {made}, or make the path anew",
+        Severity.WARNING,
+    )
     INSIDE_CORNER = _Row(
         "the inside corner behind this {element} keeps the radius of the {tool}: {short} stays in it, {rest}",
         "a smaller tool leaves less",

@@ -10,17 +10,29 @@ from msgspec.structs import replace
 
 from contoursolve.comparison import follow
 from contoursolve.controls import TOOL_FACTS, ToolFacts
-from contoursolve.diagnosis import angle_text, apply_edits, change, coordinates, length_in, rank, write_word, written
+from contoursolve.diagnosis import (
+    angle_text,
+    apply_edits,
+    change,
+    coordinates,
+    join,
+    length_in,
+    rank,
+    write_word,
+    written,
+)
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, Label, Severity, Span
 from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.program import Request, Result, run
 from contoursolve.reading import Dialect
 from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Point, Segment
 from contoursolve.tolerance import LARGEST, LENGTH
+from contoursolve.tool_radius.by_hand import is_around, made_for, part_of
 from contoursolve.tool_radius.faults import Fault, FaultKind
 from contoursolve.tool_radius.joint import direction
-from contoursolve.tool_radius.offset import Offset, Piece, flank_faults, tip_faults, uncompensated, uncut
+from contoursolve.tool_radius.offset import Offset, Piece, flank_faults, shifted, tip_faults, uncompensated, uncut
 from contoursolve.tool_radius.runs import Run, ToolRequest, find_runs, place_of
+from contoursolve.tool_radius.tool import Outside
 
 
 class ToolRun(Struct, frozen=True, dict=True):
@@ -65,16 +77,7 @@ class ToolRun(Struct, frozen=True, dict=True):
     def uncompensated(self) -> tuple[Segment, ...]:
         """What comes out where the programmed point itself runs along the contour: the outline of the nose's way; empty
         where it is not simple, and where the program states compensation."""
-        own, (first, second) = self.run, self.run.vector
-        way = [shifted(each, (-first, -second)) for each in own.elements]
-        pieces = None if own.is_stated else Offset(way, own.radius, -own.side.sign, levels=own.levels).pieces
-        return tuple(each.segment for each in pieces or ())
-
-
-def shifted(segment: Segment, by: Point) -> Segment:
-    """A segment moved by a vector."""
-    places = {name: getattr(segment, name) for name in ("start", "end", "center") if hasattr(segment, name)}
-    return replace(segment, **{name: (at[0] + by[0], at[1] + by[1]) for name, at in places.items()})
+        return () if self.run.is_stated else part_of(self.run, self.run.radius, Outside.ROLL)
 
 
 def _contour(own: Run, names: Sequence[str], segments: Sequence[Segment]) -> Contour:
@@ -146,9 +149,20 @@ class Findings:
         own, tip = tool_run.run, tool_run.run.tool.vector() if tool_run.run.is_lathe else (0.0, 0.0)
         told = [Fault(FaultKind.APPROACH, 0)] if own.is_approached else []
         told += [Fault(FaultKind.SWITCHED, 0)] if own.lead is None and not is_first else []
-        if not own.is_stated:
-            told += uncompensated(own.elements, own.side.sign, own.radius, tip)
+        told += [] if own.is_stated else self._uncompensated(own, tip)
         yield from (self._finding(own, fault) for fault in (*told, *tool_run.faults, *uncut(tool_run.offset)))
+
+    def _uncompensated(self, own: Run, tip: Point) -> Iterator[Fault]:
+        """What comes out where the programmed point runs along a contour; or along the path of another tool."""
+        made = made_for(own)
+        if made is None:
+            yield from uncompensated(own.elements, own.side.sign, own.radius, tip)
+            return
+        around = [number for number, each in enumerate(own.elements) if is_around(each, made, own)]
+        yield Fault(FaultKind.BY_HAND, around[0], length=made)
+        for each in uncompensated(own.elements, own.side.sign, own.radius - made, tip):
+            if each.element not in around:
+                yield replace(each, kind=FaultKind.OTHER_RADIUS, length=made)
 
     def _finding(self, own: Run, fault: Fault) -> Diagnostic:
         row, travel = fault.kind.value, own.travels[fault.element]
@@ -182,6 +196,8 @@ class Findings:
         back, on = (length_in(each, unit) for each in fault.rest)
         return {
             "tool": f"{_kind(own)} R{own.tool.radius}",
+            "kind": _kind(own),
+            "made": length_in(fault.length, unit),
             "element": "arc" if isinstance(element, ArcSegment) else "line",
             "radius": length_in(getattr(element, "radius", 0.0), unit),
             "short": length_in(short, unit),
@@ -196,7 +212,7 @@ class Findings:
             "needed": angle_text(fault.rest[0]),
             "stated": angle_text(fault.rest[1]),
             "rest": f"{back} and {on} along its sides",
-            "comes_out": self._comes_out(own, element, short) if fault.kind is FaultKind.UNCOMPENSATED else "",
+            "comes_out": self._comes_out(own, element, short),
         }
 
     def _comes_out(self, own: Run, element: Segment, off: float) -> str:
@@ -224,6 +240,9 @@ class Findings:
             where = "the whole contour (tried)" if fault.largest == whole else "this place"
             more = f"; {all_} the whole contour (tried)" if whole and fault.largest != whole else ""
             yield f"a {kind} of radius up to {fits} cuts {where}{more}"
+        if fault.kind is FaultKind.BY_HAND:
+            places = [each.end for each in part_of(own, fault.length)][:_MOST_PLACES]
+            yield f"the part goes through {join([coordinates(at, own.plane, unit) for at in places])}"
         if fault.kind is FaultKind.ARC_TOO_SMALL:
             yield f"the smallest inside radius that this {kind} makes is {length_in(own.radius, unit)}"
         if fault.kind is FaultKind.ELEMENT_VANISHES and 0 < fault.element < len(own.elements) - 1:
@@ -284,6 +303,9 @@ class Findings:
 
 _TRIALS = 8
 """Radii that are tried for a whole contour, each the largest that the faults of the one before allow."""
+
+_MOST_PLACES = 6
+"""Places of a part that a note names."""
 
 _ENTRIES = (FaultKind.ENTRY_BY_ARC, FaultKind.ENTRY_TOO_SHORT, FaultKind.APPROACH)
 

@@ -225,6 +225,12 @@ NOTICED = 0.005
 """mm. A smaller error is not told (assumed)."""
 
 
+def shifted(segment: Segment, by: Point) -> Segment:
+    """A segment moved by a vector."""
+    places = {name: getattr(segment, name) for name in ("start", "end", "center") if hasattr(segment, name)}
+    return replace(segment, **{name: (at[0] + by[0], at[1] + by[1]) for name, at in places.items()})
+
+
 def tip_faults(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[Fault]:
     """The elements from whose surface the tip of a tool points away, each with how deep the nose would lie."""
     for number, element in enumerate(elements):

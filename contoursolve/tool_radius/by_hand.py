@@ -1,0 +1,73 @@
+"""The radius for which the path of a tool was made by hand: the one with which the part has round numbers."""
+
+from math import radians, tan
+
+from msgspec.structs import replace
+
+from contoursolve.geometry import Length
+from contoursolve.solving import ArcSegment, Point, Segment
+from contoursolve.tool_radius.clearance import ahead
+from contoursolve.tool_radius.joint import direction
+from contoursolve.tool_radius.offset import Offset, shifted
+from contoursolve.tool_radius.runs import Run
+from contoursolve.tool_radius.tool import Outside
+
+_ROUNDED = 0.002
+"""mm. By so much words move an arc when they are rounded."""
+
+_HALF_TURN = 180
+
+_STEPS = {Length.MM: 0.05, Length.INCH: 0.005}
+"""Numbers of a drawing are multiples of this (assumed)."""
+
+
+def part_of(own: Run, radius: float, outside: Outside = Outside.INTERSECT) -> tuple[Segment, ...]:
+    """The part that a tool of a radius (mm) makes where the programmed point itself runs along the moves; empty where
+    it is not simple. An arc of its radius around an outside corner makes that corner."""
+    first, second = own.tool.vector() if own.is_lathe else (0.0, 0.0)
+    found, stretch, corner = list[Segment](), list[Segment](), None
+    for each in (*own.elements, None):
+        way = shifted(each, (-radius * first, -radius * second)) if each is not None else None
+        if way is not None and not is_around(way, radius, own):
+            stretch.append(way)
+            continue
+        pieces = Offset(stretch, radius, -own.side.sign, outside).pieces if stretch else ()
+        if pieces is None:
+            return ()
+        own_pieces = [each.segment for each in pieces]
+        if own_pieces and corner is not None:
+            own_pieces[0] = replace(own_pieces[0], start=corner)
+        corner = way.center if isinstance(way, ArcSegment) else None
+        if own_pieces and corner is not None:
+            own_pieces[-1] = replace(own_pieces[-1], end=corner)
+        found, stretch = [*found, *own_pieces], []
+    return tuple(found)
+
+
+def made_for(own: Run) -> float | None:
+    """The radius (mm) for which the moves were made by hand: arcs of it lead around corners that
+    have round numbers, and are no roundings of corners that have. None where the moves are a contour themselves."""
+    first, second = own.tool.vector() if own.is_lathe else (0.0, 0.0)
+    shares, scale = dict[float, int](), float(own.unit.in_mm)
+    for each in own.elements:
+        if isinstance(each, ArcSegment) and each.turn.sign != own.side.sign and abs(each.sweep) < _HALF_TURN:
+            radius = round(each.radius / scale, 2 if own.unit is Length.MM else 4) * scale
+            rolled = each.center[0] - radius * first, each.center[1] - radius * second
+            rounded = ahead(each.start, direction(each, at_end=False), each.radius * tan(radians(each.sweep) / 2))
+            shares[radius] = shares.get(radius, 0) + _round_ones(rolled, own) - _round_ones(rounded, own)
+    best = max(shares, key=lambda radius: shares[radius], default=0.0)
+    return best if shares.get(best, 0) > 0 else None
+
+
+def is_around(segment: Segment, radius: float, own: Run) -> bool:
+    """Whether it is an arc by which a tool of a radius rolls around an outside corner."""
+    if not isinstance(segment, ArcSegment) or segment.turn.sign == own.side.sign:
+        return False
+    return abs(segment.radius - radius) <= _ROUNDED
+
+
+def _round_ones(at: Point, own: Run) -> int:
+    """How many coordinates of a place are round, as they are written."""
+    step, scale = _STEPS[own.unit], float(own.unit.in_mm)
+    numbers = (value * (1 + is_diameter) / scale for value, is_diameter in zip(at, own.plane.diameters, strict=True))
+    return sum(abs(each / step - round(each / step)) * step * scale <= _ROUNDED for each in numbers)
