@@ -1,6 +1,7 @@
 """The command that compares two programs."""
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -8,6 +9,7 @@ from contoursolve.api import read_program
 from contoursolve.cli.options import (
     FOUND_ERRORS,
     CouldNotRunError,
+    check_toolless,
     control_option,
     let_option,
     naming,
@@ -16,14 +18,18 @@ from contoursolve.cli.options import (
     rules_option,
     settings_of,
     settings_option,
+    tool_options,
     units_option,
 )
 from contoursolve.cli.printing import print_lines, say
 from contoursolve.controls import DIALECTS, PLAIN
 from contoursolve.gcode import Program
 from contoursolve.geometry import Length
-from contoursolve.program import CONTROL, Result, SolveOptions, choose_alike, configure, run
+from contoursolve.program import CONTROL, Request, Result, SolveOptions, choose_alike, configure, run
 from contoursolve.reading import Dialect, ReadIssue
+
+if TYPE_CHECKING:
+    from contoursolve.comparison import ToolPath
 
 _ANY_CONTROL = (*DIALECTS, *PLAIN)
 
@@ -53,6 +59,7 @@ _ANY_CONTROL = (*DIALECTS, *PLAIN)
 )
 @rules_option
 @settings_option
+@tool_options
 @click.option(
     "--format", "format_", type=click.Choice(["text", "json"]), default="text", show_default=True, help="What to print."
 )
@@ -72,6 +79,8 @@ def diff(
     rules: str,
     assignments: tuple[str, ...],
     format_: str,
+    tool: str | None,
+    **stated: Any,
 ) -> None:
     """Tell whether OLD and NEW describe the same path, and if not, where they differ first.
 
@@ -80,18 +89,24 @@ def diff(
     arc. Cycles and other blocks that diff does not follow must be the same word by word. diff lists them. It does not
     compare feeds, leads, speeds, tools, offsets, dwells and M functions.
 
+    With --tool, a program with G41 or G42 (RL or RR) stands for the path of this tool beside its contour, one without
+    them for the path of the tool itself. With --side, OLD is a contour, too.
+
     Exit status: 0 the same path, 1 not the same or not solved, 2 could not run.
 
     \b
     contoursolve diff shaft.nc shaft_by_hand.nc
     contoursolve diff shaft.nc shaft.ngc --new-control linuxcnc --tolerance 0.002
+    contoursolve diff shaft.nc by_hand.nc --tool R0.8 --tip 3
     """
     from contoursolve.comparison import compare, follow  # noqa: PLC0415 - only here
     from contoursolve.output import differences  # noqa: PLC0415 - only here
 
     if old == new == "-":
         raise click.UsageError("only one of OLD and NEW can be standard input")
-    sides: list[tuple[Result, Dialect, Length]] = []
+    if tool is None:
+        check_toolless(stated)
+    sides: list[tuple[Result, Dialect, Request]] = []
     for path, own, unit in ((old, control, units), (new, new_control, new_units or units)):
         program = read_program(path)
         before = sides[0][1] if sides else None
@@ -99,24 +114,54 @@ def diff(
         dialect = _dialect_of(program, own or (before if is_kept else None), before, assignments, folders)
         told = SolveOptions(units=unit, rules=rules, variables=variables, folders=folders, strict=True)
         asked = told.request(program.name, dialect)
-        sides.append((run(program, asked), dialect, asked.unit))
+        sides.append((run(program, asked), dialect, asked))
     results = [result for result, _, _ in sides]
     if any(map(_has_no_path, results)):
         if format_ == "json":
             click.echo(differences.refusal_to_json(results))
         else:
-            for (result, dialect, length), path in zip(sides, (old, new), strict=True):
-                print_findings(result, path, control=dialect, units=length.value)
+            for (result, dialect, asked), path in zip(sides, (old, new), strict=True):
+                print_findings(result, path, control=dialect, units=asked.unit.value)
             say("not compared: a program that has errors has no path")
         context.exit(FOUND_ERRORS)
     axes = tuple(sorted({axis for _, dialect, _ in sides for axis in dialect.modes.axes}))
-    one, other = (follow(result, dialect, unit, axes) for result, dialect, unit in sides)
+    one, other = (follow(result, dialect, asked.unit, axes) for result, dialect, asked in sides)
+    if tool is not None:
+        one, other = _beside_tool(sides, (one, other), tool, stated)
     comparison = compare(one, other, tolerance)
     if format_ == "json":
         click.echo(differences.to_json(comparison))
     else:
         print_lines(differences.comparison_lines(comparison))
     context.exit(0 if comparison.is_equal else FOUND_ERRORS)
+
+
+def _beside_tool(
+    sides: Sequence[tuple[Result, Dialect, Request]],
+    paths: "Sequence[ToolPath]",
+    tool: str,
+    stated: dict[str, Any],
+) -> "list[ToolPath]":
+    """The paths of the tool beside contours, and those that are paths of it already. Raises CouldNotRunError."""
+    from contoursolve.tool_radius import is_compensated, look_at_tool, path_of_tool, wanted_tool  # noqa: PLC0415
+
+    found: list[ToolPath] = []
+    for (result, dialect, asked), path in zip(sides, paths, strict=True):
+        own = stated if not found else {**stated, "side": None}
+        if not is_compensated(path) and own["side"] is None:
+            found.append(path)
+            continue
+        name = result.program.name
+        with naming(name):
+            report = look_at_tool(result, dialect, asked, wanted_tool(name, tool, **own), path.axes)
+        error = next((each for each in report.findings if each.is_error), None)
+        if error is not None:
+            told = f"{error.message}; contoursolve check {name} --tool {tool} tells more"
+            raise CouldNotRunError(f"{name}: program line {error.span.line}: {told}")
+        found.append(path_of_tool(report))
+    if all(one is other for one, other in zip(found, paths, strict=True)):
+        raise CouldNotRunError("neither program has G41 or G42 (RL or RR); say --side left or right of OLD")
+    return found
 
 
 def _reads_what_shows_others(control: Dialect, program: Program) -> bool:

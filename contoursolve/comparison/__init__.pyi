@@ -14,6 +14,7 @@ from .compare import (
 )
 from .follow import (
     ToolPath as ToolPath,
+    bend_of as bend_of,
     follow as follow,
 )
 from .travel import (

@@ -140,7 +140,7 @@ class _Follower:
             places.append(tuple(place))
         bend = None
         if isinstance(segment, ArcSegment):
-            bend = _bend((first, second), segment.center, segment.start, segment.end, segment.turn)
+            bend = bend_of((first, second), segment.center, segment.start, segment.end, segment.turn)
         is_rapid = self.plain.is_rapid(part.block) if self.plain else part.is_rapid
         motion = Motion.RAPID if is_rapid else Motion.FEED
         travel = self._travel(part.block, part.state, motion, (places[0], places[1]), bend)
@@ -269,7 +269,7 @@ class _Follower:
             base = start if self.centers is Centers.START else (0.0, 0.0)
             first, second = (values.get(address, 0.0) for address in here.plane.centers)
             center = base[0] + first, base[1] + second
-        bend, unit = _bend(indices, center, start, end, turn), here.unit.value
+        bend, unit = bend_of(indices, center, start, end, turn), here.unit.value
         if abs(bend.radii[0] - bend.radii[1]) > self.modes.radius_difference or not min(bend.radii):
             one, other = (value / float(here.unit.in_mm) for value in bend.radii)
             return self._unfollowed(
@@ -348,7 +348,7 @@ def _named(code: Code) -> str:
     return code.name or f"G{code.number}"
 
 
-def _bend(
+def bend_of(
     axes: tuple[int, int],
     center: tuple[float, float],
     start: tuple[float, float],

@@ -22,6 +22,7 @@ from .largest import (
 from .moves import (
     lines_of as lines_of,
     moves_of as moves_of,
+    path_of_tool as path_of_tool,
     title_of as title_of,
 )
 from .offset import (
@@ -32,6 +33,7 @@ from .runs import (
     Run as Run,
     ToolRequest as ToolRequest,
     find_runs as find_runs,
+    is_compensated as is_compensated,
 )
 from .stated import (
     report_on as report_on,

@@ -8,7 +8,7 @@ from math import dist
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.comparison import follow
+from contoursolve.comparison import ToolPath, follow
 from contoursolve.controls import TOOL_FACTS, ToolFacts
 from contoursolve.diagnosis import (
     angle_text,
@@ -94,22 +94,27 @@ class ToolReport(Struct, frozen=True):
 
     runs: tuple[ToolRun, ...]
     findings: tuple[Diagnostic, ...]
-    axes: tuple[str, ...]
-    """Those of the control, in the order of the places of moves."""
+    path: ToolPath
+    """The path of the program, of which the runs are parts."""
 
 
-def look_at_tool(result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest) -> ToolReport:
-    """The runs of a solved program with the paths of the tool, and what it cannot cut. Raises ToolError."""
-    runs = _tool_runs(result, dialect, asked, wanted)
+def look_at_tool(
+    result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest, axes: tuple[str, ...] = ()
+) -> ToolReport:
+    """The runs of a solved program with the paths of the tool, and what it cannot cut; places of its path are in these
+    axes, or in those of its control. Raises ToolError."""
+    path, runs = _tool_runs(result, dialect, asked, wanted, axes)
     told = Findings(result, dialect, asked, wanted, runs)
     found = [each for number, tool_run in enumerate(runs) for each in told.of(tool_run, is_first=not number)]
-    return ToolReport(tuple(runs), tuple(sorted(found, key=rank)), dialect.modes.axes)
+    return ToolReport(tuple(runs), tuple(sorted(found, key=rank)), path)
 
 
-def _tool_runs(result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest) -> list[ToolRun]:
-    path = follow(result, dialect, asked.unit, dialect.modes.axes)
-    facts = TOOL_FACTS.get(dialect.name, ToolFacts())
-    return [with_faults(each, path.axes, wanted, facts) for each in find_runs(path, wanted, result.program.blocks)]
+def _tool_runs(
+    result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest, axes: tuple[str, ...] = ()
+) -> tuple[ToolPath, list[ToolRun]]:
+    path = follow(result, dialect, asked.unit, axes or dialect.modes.axes)
+    facts, runs = TOOL_FACTS.get(dialect.name, ToolFacts()), find_runs(path, wanted, result.program.blocks)
+    return path, [with_faults(each, path.axes, wanted, facts) for each in runs]
 
 
 def with_faults(
@@ -297,7 +302,7 @@ class Findings:
         tried = run(program, self.asked)
         if sum(each.is_error for each in tried.diagnostics) > sum(each.is_error for each in self.result.diagnostics):
             return False
-        runs = _tool_runs(tried, self.dialect, self.asked, self.wanted)
+        _, runs = _tool_runs(tried, self.dialect, self.asked, self.wanted)
         return all(not each.offset.faults for each in runs if {*each.run.lines} & {*own.lines})
 
 

@@ -21,6 +21,11 @@ from contoursolve.tool_radius.tool import Outside, Tool, ToolError, ToolSide, to
 SIDES = {side.code: side for side in ToolSide}
 
 
+def is_compensated(path: ToolPath) -> bool:
+    """Whether any of its moves is made under G41 or G42, RL or RR."""
+    return any(isinstance(step, Travel) and step.compensation in SIDES for step in path.steps)
+
+
 class ToolRequest(Struct, frozen=True):
     """A tool as it is asked for: by an option, or in the program and the table of tools; and its side."""
 
