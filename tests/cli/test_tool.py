@@ -178,6 +178,54 @@ def test_what_comes_out_without_compensation(tip: int, radius: str, blocks: str,
     assert all(text in done.stdout for text in told)
 
 
+HAND = """\
+G21 G40 G18
+G00 X16. Z2.
+G00 X14.4 Z0.
+G01 X19.4 F0.2
+G03 X20.5314 Z-0.2343 R0.8
+G01 X23.5314 Z-1.7343
+G03 X24. Z-2.3 R0.8
+G01 Z-17.0679
+G00 X60. Z50.
+"""
+"""The face, the chamfer and the cylinder of a stud, X21. Z0., X24. Z-1.5, for nose R0.8 (sheet: TR-P1)."""
+
+
+def test_a_path_that_is_made_by_hand_names_its_radius_and_its_part(tmp_path: Path):
+    (tmp_path / "a.nc").write_text(HAND)
+    done = call("check", *LATHE, *NOSE, "--side", "right", tmp_path / "a.nc")
+    assert "the path is made by hand for a nose of radius 0.8000 mm" in done.stdout
+    assert "the part goes through Z0.0000 X21.0001, Z-1.5000 X24.0000 and Z-16.2679 X24.0000" in done.stdout
+    assert done.stdout.splitlines()[-1].endswith("1 info")
+    smaller = call("check", *LATHE, "--tool", "R0.4", "--tip", "3", "--side", "right", tmp_path / "a.nc").stdout
+    # The chamfer of 0.8 is 0.3314 too thick without compensation: for half of it, half of that, to the other side.
+    assert "with the nose R0.4 this line comes out 0.1657 mm too deep" in smaller
+    assert smaller.count("[tool-other-radius]") == 1
+
+
+def test_roundings_of_the_radius_of_a_nose_are_no_path_by_hand():
+    blocks = ("G01 X20. ,R0.8", "Z-10. ,R2.", "X30. ,R0.8", "Z-20.", "X50. Z-30. ,R0.8", "Z-40.")
+    words = [word for block in blocks for word in ("--block", block)]
+    done = call("check", *LATHE, *NOSE, "--side", "right", "--start", "X0. Z0.", *words)
+    assert "tool-uncompensated" in done.stdout
+    assert "tool-by-hand" not in done.stdout
+
+
+def test_diff_compares_a_contour_with_the_path_of_the_tool_beside_it(tmp_path: Path):
+    (tmp_path / "a.nc").write_text(COMPENSATED)
+    made = call("expand", *LATHE, *NOSE, tmp_path / "a.nc")
+    (tmp_path / "b.nc").write_text(made.stdout)
+    same = call("diff", *LATHE, *NOSE, tmp_path / "a.nc", tmp_path / "b.nc")
+    assert (same.exit_code, same.stdout.splitlines()[0]) == (0, "equal: the same path to within 0.001 mm")
+    other = call("diff", *LATHE, "--tool", "R0.4", "--tip", "3", tmp_path / "a.nc", tmp_path / "b.nc")
+    assert (other.exit_code, "different" in other.stdout) == (1, True)
+    plain = call("diff", *LATHE, *NOSE, tmp_path / "b.nc", tmp_path / "b.nc")
+    assert (plain.exit_code, "neither program has G41 or G42 (RL or RR)" in plain.stderr) == (2, True)
+    without = call("diff", *LATHE, "--tip", "3", tmp_path / "a.nc", tmp_path / "b.nc")
+    assert (without.exit_code, "--tip goes with --tool" in without.stderr) == (2, True)
+
+
 # What is written --------------------------------------------------------------------------------------------------
 
 
