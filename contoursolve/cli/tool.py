@@ -54,22 +54,24 @@ def moved_program(
     if not report.runs and is_solved:
         raise ToolError("no cutting move goes beside a contour; there is nothing to write")
     texts = {block.line: block.text for block in program.blocks}
-    left, kept, remarks = dict[int, Left](), set[int](), dict[int, str]()
+    left, kept, remarks, behind = dict[int, Left](), set[int](), dict[int, str](), 0
     good = list[ToolRun]()
     for each in report.runs:
         lines = lines_of(each.run)
         errors = tuple(finding for finding in report.findings if finding.is_error and finding.span.line in lines)
-        is_skipped = len({travel.is_skippable for travel in each.run.travels}) > 1
-        if errors or is_skipped:
-            sources = {line: texts[line] for line in lines}
-            told = "some of its blocks begin with / and some do not: with them skipped, it is another contour"
-            reason = f"{errors[0].code}: {errors[0].message}" if errors else told
-            left[lines[0]] = Left(lines, reason, errors, sources)
-            kept |= {*lines}
+        reason = f"{errors[0].code}: {errors[0].message}" if errors else ""
+        if not reason and len({travel.is_skippable for travel in each.run.travels}) > 1:
+            reason = "some of its blocks begin with / and some do not: with them skipped, it is another contour"
+        if not reason and not is_solved:
+            reason = "another contour is not solved, so that nobody knows where compensation has to stay"
+        if reason:
+            left[lines[0]] = Left(lines, reason, errors, {line: texts[line] for line in lines})
+            # Where a contour stays, the words of compensation before it stay, too.
+            kept |= {*range(behind + 1, max(lines) + 1)}
         else:
             remarks[lines[0]] = title_of(each)
             good.append(each)
-    # Beside a contour that stays, compensation stays, too.
+        behind = max(lines)
     kept |= set() if is_solved else {*texts}
     moves, leaving = moves_of(replace(report, runs=tuple(good)))
     return MovedProgram(moves, left, kept, remarks, leaving)

@@ -298,6 +298,23 @@ def test_arcs_that_lead_to_a_closed_contour_are_no_walls(around: str, loop: str,
     assert "inside arc of radius" in done.stdout
 
 
+def test_compensation_stays_where_a_contour_stays(tmp_path: Path):
+    """A neck that the cutter does not pass, between two contours that it cuts; G41 and G40 stand alone."""
+    good = ["G00 X{0}. Y0", "G41 D1", "G01 X{1}. Y0 F300", "Y20.", "G40", "G01 X{0}. Y30."]
+    narrow = ["G00 X200. Y0", "G41 D1", "G01 X190. Y0", "Y20.", "X187.", "Y0", "G40", "G01 X200. Y-20."]
+    first, last = ([line.format(place, place - 10) for line in good] for place in (100, 300))
+    (tmp_path / "a.nc").write_text("\n".join(["G17 G90", *first, *narrow, *last]) + "\n")
+    done = call("expand", *MILL, "--tool", "R4", "--keep-going", "--no-comments", tmp_path / "a.nc")
+    text = done.stdout.splitlines()
+    assert (done.exit_code, text.count("G41 D1"), text.count("G40")) == (1, 1, 1)
+    assert all(line in text for line in narrow)
+    assert text.index("G41 D1") > text.index("G01 X86. Y20.")
+    unsolved = ["G01 X50. ,A45. ,R500.", "X60. Y60."]
+    (tmp_path / "a.nc").write_text("\n".join(["G17 G90", *first, *unsolved]) + "\n")
+    done = call("expand", *MILL, "--tool", "R4", "--keep-going", "--no-comments", tmp_path / "a.nc")
+    assert (done.exit_code, "G41 D1" in done.stdout.splitlines()) == (1, True)
+
+
 def test_a_change_of_the_side_is_told_and_written(tmp_path: Path):
     blocks = ["G17 G00 X-10. Y-10.", "G41 D1 G01 X0 Y0 F300", "Y20.", "X20.", "G42 Y40.", "X40.", "G40 X60."]
     (tmp_path / "a.nc").write_text("\n".join(blocks) + "\n")
