@@ -147,9 +147,8 @@ def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
     group, before = _Group([]), None
     for step in path.steps:
         move = step if isinstance(step, Travel) and step.motion in (Motion.RAPID, Motion.FEED) else None
-        if move is not None and not _moves(move, path.axes) and (is_stated or not group.travels):
+        if move is not None and not _moves(move, path.axes):
             continue
-        move = move if move is not None and _moves(move, path.axes) else None
         side = SIDES.get(move.compensation) if move is not None and is_stated else None
         is_known = move is not None and None not in place_of(move, path.axes, at_end=False)
         is_cut = side is not None if is_stated else move is not None and move.motion is Motion.FEED and is_known

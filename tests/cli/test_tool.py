@@ -261,18 +261,23 @@ def test_compensation_is_taken_out_and_all_else_stays(tmp_path: Path):
     ]
 
 
-def test_increments_lead_to_the_same_places(tmp_path: Path):
+@pytest.mark.parametrize("is_stated", [True, False])
+def test_increments_lead_to_the_same_places(is_stated: bool, tmp_path: Path):
     """The same contour in absolute and in incremental words, with a move of a third axis in each of its rapids."""
     places = [(10, 10), (10, 35), (20, 45), (30, 35), (30, 10), (50, 0), (55, 5)]
-    words = ["G41 G01 {} F100", "{}", "{}", "G02 {} I0 J-10.", "G01 {}", "G40 {}", "G00 {} Z5."]
+    words = ["{0}G01 {1} F100", "{1}", "{1}", "G02 {1} I0 J-10.", "G01 {1}", "G00 Z9.\n{2}{1}", "G00 {1} Z5."]
     absolute, steps, before = ["G17 G90 G00 X0 Y0 Z9."], ["G17 G90 G00 X0 Y0 Z9.", "G91"], (0, 0)
     for place, word in zip(places, words, strict=True):
-        absolute.append(word.format(f"X{place[0]}. Y{place[1]}."))
-        steps.append(word.format(f"X{place[0] - before[0]}. Y{place[1] - before[1]}.").replace("Z5.", "Z-4."))
+        codes = ("G41 ", "G40 ") if is_stated else ("", "")
+        absolute.append(word.format(codes[0], f"X{place[0]}. Y{place[1]}.", codes[1]))
+        step = word.format(codes[0], f"X{place[0] - before[0]}. Y{place[1] - before[1]}.", codes[1])
+        steps.append(step.replace("Z5.", "Z-4.").replace("Z9.", "Z0"))
         before = place
     for name, lines in (("absolute.nc", absolute), ("steps.nc", steps)):
         (tmp_path / name).write_text("\n".join(lines) + "\n")
-        done = call("expand", *MILL, "--tool", "R4", "--no-comments", tmp_path / name, "-o", tmp_path / f"new-{name}")
+        side = () if is_stated else ("--side", "left")
+        output = ("-o", tmp_path / f"new-{name}")
+        done = call("expand", *MILL, "--tool", "R4", *side, "--no-comments", tmp_path / name, *output)
         assert done.exit_code == 0, done.stderr
         assert not re.search(r"G4[012]|D\d", (tmp_path / f"new-{name}").read_text())
     done = call("diff", tmp_path / "new-absolute.nc", tmp_path / "new-steps.nc", *MILL, "--tolerance", "0.005")
