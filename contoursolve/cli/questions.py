@@ -214,11 +214,12 @@ def _find_tool(
         run = follow_program(program, settings=settings, **options)
         check_start(run.asked)
         wanted = wanted_tool(program.name, None, *tool)
-        found = largest_tools(ToolTrials(result := run.collect(), run.asked.dialect, run.asked, wanted), result, within)
+        trials = ToolTrials(result := run.collect(), run.asked.dialect, run.asked, wanted)
+        found = largest_tools(trials, result, within)
     if format_ == "json":
-        print_json(tools_data(found))
+        print_json(tools_data(found, trials.unfollowed))
     else:
-        print_lines(tools_lines(found))
+        print_lines(tools_lines(found, trials.unfollowed))
     context.exit(0 if all(each.intervals for each in found.values()) else FOUND_ERRORS)
 
 

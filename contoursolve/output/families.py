@@ -1,9 +1,10 @@
 """Answers about a family as text and as plain data: ranges, regions, values that reach a goal, tolerances."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from math import isnan
 from typing import Any
 
+from contoursolve.comparison import Unfollowed
 from contoursolve.diagnosis import axis_labels, count, length_in, measured, printed_certificate, short_name, written
 from contoursolve.diagnostics import members
 from contoursolve.families import (
@@ -103,8 +104,8 @@ def _reason_data(reason: Reason) -> dict[str, str | None]:
     return {"text": reason.text, "code": reason.code or None, "message": reason.message or None}
 
 
-def tools_lines(found: Mapping[tuple[int, ...], Feasible]) -> Iterator[str]:
-    """The largest tool for all contours of a program, and that for each contour, by its lines."""
+def tools_lines(found: Mapping[tuple[int, ...], Feasible], unfollowed: Sequence[Unfollowed]) -> Iterator[str]:
+    """The largest tool for all contours of a program, that for each contour, by its lines, and what is left out."""
     least, rows = min(found.values(), key=lambda each: each.largest), []
     whole = f"all {len(found)} contours" if len(found) > 1 else "the contour"
     largest = f"largest tool for {whole}: {written(least.largest, least.unit, 1)}"
@@ -113,14 +114,19 @@ def tools_lines(found: Mapping[tuple[int, ...], Feasible]) -> Iterator[str]:
         end = _end_cells(each.intervals[0].high, each.unit, 1) if each.intervals else ("none", each.refusal)
         rows.append((f"{place}.", f"lines {lines[0]} to {lines[-1]}" if len(lines) > 1 else f"line {lines[0]}", *end))
     yield from columns(rows, left=(0, 1, 3))
+    for reason in dict.fromkeys(each.reason for each in unfollowed):
+        places = ", ".join(str(each.line) for each in unfollowed if each.reason == reason)
+        yield f"  not looked at: program line {places} ({reason})"
     yield from (f"  {each}" for each in rest_lines(least))
 
 
-def tools_data(found: Mapping[tuple[int, ...], Feasible]) -> dict[str, Any]:
+def tools_data(found: Mapping[tuple[int, ...], Feasible], unfollowed: Sequence[Unfollowed]) -> dict[str, Any]:
     """The same as plain data: schema contoursolve/find-tool/1."""
     contours = [{"lines": [*lines], **range_data(each)} for lines, each in found.items()]
     least = min(found.values(), key=lambda each: each.largest)
-    return {"schema": "contoursolve/find-tool/1", "largest": least.largest or None, "contours": contours}
+    left_out = [members(each, "line text reason") for each in unfollowed]
+    largest = {"schema": "contoursolve/find-tool/1", "largest": least.largest or None}
+    return {**largest, "contours": contours, "not_followed": left_out}
 
 
 # Regions of two words ----------------------------------------------------------------------------------------

@@ -61,7 +61,9 @@ class ToolTrials:
         self.axes, self.facts = dialect.modes.axes, TOOL_FACTS.get(dialect.name, ToolFacts())
         self.wanted = replace(wanted, default=_UNSTATED)
         self.told = Findings(result, dialect, asked, wanted, ())
-        self.runs = find_runs(follow(result, dialect, asked.unit, self.axes), self.wanted, result.program.blocks)
+        path = follow(result, dialect, asked.unit, self.axes)
+        self.runs = find_runs(path, self.wanted, result.program.blocks)
+        self.unfollowed = path.unfollowed
         self.premises = join_premises([each.premises for each in result.answers], dialect.name)
 
     def at(self, number: int, radius: float) -> ToolRun:
@@ -96,7 +98,14 @@ class ToolTrials:
             end = End(largest, Way.BISECTION, reason, True, largest, beyond / scale)
         begin, has_any = End(low, Way.RANGE, None, True, None, None), end.value >= max(low, GOUGE)
         is_open = own.tool.radius is _UNSTATED.radius
-        about = TOOL, unit, 0.0 if is_open else own.radius / scale, (low, high), (Interval(begin, end),) * has_any, ()
+        about = (
+            TOOL,
+            unit,
+            0.0 if is_open else own.radius / scale,
+            (low, high),
+            (Interval(begin, end),) * has_any,
+            (),
+        )
         refusal = "" if end.reason is None or has_any else end.reason.text
         return Feasible(*about, refusal, False, is_open, self.premises, "of tools that cut the contour")
 
@@ -114,7 +123,7 @@ def largest_tools(
     trials: ToolTrials, result: Result, within: tuple[float, float] | None
 ) -> dict[tuple[int, ...], Feasible]:
     """The tools that cut each contour of a program, by its lines. Raises ToolError, FamilyError, RefusedError."""
-    if any(each.contour is None for each in result.answers) or (errors_of(result) and not trials.runs):
+    if errors_of(result) or any(each.contour is None for each in result.answers):
         raise RefusedError(result)
     if not trials.runs:
         raise ToolError("no cutting move goes beside a contour; there is nothing for a tool to cut")
@@ -148,7 +157,8 @@ def find_tools(
         options: as for `feasible`, with the same errors; also raises ToolError for a tool that there cannot be, a side
             that nothing says, and a program without a cutting move.
 
-    A smaller tool fits wherever a larger one does, so there is one range at most; both sides of its end are tried.
+    A smaller tool fits wherever a larger one does, so there is one range at most; both sides of its end are tried. What
+    no path shows, such as a cycle, is left out; `contoursolve find` lists it.
 
     >>> blocks = "G01 X20. Z-14.6\\nG02 X20.8 Z-15. R0.4\\nG01 X40. Z-15."
     >>> found = find_tools(blocks, side="right", tip=3, start="X20. Z0.", control="fanuc-lathe")
@@ -163,8 +173,8 @@ def find_tools(
 
 def request_of(options: ToolOptions) -> tuple[ToolRequest, BlockOptions]:
     """A tool of any radius, and the options about the block. Raises ToolError, ValueError."""
-    rest: BlockOptions = {name: value for name, value in options.items() if name in BlockOptions.__annotations__}  # type: ignore[assignment]
-    side, tip = options.get("side"), options.get("tip")
+    side, tip = options.pop("side", None), options.pop("tip", None)
     make_tool(Decimal(0), tip)
-    outside = choice_of(Outside, options.get("outside", Outside.ROLL.value), "outside")
-    return ToolRequest(None, tip, choice_of(ToolSide, side, "side") if side is not None else None, outside), rest
+    outside = choice_of(Outside, options.pop("outside", Outside.ROLL.value), "outside")
+    chosen = choice_of(ToolSide, side, "side") if side is not None else None
+    return ToolRequest(None, tip, chosen, outside), options

@@ -254,6 +254,8 @@ def test_arrays_have_the_tool_as_their_last_axis():
     assert numpy.isnan(found["tool.largest"][0]).all()
     assert found["tool.fault"][0].tolist() == ["arc_too_small"] * 2
     assert [found.measures()[name].unit for name in ("tool", "tool.largest", "tool.fits")] == ["inch", "mm", ""]
+    with pytest.raises(TypeError, match="sid"):
+        contoursolve.find_tools(block, sid="left")  # type: ignore[call-arg]
     assert found.to_arrow()["tool.fault"].to_pylist()[3] == ""
 
 
