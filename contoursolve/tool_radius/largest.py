@@ -98,16 +98,9 @@ class ToolTrials:
             end = End(largest, Way.BISECTION, reason, True, largest, beyond / scale)
         begin, has_any = End(low, Way.RANGE, None, True, None, None), end.value >= max(low, GOUGE)
         is_open = own.tool.radius is _UNSTATED.radius
-        about = (
-            TOOL,
-            unit,
-            0.0 if is_open else own.radius / scale,
-            (low, high),
-            (Interval(begin, end),) * has_any,
-            (),
-        )
+        about = TOOL, unit, 0.0 if is_open else own.radius / scale, (low, high), (Interval(begin, end),) * has_any
         refusal = "" if end.reason is None or has_any else end.reason.text
-        return Feasible(*about, refusal, False, is_open, self.premises, "of tools that cut the contour")
+        return Feasible(*about, (), refusal, False, is_open, self.premises, "of tools that cut the contour")
 
     def _reason(self, number: int, largest: float, beyond: float) -> Reason:
         """The finding about a tool beyond the largest, with its place."""
