@@ -37,7 +37,7 @@ from contoursolve.output import (
     word_tolerance_lines,
 )
 from contoursolve.program import check_start
-from contoursolve.tool_radius import ToolTrials, find_tools, largest_tools, wanted_tool
+from contoursolve.tool_radius import ToolTrials, find_tools, largest_tools, least_of, wanted_tool
 
 
 @click.command("range", short_help="Tell for which values of a word, or of two, a contour exists.")
@@ -106,10 +106,7 @@ def range_(
         if len(words) == 1:
             limits = ranges[0] if ranges else None
             if is_tool:
-                found = min(
-                    find_tools(about.pop("block"), within=limits, **about, **stated).values(),
-                    key=lambda each: each.largest,
-                )
+                found = least_of(find_tools(about.pop("block"), within=limits, **about, **stated))
             else:
                 found = feasible(word=words[0], within=limits, **about)
             exists, lines, document = bool(found.intervals), range_lines(found), range_data(found)

@@ -85,9 +85,9 @@ def name_of(text: str) -> str:
     if len(parts) > 1:
         return " ".join(parts)
     head, dot, rest = text.strip().partition(".")
-    if head.lower() == TOOL:
-        return TOOL
-    return f"{START}.{rest.upper()}" if dot and head.lower() == START else text.strip().upper()
+    if dot and head.lower() == START:
+        return f"{START}.{rest.upper()}"
+    return TOOL if head.lower() == TOOL and not dot else text.strip().upper()
 
 
 START = "start"

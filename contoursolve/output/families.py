@@ -25,6 +25,7 @@ from contoursolve.families import (
 from contoursolve.geometry import Length
 from contoursolve.output.plain_text import Table, columns
 from contoursolve.output.premises import premise_data, premise_texts
+from contoursolve.tool_radius import least_of
 
 # Ranges of a word --------------------------------------------------------------------------------------------
 
@@ -106,7 +107,7 @@ def _reason_data(reason: Reason) -> dict[str, str | None]:
 
 def tools_lines(found: Mapping[tuple[int, ...], Feasible], unfollowed: Sequence[Unfollowed]) -> Iterator[str]:
     """The largest tool for all contours of a program, that for each contour, by its lines, and what is left out."""
-    least, rows = min(found.values(), key=lambda each: each.largest), []
+    least, rows = least_of(found), []
     whole = f"all {len(found)} contours" if len(found) > 1 else "the contour"
     largest = f"largest tool for {whole}: {written(least.largest, least.unit, 1)}"
     yield largest if least.intervals else f"no tool of the range searched cuts {whole}"
@@ -123,9 +124,8 @@ def tools_lines(found: Mapping[tuple[int, ...], Feasible], unfollowed: Sequence[
 def tools_data(found: Mapping[tuple[int, ...], Feasible], unfollowed: Sequence[Unfollowed]) -> dict[str, Any]:
     """The same as plain data: schema contoursolve/find-tool/1."""
     contours = [{"lines": [*lines], **range_data(each)} for lines, each in found.items()]
-    least = min(found.values(), key=lambda each: each.largest)
-    left_out = [members(each, "line text reason") for each in unfollowed]
-    largest = {"schema": "contoursolve/find-tool/1", "largest": least.largest or None}
+    least, left_out = least_of(found), [members(each, "line text reason") for each in unfollowed]
+    largest = {"schema": "contoursolve/find-tool/1", "largest": least.largest or None, "unit": least.unit}
     return {**largest, "contours": contours, "not_followed": left_out}
 
 

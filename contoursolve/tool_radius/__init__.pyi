@@ -18,6 +18,7 @@ from .largest import (
     ToolTrials as ToolTrials,
     find_tools as find_tools,
     largest_tools as largest_tools,
+    least_of as least_of,
 )
 from .moves import (
     lines_of as lines_of,

@@ -23,6 +23,7 @@ from contoursolve.families import (
     read_limits,
     spec_of,
 )
+from contoursolve.geometry import Length
 from contoursolve.program import Request, Result
 from contoursolve.reading import Dialect, join_premises
 from contoursolve.solving import largest_fitting
@@ -126,6 +127,11 @@ def largest_tools(
         # A contour that runs several times may begin elsewhere each time.
         found[own.lines] = min(found.get(own.lines, each), each, key=lambda one: one.largest)
     return found
+
+
+def least_of(found: Mapping[tuple[int, ...], Feasible]) -> Feasible:
+    """The tools that cut all contours: those that cut the one with the smallest limit."""
+    return min(found.values(), key=lambda each: each.largest * float(Length(each.unit).in_mm))
 
 
 class ToolOptions(BlockOptions, total=False):

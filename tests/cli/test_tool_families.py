@@ -203,6 +203,16 @@ def test_each_contour_has_its_own_largest(tmp_path: Path):
     assert call("find", program, "--word", "tool", "--within", "0.6:5", *LATHE).exit_code == 1
 
 
+def test_lines_that_are_no_path_are_named_and_units_may_change(tmp_path: Path):
+    program = tmp_path / "a.nc"
+    inch = "G20 G00 X8. Y0\nG01 X8. Y1. ,R.1\nX9.\n"
+    program.write_text(f"G17 G21 G90\nG00 X0 Y0\nG01 X0 Y30. ,R2.\nX40.\nM98 P7777\n{inch}M30\n")
+    done = call("find", program, "--word", "tool", *MILL, "--side", "right")
+    assert done.stdout.splitlines()[0] == "largest tool for all 2 contours: 2.0000 mm"
+    assert "0.10000 in  program line 7, ,R.1" in done.stdout
+    assert "not looked at: program line 5 (M98 calls or ends a subprogram)" in done.stdout
+
+
 # sweep ------------------------------------------------------------------------------------------------------------
 
 
