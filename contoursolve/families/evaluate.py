@@ -325,9 +325,8 @@ class Tally(Struct):
         """Count some rows, in their order."""
         if TOOL in table:
             told = numpy.where(table["tool.fits"], CUT, table["tool.fault"])
-            for radius in numpy.unique(table[TOOL]).tolist():
-                own = self.tools.setdefault(radius, Counter())
-                own.update(filter(None, told[table[TOOL] == radius].tolist()))
+            for (radius, kind), count in Counter(zip(table[TOOL].tolist(), told.tolist(), strict=True)).items():
+                self.tools.setdefault(radius, Counter()).update({kind: count} if kind else {})
             firsts = numpy.arange(self.rows, self.rows + told.size) % self.many == 0
             self.rows, table = self.rows + told.size, {name: column[firsts] for name, column in table.items()}
         status, reason = table["status"], table["reason"]
