@@ -65,10 +65,10 @@ def explain(code: str, control: str | Dialect | None) -> None:
     contoursolve explain 146
     """
     from contoursolve.output import rule_lines  # noqa: PLC0415 - only here
-    from contoursolve.tool_radius import FaultKind  # noqa: PLC0415 - the same
+    from contoursolve.tool_radius import ToolFaultKind  # noqa: PLC0415 - the same
 
     wanted = code.strip().lower()
-    found = {kind.code: (kind.rule, ["every control, with --tool"]) for kind in FaultKind if kind.code == wanted}
+    found = {kind.code: (kind.rule, ["every control, with --tool"]) for kind in ToolFaultKind if kind.code == wanted}
     for dialect in _chosen(control):
         for rule in dialect.rules:
             if wanted == rule.code or _plainly(wanted) in _alarms_of(rule):

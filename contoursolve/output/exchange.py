@@ -23,12 +23,12 @@ def to_sarif(results: Sequence[Result], version: str, own: Dialect | None = None
     A result's fingerprint is made of the rule, the text of the line and how often both have occurred
     before, so that it stays the same when lines are inserted elsewhere.
     """
-    from contoursolve.tool_radius import FaultKind  # noqa: PLC0415 - only here
+    from contoursolve.tool_radius import ToolFaultKind  # noqa: PLC0415 - only here
 
     controls = [*DIALECTS.values(), *([own] if own else [])]
     known = {rule.code: rule for dialect in controls for rule in dialect.rules}
     told = {finding.code for result in results for finding in result.diagnostics}
-    rules = sorted((known | {kind.code: kind.rule for kind in FaultKind if kind.code in told}).items())
+    rules = sorted((known | {kind.code: kind.rule for kind in ToolFaultKind if kind.code in told}).items())
     index = {code: number for number, (code, _) in enumerate(rules)}
     run = {
         "tool": {"driver": {"name": "contoursolve", "version": version, "rules": [_rule(rule) for _, rule in rules]}},

@@ -30,7 +30,7 @@ from contoursolve.pictures import (
 )
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import LENGTH, REGULAR
-from contoursolve.tool_radius import Fault, FaultKind, Offset, ToolReport, ToolRun, meet, nearest, title_of
+from contoursolve.tool_radius import OffsetPath, ToolFault, ToolFaultKind, ToolReport, ToolRun, meet, nearest, title_of
 
 MOST_STANCES, MOST_DEPTHS = 16, 3
 """Places of one run at which the tool is drawn, and at which there stands how much stays."""
@@ -48,7 +48,7 @@ class Stance(Struct, frozen=True):
 
     center: Point
     element: int
-    fault: Fault | None = None
+    fault: ToolFault | None = None
     rest: tuple[Segment, ...] = ()
     depth: float = 0.0
 
@@ -165,17 +165,17 @@ def _stances(each: ToolRun) -> Iterator[Stance]:
                 yield Stance(at, place, None, _outline(own.side.sign, near, at), depth)
 
 
-def _at_fault(each: ToolRun, fault: Fault) -> Stance:
+def _at_fault(each: ToolRun, fault: ToolFault) -> Stance:
     """Between the neighbours of an element that is too small, beside the others."""
     own, place, side = each.run, fault.element, each.run.side.sign
     at, way = middle(own.elements[place])
-    if fault.kind in (FaultKind.ARC_TOO_SMALL, FaultKind.ELEMENT_VANISHES):
+    if fault.kind in (ToolFaultKind.ARC_TOO_SMALL, ToolFaultKind.ELEMENT_VANISHES):
         near = own.elements[max(place - 1, 0) : place + 2]
         found = _between(near, own.radius)
         if found is not None:
             return Stance(found, place, fault, _outline(side, near, found), dist(at, found) - own.radius)
-    if fault.kind is FaultKind.INTERFERENCE and fault.working is not None:
-        beside = Offset([own.elements[fault.working]], own.radius, side).pieces
+    if fault.kind is ToolFaultKind.INTERFERENCE and fault.working is not None:
+        beside = OffsetPath([own.elements[fault.working]], own.radius, side).pieces
         if beside:
             return Stance(nearest(own.elements[place], beside[0].segment)[1], place, fault)
     return Stance(along(at, (-way[1] * side, way[0] * side), own.radius), place, fault)

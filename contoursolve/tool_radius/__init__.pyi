@@ -2,8 +2,8 @@ from .clearance import (
     nearest as nearest,
 )
 from .faults import (
-    Fault as Fault,
-    FaultKind as FaultKind,
+    ToolFault as ToolFault,
+    ToolFaultKind as ToolFaultKind,
 )
 from .findings import (
     ToolReport as ToolReport,
@@ -27,11 +27,11 @@ from .moves import (
     title_of as title_of,
 )
 from .offset import (
-    Offset as Offset,
-    Piece as Piece,
+    OffsetElement as OffsetElement,
+    OffsetPath as OffsetPath,
 )
 from .runs import (
-    Run as Run,
+    CuttingRun as CuttingRun,
     ToolRequest as ToolRequest,
     find_runs as find_runs,
     is_compensated as is_compensated,
@@ -42,7 +42,7 @@ from .stated import (
     wanted_tool as wanted_tool,
 )
 from .tool import (
-    Outside as Outside,
+    OutsideCorner as OutsideCorner,
     Tool as Tool,
     ToolError as ToolError,
     ToolSide as ToolSide,

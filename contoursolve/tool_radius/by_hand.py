@@ -8,9 +8,9 @@ from contoursolve.geometry import Length
 from contoursolve.solving import ArcSegment, Point, Segment
 from contoursolve.tool_radius.clearance import ahead
 from contoursolve.tool_radius.joint import direction
-from contoursolve.tool_radius.offset import Offset, shifted
-from contoursolve.tool_radius.runs import Run
-from contoursolve.tool_radius.tool import Outside
+from contoursolve.tool_radius.offset import OffsetPath, shifted
+from contoursolve.tool_radius.runs import CuttingRun
+from contoursolve.tool_radius.tool import OutsideCorner
 
 _ROUNDED = 0.002
 """mm. By so much words move an arc when they are rounded."""
@@ -21,7 +21,7 @@ _STEPS = {Length.MM: 0.05, Length.INCH: 0.005}
 """Numbers of a drawing are multiples of this (assumed)."""
 
 
-def part_of(own: Run, radius: float, outside: Outside = Outside.INTERSECT) -> tuple[Segment, ...]:
+def part_of(own: CuttingRun, radius: float, outside: OutsideCorner = OutsideCorner.INTERSECT) -> tuple[Segment, ...]:
     """The part that a tool of a radius (mm) makes where the programmed point itself runs along the moves; empty where
     it is not simple. An arc of its radius around an outside corner makes that corner."""
     first, second = own.tool.vector() if own.is_lathe else (0.0, 0.0)
@@ -31,7 +31,7 @@ def part_of(own: Run, radius: float, outside: Outside = Outside.INTERSECT) -> tu
         if way is not None and not is_around(way, radius, own):
             stretch.append(way)
             continue
-        pieces = Offset(stretch, radius, -own.side.sign, outside).pieces if stretch else ()
+        pieces = OffsetPath(stretch, radius, -own.side.sign, outside).pieces if stretch else ()
         if pieces is None:
             return ()
         own_pieces = [each.segment for each in pieces]
@@ -44,7 +44,7 @@ def part_of(own: Run, radius: float, outside: Outside = Outside.INTERSECT) -> tu
     return tuple(found)
 
 
-def made_for(own: Run) -> float | None:
+def made_for(own: CuttingRun) -> float | None:
     """The radius (mm) for which the moves were made by hand: arcs of it lead around corners that
     have round numbers, and are no roundings of corners that have. None where the moves are a contour themselves."""
     first, second = own.tool.vector() if own.is_lathe else (0.0, 0.0)
@@ -59,14 +59,14 @@ def made_for(own: Run) -> float | None:
     return best if shares.get(best, 0) > 0 else None
 
 
-def is_around(segment: Segment, radius: float, own: Run) -> bool:
+def is_around(segment: Segment, radius: float, own: CuttingRun) -> bool:
     """Whether it is an arc by which a tool of a radius rolls around an outside corner."""
     if not isinstance(segment, ArcSegment) or segment.turn.sign == own.side.sign:
         return False
     return abs(segment.radius - radius) <= _ROUNDED
 
 
-def _round_ones(at: Point, own: Run) -> int:
+def _round_ones(at: Point, own: CuttingRun) -> int:
     """How many coordinates of a place are round, as they are written."""
     step, scale = _STEPS[own.unit], float(own.unit.in_mm)
     numbers = (value * (1 + is_diameter) / scale for value, is_diameter in zip(at, own.plane.diameters, strict=True))

@@ -18,7 +18,7 @@ class _Row(NamedTuple):
     severity: Severity = Severity.ERROR
 
 
-class FaultKind(Enum):
+class ToolFaultKind(Enum):
     """Kinds of what is told about a tool; the first five leave no path."""
 
     ARC_TOO_SMALL = _Row(
@@ -96,7 +96,7 @@ class FaultKind(Enum):
     @property
     def source(self) -> Source:
         """What it rests on."""
-        if self is FaultKind.APPROACH:
+        if self is ToolFaultKind.APPROACH:
             return Source(OWN, "where a contour begins without G41 and G42", Evidence.ASSUMED)
         return Source(OWN, "geometry of the tool's radius", Evidence.DERIVED)
 
@@ -107,11 +107,11 @@ class FaultKind(Enum):
         return Rule(self.code, row.message, row.help, self.source, (), (), about=self, severity=row.severity)
 
 
-class Fault(Struct, frozen=True):
+class ToolFault(Struct, frozen=True):
     """A fault at an element (its number, from 0): by how much it misses (mm), the largest radius that fits (mm), the
     element on which the tool works, and where, mm."""
 
-    kind: FaultKind
+    kind: ToolFaultKind
     element: int
     short: float | None = None
     largest: float | None = None

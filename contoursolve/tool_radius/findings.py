@@ -28,19 +28,27 @@ from contoursolve.reading import Dialect
 from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Point, Segment
 from contoursolve.tolerance import LARGEST, LENGTH
 from contoursolve.tool_radius.by_hand import is_around, made_for, part_of
-from contoursolve.tool_radius.faults import Fault, FaultKind
+from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
 from contoursolve.tool_radius.joint import direction
-from contoursolve.tool_radius.offset import Offset, Piece, flank_faults, shifted, tip_faults, uncompensated, uncut
-from contoursolve.tool_radius.runs import Run, ToolRequest, find_runs, place_of
-from contoursolve.tool_radius.tool import Outside
+from contoursolve.tool_radius.offset import (
+    OffsetElement,
+    OffsetPath,
+    flank_faults,
+    shifted,
+    tip_faults,
+    uncompensated,
+    uncut,
+)
+from contoursolve.tool_radius.runs import CuttingRun, ToolRequest, find_runs, place_of
+from contoursolve.tool_radius.tool import OutsideCorner
 
 
 class ToolRun(Struct, frozen=True, dict=True):
     """A run with the path of the tool's centre and all faults, those of the geometry first."""
 
-    run: Run
-    offset: Offset
-    faults: tuple[Fault, ...]
+    run: CuttingRun
+    offset: OffsetPath
+    faults: tuple[ToolFault, ...]
 
     @cached_property
     def part(self) -> Contour:
@@ -55,7 +63,7 @@ class ToolRun(Struct, frozen=True, dict=True):
         names = [self.run.travels[each.element].element if each.is_own else "around" for each in self.offset.pieces]
         return _contour(self.run, names, [self.written(each) for each in self.offset.pieces])
 
-    def written(self, piece: Piece) -> Segment:
+    def written(self, piece: OffsetElement) -> Segment:
         """A piece of the centre's path as that of the programmed point."""
         return shifted(piece.segment, self.run.vector)
 
@@ -70,17 +78,17 @@ class ToolRun(Struct, frozen=True, dict=True):
     def largest_radius(self) -> float | None:
         """The largest radius (mm) of a tool that cuts all of it; None where every tool does."""
         own = self.run
-        found = Offset(own.elements, LARGEST, own.side.sign, self.offset.outside, own.levels)
+        found = OffsetPath(own.elements, LARGEST, own.side.sign, self.offset.outside, own.levels)
         return found.largest(slice(None)) if found.faults else None
 
     @cached_property
     def uncompensated(self) -> tuple[Segment, ...]:
         """What comes out where the programmed point itself runs along the contour: the outline of the nose's way; empty
         where it is not simple, and where the program states compensation."""
-        return () if self.run.is_stated else part_of(self.run, self.run.radius, Outside.ROLL)
+        return () if self.run.is_stated else part_of(self.run, self.run.radius, OutsideCorner.ROLL)
 
 
-def _contour(own: Run, names: Sequence[str], segments: Sequence[Segment]) -> Contour:
+def _contour(own: CuttingRun, names: Sequence[str], segments: Sequence[Segment]) -> Contour:
     """Segments as one contour; a plain move has the name of its kind."""
     named = tuple(
         replace(each, name=name or ("arc" if isinstance(each, ArcSegment) else "line"))
@@ -104,7 +112,7 @@ def look_at_tool(
     """The runs of a solved program with the paths of the tool, and what it cannot cut; places of its path are in these
     axes, or in those of its control. Raises ToolError."""
     path, runs = _tool_runs(result, dialect, asked, wanted, axes)
-    told = Findings(result, dialect, asked, wanted, runs)
+    told = ToolFindings(result, dialect, asked, wanted, runs)
     found = [each for number, tool_run in enumerate(runs) for each in told.of(tool_run, is_first=not number)]
     return ToolReport(tuple(runs), tuple(sorted(found, key=rank)), path)
 
@@ -118,27 +126,27 @@ def _tool_runs(
 
 
 def with_faults(
-    each: Run, axes: tuple[str, ...], wanted: ToolRequest, facts: ToolFacts, kind: type[Offset] = Offset
+    each: CuttingRun, axes: tuple[str, ...], wanted: ToolRequest, facts: ToolFacts, kind: type[OffsetPath] = OffsetPath
 ) -> ToolRun:
     """A run with the path of its tool, and all faults."""
     made = kind(each.elements, each.radius, each.side.sign, wanted.outside, each.levels)
     faults, lead, leaving = list(made.faults), each.lead if each.is_stated else None, each.leaving
     if lead is not None and lead.bend is not None:
-        faults.append(Fault(FaultKind.ENTRY_BY_ARC, 0))
+        faults.append(ToolFault(ToolFaultKind.ENTRY_BY_ARC, 0))
     if leaving is not None and each.is_stated and leaving.bend is not None:
-        faults.append(Fault(FaultKind.EXIT_BY_ARC, len(each.elements) - 1))
+        faults.append(ToolFault(ToolFaultKind.EXIT_BY_ARC, len(each.elements) - 1))
     if lead is not None and lead.bend is None:
         (a, b), (c, d) = (place_of(lead, axes, at_end=at_end) for at_end in (False, True))
         length = dist((a, b), (c or 0.0, d or 0.0)) if a is not None and b is not None else each.radius + 1
         if length <= each.radius - LENGTH or (facts.needs_entry and length <= each.radius):
-            faults.append(Fault(FaultKind.ENTRY_TOO_SHORT, 0, each.radius - length, length=length))
+            faults.append(ToolFault(ToolFaultKind.ENTRY_TOO_SHORT, 0, each.radius - length, length=length))
     if any(each.vector):
         faults += tip_faults(each.elements, each.side.sign, each.radius, each.tool.vector())
         faults += flank_faults(each.elements, each.side.sign, each.tool)
     return ToolRun(each, made, tuple(faults))
 
 
-class Findings:
+class ToolFindings:
     """Faults as findings about the lines and words of one program."""
 
     def __init__(
@@ -152,32 +160,32 @@ class Findings:
     def of(self, tool_run: ToolRun, *, is_first: bool) -> Iterator[Diagnostic]:
         """The findings about one run."""
         own, tip = tool_run.run, tool_run.run.tool.vector() if tool_run.run.is_lathe else (0.0, 0.0)
-        told = [Fault(FaultKind.APPROACH, 0)] if own.is_approached else []
-        told += [Fault(FaultKind.SWITCHED, 0)] if own.lead is None and not is_first else []
+        told = [ToolFault(ToolFaultKind.APPROACH, 0)] if own.is_approached else []
+        told += [ToolFault(ToolFaultKind.SWITCHED, 0)] if own.lead is None and not is_first else []
         told += [] if own.is_stated else self._uncompensated(own, tip)
         yield from (self._finding(own, fault) for fault in (*told, *tool_run.faults, *uncut(tool_run.offset)))
 
-    def _uncompensated(self, own: Run, tip: Point) -> Iterator[Fault]:
+    def _uncompensated(self, own: CuttingRun, tip: Point) -> Iterator[ToolFault]:
         """What comes out where the programmed point runs along a contour; or along the path of another tool."""
         made = made_for(own)
         if made is None:
             yield from uncompensated(own.elements, own.side.sign, own.radius, tip)
             return
         around = [number for number, each in enumerate(own.elements) if is_around(each, made, own)]
-        yield Fault(FaultKind.BY_HAND, around[0], length=made)
+        yield ToolFault(ToolFaultKind.BY_HAND, around[0], length=made)
         for each in uncompensated(own.elements, own.side.sign, own.radius - made, tip):
             if each.element not in around:
-                yield replace(each, kind=FaultKind.OTHER_RADIUS, length=made)
+                yield replace(each, kind=ToolFaultKind.OTHER_RADIUS, length=made)
 
-    def _finding(self, own: Run, fault: Fault) -> Diagnostic:
+    def _finding(self, own: CuttingRun, fault: ToolFault) -> Diagnostic:
         row, travel = fault.kind.value, own.travels[fault.element]
-        is_entry, is_exit = fault.kind in _ENTRIES, fault.kind is FaultKind.EXIT_BY_ARC
+        is_entry, is_exit = fault.kind in _ENTRIES, fault.kind is ToolFaultKind.EXIT_BY_ARC
         shown = own.lead if is_entry and own.lead else own.leaving if is_exit and own.leaving else travel
-        word = self.word(own, fault) if fault.kind is FaultKind.ARC_TOO_SMALL else None
+        word = self.word(own, fault) if fault.kind is ToolFaultKind.ARC_TOO_SMALL else None
         block = self.blocks.get(shown.line)
         span = word.span if word is not None else block.span if block is not None else Span(shown.line, 1, 2)
         texts, values = self.texts(own, fault), {"off_by_mm": fault.short} if fault.short is not None else {}
-        is_refused = fault.kind is FaultKind.ENTRY_TOO_SHORT and self.facts.needs_entry
+        is_refused = fault.kind is ToolFaultKind.ENTRY_TOO_SHORT and self.facts.needs_entry
         return Diagnostic(
             fault.kind.code,
             Severity.ERROR if is_refused else row.severity,
@@ -195,7 +203,7 @@ class Findings:
             fault.kind,
         )
 
-    def texts(self, own: Run, fault: Fault) -> dict[str, str]:
+    def texts(self, own: CuttingRun, fault: ToolFault) -> dict[str, str]:
         """The numbers and names of a message."""
         element, unit, short = own.elements[fault.element], own.unit, fault.short or 0.0
         back, on = (length_in(each, unit) for each in fault.rest)
@@ -220,7 +228,7 @@ class Findings:
             "comes_out": self._comes_out(own, element, short),
         }
 
-    def _comes_out(self, own: Run, element: Segment, off: float) -> str:
+    def _comes_out(self, own: CuttingRun, element: Segment, off: float) -> str:
         """What an element becomes without compensation."""
         unit, much = own.unit, f"{length_in(abs(off), own.unit)} too {'thick' if off > 0 else 'deep'}"
         if not any(own.vector):
@@ -234,7 +242,7 @@ class Findings:
         told = (f", {length_in(abs(size / part), unit)} {where}" for part, size, where in ways if part > LENGTH)
         return f"line comes out {much}{''.join(told)}"
 
-    def _notes(self, own: Run, fault: Fault) -> Iterator[str]:
+    def _notes(self, own: CuttingRun, fault: ToolFault) -> Iterator[str]:
         """What fits, and where."""
         kind, unit = _kind(own), own.unit
         if fault.largest is not None and fault.largest < LEAST:
@@ -245,34 +253,34 @@ class Findings:
             where = "the whole contour (tried)" if fault.largest == whole else "this place"
             more = f"; {all_} the whole contour (tried)" if whole and fault.largest != whole else ""
             yield f"a {kind} of radius up to {fits} cuts {where}{more}"
-        if fault.kind is FaultKind.BY_HAND:
+        if fault.kind is ToolFaultKind.BY_HAND:
             places = [each.end for each in part_of(own, fault.length)][:_MOST_PLACES]
             yield f"the part goes through {join([coordinates(at, own.plane, unit) for at in places])}"
-        if fault.kind is FaultKind.ARC_TOO_SMALL:
+        if fault.kind is ToolFaultKind.ARC_TOO_SMALL:
             yield f"the smallest inside radius that this {kind} makes is {length_in(own.radius, unit)}"
-        if fault.kind is FaultKind.ELEMENT_VANISHES and 0 < fault.element < len(own.elements) - 1:
+        if fault.kind is ToolFaultKind.ELEMENT_VANISHES and 0 < fault.element < len(own.elements) - 1:
             before, after = own.elements[fault.element - 1], own.elements[fault.element + 1]
             if _are_walls(before, after):
                 wide, needs = length_in(fault.length, unit), length_in(2 * own.radius, unit)
                 yield f"the groove is {wide} wide; this {kind} needs {needs}"
-        if fault.kind is FaultKind.INTERFERENCE and fault.at is not None:
+        if fault.kind is ToolFaultKind.INTERFERENCE and fault.at is not None:
             yield f"it cuts at {coordinates(fault.at, own.plane, unit)}"
             if self.facts.notice:
                 yield self.facts.notice
 
-    def _whole(self, own: Run) -> float | None:
+    def _whole(self, own: CuttingRun) -> float | None:
         """The largest radius (mm) with which a tool cuts a whole run (tried); None if a few trials find none."""
         if id(own) not in self.wholes:
             faults, least = next(each.offset.faults for each in self.runs if each.run is own), own.radius
             for _ in range(_TRIALS if faults else 0):
                 least = min((each.largest for each in faults if each.largest is not None), default=0.0)
-                faults = Offset(own.elements, least, own.side.sign, self.wanted.outside, own.levels).faults
+                faults = OffsetPath(own.elements, least, own.side.sign, self.wanted.outside, own.levels).faults
                 if not faults:
                     break
             self.wholes[id(own)] = None if faults or least < LEAST else least
         return self.wholes[id(own)]
 
-    def word(self, own: Run, fault: Fault) -> Word | None:
+    def word(self, own: CuttingRun, fault: ToolFault) -> Word | None:
         """The word that states the radius of an arc: that of a corner, or R."""
         travel = own.travels[fault.element]
         for answer in self.result.answers:
@@ -283,7 +291,7 @@ class Findings:
         block = self.blocks.get(travel.line)
         return block.find(self.dialect.modes.radius) if block is not None and not travel.element else None
 
-    def _fixes(self, own: Run, fault: Fault, word: Word) -> Iterator[Fix]:
+    def _fixes(self, own: CuttingRun, fault: ToolFault, word: Word) -> Iterator[Fix]:
         """The radius of the tool in the place of a smaller one, if the tool then cuts the contour."""
         block, lexicon = self.blocks[word.span.line], self.dialect.modes.lexicon
         if not own.travels[fault.element].element or word.address not in lexicon.addresses:
@@ -295,7 +303,7 @@ class Findings:
             effect = f"changes the contour; the {_kind(own)} cuts it"
             yield Fix(told, text, Applicability.CHANGES_CONTOUR, effect, replaced=block.text)
 
-    def _mends(self, block: Block, text: str, own: Run) -> bool:
+    def _mends(self, block: Block, text: str, own: CuttingRun) -> bool:
         """Whether a contour can be cut with a block in another text, and brings no new error."""
         lines = [text if each.line == block.line else each.text for each in self.result.program.blocks]
         program = spelled(parse("\n".join(lines), self.result.program.name), self.dialect.modes.syntax)
@@ -312,10 +320,10 @@ _TRIALS = 8
 _MOST_PLACES = 6
 """Places of a part that a note names."""
 
-_ENTRIES = (FaultKind.ENTRY_BY_ARC, FaultKind.ENTRY_TOO_SHORT, FaultKind.APPROACH)
+_ENTRIES = (ToolFaultKind.ENTRY_BY_ARC, ToolFaultKind.ENTRY_TOO_SHORT, ToolFaultKind.APPROACH)
 
 
-def _kind(own: Run) -> str:
+def _kind(own: CuttingRun) -> str:
     return "nose" if own.is_lathe else "cutter"
 
 

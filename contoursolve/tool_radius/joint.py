@@ -33,7 +33,7 @@ STRAY = 1e-7
 """mm. What straight on strays from the way around an outside corner where that is left out: words are rounded."""
 
 
-class Meeting(Struct, frozen=True):
+class CornerCenter(Struct, frozen=True):
     """Centre of a tool that touches two elements, and the length (mm) that it leaves of each at their common end."""
 
     center: Point
@@ -46,7 +46,7 @@ class Joint(Struct, frozen=True):
     stands, if the offsets meet there."""
 
     turn: float
-    meeting: Meeting | None
+    meeting: CornerCenter | None
 
     @property
     def is_lost(self) -> bool:
@@ -78,7 +78,7 @@ def join(before: Segment, after: Segment, radius: float, side: int) -> Joint:
     return Joint(turn, None)
 
 
-def meet(before: Segment, after: Segment, radius: float) -> Meeting | None:
+def meet(before: Segment, after: Segment, radius: float) -> CornerCenter | None:
     """Where a tool of this radius (mm) touches both elements in the corner between them; None where it cannot."""
     function, names = _function(_turn(before), _turn(after))
     origin = before.start
@@ -91,10 +91,10 @@ def meet(before: Segment, after: Segment, radius: float) -> Meeting | None:
     first, second, back, ahead, *residuals = (out[name] for name in names)
     if not all(abs(each) <= RESIDUAL for each in residuals) or not all(map(isfinite, (first, second, back, ahead))):
         return None
-    return Meeting((origin[0] + first, origin[1] + second), back, ahead)
+    return CornerCenter((origin[0] + first, origin[1] + second), back, ahead)
 
 
-def meet_outside(before: Segment, after: Segment, radius: float) -> Meeting | None:
+def meet_outside(before: Segment, after: Segment, radius: float) -> CornerCenter | None:
     """Where the offsets of the tangents at an outside corner meet: in the corner between them beyond their end."""
     at, one, two = before.end, direction(before, at_end=True), direction(after, at_end=False)
     ends = (at[0] + one[0], at[1] + one[1]), (at[0] - two[0], at[1] - two[1])

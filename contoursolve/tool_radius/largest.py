@@ -28,11 +28,11 @@ from contoursolve.program import Request, Result
 from contoursolve.reading import Dialect, join_premises
 from contoursolve.solving import largest_fitting
 from contoursolve.tolerance import INCREMENT, LARGEST, LENGTH
-from contoursolve.tool_radius.faults import Fault, FaultKind
-from contoursolve.tool_radius.findings import Findings, ToolRun, with_faults
-from contoursolve.tool_radius.offset import GOUGE, Offset
+from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
+from contoursolve.tool_radius.findings import ToolFindings, ToolRun, with_faults
+from contoursolve.tool_radius.offset import GOUGE, OffsetPath
 from contoursolve.tool_radius.runs import ToolRequest, find_runs
-from contoursolve.tool_radius.tool import Outside, Tool, ToolError, ToolSide, make_tool
+from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, make_tool
 
 _REACH = 1000.0
 """mm. Up to which a radius is looked for where no range is given, as for any length."""
@@ -48,7 +48,7 @@ _UNSTATED = Tool(Decimal(1))
 """The tool with which runs are found where none is stated."""
 
 
-class _Trial(Offset):
+class _Trial(OffsetPath):
     def largest(self, near: slice) -> float:  # noqa: ARG002 - nobody asks a trial what would fit instead
         return 0.0
 
@@ -61,7 +61,7 @@ class ToolTrials:
             raise ToolError("no block shows the control, which says how moves are read")
         self.axes, self.facts = dialect.modes.axes, TOOL_FACTS.get(dialect.name, ToolFacts())
         self.wanted = replace(wanted, default=_UNSTATED)
-        self.told = Findings(result, dialect, asked, wanted, ())
+        self.told = ToolFindings(result, dialect, asked, wanted, ())
         path = follow(result, dialect, asked.unit, self.axes)
         self.runs = find_runs(path, self.wanted, result.program.blocks)
         self.unfollowed = path.unfollowed
@@ -74,9 +74,9 @@ class ToolTrials:
         moved = replace(own, radius=radius, tool=replace(own.tool, radius=shown, is_metric=False))
         return with_faults(moved, self.axes, self.wanted, self.facts, _Trial)
 
-    def stops(self, number: int, radius: float) -> list[Fault]:
+    def stops(self, number: int, radius: float) -> list[ToolFault]:
         """What keeps a tool of a radius (mm) from a run."""
-        short = FaultKind.ENTRY_TOO_SHORT if self.facts.needs_entry else None
+        short = ToolFaultKind.ENTRY_TOO_SHORT if self.facts.needs_entry else None
         faults = self.at(number, radius).faults
         return [each for each in faults if each.kind.value.severity is Severity.ERROR or each.kind is short]
 
@@ -92,7 +92,7 @@ class ToolTrials:
             largest = largest_fitting(lambda size: -1.0 if self.stops(number, size + _SLACK) else 1.0, high * scale)
             tried = (*(largest + each for each in _ASIDE), high * scale)
             beyond = next(each for each in tried if self.stops(number, each))
-            largest -= GOUGE if self.stops(number, beyond)[0].kind is FaultKind.INTERFERENCE else 0.0
+            largest -= GOUGE if self.stops(number, beyond)[0].kind is ToolFaultKind.INTERFERENCE else 0.0
             more = float(inward(Decimal(repr(beyond / scale)), unit, -1)) * scale
             reason = self._reason(number, largest, more if self.stops(number, more) else beyond)
             largest = round(largest / scale, 12)
@@ -106,7 +106,7 @@ class ToolTrials:
     def _reason(self, number: int, largest: float, beyond: float) -> Reason:
         """The finding about a tool beyond the largest, with its place."""
         fault, made = self.stops(number, beyond)[0], self.at(number, beyond).run
-        word = self.told.word(made, fault) if fault.kind is FaultKind.ARC_TOO_SMALL else None
+        word = self.told.word(made, fault) if fault.kind is ToolFaultKind.ARC_TOO_SMALL else None
         where = f"program line {made.travels[fault.element].line}{f', {word.text}' if word is not None else ''}"
         message = fault.kind.value.message.format(**self.told.texts(made, fault))
         limit = f"tool at most {limit_text(largest / float(made.unit.in_mm), made.unit.value, 1)}"
@@ -174,6 +174,6 @@ def request_of(options: ToolOptions) -> tuple[ToolRequest, BlockOptions]:
     """A tool of any radius, and the options about the block. Raises ToolError, ValueError."""
     side, tip = options.pop("side", None), options.pop("tip", None)
     make_tool(Decimal(0), tip)
-    outside = choice_of(Outside, options.pop("outside", Outside.ROLL.value), "outside")
+    outside = choice_of(OutsideCorner, options.pop("outside", OutsideCorner.ROLL.value), "outside")
     chosen = choice_of(ToolSide, side, "side") if side is not None else None
     return ToolRequest(None, tip, chosen, outside), options

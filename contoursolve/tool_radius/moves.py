@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from contoursolve.comparison import Motion, Step, ToolPath, Travel, bend_of
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tool_radius.findings import ToolReport, ToolRun
-from contoursolve.tool_radius.runs import Run, place_of
+from contoursolve.tool_radius.runs import CuttingRun, place_of
 
 Moves = tuple[tuple[Segment, bool], ...]
 """Elements, each with whether it is a rapid."""
@@ -88,7 +88,7 @@ def _known(travel: Travel, report: ToolReport, *, at_end: bool) -> Point:
     return nan if first is None else first, nan if second is None else second
 
 
-def lines_of(own: Run) -> tuple[int, ...]:
+def lines_of(own: CuttingRun) -> tuple[int, ...]:
     """The program lines of a run and of what leads there and away."""
     travels = filter(None, (own.lead, *own.travels, own.leaving))
     return tuple(dict.fromkeys(travel.line for travel in travels))

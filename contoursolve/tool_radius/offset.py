@@ -12,9 +12,9 @@ from contoursolve.geometry import FIRST, SECOND, Fact, TangentArc, TangentLine, 
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, largest_fitting
 from contoursolve.tolerance import LENGTH, REGULAR
 from contoursolve.tool_radius.clearance import ahead, gaps_below, is_on
-from contoursolve.tool_radius.faults import Fault, FaultKind
+from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
 from contoursolve.tool_radius.joint import STRAY, direction, join, meet_outside
-from contoursolve.tool_radius.tool import Outside, Tool
+from contoursolve.tool_radius.tool import OutsideCorner, Tool
 
 GOUGE = 1e-6
 """mm. Nearer than the radius by less than this is no gouge: a thousandth of the controls' least increment."""
@@ -22,7 +22,7 @@ GOUGE = 1e-6
 _LOOKED = 500
 """Elements among which the largest radius is looked for where a tool cuts into others; of more, none is told."""
 
-_FLANKS = (FaultKind.BACK_FLANK, FaultKind.FRONT_FLANK)
+_FLANKS = (ToolFaultKind.BACK_FLANK, ToolFaultKind.FRONT_FLANK)
 _FLANK = 1e-6
 """deg. Rounding of an angle."""
 
@@ -30,7 +30,7 @@ _CLEAR = 1e-3
 """d.N. By more than this the tip points away from the surface (assumed)."""
 
 
-class Piece(Struct, frozen=True):
+class OffsetElement(Struct, frozen=True):
     """A line or an arc of the centre's path, and the number of the element with whose block it is written; its `own`
     offset, or a part of the way around the corner behind it."""
 
@@ -53,7 +53,7 @@ class Gouge(Struct, frozen=True):
         return is_turned or self.wall == other.wall or dist(self.at, other.at) <= 2 * radius
 
 
-class Offset:
+class OffsetPath:
     """The path of the centre of a tool of a radius (mm) to the left (`side` +1) or right (-1) of elements, square to
     the first and the last one at its ends. `levels` are the numbers of the pass of each, from 1, negative for what is
     no surface, into which nothing can cut."""
@@ -63,7 +63,7 @@ class Offset:
         elements: Sequence[Segment],
         radius: float,
         side: int,
-        outside: Outside = Outside.ROLL,
+        outside: OutsideCorner = OutsideCorner.ROLL,
         levels: Sequence[int] | None = None,
     ) -> None:
         self.elements, self.radius, self.side, self.outside = elements, radius, side, outside
@@ -71,44 +71,44 @@ class Offset:
         self.joints = [join(one, two, radius, side) for one, two in pairwise(elements)]
 
     @cached_property
-    def faults(self) -> tuple[Fault, ...]:
+    def faults(self) -> tuple[ToolFault, ...]:
         """What does not fit: of neighbours, or else what our own check finds, or else of any elements."""
         return tuple(self._local()) or tuple(self._unverified()) or tuple(self._interferences())
 
     @cached_property
-    def pieces(self) -> tuple[Piece, ...] | None:
+    def pieces(self) -> tuple[OffsetElement, ...] | None:
         """The path; None where it does not fit."""
         return None if self.faults else self._pieces
 
     # What fits --------------------------------------------------------------------------------------------------
 
-    def _local(self) -> Iterator[Fault]:
+    def _local(self) -> Iterator[ToolFault]:
         """The faults that each element has with its neighbours."""
         small = set[int]()
         for number, element in enumerate(self.elements):
             short = self.radius - element.radius if isinstance(element, ArcSegment) else 0.0
             if isinstance(element, ArcSegment) and element.turn.sign == self.side and short > LENGTH:
-                yield Fault(FaultKind.ARC_TOO_SMALL, number, short, element.radius, element.length)
+                yield ToolFault(ToolFaultKind.ARC_TOO_SMALL, number, short, element.radius, element.length)
                 small |= {number - 1, number, number + 1}
         for number, joint in enumerate(self.joints):
             if joint.is_lost and number not in small:
-                yield self._fault(FaultKind.NO_INTERSECTION, number, None, slice(number, number + 2))
+                yield self._fault(ToolFaultKind.NO_INTERSECTION, number, None, slice(number, number + 2))
                 small |= {number, number + 1}
         for number in range(len(self.elements)):
             if (room := self._room(number)) < -LENGTH and number not in small:
                 near = slice(max(0, number - 1), number + 2)
-                yield self._fault(FaultKind.ELEMENT_VANISHES, number, -room, near)
+                yield self._fault(ToolFaultKind.ELEMENT_VANISHES, number, -room, near)
 
-    def _fault(self, kind: FaultKind, number: int, short: float | None, near: slice) -> Fault:
+    def _fault(self, kind: ToolFaultKind, number: int, short: float | None, near: slice) -> ToolFault:
         largest = self.largest(near)
         short = self.radius - largest if short is None else short
-        return Fault(kind, number, short, largest, self.elements[number].length)
+        return ToolFault(kind, number, short, largest, self.elements[number].length)
 
     def largest(self, near: slice) -> float:
         """The largest radius (mm) with which some elements in a row, at most all, can be cut."""
 
         def left(size: float) -> float:
-            part = Offset(self.elements[near], size, self.side, self.outside, self.levels[near])
+            part = OffsetPath(self.elements[near], size, self.side, self.outside, self.levels[near])
             arcs = [
                 each.radius for each in part.elements if isinstance(each, ArcSegment) and each.turn.sign == self.side
             ]
@@ -130,17 +130,19 @@ class Offset:
     # The path ---------------------------------------------------------------------------------------------------
 
     @cached_property
-    def _pieces(self) -> tuple[Piece, ...]:
+    def _pieces(self) -> tuple[OffsetElement, ...]:
         moved = [self._moved(element) for element in self.elements]
-        found = list[Piece]()
+        found = list[OffsetElement]()
         for number, element in enumerate(self.elements):
             around: list[Segment] = []
             if number < len(self.joints):
                 moved[number], around, moved[number + 1] = self._joined(number, moved[number], moved[number + 1])
             own = moved[number]
             is_full = isinstance(own, ArcSegment) and own.radius > LENGTH and dist(element.start, element.end) <= LENGTH
-            found += [Piece(own, number)] if is_full or dist(own.start, own.end) > LENGTH else []
-            found += [Piece(each, number, is_own=False) for each in around if dist(each.start, each.end) > LENGTH]
+            found += [OffsetElement(own, number)] if is_full or dist(own.start, own.end) > LENGTH else []
+            found += [
+                OffsetElement(each, number, is_own=False) for each in around if dist(each.start, each.end) > LENGTH
+            ]
         return tuple(found)
 
     def _moved(self, element: Segment) -> Segment:
@@ -162,7 +164,7 @@ class Offset:
             return replace(before, end=joint.meeting.center), [], replace(after, start=joint.meeting.center)
         if joint.turn >= 0:
             return before, [], replace(after, start=here)
-        if self.outside is Outside.ROLL:
+        if self.outside is OutsideCorner.ROLL:
             turn = Turn.CW if self.side > 0 else Turn.CCW
             return before, [ArcSegment("", here, there, one.end, self.radius, turn)], after
         way, on = direction(one, at_end=True), direction(other, at_end=False)
@@ -179,13 +181,13 @@ class Offset:
 
     # Our own check ----------------------------------------------------------------------------------------------
 
-    def _unverified(self) -> Iterator[Fault]:
+    def _unverified(self) -> Iterator[ToolFault]:
         """The elements along which the centre is not at the radius, by the equation of a circle that touches them."""
         for piece in self._pieces:
             ends = (piece.segment.start, piece.segment.end) if piece.is_own else ()
             off = max((abs(self._touching(self.elements[piece.element], at)) for at in ends), default=0.0)
             if not off <= 2 * STRAY:
-                yield Fault(FaultKind.NOT_VERIFIED, piece.element, off)
+                yield ToolFault(ToolFaultKind.NOT_VERIFIED, piece.element, off)
 
     def _touching(self, element: Segment, at: Point) -> float:
         """By how much (mm) a circle of the radius about a place does not touch an element on the tool's side."""
@@ -207,7 +209,7 @@ class Offset:
             for gap in gaps_below(paths, parts, self.radius - GOUGE):
                 yield Gouge(self.radius - gap.distance, walls[gap.wall], pieces[gap.piece].element, gap.at)
 
-    def _interferences(self) -> Iterator[Fault]:
+    def _interferences(self) -> Iterator[ToolFault]:
         """Walls into which the tool cuts beside another element: of each place, the deepest."""
         told, looked = list[Gouge](), 0
         for each in sorted(self._gouges(), key=lambda gouge: (-round(gouge.depth, 6), -gouge.wall)):
@@ -218,7 +220,7 @@ class Offset:
             length, near = self.elements[each.wall].length, slice(max(first - 1, 0), last + 2)
             looked += last - first
             largest = self.largest(near) if looked <= _LOOKED else None
-            yield Fault(FaultKind.INTERFERENCE, each.wall, each.depth, largest, length, each.working, each.at)
+            yield ToolFault(ToolFaultKind.INTERFERENCE, each.wall, each.depth, largest, length, each.working, each.at)
 
 
 NOTICED = 0.005
@@ -231,17 +233,17 @@ def shifted(segment: Segment, by: Point) -> Segment:
     return replace(segment, **{name: (at[0] + by[0], at[1] + by[1]) for name, at in places.items()})
 
 
-def tip_faults(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[Fault]:
+def tip_faults(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[ToolFault]:
     """The elements from whose surface the tip of a tool points away, each with how deep the nose would lie."""
     for number, element in enumerate(elements):
         normals = [normal_of(element, side, at_end=at_end) for at_end in (False, True)]
         # An arc over the top of a ball begins towards the tip; the flanks decide how far it may go.
         along = min(float(dot(tip, normal)) for normal in normals)
         if along > _CLEAR:
-            yield Fault(FaultKind.TIP_AGAINST_SIDE, number, radius * (1 + along))
+            yield ToolFault(ToolFaultKind.TIP_AGAINST_SIDE, number, radius * (1 + along))
 
 
-def flank_faults(elements: Sequence[Segment], side: int, tool: Tool) -> Iterator[Fault]:
+def flank_faults(elements: Sequence[Segment], side: int, tool: Tool) -> Iterator[ToolFault]:
     """The elements into which the flank behind or before a tip 1 to 4 cuts: the nose would touch them farther around
     than where its straight edge begins."""
     (first, second), stated = tool.vector(), (tool.back, tool.front)
@@ -254,10 +256,10 @@ def flank_faults(elements: Sequence[Segment], side: int, tool: Tool) -> Iterator
         )
         for kind, needed, has in zip(_FLANKS, map(max, needs), stated, strict=True):
             if has is not None and needed > has + _FLANK:
-                yield Fault(kind, number, rest=(needed, has))
+                yield ToolFault(kind, number, rest=(needed, has))
 
 
-def uncompensated(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[Fault]:
+def uncompensated(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[ToolFault]:
     """How much too thick (mm; below 0: too deep) elements come out where the tip runs along them without compensation,
     square to the surface; of an arc, where it is most. A centre has it the same on all of them."""
     for number, element in enumerate(elements):
@@ -270,16 +272,16 @@ def uncompensated(elements: Sequence[Segment], side: int, radius: float, tip: Po
                 normals.append(normal)
         off = max((-radius * (1 + float(dot(tip, normal))) for normal in normals), key=abs)
         if abs(off) >= NOTICED and (any(tip) or not number):
-            yield Fault(FaultKind.UNCOMPENSATED, number, off)
+            yield ToolFault(ToolFaultKind.UNCOMPENSATED, number, off)
 
 
-def uncut(made: Offset) -> Iterator[Fault]:
+def uncut(made: OffsetPath) -> Iterator[ToolFault]:
     """What a tool leaves in the inside corners of a contour that it cuts."""
     for number, joint in enumerate(made.joints if made.pieces is not None else ()):
         meeting, element = joint.meeting, made.elements[number]
         is_wall = min(made.levels[number : number + 2]) > 0
         if meeting is not None and is_wall and (rest := dist(meeting.center, element.end) - made.radius) >= NOTICED:
-            yield Fault(FaultKind.INSIDE_CORNER, number, rest, rest=(meeting.back, meeting.ahead))
+            yield ToolFault(ToolFaultKind.INSIDE_CORNER, number, rest, rest=(meeting.back, meeting.ahead))
 
 
 def normal_of(element: Segment, side: int, *, at_end: bool) -> Point:

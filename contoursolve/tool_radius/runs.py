@@ -16,7 +16,7 @@ from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import AGREEMENT, LENGTH
 from contoursolve.tool_radius.clearance import foot
 from contoursolve.tool_radius.joint import TANGENT, join
-from contoursolve.tool_radius.tool import Outside, Tool, ToolError, ToolSide, tool_in
+from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, tool_in
 
 SIDES = {side.code: side for side in ToolSide}
 
@@ -32,14 +32,14 @@ class ToolRequest(Struct, frozen=True):
     tool: Tool | None = None
     tip: int | None = None
     side: ToolSide | None = None
-    outside: Outside = Outside.ROLL
+    outside: OutsideCorner = OutsideCorner.ROLL
     table: Mapping[str, Tool] = {}
     """Tools by their T or D word, such as `T0101`."""
     default: Tool | None = None
     """The tool where none is stated."""
 
 
-class Run(Struct, frozen=True):
+class CuttingRun(Struct, frozen=True):
     """Elements that follow one another in a plane, all on one side of one tool; `radius` is in mm.
 
     `lead` is the move before, the end of which moves with the tool; `leaving` the one behind, which begins where the
@@ -114,7 +114,7 @@ def _closes(parts: Sequence[Segment], first: int, last: int, *, is_end: bool = F
     return last > first + 1 and dist(at, foot(on, at)) <= AGREEMENT
 
 
-def find_runs(path: ToolPath, asked: ToolRequest, blocks: Sequence[Block]) -> list[Run]:
+def find_runs(path: ToolPath, asked: ToolRequest, blocks: Sequence[Block]) -> list[CuttingRun]:
     """The runs of a program's path for a tool that is asked for or stated. Raises ToolError."""
     travels = [step for step in path.steps if isinstance(step, Travel)]
     stated = next((each for each in travels if each.compensation in SIDES), None)
@@ -183,7 +183,7 @@ def _moves(step: Travel, axes: Sequence[str]) -> bool:
     )
 
 
-def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | None) -> Run | None:
+def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | None) -> CuttingRun | None:
     """The run of a group; None where nothing is cut. Without a stated side, a move that leads at an angle to the first
     contour words is no part of it."""
     travels, lead, leaving, is_approached = group.travels, group.lead, group.leaving, False
@@ -205,7 +205,7 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
         raise ToolError("a turning tool needs the number of its imaginary tip; give --tip 0 to 9, such as --tip 3")
     if tool.tip is not None and not any(plane.diameters):
         raise ToolError(f"a cutter has no imaginary tip; leave tip {tool.tip} out")
-    return Run(
+    return CuttingRun(
         tuple(elements),
         tuple(travels),
         tool,

@@ -12,7 +12,7 @@ from contoursolve.program import Result, Run, find_tool_table
 from contoursolve.reading import ReadIssue
 from contoursolve.tool_radius.findings import ToolReport, look_at_tool
 from contoursolve.tool_radius.runs import ToolRequest
-from contoursolve.tool_radius.tool import Outside, Tool, ToolError, ToolSide, make_tool, read_tool
+from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, make_tool, read_tool
 
 FROM_PROGRAM = "program"
 """In the place of a tool: what the program and the project file say."""
@@ -35,7 +35,7 @@ def wanted_tool(program: str, tool: str | None, tip: int | None, side: str | Non
         None if is_own or tool is None else read_tool(tool, tip),
         tip,
         ToolSide(side) if side else None,
-        Outside(outside),
+        OutsideCorner(outside),
         {name: _tool_of(name, row) for name, row in find_tool_table(folder).items()} if is_own else {},
     )
 

@@ -50,7 +50,7 @@ class ToolSide(Enum):
         return 41 if self is ToolSide.LEFT else 42
 
 
-class Outside(Enum):
+class OutsideCorner(Enum):
     """The way of the tool around an outside corner."""
 
     ROLL = "roll"

@@ -22,14 +22,14 @@ from contoursolve.families import (
     spec_of,
 )
 from contoursolve.solving import StatusCode
-from contoursolve.tool_radius.faults import FaultKind
+from contoursolve.tool_radius.faults import ToolFaultKind
 from contoursolve.tool_radius.largest import ToolOptions, ToolTrials, request_of
 from contoursolve.tool_radius.tool import make_tool
 
-Stop = tuple[int, FaultKind] | None
+Stop = tuple[int, ToolFaultKind] | None
 """The number of the first run that a tool does not cut, and why; None where it cuts all."""
 
-_TEXT = numpy.dtype(f"<U{max(len(each.name) for each in FaultKind)}")
+_TEXT = numpy.dtype(f"<U{max(len(each.name) for each in ToolFaultKind)}")
 
 
 class ToolSweep(CompiledSweep, eq=False, kw_only=True):

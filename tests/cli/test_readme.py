@@ -18,7 +18,6 @@ from tip_numbers import tip_numbers
 
 from contoursolve.__main__ import commands
 from contoursolve.controls import DIALECTS, TOOL_FACTS
-from contoursolve.tool_radius import FaultKind
 
 ROOT = Path(__file__).parents[2]
 PICTURES = ROOT / "notebooks" / "pictures"
@@ -93,7 +92,7 @@ def test_the_page_about_tools_has_every_alarm_and_every_finding_with_its_grade()
         told = [alarms.get(kind) for kind in (*kinds, "entry_too_short")]
         cells = [f"{each.number} ({each.evidence.value})" if each else "" for each in told]
         assert [cell.strip() for cell in row.split("|")] == cells, name
-    assert {*re.findall(r"`(tool-[\w-]+)`", text)} == {kind.code for kind in FaultKind} - {"tool-not-verified"}
+    assert {*re.findall(r"`(tool-[\w-]+)`", text)} == {kind.code for kind in ToolFaultKind} - {"tool-not-verified"}
 
 
 @pytest.mark.parametrize("page", CODE)

@@ -10,7 +10,6 @@ from oracle_tool import run
 
 from contoursolve.cli import main
 from contoursolve.controls import TOOL_FACTS
-from contoursolve.tool_radius import FaultKind
 
 TABLES = Path(__file__).parents[1] / "oracles" / "tables"
 LATHE, MILL = ("--control", "fanuc-lathe"), ("--control", "fanuc-mill")
@@ -335,7 +334,7 @@ def test_no_alarm_is_invented():
         "Tool radius too large",
     }
     assert {alarm.number for facts in TOOL_FACTS.values() for alarm in facts.alarms.values()} == printed
-    kinds = {kind.name.lower() for kind in FaultKind}
+    kinds = {kind.name.lower() for kind in ToolFaultKind}
     assert all({*facts.alarms} <= kinds for facts in TOOL_FACTS.values())
 
 
