@@ -375,12 +375,15 @@ def follow(program: Program, start: str | None, assignments: Sequence[str], opti
     with naming(program.name):
         run = follow_program(program, start=start, settings=settings_of(program, assignments), **options)
     check_start(run.asked)
-    if stated.get("tool") is None and (not stated or "contoursolve" not in program.text):
-        check_toolless(stated)
-        return run
-    from contoursolve.cli.tool import beside_tool  # noqa: PLC0415 - few programs state a tool
+    if stated and (stated["tool"] is not None or "contoursolve" in program.text):
+        from contoursolve.cli.tool import beside_tool  # noqa: PLC0415 - few programs state a tool
 
-    return beside_tool(run, **stated)
+        with naming(program.name):
+            found = beside_tool(run, **stated)
+        if found is not run:
+            return found
+    check_toolless(stated)
+    return run
 
 
 def check_toolless(stated: Mapping[str, Any], remedy: str = "--tool, such as --tool R0.8") -> None:

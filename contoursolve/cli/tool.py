@@ -6,7 +6,6 @@ from typing import Any
 from msgspec.structs import replace
 
 from contoursolve.api import follow_program
-from contoursolve.cli.options import check_toolless, naming
 from contoursolve.execution import needs_running
 from contoursolve.gcode import Program
 from contoursolve.output import Collected
@@ -19,7 +18,6 @@ from contoursolve.tool_radius import (
     moves_of,
     report_on,
     result_beside_tool,
-    title_of,
     tool_in,
     wanted_tool,
 )
@@ -29,13 +27,10 @@ def beside_tool(
     run: Run, tool: str | None, tip: int | None, side: str | None, outside: str = "roll"
 ) -> Run | Collected:
     """The result of a run with the findings about its tool; the run itself where nothing states one."""
-    name = run.frame.program.name
-    with naming(name):
-        wanted = wanted_tool(name, tool, tip, side, outside)
-        if tool is None and not any(tool_in(block.text) for block in run.frame.program.blocks):
-            check_toolless({"tip": tip, "side": side})
-            return run
-        result, report = result_beside_tool(run, wanted)
+    wanted = wanted_tool(run.frame.program.name, tool, tip, side, outside)
+    if tool is None and not any(tool_in(block.text) for block in run.frame.program.blocks):
+        return run
+    result, report = result_beside_tool(run, wanted)
     return Collected(result, run.is_strict, tool=report)
 
 
@@ -69,7 +64,7 @@ def moved_program(
             # Where a contour stays, the words of compensation before it stay, too.
             kept |= {*range(behind + 1, max(lines) + 1)}
         else:
-            remarks[lines[0]] = title_of(each)
+            remarks[lines[0]] = each.title
             good.append(each)
         behind = max(lines)
     kept |= set() if is_solved else {*texts}

@@ -1,4 +1,4 @@
-"""What the controls do with the radius of a tool: their alarms, and how far ahead they look."""
+"""Facts about the controls and the radius of a tool: their alarms, and the moves that they look ahead."""
 
 from collections.abc import Mapping
 
@@ -13,9 +13,9 @@ class ToolFacts(Struct, frozen=True):
     """Facts about the compensation of one control."""
 
     alarms: Mapping[str, Alarm] = {}
-    """Its alarms, with their grades, by the kinds of `FaultKind`."""
+    """Its alarms, with their grades, by the kinds of `ToolFaultKind`."""
     notice: str = ""
-    """Whether it notices that the tool cuts into another element, and the grade."""
+    """The moves among which it notices that the tool cuts into another element, and the grade."""
     needs_entry: bool = False
     """Whether it refuses a move to the contour that is no longer than the radius."""
 

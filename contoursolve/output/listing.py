@@ -358,14 +358,15 @@ def beside_of(tool: "ToolReport | None", answer: Answer | None = None) -> "tuple
 
 def tool_lines(report: "ToolReport", result: Result) -> Iterator[str]:
     """The path of the tool beside each contour of a program."""
+    from contoursolve.tool_radius import title_of  # noqa: PLC0415 - few programs state a tool
+
     for each in report.runs:
-        own, path = each.run, each.path
-        title = f"{printable(result.program.name)}:{own.lines[0]}: {each.title}"
-        if path is None:
-            yield from (f"{title}: it does not fit", "")
+        begin = f"{printable(result.program.name)}:{each.run.lines[0]}"
+        if each.path is None:
+            yield from (f"{begin}: {each.title}: it does not fit", "")
             continue
-        table = path_table(path, own.unit)
-        yield f"{title}: path of the {'tip' if own.is_lathe else 'centre'}"
+        table = path_table(each.path, each.run.unit)
+        yield f"{begin}: {title_of(each)}"
         yield from (*columns([("", "", *table.header[2:]), *table.rows], table.left), "")
 
 

@@ -48,7 +48,7 @@ class MovedExpander(Expander):
 
     moved: MovedProgram
     here: Point | None = None
-    """Where the tool is, as long as that is not where the program has it."""
+    """Place of the tool, as long as that is not where the program has it."""
 
     def _pass(self, passage: Passage, state: State) -> Iterator[str | object]:
         numbers = range(passage.line, passage.line + len(passage.lines))

@@ -1,4 +1,4 @@
-"""What a tool cannot do on a contour, and what it leaves: one row a kind."""
+"""Faults of a tool on a contour, and what it leaves: one row a kind."""
 
 from enum import Enum
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from contoursolve.solving import Point
 
 
 class _Row(NamedTuple):
-    """What is said of a kind, and what to do."""
+    """Message of a kind, and what to do."""
 
     message: str
     help: str
@@ -95,7 +95,7 @@ class ToolFaultKind(Enum):
 
     @property
     def source(self) -> Source:
-        """What it rests on."""
+        """The source of what is said."""
         if self is ToolFaultKind.APPROACH:
             return Source(OWN, "where a contour begins without G41 and G42", Evidence.ASSUMED)
         return Source(OWN, "geometry of the tool's radius", Evidence.DERIVED)

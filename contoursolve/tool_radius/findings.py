@@ -229,7 +229,7 @@ class ToolFindings:
         }
 
     def _comes_out(self, own: CuttingRun, element: Segment, off: float) -> str:
-        """What an element becomes without compensation."""
+        """The sentence about what an element becomes without compensation."""
         unit, much = own.unit, f"{length_in(abs(off), own.unit)} too {'thick' if off > 0 else 'deep'}"
         if not any(own.vector):
             return f"contour comes out {much}"
@@ -243,7 +243,7 @@ class ToolFindings:
         return f"line comes out {much}{''.join(told)}"
 
     def _notes(self, own: CuttingRun, fault: ToolFault) -> Iterator[str]:
-        """What fits, and where."""
+        """Notes about what fits, and where."""
         kind, unit = _kind(own), own.unit
         if fault.largest is not None and fault.largest < LEAST:
             yield f"no {kind} fits here"

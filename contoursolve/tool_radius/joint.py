@@ -18,9 +18,9 @@ from contoursolve.geometry import (
     CornerShape,
     Figure,
     Line,
-    OnCircle,
     Turn,
     build_system,
+    put_on,
     scalar,
 )
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, compile_system
@@ -79,7 +79,7 @@ def join(before: Segment, after: Segment, radius: float, side: int) -> Joint:
 
 
 def meet(before: Segment, after: Segment, radius: float) -> CornerCenter | None:
-    """Where a tool of this radius (mm) touches both elements in the corner between them; None where it cannot."""
+    """The place of a tool of a radius (mm) that touches both elements in the corner between them; None without one."""
     function, names = _function(_turn(before), _turn(after))
     origin = before.start
     values = {"R": radius, **_scalars("S", origin, origin), **_scalars("V", before.end, origin)}
@@ -95,7 +95,7 @@ def meet(before: Segment, after: Segment, radius: float) -> CornerCenter | None:
 
 
 def meet_outside(before: Segment, after: Segment, radius: float) -> CornerCenter | None:
-    """Where the offsets of the tangents at an outside corner meet: in the corner between them beyond their end."""
+    """The place where the offsets of the tangents at an outside corner meet: in the corner beyond their end."""
     at, one, two = before.end, direction(before, at_end=True), direction(after, at_end=False)
     ends = (at[0] + one[0], at[1] + one[1]), (at[0] - two[0], at[1] - two[1])
     return meet(LineSegment("", ends[0], at), LineSegment("", at, ends[1]), radius)
@@ -121,7 +121,7 @@ def _function(before: Turn | None, after: Turn | None) -> tuple[Any, tuple[str, 
     corner = Corner("tool", "V", CornerShape.FILLET, "R", "1", "2")
     radii, places = tuple(each.radius for each in arcs), ("V", "E", *(each.center for each in arcs))
     figure = Figure("S", (), radii, path, (corner,), places)
-    machine = compile_system(build_system(figure, tuple(OnCircle("V", each.center, each.radius) for each in arcs)))
+    machine = compile_system(build_system(figure, tuple(put_on(each, "V") for each in arcs)))
     built = machine.path.corners["tool"]
     if built.center is None:
         raise TypeError("a fillet has a centre")

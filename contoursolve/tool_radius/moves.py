@@ -83,7 +83,7 @@ def _by_travel(report: ToolReport) -> list[tuple[Travel, Moves]]:
 
 
 def _known(travel: Travel, report: ToolReport, *, at_end: bool) -> Point:
-    """Where a move begins or ends; what is not known is no number, and is not needed."""
+    """The place where a move begins or ends; what is not known is no number, and is not needed."""
     first, second = place_of(travel, report.path.axes, at_end=at_end)
     return nan if first is None else first, nan if second is None else second
 

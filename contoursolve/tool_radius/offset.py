@@ -8,7 +8,7 @@ from math import atan2, degrees, dist, hypot, nan, pi
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.geometry import FIRST, SECOND, Fact, TangentArc, TangentLine, Turn, Values, dot
+from contoursolve.geometry import FIRST, SECOND, Circle, Line, Turn, Values, dot, make_tangent
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, largest_fitting
 from contoursolve.tolerance import LENGTH, REGULAR
 from contoursolve.tool_radius.clearance import ahead, gaps_below, is_on
@@ -40,7 +40,7 @@ class OffsetElement(Struct, frozen=True):
 
 
 class Gouge(Struct, frozen=True):
-    """How deep (mm) a tool cuts into a wall while it works on another element, and where."""
+    """A cut of a tool into a wall (mm deep) while it works on another element, and where."""
 
     depth: float
     wall: int
@@ -72,7 +72,7 @@ class OffsetPath:
 
     @cached_property
     def faults(self) -> tuple[ToolFault, ...]:
-        """What does not fit: of neighbours, or else what our own check finds, or else of any elements."""
+        """The faults: those of neighbours, or else of our own check, or else of any elements."""
         return tuple(self._local()) or tuple(self._unverified()) or tuple(self._interferences())
 
     @cached_property
@@ -121,7 +121,7 @@ class OffsetPath:
         return largest_fitting(left, self.radius)
 
     def _room(self, number: int) -> float:
-        """What the corners at both ends leave of an element, mm."""
+        """The length that the corners at both ends leave of an element, mm."""
         before = self.joints[number - 1].meeting if number else None
         behind = self.joints[number].meeting if number < len(self.joints) else None
         taken = (before.ahead if before else 0.0) + (behind.back if behind else 0.0)
@@ -192,13 +192,14 @@ class OffsetPath:
     def _touching(self, element: Segment, at: Point) -> float:
         """By how much (mm) a circle of the radius about a place does not touch an element on the tool's side."""
         scalars = {"P.0": at[0] - element.start[0], "P.1": at[1] - element.start[1], "R": self.radius}
-        fact: Fact
+        nose, side = Circle("nose", "P", "R"), self.side
         if isinstance(element, ArcSegment):
             scalars |= {f"C.{axis}": element.center[axis] - element.start[axis] for axis in (FIRST, SECOND)}
-            fact, scalars["r"] = TangentArc(("C", "r"), element.turn, "P", "R", self.side), element.radius
+            scalars["r"], side = element.radius, -side * element.turn.sign
+            fact = make_tangent(Circle("C", "C", "r"), nose, side)
         else:
             scalars["L.off"], (scalars["L.cos"], scalars["L.sin"]) = 0.0, direction(element, at_end=False)
-            fact = TangentLine("L", "P", "R", self.side)
+            fact = make_tangent(Line("L", "A", "B"), nose, side)
         return float(fact.residual(Values(scalars, {}, {})))
 
     def _gouges(self) -> Iterator[Gouge]:
@@ -260,8 +261,8 @@ def flank_faults(elements: Sequence[Segment], side: int, tool: Tool) -> Iterator
 
 
 def uncompensated(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[ToolFault]:
-    """How much too thick (mm; below 0: too deep) elements come out where the tip runs along them without compensation,
-    square to the surface; of an arc, where it is most. A centre has it the same on all of them."""
+    """The excess (mm; below 0: too deep) of elements along which the tip runs without compensation, square to the
+    surface; of an arc, where it is most. A centre has it the same on all of them."""
     for number, element in enumerate(elements):
         normals = [normal_of(element, side, at_end=at_end) for at_end in (False, True)]
         for sign in (1, -1) if any(tip) and isinstance(element, ArcSegment) else ():
@@ -276,7 +277,7 @@ def uncompensated(elements: Sequence[Segment], side: int, radius: float, tip: Po
 
 
 def uncut(made: OffsetPath) -> Iterator[ToolFault]:
-    """What a tool leaves in the inside corners of a contour that it cuts."""
+    """The rest that a tool leaves in the inside corners of a contour that it cuts."""
     for number, joint in enumerate(made.joints if made.pieces is not None else ()):
         meeting, element = joint.meeting, made.elements[number]
         is_wall = min(made.levels[number : number + 2]) > 0

@@ -54,7 +54,7 @@ class CuttingRun(Struct, frozen=True):
     plane: Plane
     unit: Length
     levels: tuple[int, ...]
-    """As `Offset` has them."""
+    """As `OffsetPath` has them."""
     lead: Travel | None = None
     leaving: Travel | None = None
     is_stated: bool = True
@@ -222,7 +222,7 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
 
 
 def place_of(step: Travel, axes: Sequence[str], *, at_end: bool) -> tuple[float | None, float | None]:
-    """Where a move begins or ends in its plane, mm; None for what is not known."""
+    """The place where a move begins or ends in its plane, mm; None for what is not known."""
     place = step.end if at_end else step.start
     first, second = (place[axes.index(axis)] for axis in (step.plane.axes if step.plane else ()))
     return first, second

@@ -25,7 +25,7 @@ TIPS: Mapping[int, Point] = {
     8: (0.0, -1.0),
     9: (0.0, 0.0),
 }
-"""Where the programmed point lies from the centre of the nose, in radii along Z and X, by the number of the tip
+"""The programmed point from the centre of the nose, in radii along Z and X, by the number of the tip
 (printed for Haas: "imaginary tool tip and direction"; the same numbers on the other controls are assumed)."""
 
 
@@ -67,7 +67,7 @@ class Tool(Struct, frozen=True):
     is_metric: bool = False
     """Whether the radius is in mm whatever the program's unit."""
     back: float | None = None
-    """How far (deg) a contour may fall behind a tip 1 to 4 before its flank cuts into it, where that is stated."""
+    """Angle (deg) by which a contour may fall behind a tip 1 to 4 before its flank cuts into it, if stated."""
     front: float | None = None
     """The same of a face that leans over before the tip."""
 

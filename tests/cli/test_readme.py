@@ -18,6 +18,7 @@ from tip_numbers import tip_numbers
 
 from contoursolve.__main__ import commands
 from contoursolve.controls import DIALECTS, TOOL_FACTS
+from contoursolve.tool_radius import ToolFaultKind
 
 ROOT = Path(__file__).parents[2]
 PICTURES = ROOT / "notebooks" / "pictures"

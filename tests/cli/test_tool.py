@@ -10,6 +10,7 @@ from oracle_tool import run
 
 from contoursolve.cli import main
 from contoursolve.controls import TOOL_FACTS
+from contoursolve.tool_radius import ToolFaultKind
 
 TABLES = Path(__file__).parents[1] / "oracles" / "tables"
 LATHE, MILL = ("--control", "fanuc-lathe"), ("--control", "fanuc-mill")
