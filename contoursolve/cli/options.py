@@ -270,7 +270,7 @@ side_options = together(
     click.option(
         "--side",
         type=click.Choice(["left", "right"]),
-        help="The side of the contour on which the tool runs, where the program has no G41 or G42 (RL or RR).",
+        help="The side of the contour on which the tool runs, for a program without G41 and G42 (RL and RR).",
     ),
     click.option(
         "--outside",

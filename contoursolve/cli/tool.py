@@ -47,7 +47,7 @@ def moved_program(
         raise ToolError("expand --tool reads G codes; write the program with expand --post fanuc first")
     is_solved = all(answer.contour is not None for answer in result.answers)
     if not report.runs and is_solved:
-        raise ToolError("no cutting move goes beside a contour; there is nothing to write")
+        raise ToolError("no cutting move goes beside a contour, so that nothing is to be written")
     texts = {block.line: block.text for block in program.blocks}
     left, kept, remarks, behind = dict[int, Left](), set[int](), dict[int, str](), 0
     good = list[ToolRun]()
