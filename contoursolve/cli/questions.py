@@ -82,8 +82,8 @@ def range_(
     points. With facts or ? it follows all solutions: the contour exists where exactly one can be made. Where they leave
     no formula, use sweep, which solves the block value by value.
 
-    With --word tool it tells which tools cut the contour, by the radius of the nose or of the cutter, and what stops a
-    larger one. It takes every cutting move of the block, with contour words or without.
+    With --word tool it tells up to which radius a tool cuts the contour, and what stops a larger one. It takes every
+    cutting move of the block, with contour words or without.
 
     Exit status: 0 the contour exists for some value, 1 for none, 2 could not run.
 
@@ -166,8 +166,8 @@ def find(
     find solves and certifies each value by itself. It also prints the block to write, with the value rounded to the
     control's least increment. It says how far the point is off then.
 
-    With --word tool it finds the largest tool that cuts all contours of PROGRAM, what limits it, and the largest for
-    each contour. --block, --start and --fact may stand in for PROGRAM; --bring is not needed.
+    With --word tool it finds the largest tool that cuts all contours of PROGRAM, and the largest for each. It says what
+    limits it. --block, --start and --fact may stand in for PROGRAM; --bring is not needed.
 
     Exit status: 0 found, 1 no such value, 2 could not run.
 

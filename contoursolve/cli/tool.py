@@ -64,7 +64,7 @@ def moved_program(
             # Where a contour stays, the words of compensation before it stay, too.
             kept |= {*range(behind + 1, max(lines) + 1)}
         else:
-            remarks[lines[0]] = each.title
+            remarks[lines[0]] = title_of(each)
             good.append(each)
         behind = max(lines)
     kept |= set() if is_solved else {*texts}

@@ -65,7 +65,7 @@ class CompiledSweep(Struct, eq=False):
     only: int | None = None
     """Of several solutions of each row, the one that counts; what words choose without it."""
     tool: Any = None
-    """What is asked about tools besides the contours; the results depend on it, too."""
+    """The question about tools besides the contours; the results depend on it, too."""
     local: threading.local = field(default_factory=threading.local)
 
     @property

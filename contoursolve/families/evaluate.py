@@ -304,7 +304,7 @@ class FailureSummary(Struct, frozen=True):
 
 
 CUT = "cut"
-"""What is counted of a tool that cuts a contour, among what stops it."""
+"""The name under which a contour is counted that a tool cuts, among what stops it."""
 
 
 class Tally(Struct):

@@ -118,7 +118,7 @@ class Feasible(Shown, Struct, frozen=True):
     premises: Premises = Premises()
     """Premises of the contours beside the words."""
     holds: str = "with a contour"
-    """What the ranges are, in a sentence."""
+    """The verb of a sentence about the ranges."""
 
     @property
     def is_complete(self) -> bool:

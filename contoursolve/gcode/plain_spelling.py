@@ -33,14 +33,14 @@ class PlainSpelling(Struct, frozen=True, eq=False):
     several: re.Pattern[str]
     """Lines in a row."""
     aside: re.Pattern[str]
-    """What is no word: comments, and names with the letter of an axis."""
+    """The pattern of what is no word: comments, and names with the letter of an axis."""
     motions: tuple[int, ...] = (0, 1)
     """The motions in which the lines lead where their coordinates say."""
     begins: re.Pattern[str] = re.compile(r"\S")
     """Words of a line with which a contour may begin, if what follows makes one of it."""
     parts: re.Pattern[str] | None = None
-    """What the words of a line set, if that is more than places and the motion: the first two signs name it, and the
-    last line with that name counts."""
+    """The signs of what the words of a line set, if that is more than places and the motion: the first two name it, and
+    the last line with that name counts."""
 
 
 def plain_spelling(words: str, comments: str, names: str = "", **others: Any) -> PlainSpelling:

@@ -27,7 +27,7 @@ from contoursolve import (
     words_to_add,
 )
 from contoursolve.lsp.opened import Opened
-from contoursolve.pictures import Beside, draw_answer
+from contoursolve.pictures import ToolDrawing, draw_answer
 
 WIDE = 420
 """Pixels of a picture in a hover."""
@@ -61,8 +61,8 @@ def hover_of(opened: Opened, position: types.Position) -> types.Hover | None:
     return _hover(opened, text, word) if text and word is not None else None
 
 
-def tool_beside(opened: Opened, answer: Answer) -> Sequence[Beside]:
-    """What is drawn of the tool beside a contour."""
+def tool_beside(opened: Opened, answer: Answer) -> Sequence[ToolDrawing]:
+    """The drawing of the tool beside a contour."""
     tool = opened.tool()
     return beside_of(None if isinstance(tool, str) else tool, answer)
 
@@ -134,7 +134,7 @@ def _about_plain_word(opened: Opened, word: Word) -> str:
     return f"**{_plain(word.text)}** {row.meaning}" if row else ""
 
 
-def _about_contour(answer: Answer, *, is_drawn: bool, beside: Sequence[Beside] = ()) -> str:
+def _about_contour(answer: Answer, *, is_drawn: bool, beside: Sequence[ToolDrawing] = ()) -> str:
     end = end_text(answer)
     lines = [f"**{_plain(form_text(answer))}**: {answer.status.value}" + (f", ends at {end}" if end else "")]
     if is_drawn:
@@ -147,7 +147,7 @@ def _about_contour(answer: Answer, *, is_drawn: bool, beside: Sequence[Beside] =
     return "\n\n".join(lines)
 
 
-def image_of(answer: Answer, beside: Sequence[Beside] = ()) -> str:
+def image_of(answer: Answer, beside: Sequence[ToolDrawing] = ()) -> str:
     """A small picture of a contour, as an address that holds all of it."""
     picture = draw_answer(answer, beside=beside)
     scale = WIDE / picture.width

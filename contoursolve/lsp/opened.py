@@ -128,7 +128,7 @@ class Opened:
         return types.WorkspaceEdit(document_changes=[types.TextDocumentEdit(document, [*changes])])
 
     def tool(self) -> "contoursolve.ToolReport | str | None":
-        """What is said of the tool that the program or its project file states; the reason where nothing can be said,
+        """The report about the tool that the program or its project file states; the reason where nothing can be said,
         None where no tool is stated."""
         if self._tool is None or self._tool[0] != self.version:
             self._tool = self.version, self._look_at_tool()

@@ -62,7 +62,7 @@ class Exploration(Struct, frozen=True):
     side: str | None = None
     """The side of the contour on which the tool runs, where the text does not say it."""
     tool: ToolReport | None = None
-    """What is said of the tool that the text states, if it states one."""
+    """The report about the tool that the text states, if it states one."""
 
     @property
     def answer(self) -> Answer | None:
@@ -129,7 +129,7 @@ def begin(
 
 
 def _examined(text: str, side: str | None, options: Mapping[str, Any]) -> tuple[Result, ToolReport | None]:
-    """What a text comes to, with what is said of the tool that it states."""
+    """The result of a text, with what is said of the tool that it states."""
     is_stated = any(tool_in(line) is not None for line in split_lines(text))
     return solve_with_tool(text, side=side, **options) if is_stated else (solve(text, **options), None)
 
@@ -262,7 +262,7 @@ def set_words(exploration: Exploration, values: Mapping[str, float | str]) -> Ex
 
 
 def tool_place(exploration: Exploration) -> tuple[Span, Tool] | None:
-    """Where the text states the radius of the tool that cuts the contour, and that tool."""
+    """The place where the text states the radius of the tool that cuts the contour, and that tool."""
     last = exploration.answer.lines[0] if exploration.answer is not None else 0
     for block in reversed(exploration.result.program.blocks[:last]):
         found, tool = radius_in(block.text), tool_in(block.text)

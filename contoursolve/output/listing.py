@@ -19,7 +19,7 @@ from contoursolve.reading import ReadIssue
 from contoursolve.solving import NoteKind, Status
 
 if TYPE_CHECKING:
-    from contoursolve.pictures import Beside
+    from contoursolve.pictures import ToolDrawing
     from contoursolve.tool_radius import ToolReport
 
 MOST_ALIKE = 10
@@ -347,8 +347,8 @@ def _is_nothing(finding: Diagnostic) -> bool:
     return finding.about is ReadIssue.NO_CONTOUR and finding.severity is Severity.INFO
 
 
-def beside_of(tool: "ToolReport | None", answer: Answer | None = None) -> "tuple[Beside, ...]":
-    """What is drawn of a tool beside the contours of a program, in each plane, or beside one of them."""
+def beside_of(tool: "ToolReport | None", answer: Answer | None = None) -> "tuple[ToolDrawing, ...]":
+    """The drawings of a tool beside the contours of a program, in each plane, or beside one of them."""
     if tool is None:
         return ()
     from contoursolve.output.tool_picture import parts_beside  # noqa: PLC0415 - few programs state a tool

@@ -10,7 +10,6 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer
 from contoursolve.geometry import Turn, cross
 from contoursolve.pictures import (
-    Beside,
     Closeup,
     Leader,
     Mark,
@@ -18,6 +17,7 @@ from contoursolve.pictures import (
     Part,
     Role,
     TextRun,
+    ToolDrawing,
     Trail,
     Weight,
     along,
@@ -53,8 +53,8 @@ class Stance(Struct, frozen=True):
     depth: float = 0.0
 
 
-def parts_beside(report: ToolReport, answer: Answer | None = None) -> tuple[Beside, ...]:
-    """What is drawn of a tool beside the contours of a program, in each plane, or beside one of them."""
+def parts_beside(report: ToolReport, answer: Answer | None = None) -> tuple[ToolDrawing, ...]:
+    """The drawings of a tool beside the contours of a program, in each plane, or beside one of them."""
     lines = answer.lines if answer is not None else ()
     drawn = []
     for each in report.runs:
@@ -67,7 +67,7 @@ def parts_beside(report: ToolReport, answer: Answer | None = None) -> tuple[Besi
 
 
 def tool_text(report: ToolReport, line: int) -> str:
-    """Which tool cuts the contour on a line, in a sentence; empty where no tool goes."""
+    """The sentence about which tool cuts the contour on a line; empty where no tool goes."""
     each = next((each for each in report.runs if line in each.run.lines), None)
     if each is None:
         return ""
@@ -77,8 +77,8 @@ def tool_text(report: ToolReport, line: int) -> str:
     return f"{each.title}: it {fits}; {told}"
 
 
-def _together(several: Sequence[Beside]) -> Beside:
-    """What is drawn in one plane."""
+def _together(several: Sequence[ToolDrawing]) -> ToolDrawing:
+    """The drawing in one plane."""
     meanings: dict[Role, str] = {}
     for role, text in (item for each in several for item in each.meanings.items()):
         told = meanings.get(role, text)
@@ -90,7 +90,9 @@ def _together(several: Sequence[Beside]) -> Beside:
     return replace(several[0], title="; ".join(each.title for each in several), meanings=meanings, **joined)
 
 
-def _beside(each: ToolRun, own: Sequence[int], remarks: tuple[tuple[TextRun, ...], ...], *, is_whole: bool) -> Beside:
+def _beside(
+    each: ToolRun, own: Sequence[int], remarks: tuple[tuple[TextRun, ...], ...], *, is_whole: bool
+) -> ToolDrawing:
     run, title = each.run, each.title
     cut = tuple(run.elements[place] for place in own if is_whole and not run.travels[place].element)
     path = tuple(each.written(piece) for piece in each.offset.pieces or () if piece.element in own)
@@ -108,7 +110,7 @@ def _beside(each: ToolRun, own: Sequence[int], remarks: tuple[tuple[TextRun, ...
         name = f"line {run.travels[stance.element].line}" if stance.fault or stance.rest else "start"
         closeups.append(Closeup(name, (_circle(each, stance), *stance.rest), _READABLE))
     told = title_of(each) if path else f"{title}: it does not fit"
-    return Beside(run.plane, run.unit, told, tuple(parts), cut, remarks, meanings, tuple(closeups))
+    return ToolDrawing(run.plane, run.unit, told, tuple(parts), cut, remarks, meanings, tuple(closeups))
 
 
 def _circle(each: ToolRun, stance: Stance) -> ArcSegment:
@@ -134,7 +136,7 @@ def _parts(each: ToolRun, stance: Stance, *, is_first: bool) -> Iterator[Part]:
 
 
 def _depths(each: ToolRun, stances: Sequence[Stance]) -> Iterator[Leader]:
-    """How much stays in the corners in which most does."""
+    """The rest that stays in the corners in which most does."""
     deepest: dict[str, Stance] = {}
     for stance in sorted(stances, key=lambda one: -round(one.depth, 6)):
         if stance.rest and stance.fault is None:

@@ -35,12 +35,12 @@ from .page import (
 )
 from .plots import plot_record as plot_record
 from .scene import (
-    Beside as Beside,
     Closeup as Closeup,
     Leader as Leader,
     Mark as Mark,
     MarkKind as MarkKind,
     Part as Part,
+    ToolDrawing as ToolDrawing,
     Trail as Trail,
     Viewport as Viewport,
     Weight as Weight,

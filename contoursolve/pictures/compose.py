@@ -11,7 +11,7 @@ from contoursolve.geometry import SECOND, Turn
 from contoursolve.pictures.auxiliary import list_auxiliary
 from contoursolve.pictures.dimensions import Others, list_dimensions, list_marks, noted_points
 from contoursolve.pictures.page import About, TextRun, visible
-from contoursolve.pictures.scene import Beside, Closeup, Scene, Trail, Weight, axis_names, coordinates, number
+from contoursolve.pictures.scene import Closeup, Scene, ToolDrawing, Trail, Weight, axis_names, coordinates, number
 from contoursolve.pictures.subject import Subject, fitting, subject_of, trace_known
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.vectors import SAME, distance
@@ -36,7 +36,7 @@ MOST_ELEMENTS = 24
 """Elements that are told in words."""
 
 
-def compose(answer: Answer, title: str | None = None, beside: Sequence[Beside] = ()) -> Scene:
+def compose(answer: Answer, title: str | None = None, beside: Sequence[ToolDrawing] = ()) -> Scene:
     """The scene of one contour, whatever its status, with what else is drawn in its plane."""
     subject = subject_of(answer)
     noted = noted_points(subject)
@@ -183,8 +183,8 @@ def remarks_of(diagnostics: Sequence[Diagnostic]) -> Iterator[tuple[TextRun, ...
         yield (TextRun(f"... and {len(findings) - MOST_REMARKS} more findings", Role.MUTED),)
 
 
-def told_of(beside: Sequence[Beside]) -> Iterator[str]:
-    """What is drawn beside contours, and what is said of it, in words."""
+def told_of(beside: Sequence[ToolDrawing]) -> Iterator[str]:
+    """The sentences about what is drawn beside contours."""
     for each in beside:
         told = (each.title, *("".join(run.text for run in runs) for runs in each.remarks))
         yield from (f"{text[0].upper()}{text[1:]}." for text in told)

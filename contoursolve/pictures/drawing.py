@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from contoursolve.diagnosis import Answer
 from contoursolve.pictures.compose import compose, describe, told_of
 from contoursolve.pictures.layout import lay_out
-from contoursolve.pictures.scene import Beside
+from contoursolve.pictures.scene import ToolDrawing
 from contoursolve.pictures.sheet import stack_sheets
 from contoursolve.pictures.svg import Picture, finish
 from contoursolve.pictures.theme import Theme
@@ -28,7 +28,7 @@ Drawable: TypeAlias = "Answer | Result | Family | Feasible | Region | Sketch | D
 
 
 def draw(
-    record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None = None, beside: Sequence[Beside] = ()
+    record: Drawable, *, theme: Theme = Theme.LIGHT, is_whole: bool | None = None, beside: Sequence[ToolDrawing] = ()
 ) -> Picture:
     """The picture of a contour, of all contours of a program, of where a block has one by one or two of its words, or
     of every way to draw a sketch. `is_whole` is for a program: see `draw_result`. `beside` is what else is drawn
@@ -59,7 +59,7 @@ def draw_answer(
     title: str | None = None,
     like: Picture | None = None,
     has_remarks: bool = True,
-    beside: Sequence[Beside] = (),
+    beside: Sequence[ToolDrawing] = (),
 ) -> Picture:
     """The picture of one contour: its path where there is one, and what is missing or wrong where there is none.
 
@@ -83,7 +83,7 @@ def draw_result(
     theme: Theme = Theme.LIGHT,
     title: str | None = None,
     is_whole: bool | None = None,
-    beside: Sequence[Beside] = (),
+    beside: Sequence[ToolDrawing] = (),
 ) -> Picture:
     """The picture of a whole program: its only contour, or all of them in one drawing for each plane, with what else is
     drawn there.

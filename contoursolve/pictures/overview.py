@@ -13,7 +13,7 @@ from contoursolve.diagnosis import Answer, status_text, statuses_text
 from contoursolve.geometry import SECOND, Length, Plane, Turn
 from contoursolve.pictures.compose import MOST_ELEMENTS, remarks_of
 from contoursolve.pictures.page import TextRun, visible
-from contoursolve.pictures.scene import Beside, Closeup, Mark, MarkKind, Part, Scene, Trail, Weight, axis_names
+from contoursolve.pictures.scene import Closeup, Mark, MarkKind, Part, Scene, ToolDrawing, Trail, Weight, axis_names
 from contoursolve.pictures.subject import find_known, list_trails
 from contoursolve.pictures.theme import Role
 from contoursolve.pictures.turned_part import crosses_axis, cylinders_of, turn_part
@@ -76,7 +76,7 @@ class PlaneMove(Struct, frozen=True):
 
 
 def compose_overview(
-    result: Result, title: str | None, *, is_whole: bool | None = None, beside: Sequence[Beside] = ()
+    result: Result, title: str | None, *, is_whole: bool | None = None, beside: Sequence[ToolDrawing] = ()
 ) -> list[Scene]:
     """A scene for each plane in which the program has contours, or something is drawn beside them, in their order.
     `is_whole` shows turned parts with both halves; without it, where that leaves the contours half as large."""
@@ -90,7 +90,7 @@ def compose_overview(
         none = (TextRun("The program has no contour.", Role.MUTED),)
         return [Scene(shown, ("", ""), remarks=(none, *remarks_of(result.diagnostics)))]
     moves = _moves(result) if total else []
-    everything: list[Answer | Beside] = [*result.answers, *beside]
+    everything: list[Answer | ToolDrawing] = [*result.answers, *beside]
     unit = Length.INCH if all(each.unit is Length.INCH for each in everything) else Length.MM
     scenes: list[Scene] = []
     for plane in dict.fromkeys(each.plane for each in everything):

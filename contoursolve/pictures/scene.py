@@ -67,7 +67,7 @@ class MarkKind(Enum):
     PLACE = "place"
     CENTER = "center"
     TIP = "tip"
-    """Where a tool is programmed, off the path."""
+    """The place where a tool is programmed, off the path."""
     OTHER = "other"
     """A place that one word gives to a point, other than the one that the others give."""
 
@@ -168,8 +168,8 @@ Part = Trail | Thin | Ring | Mark | Slide | Dimension
 """Parts of a drawing."""
 
 
-class Beside(Struct, frozen=True):
-    """What else is drawn beside contours in their plane, such as a tool; `cut` is what of the part is in no contour."""
+class ToolDrawing(Struct, frozen=True):
+    """The drawing of a tool beside contours, in their plane; `cut` is what of the part is in no contour."""
 
     plane: Plane
     unit: Length
@@ -210,7 +210,7 @@ class Scene(Struct, frozen=True):
         """The parts of one kind."""
         return [part for part in self.parts if isinstance(part, kind)]
 
-    def with_beside(self, beside: "Iterable[Beside]") -> "Scene":
+    def with_beside(self, beside: "Iterable[ToolDrawing]") -> "Scene":
         """The scene with what is drawn beside it."""
         scene = self
         for each in beside:

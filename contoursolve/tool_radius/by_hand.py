@@ -17,6 +17,9 @@ _ROUNDED = 0.002
 
 _HALF_TURN = 180
 
+_ENOUGH = 2
+"""Round numbers that are no chance."""
+
 _STEPS = {Length.MM: 0.05, Length.INCH: 0.005}
 """Numbers of a drawing are multiples of this (assumed)."""
 
@@ -46,17 +49,19 @@ def part_of(own: CuttingRun, radius: float, outside: OutsideCorner = OutsideCorn
 
 def made_for(own: CuttingRun) -> float | None:
     """The radius (mm) for which the moves were made by hand: arcs of it lead around corners that
-    have round numbers, and are no roundings of corners that have. None where the moves are a contour themselves."""
+    have round numbers, and are no roundings of such corners. None where the moves are a contour themselves."""
     first, second = own.tool.vector() if own.is_lathe else (0.0, 0.0)
-    shares, scale = dict[float, int](), float(own.unit.in_mm)
+    counts, scale = dict[float, int](), float(own.unit.in_mm)
     for each in own.elements:
-        if isinstance(each, ArcSegment) and each.turn.sign != own.side.sign and abs(each.sweep) < _HALF_TURN:
-            radius = round(each.radius / scale, 2 if own.unit is Length.MM else 4) * scale
+        if not isinstance(each, ArcSegment) or each.sweep >= _HALF_TURN:
+            continue
+        radius = round(each.radius / scale, 2 if own.unit is Length.MM else 4) * scale
+        if is_around(each, radius, own):
             rolled = each.center[0] - radius * first, each.center[1] - radius * second
             rounded = ahead(each.start, direction(each, at_end=False), each.radius * tan(radians(each.sweep) / 2))
-            shares[radius] = shares.get(radius, 0) + _round_ones(rolled, own) - _round_ones(rounded, own)
-    best = max(shares, key=lambda radius: shares[radius], default=0.0)
-    return best if shares.get(best, 0) > 0 else None
+            counts[radius] = counts.get(radius, 0) + _round_ones(rolled, own) - _round_ones(rounded, own)
+    best = max(counts, key=lambda radius: counts[radius], default=0.0)
+    return best if counts.get(best, 0) >= _ENOUGH else None
 
 
 def is_around(segment: Segment, radius: float, own: CuttingRun) -> bool:
@@ -67,7 +72,7 @@ def is_around(segment: Segment, radius: float, own: CuttingRun) -> bool:
 
 
 def _round_ones(at: Point, own: CuttingRun) -> int:
-    """How many coordinates of a place are round, as they are written."""
+    """The number of coordinates of a place that are round, as they are written."""
     step, scale = _STEPS[own.unit], float(own.unit.in_mm)
     numbers = (value * (1 + is_diameter) / scale for value, is_diameter in zip(at, own.plane.diameters, strict=True))
     return sum(abs(each / step - round(each / step)) * step * scale <= _ROUNDED for each in numbers)

@@ -75,7 +75,7 @@ class ToolTrials:
         return with_faults(moved, self.axes, self.wanted, self.facts, _Trial)
 
     def stops(self, number: int, radius: float) -> list[ToolFault]:
-        """What keeps a tool of a radius (mm) from a run."""
+        """The faults that keep a tool of a radius (mm) from a run."""
         short = ToolFaultKind.ENTRY_TOO_SHORT if self.facts.needs_entry else None
         faults = self.at(number, radius).faults
         return [each for each in faults if each.kind.value.severity is Severity.ERROR or each.kind is short]
@@ -120,7 +120,7 @@ def largest_tools(
     if errors_of(result) or any(each.contour is None for each in result.answers):
         raise RefusedError(result)
     if not trials.runs:
-        raise ToolError("no cutting move goes beside a contour; there is nothing for a tool to cut")
+        raise ToolError("no cutting move goes beside a contour, so no tool cuts anything")
     found = dict[tuple[int, ...], Feasible]()
     for number, own in enumerate(trials.runs):
         each = trials.radii(number, within)
@@ -145,7 +145,7 @@ class ToolOptions(BlockOptions, total=False):
 def find_tools(
     text: str, *, within: tuple[float, float] | None = None, **options: Unpack[ToolOptions]
 ) -> Mapping[tuple[int, ...], Feasible]:
-    """The radii of tools that cut each contour of a program, by its lines, in its unit, and what ends them.
+    """The radii of tools that cut each contour of a program, by its lines, and what ends them.
 
     Args:
         text: the program, or a block; every run of cutting moves is a contour, with contour words or without.
@@ -153,8 +153,10 @@ def find_tools(
         side: `left` or `right`; without it what the program's G41 or G42 (RL, RR) says.
         tip: the number of the imaginary tip of a turning tool, 0 to 9.
         outside: the way around an outside corner, `roll` (without it) or `intersect`.
-        options: as for `feasible`, with the same errors; also raises ToolError for a tool that there cannot be, a side
-            that nothing says, and a program without a cutting move.
+        options: as for `feasible`, with the same errors.
+
+    Radii are in the unit of the program. Raises ToolError for a tool that there cannot be, a side that nothing says,
+    and a program without a cutting move.
 
     A smaller tool fits wherever a larger one does, so there is one range at most; both sides of its end are tried. What
     no path shows, such as a cycle, is left out; `contoursolve find` lists it.

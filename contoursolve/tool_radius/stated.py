@@ -41,7 +41,7 @@ def wanted_tool(program: str, tool: str | None, tip: int | None, side: str | Non
 
 
 def report_on(run: Run, result: Result, wanted: ToolRequest) -> ToolReport:
-    """What is said of a tool. Raises ToolError."""
+    """The report about a tool. Raises ToolError."""
     if run.asked.dialect is None:
         raise ToolError("no block shows the control, which says how moves are read; say which with --control")
     return look_at_tool(result, run.asked.dialect, run.asked, wanted)

@@ -120,7 +120,7 @@ def make_tool(
 
 
 def radius_in(line: str) -> tuple[int, int] | None:
-    """Where the radius of a tool stands that a comment in a line states: its first column and the one behind, from 1.
+    """The place of the radius in a comment that states a tool: its first column and the one behind, from 1.
 
     >>> radius_in("N5 (contoursolve tool: R0.8, tip 3)")
     (25, 28)

@@ -67,7 +67,7 @@ class ToolSweep(CompiledSweep, eq=False, kw_only=True):
             table["tool.largest"][here] = max(cut, default=numpy.nan) * self.scale
 
     def _stops(self, values: Mapping[str, float], radii: NDArray[numpy.float64]) -> dict[float, Stop]:
-        """What stops each tool at one contour."""
+        """The reasons that stop each tool at one contour."""
         filled = self.template.filled(values)
         trials = ToolTrials(filled.examined(Depth.VERDICT), filled.asked.dialect, filled.asked, self.tool)
 
@@ -80,7 +80,7 @@ class ToolSweep(CompiledSweep, eq=False, kw_only=True):
 
 
 def _fill(rising: list[float], stop_of: Callable[[float], Stop]) -> dict[float, Stop]:
-    """What stops each of some rising radii. What stops one stops all that are larger, and the kinds are told in one
+    """The reasons that stop each of some rising radii. What stops one stops all that are larger, and the kinds are told in one
     order, so all are alike between two that are alike."""
     low, high = stop_of(rising[0]), stop_of(rising[-1])
     if low == high or len(rising) <= 2:  # noqa: PLR2004 - there is none between
