@@ -89,8 +89,8 @@ def diff(
     arc. Cycles and other blocks that diff does not follow must be the same word by word. diff lists them. It does not
     compare feeds, leads, speeds, tools, offsets, dwells and M functions.
 
-    With --tool, a program with G41 or G42 (RL or RR) stands for the path of this tool beside its contour. A program
-    without them is the path of the tool itself. With --side, OLD is a contour, too.
+    With --tool, a program with G41 or G42 (RL or RR) stands for the path of the tool beside it. A program without
+    them is the path of the tool itself. With --side, OLD is a contour, too.
 
     Exit status: 0 the same path, 1 not the same or not solved, 2 could not run.
 

@@ -18,6 +18,7 @@ from contoursolve.tool_radius import (
     moves_of,
     report_on,
     result_beside_tool,
+    title_of,
     tool_in,
     wanted_tool,
 )

@@ -193,9 +193,8 @@ class ParsedContour:
 
 @lru_cache(maxsize=8192)
 def _carried_by_names(form: ContourForm, stated: frozenset[str]) -> tuple[bool | None, ...]:
-    """The verdict on each assumption of a form: whether a contour that states these names rests on it; None where values
-    decide.
-    Programs repeat few combinations of words many times."""
+    """The verdict on each assumption of a form: whether a contour that states these names rests on it; None where
+    values decide. Programs repeat few combinations of words many times."""
     given = dict.fromkeys(stated)
     return tuple(None if each.when.reads_values else each.carries(form.roles, given) for each in form.assumptions)
 

@@ -83,8 +83,8 @@ class ToolRun(Struct, frozen=True, dict=True):
 
     @cached_property
     def uncompensated(self) -> tuple[Segment, ...]:
-        """The part that comes out where the programmed point itself runs along the contour: the outline of the nose's way; empty
-        where it is not simple, and where the program states compensation."""
+        """The part that comes out where the programmed point itself runs along the contour, the outline of its way;
+        empty where it is not simple, and where the program states compensation."""
         return () if self.run.is_stated else part_of(self.run, self.run.radius, OutsideCorner.ROLL)
 
 
@@ -166,7 +166,7 @@ class ToolFindings:
         yield from (self._finding(own, fault) for fault in (*told, *tool_run.faults, *uncut(tool_run.offset)))
 
     def _uncompensated(self, own: CuttingRun, tip: Point) -> Iterator[ToolFault]:
-        """The error of each element where the programmed point runs along a contour; or along the path of another tool."""
+        """The error of each element where the programmed point runs along a contour, or along another tool's path."""
         made = made_for(own)
         if made is None:
             yield from uncompensated(own.elements, own.side.sign, own.radius, tip)

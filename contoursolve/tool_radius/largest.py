@@ -155,8 +155,8 @@ def find_tools(
         outside: the way around an outside corner, `roll` (without it) or `intersect`.
         options: as for `feasible`, with the same errors.
 
-    Radii are in the unit of the program. Raises ToolError for a tool that there cannot be, a side that nothing says,
-    and a program without a cutting move.
+    Radii are in the unit of the program. Raises ToolError for a tool that there cannot be, for a side that
+    nothing says, and without a cutting move.
 
     A smaller tool fits wherever a larger one does, so there is one range at most; both sides of its end are tried. What
     no path shows, such as a cycle, is left out; `contoursolve find` lists it.

@@ -80,8 +80,8 @@ class ToolSweep(CompiledSweep, eq=False, kw_only=True):
 
 
 def _fill(rising: list[float], stop_of: Callable[[float], Stop]) -> dict[float, Stop]:
-    """The reasons that stop each of some rising radii. What stops one stops all that are larger, and the kinds are told in one
-    order, so all are alike between two that are alike."""
+    """The reasons that stop each of some rising radii. What stops one stops all that are larger, and the kinds are told
+    in one order, so all are alike between two that are alike."""
     low, high = stop_of(rising[0]), stop_of(rising[-1])
     if low == high or len(rising) <= 2:  # noqa: PLR2004 - there is none between
         return dict.fromkeys(rising, low) | {rising[-1]: high}
