@@ -7,6 +7,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
+from contoursolve.diagnostics import Diagnostic
 from contoursolve.gcode import Block, Passage, Word, comment_out, parse_block, remark
 from contoursolve.postprocess.emit import MotionBlock, emit
 from contoursolve.postprocess.expander import Expander
@@ -25,6 +26,8 @@ class MovedProgram(Struct, frozen=True):
     left: Mapping[int, Left]
     kept: Set[int]
     remarks: Mapping[int, str]
+    warnings: Mapping[int, tuple[Diagnostic, ...]]
+    """The warnings about the moves that begin at a line."""
     leaving: Set[int]
     """The lines behind which the tool is where the program has it."""
 
@@ -108,6 +111,7 @@ class MovedExpander(Expander):
         """The lines in place of a block."""
         if block.line in self.moved.remarks:
             self.summary.replaced += 1
+            self.summary.warn(self.moved.warnings.get(block.line, ()))
             yield comment_out(self.moved.remarks[block.line], self._syntax_of(block))[0] + self.lines.end
         form, written = self._format(state), list[MotionBlock]()
         for segment, is_rapid in moves:

@@ -37,6 +37,14 @@ class ToolFaultKind(Enum):
         "take a smaller tool or make the gap wider",
     )
     NOT_VERIFIED = _Row("the path of the tool misses this {element} by {short}: it is not used", "report it")
+    INTERRUPTED = _Row(
+        "program line {broken} interrupts the contour while {code} is in force: what follows is no longer known",
+        "write G40 before it, or move it out of the contour",
+    )
+    OTHER_TOOL = _Row(
+        "program line {broken} calls another tool in the midst of the contour",
+        "write G40 and lead the tool away before it",
+    )
     ENTRY_BY_ARC = _Row("compensation begins in an arc", "write {code} in a straight move before it")
     EXIT_BY_ARC = _Row("compensation ends in an arc", "write G40 in a straight move behind it")
     ENTRY_TOO_SHORT = _Row(

@@ -71,7 +71,7 @@ class ToolRun(Struct, frozen=True, dict=True):
     def title(self) -> str:
         """The tool, and its side."""
         own = self.run
-        kind = f"nose R{own.tool.radius}, tip {own.tool.tip}" if own.is_lathe else f"cutter R{own.tool.radius}"
+        kind = f"nose {own.size}, tip {own.tool.tip}" if own.is_lathe else f"cutter {own.size}"
         return f"{kind}, {own.side.value} of the contour"
 
     @cached_property
@@ -140,6 +140,8 @@ def with_faults(
         length = dist((a, b), (c or 0.0, d or 0.0)) if a is not None and b is not None else each.radius + 1
         if length <= each.radius - LENGTH or (facts.needs_entry and length <= each.radius):
             faults.append(ToolFault(ToolFaultKind.ENTRY_TOO_SHORT, 0, each.radius - length, length=length))
+    if each.broken and each.is_stated:
+        faults.append(ToolFault(ToolFaultKind.OTHER_TOOL if each.is_changed else ToolFaultKind.INTERRUPTED, 0))
     if any(each.vector):
         faults += tip_faults(each.elements, each.side.sign, each.radius, each.tool.vector())
         faults += flank_faults(each.elements, each.side.sign, each.tool)
@@ -155,6 +157,7 @@ class ToolFindings:
         self.result, self.dialect, self.asked, self.wanted, self.runs = result, dialect, asked, wanted, runs
         self.wholes = dict[int, float | None]()
         self.facts = TOOL_FACTS.get(dialect.name, ToolFacts())
+        self.broken = set[int]()
         self.blocks = {block.line: block for block in result.program.blocks}
 
     def of(self, tool_run: ToolRun, *, is_first: bool) -> Iterator[Diagnostic]:
@@ -163,7 +166,10 @@ class ToolFindings:
         told = [ToolFault(ToolFaultKind.APPROACH, 0)] if own.is_approached else []
         told += [ToolFault(ToolFaultKind.SWITCHED, 0)] if own.lead is None and not is_first else []
         told += [] if own.is_stated else self._uncompensated(own, tip)
-        yield from (self._finding(own, fault) for fault in (*told, *tool_run.faults, *uncut(tool_run.offset)))
+        # What interrupts one run stands before the next one.
+        faults = [each for each in tool_run.faults if each.kind not in _BREAKS or own.broken not in self.broken]
+        self.broken.add(own.broken)
+        yield from (self._finding(own, fault) for fault in (*told, *faults, *uncut(tool_run.offset)))
 
     def _uncompensated(self, own: CuttingRun, tip: Point) -> Iterator[ToolFault]:
         """The error of each element where the programmed point runs along a contour, or along another tool's path."""
@@ -182,8 +188,9 @@ class ToolFindings:
         is_entry, is_exit = fault.kind in _ENTRIES, fault.kind is ToolFaultKind.EXIT_BY_ARC
         shown = own.lead if is_entry and own.lead else own.leaving if is_exit and own.leaving else travel
         word = self.word(own, fault) if fault.kind is ToolFaultKind.ARC_TOO_SMALL else None
-        block = self.blocks.get(shown.line)
-        span = word.span if word is not None else block.span if block is not None else Span(shown.line, 1, 2)
+        line = own.broken if fault.kind in _BREAKS else shown.line
+        block = self.blocks.get(line)
+        span = word.span if word is not None else block.span if block is not None else Span(line, 1, 2)
         texts, values = self.texts(own, fault), {"off_by_mm": fault.short} if fault.short is not None else {}
         is_refused = fault.kind is ToolFaultKind.ENTRY_TOO_SHORT and self.facts.needs_entry
         return Diagnostic(
@@ -208,8 +215,9 @@ class ToolFindings:
         element, unit, short = own.elements[fault.element], own.unit, fault.short or 0.0
         back, on = (length_in(each, unit) for each in fault.rest)
         return {
-            "tool": f"{_kind(own)} R{own.tool.radius}",
+            "tool": f"{_kind(own)} {own.size}",
             "kind": _kind(own),
+            "broken": str(own.broken),
             "made": length_in(fault.length, unit),
             "element": "arc" if isinstance(element, ArcSegment) else "line",
             "radius": length_in(getattr(element, "radius", 0.0), unit),
@@ -319,6 +327,8 @@ _TRIALS = 8
 
 _MOST_PLACES = 6
 """Places of a part that a note names."""
+
+_BREAKS = (ToolFaultKind.INTERRUPTED, ToolFaultKind.OTHER_TOOL)
 
 _ENTRIES = (ToolFaultKind.ENTRY_BY_ARC, ToolFaultKind.ENTRY_TOO_SHORT, ToolFaultKind.APPROACH)
 

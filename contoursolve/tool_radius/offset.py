@@ -1,6 +1,6 @@
 """The path of a tool's centre beside a contour, and what of the contour it cannot cut."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 from math import atan2, degrees, dist, hypot, nan, pi
@@ -10,8 +10,8 @@ from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Circle, Line, Turn, Values, dot, make_tangent
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, largest_fitting
-from contoursolve.tolerance import LENGTH, REGULAR
-from contoursolve.tool_radius.clearance import ahead, gaps_below, is_on
+from contoursolve.tolerance import AGREEMENT, LENGTH, REGULAR
+from contoursolve.tool_radius.clearance import ahead, gaps_below, is_on, nearest
 from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
 from contoursolve.tool_radius.joint import STRAY, direction, join, meet_outside
 from contoursolve.tool_radius.tool import OutsideCorner, Tool
@@ -21,6 +21,9 @@ GOUGE = 1e-6
 
 _LOOKED = 500
 """Elements among which the largest radius is looked for where a tool cuts into others; of more, none is told."""
+
+_CLOSED = 2
+"""Elements behind the first of a contour that may come back to it."""
 
 _FLANKS = (ToolFaultKind.BACK_FLANK, ToolFaultKind.FRONT_FLANK)
 _FLANK = 1e-6
@@ -74,6 +77,22 @@ class OffsetPath:
     def faults(self) -> tuple[ToolFault, ...]:
         """The faults: those of neighbours, or else of our own check, or else of any elements."""
         return tuple(self._local()) or tuple(self._unverified()) or tuple(self._interferences())
+
+    @cached_property
+    def walls(self) -> Mapping[int, Segment]:
+        """The surface of the part, by the numbers of elements. Where straight run-in and run-off cross in an outside
+        corner, each of them is part of it up to there."""
+        found = {number: each for number, each in enumerate(self.elements) if self.levels[number] > 0}
+        last = len(self.elements) - 1
+        one, other = found.get(0), found.get(last)
+        if last < _CLOSED or not (isinstance(one, LineSegment) and isinstance(other, LineSegment)):
+            return found
+        away, at = nearest(one, other)
+        (a, b), (c, d) = direction(other, at_end=True), direction(one, at_end=False)
+        is_there = away <= AGREEMENT and dist(at, one.end) > AGREEMENT and dist(at, other.start) > AGREEMENT
+        if is_there and self.side * (a * d - b * c) < 0 and self.levels[0] == self.levels[last]:
+            found |= {0: replace(one, start=at), last: replace(other, end=at)}
+        return found
 
     @cached_property
     def pieces(self) -> tuple[OffsetElement, ...] | None:
@@ -204,9 +223,9 @@ class OffsetPath:
 
     def _gouges(self) -> Iterator[Gouge]:
         for level in sorted({each for each in self.levels if each > 0}):
-            walls = [number for number, each in enumerate(self.levels) if each == level]
+            walls = [number for number in self.walls if self.levels[number] == level]
             pieces = [piece for piece in self._pieces if abs(self.levels[piece.element]) == level]
-            paths, parts = [piece.segment for piece in pieces], [self.elements[number] for number in walls]
+            paths, parts = [piece.segment for piece in pieces], [self.walls[number] for number in walls]
             for gap in gaps_below(paths, parts, self.radius - GOUGE):
                 yield Gouge(self.radius - gap.distance, walls[gap.wall], pieces[gap.piece].element, gap.at)
 

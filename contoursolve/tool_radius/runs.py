@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.comparison import Motion, ToolPath, Travel
-from contoursolve.gcode import Block
+from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import AGREEMENT, LENGTH
@@ -58,6 +58,10 @@ class CuttingRun(Struct, frozen=True):
     lead: Travel | None = None
     leaving: Travel | None = None
     is_stated: bool = True
+    broken: int = 0
+    """The line that interrupts it, or changes the tool, while G41 or G42 is in force; 0 without one."""
+    is_changed: bool = False
+    """Whether that is a change of the tool."""
     is_approached: bool = False
     """Whether the lead is a cutting move, of which nothing says that it is none of the contour."""
 
@@ -69,7 +73,12 @@ class CuttingRun(Struct, frozen=True):
     @property
     def is_lathe(self) -> bool:
         """Whether the programmed point is an imaginary tip."""
-        return any(self.plane.diameters)
+        return _is_turned(self.plane, self.tool)
+
+    @property
+    def size(self) -> str:
+        """The radius as the program would write it, `R0.8`; with its unit where that is another one."""
+        return f"R{self.tool.radius}" + " mm" * (self.tool.is_metric and self.unit is not Length.MM)
 
     @property
     def vector(self) -> Point:
@@ -139,12 +148,14 @@ class _Group(Struct):
     lead: Travel | None = None
     leaving: Travel | None = None
     side: ToolSide | None = None
+    broken: int = 0
+    """The line that interrupts it while G41 or G42 is in force."""
 
 
 def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
     """Moves under G41 or G42, of which the first leads to the contour; or else cutting moves between those that do not
     cut. The first move behind leaves the contour."""
-    group, before = _Group([]), None
+    group, before, broken = _Group([]), None, 0
     for step in path.steps:
         move = step if isinstance(step, Travel) and step.motion in (Motion.RAPID, Motion.FEED) else None
         if move is not None and not _moves(move, path.axes):
@@ -159,8 +170,13 @@ def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
         # Where only the side or the plane changes, the tool is at the contour already.
         is_there = is_cut and move is not None and (bool(group.travels) or not is_stated)
         group.leaving = None if is_there else move
+        is_off = isinstance(step, Travel) and step.compensation not in SIDES
+        if group.side is not None and side is not None and side is not group.side:
+            is_off = True
+        broken = 0 if is_off else broken or (step.line if group.side is not None else 0)
+        group.broken = group.broken or broken
         yield group
-        group = _Group([move] if is_there and move else [], None if is_there else move, None, side)
+        group = _Group([move] if is_there and move else [], None if is_there else move, None, side, broken)
         before = move
     yield group
 
@@ -203,7 +219,7 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
         lead, is_approached, travels, elements = travels[first - 1], True, travels[first:], elements[first:]
     if tool.tip is None and any(plane.diameters):
         raise ToolError("a turning tool needs the number of its imaginary tip; give --tip 0 to 9, such as --tip 3")
-    if tool.tip is not None and not any(plane.diameters):
+    if tool.tip is not None and not _is_turned(plane, tool):
         raise ToolError(f"a cutter has no imaginary tip; leave tip {tool.tip} out")
     return CuttingRun(
         tuple(elements),
@@ -217,8 +233,18 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
         lead,
         leaving,
         group.side is not None,
+        group.broken or stock.changed(travels),
+        not group.broken,
         is_approached,
     )
+
+
+def _is_turned(plane: Plane, tool: Tool) -> bool:
+    """Whether a plane is that of a lathe: its X counts diameters, or the tool has a tip where X counts radii."""
+    return any(plane.diameters) or (tool.tip is not None and plane.axes == _TURNED)
+
+
+_TURNED = ("Z", "X")
 
 
 def place_of(step: Travel, axes: Sequence[str], *, at_end: bool) -> tuple[float | None, float | None]:
@@ -253,6 +279,9 @@ class _Stock:
         self.lines: list[int] = []
         self.tools: list[Tool] = []
         table = {_key(name): tool for name, tool in asked.table.items()}
+        self.changes = [
+            block.line for block in blocks if any(word.address == "T" or _is_row(word, table) for word in block.words)
+        ]
         for block in blocks if asked.tool is None else ():
             found = tool_in(block.text)
             for word in block.words if table else ():
@@ -261,6 +290,11 @@ class _Stock:
             if found is not None:
                 self.lines.append(block.line)
                 self.tools.append(found)
+
+    def changed(self, travels: Sequence[Travel]) -> int:
+        """The line of another tool behind the first of some moves and before the last; 0 without one."""
+        first, last = bisect_right(self.changes, travels[0].line), bisect_right(self.changes, travels[-1].line)
+        return self.changes[first] if first < last else 0
 
     def at(self, step: Travel) -> Tool:
         """The tool that makes a move. Raises ToolError."""
@@ -272,6 +306,11 @@ class _Stock:
                 "(contoursolve tool: R0.8, tip 3) above it"
             )
         return tool if self.asked.tip is None else replace(tool, tip=self.asked.tip)
+
+
+def _is_row(word: Word, table: Mapping[tuple[str, Decimal], Tool]) -> bool:
+    """Whether a word names a tool of the table."""
+    return word.number is not None and (word.address, word.number) in table
 
 
 def _key(name: str) -> tuple[str, Decimal]:

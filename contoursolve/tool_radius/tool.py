@@ -82,6 +82,10 @@ _STATED = late_pattern(r"[(;]\s*+contoursolve\s++tool\s*+:(?P<stated>[^()\r\n]*+
 """A comment that states the tool of what follows."""
 
 
+_ALIKE = late_pattern(r"[(;]\s*+contoursolve\s++tools?+\b", re.IGNORECASE)
+"""A comment that is meant to."""
+
+
 def read_tool(text: str, tip: int | None = None) -> Tool:
     """A tool from `R0.8` or `0.8`, behind commas with `tip 3` where it has one, and its flanks, such as `back 32`.
     Raises ToolError.
@@ -136,4 +140,6 @@ def radius_in(line: str) -> tuple[int, int] | None:
 def tool_in(line: str) -> Tool | None:
     """The tool that a comment in a line states, `(contoursolve tool: R0.8, tip 3)`. Raises ToolError."""
     comment = _STATED.search(line)
+    if comment is None and _ALIKE.search(line):
+        raise ToolError(f"{line.strip()!r} states no tool; write (contoursolve tool: R0.8, tip 3)")
     return None if comment is None else read_tool(comment["stated"])

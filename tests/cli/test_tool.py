@@ -347,3 +347,44 @@ def test_nothing_is_written_where_the_tool_does_not_fit(tmp_path: Path):
     assert done.exit_code == 1
     assert "N60 Z-70. ,R2." in done.stdout.splitlines()
     assert "NOT EXPANDED: tool-arc-too-small" in done.stdout
+
+
+PLATE = """\
+T1 M6
+G90 G17 G54 G00 X-20. Y-20.
+G01 G41 X0. Y-8. D1 F100
+Y40. ,R6. F300
+X40. ,C2.
+<<MIDST>>
+Y0.
+X-8.
+G40 G00 X-20. Y-20.
+"""
+"""A plate with overlapping run-in and run-off."""
+
+
+def test_run_in_and_run_off_that_cross_are_no_walls(tmp_path: Path):
+    (tmp_path / "a.nc").write_text(PLATE.replace("<<MIDST>>\n", ""))
+    done = call("expand", *MILL, "--tool", "R5", "--no-comments", tmp_path / "a.nc")
+    assert done.exit_code == 0
+    assert "G01 X-5. Y-8." in done.stdout
+    assert "G01 X-8. Y-5." in done.stdout
+    found = call("find", "--word", "tool", *MILL, tmp_path / "a.nc")
+    assert found.exit_code == 0
+
+
+@pytest.mark.parametrize("midst", ["G55", "G68 X0 Y0 R10.", "G28 Z0.", "G91 Z-1.", "G81 X45. Y45. Z-5. R2.", "T2 M6"])
+def test_what_interrupts_a_contour_is_an_error_and_nothing_is_written(midst: str, tmp_path: Path):
+    (tmp_path / "a.nc").write_text(PLATE.replace(" ,C2.", "").replace("<<MIDST>>", midst))
+    done = call("expand", *MILL, "--tool", "R5", tmp_path / "a.nc")
+    assert (done.exit_code, done.stdout) == (1, "")
+    assert "nothing was written" in done.stderr
+    code = "tool-other-tool" if midst.startswith("T") else "tool-interrupted"
+    assert done.stderr.count(f"error[{code}]: program line 6 ") == 1
+
+
+def test_a_comment_that_is_meant_to_state_a_tool_is_told(tmp_path: Path):
+    (tmp_path / "a.nc").write_text(f"(contoursolve tool R0.8)\n{COMPENSATED}")
+    done = call("check", *LATHE, tmp_path / "a.nc")
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert "states no tool; write (contoursolve tool: R0.8, tip 3)" in done.stderr

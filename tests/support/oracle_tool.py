@@ -100,7 +100,16 @@ def _turn(one: Part, other: Part) -> float:
 
 
 def draw(random: numpy.random.Generator) -> list[Part]:
-    """A contour of lines and arcs in a row, some of them tangent, whose ends are decimals of a thousandth."""
+    """A contour of lines and arcs in a row, some of them tangent, whose ends are decimals of a thousandth. Its ends do
+    not cross: they would be run-in and run-off."""
+    while True:
+        parts = _draw(random)
+        places = parts[0].at(numpy.linspace(0, 1, 400))[0]
+        if len(parts) < 3 or clearance(places, parts[-1:]).min() > 0.1:
+            return parts
+
+
+def _draw(random: numpy.random.Generator) -> list[Part]:
     here, way = complex(*random.integers(-20, 20, 2)), random.uniform(0, tau)
     parts = list[Part]()
     for _ in range(random.integers(2, 7)):
