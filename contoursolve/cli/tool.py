@@ -70,9 +70,11 @@ def moved_program(
         if not reason and not is_solved:
             reason = "another contour is not solved, so that nobody knows where compensation has to stay"
         if reason:
-            left[lines[0]] = Left(
-                lines, reason, errors, {line: texts[line] for line in (*lines, each.run.broken) if line in texts}
-            )
+            # What interrupts one contour stands before the next one.
+            told = {id(finding) for other in left.values() for finding in other.diagnostics}
+            news = tuple(finding for finding in errors if id(finding) not in told)
+            sources = {line: texts[line] for line in (*lines, each.run.broken) if line in texts}
+            left[lines[0]] = Left(lines, reason, news, sources)
             # Where a contour stays, the words of compensation before it stay, too.
             kept |= {*range(behind + 1, max(lines) + 1)}
         else:
