@@ -1,6 +1,5 @@
 """What holds for every test: its options, and what it needs besides Python packages."""
 
-import gc
 import shutil
 import signal
 import sys
@@ -45,13 +44,6 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--code-server", metavar="FOLDER", help="where code-server is, or is to stay for the next time")
     group.addoption("--pyodide", metavar="FOLDER", help="npm's package pyodide, unpacked, which the page loads")
     group.addoption("--screenshots", metavar="FOLDER", help="where tests with a browser leave what they saw")
-
-
-def pytest_collection_finish() -> None:
-    # What thousands of tests and the package's tables are made of stays: walking over it was a tenth of all work.
-    gc.collect()
-    gc.freeze()
-    gc.set_threshold(20_000, 20, 20)
 
 
 def pytest_runtest_setup(item: pytest.Item) -> None:
