@@ -12,7 +12,7 @@ from contoursolve.cli import main
 from contoursolve.controls import TOOL_FACTS
 from contoursolve.tool_radius import ToolFaultKind
 
-TABLES = Path(__file__).parents[1] / "oracles" / "tables"
+TABLES = Path(__file__).parents[1] / "oracles" / "tool"
 LATHE, MILL = ("--control", "fanuc-lathe"), ("--control", "fanuc-mill")
 TAPER = ("--start", "X20. Z0.", "--block", "G01 X20. Z-10.", "--block", "X30. Z-20.", "--block", "X30. Z-30.")
 NOSE = ("--tool", "R0.8", "--tip", "3")

@@ -13,7 +13,7 @@ from oracle_tool import draw, program_of, run
 import contoursolve
 from contoursolve.cli import main
 
-TABLES = Path(__file__).parents[1] / "oracles" / "tables"
+TABLES = Path(__file__).parents[1] / "oracles" / "tool"
 LATHE, MILL = ("--control", "fanuc-lathe", "--tip", "3"), ("--control", "fanuc-mill")
 G111 = ("--block", "G111 X100. A180. K-30. B120. P5. Q5.", "--start", "X40. Z0.")
 NOSE = ("--side", "right", "--tip", "3")

@@ -13,7 +13,7 @@ from oracle_tool import TIPS, Part, clearance, draw, is_cut, parts_of, program_o
 
 from contoursolve.cli import main
 
-TABLE = Path(__file__).parent / "tables" / "tool-radius.txt"
+TABLE = Path(__file__).parent / "tool" / "tool-radius.txt"
 ROWS = [line.split(" | ") for line in TABLE.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
 
 
@@ -122,7 +122,8 @@ def test_random_contours(count: int, tmp_path: Path):
             shift = radius * TIPS[tip] if is_lathe else 0j
             for piece in path:
                 off = clearance(piece.at(numpy.linspace(0, 1, 1000))[0] - shift, parts) - radius
-                assert off.min() > -2e-6
-                assert outside == "intersect" or abs(off).max() < 2e-6
+                # Elements that turn by less than 0.01 degrees are taken for tangent.
+                assert off.min() > -1e-5
+                assert outside == "intersect" or abs(off).max() < 1e-5
     assert refused < 0.9 * count
     assert undecided < 0.2 * count
