@@ -27,7 +27,7 @@ _STEPS = {Length.MM: 0.05, Length.INCH: 0.005}
 def part_of(own: CuttingRun, radius: float, outside: OutsideCorner = OutsideCorner.INTERSECT) -> tuple[Segment, ...]:
     """The part that a tool of a radius (mm) makes where the programmed point itself runs along the moves; empty where
     it is not simple. An arc of its radius around an outside corner makes that corner."""
-    first, second = own.tool.vector() if own.is_lathe else (0.0, 0.0)
+    first, second = own.tip
     found, stretch, corner = list[Segment](), list[Segment](), None
     for each in (*own.elements, None):
         way = shifted(each, (-radius * first, -radius * second)) if each is not None else None
@@ -50,7 +50,7 @@ def part_of(own: CuttingRun, radius: float, outside: OutsideCorner = OutsideCorn
 def made_for(own: CuttingRun) -> float | None:
     """The radius (mm) for which the moves were made by hand: arcs of it lead around corners that
     have round numbers, and are no roundings of such corners. None where the moves are a contour themselves."""
-    first, second = own.tool.vector() if own.is_lathe else (0.0, 0.0)
+    first, second = own.tip
     counts, scale = dict[float, int](), float(own.unit.in_mm)
     for each in own.elements:
         if not isinstance(each, ArcSegment) or each.sweep >= _HALF_TURN:

@@ -25,7 +25,7 @@ from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, Labe
 from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.program import Request, Result, run
 from contoursolve.reading import Dialect
-from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Point, Segment
+from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment
 from contoursolve.tolerance import LARGEST, LENGTH
 from contoursolve.tool_radius.by_hand import is_around, made_for, part_of
 from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
@@ -143,7 +143,7 @@ def with_faults(
     if each.broken and each.is_stated:
         faults.append(ToolFault(ToolFaultKind.OTHER_TOOL if each.is_changed else ToolFaultKind.INTERRUPTED, 0))
     if any(each.vector):
-        faults += tip_faults(each.elements, each.side.sign, each.radius, each.tool.vector())
+        faults += tip_faults(each.elements, each.side.sign, each.radius, each.tip)
         faults += flank_faults(each.elements, each.side.sign, each.tool)
     return ToolRun(each, made, tuple(faults))
 
@@ -162,24 +162,24 @@ class ToolFindings:
 
     def of(self, tool_run: ToolRun, *, is_first: bool) -> Iterator[Diagnostic]:
         """The findings about one run."""
-        own, tip = tool_run.run, tool_run.run.tool.vector() if tool_run.run.is_lathe else (0.0, 0.0)
+        own = tool_run.run
         told = [ToolFault(ToolFaultKind.APPROACH, 0)] if own.is_approached else []
         told += [ToolFault(ToolFaultKind.SWITCHED, 0)] if own.lead is None and not is_first else []
-        told += [] if own.is_stated else self._uncompensated(own, tip)
+        told += [] if own.is_stated else self._uncompensated(own)
         # What interrupts one run stands before the next one.
         faults = [each for each in tool_run.faults if each.kind not in _BREAKS or own.broken not in self.broken]
         self.broken.add(own.broken)
         yield from (self._finding(own, fault) for fault in (*told, *faults, *uncut(tool_run.offset)))
 
-    def _uncompensated(self, own: CuttingRun, tip: Point) -> Iterator[ToolFault]:
+    def _uncompensated(self, own: CuttingRun) -> Iterator[ToolFault]:
         """The error of each element where the programmed point runs along a contour, or along another tool's path."""
         made = made_for(own)
         if made is None:
-            yield from uncompensated(own.elements, own.side.sign, own.radius, tip)
+            yield from uncompensated(own.elements, own.side.sign, own.radius, own.tip)
             return
         around = [number for number, each in enumerate(own.elements) if is_around(each, made, own)]
         yield ToolFault(ToolFaultKind.BY_HAND, around[0], length=made)
-        for each in uncompensated(own.elements, own.side.sign, own.radius - made, tip):
+        for each in uncompensated(own.elements, own.side.sign, own.radius - made, own.tip):
             if each.element not in around:
                 yield replace(each, kind=ToolFaultKind.OTHER_RADIUS, length=made)
 

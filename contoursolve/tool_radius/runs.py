@@ -81,9 +81,14 @@ class CuttingRun(Struct, frozen=True):
         return f"R{self.tool.radius}" + " mm" * (self.tool.is_metric and self.unit is not Length.MM)
 
     @property
+    def tip(self) -> Point:
+        """From the centre of the tool to the programmed point, in radii; a cutter's point is its centre."""
+        return self.tool.vector() if self.is_lathe else (0.0, 0.0)
+
+    @property
     def vector(self) -> Point:
-        """From the centre of the tool to the programmed point, mm."""
-        first, second = self.tool.vector() if self.is_lathe else (0.0, 0.0)
+        """The same in mm."""
+        first, second = self.tip
         return self.radius * first, self.radius * second
 
 
