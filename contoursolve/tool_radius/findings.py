@@ -1,7 +1,7 @@
 """Findings about a tool that does not fit a contour: what is too small for it, by how much, and what would fit."""
 
 from collections.abc import Iterator, Sequence
-from decimal import ROUND_CEILING
+from decimal import ROUND_CEILING, Decimal
 from functools import cached_property
 from math import dist
 
@@ -34,6 +34,7 @@ from contoursolve.tool_radius.offset import (
     OffsetElement,
     OffsetPath,
     flank_faults,
+    largest_radius,
     shifted,
     tip_faults,
     uncompensated,
@@ -48,7 +49,14 @@ class ToolRun(Struct, frozen=True, dict=True):
 
     run: CuttingRun
     offset: OffsetPath
-    faults: tuple[ToolFault, ...]
+    rules: "ToolRules"
+    stops: tuple[ToolFault, ...]
+    """Its faults without what would fit."""
+
+    @cached_property
+    def faults(self) -> tuple[ToolFault, ...]:
+        """All faults, those of the geometry first."""
+        return *self.offset.faults, *self.stops[len(self.offset.stops) :]
 
     @cached_property
     def part(self) -> Contour:
@@ -58,7 +66,7 @@ class ToolRun(Struct, frozen=True, dict=True):
     @cached_property
     def path(self) -> Contour | None:
         """The path of the programmed point: the imaginary tip, or the centre; None where the tool does not fit."""
-        if not self.offset.pieces or any(each.kind.value.severity is Severity.ERROR for each in self.faults):
+        if not self.offset.pieces or any(each.kind.value.severity is Severity.ERROR for each in self.stops):
             return None
         names = [self.run.travels[each.element].element if each.is_own else "around" for each in self.offset.pieces]
         return _contour(self.run, names, [self.written(each) for each in self.offset.pieces])
@@ -76,10 +84,11 @@ class ToolRun(Struct, frozen=True, dict=True):
 
     @cached_property
     def largest_radius(self) -> float | None:
-        """The largest radius (mm) of a tool that cuts all of it; None where every tool does."""
-        own = self.run
-        found = OffsetPath(own.elements, LARGEST, own.side.sign, self.offset.outside, own.levels)
-        return found.largest(slice(None)) if found.faults else None
+        """The largest radius (mm) of a tool that cuts all of it (tried); None where every tool does."""
+        fit = min((each.largest for each in self.faults if each.largest is not None), default=LARGEST)
+        if not self.rules.stops(self.run, fit):
+            return fit if fit < LARGEST else None
+        return largest_radius(lambda size: self.rules.stops(self.run, size), fit)[0]
 
     @cached_property
     def uncompensated(self) -> tuple[Segment, ...]:
@@ -97,6 +106,50 @@ def _contour(own: CuttingRun, names: Sequence[str], segments: Sequence[Segment])
     return Contour(named[0].start, named[-1].end, {}, named, own.plane)
 
 
+class ToolRules(Struct, frozen=True):
+    """The ground on which runs are looked at: the axes of their places, the way around outside corners, and the facts
+    about the control."""
+
+    axes: tuple[str, ...]
+    outside: OutsideCorner
+    facts: ToolFacts
+
+    def at(self, own: CuttingRun) -> ToolRun:
+        """A run with the path of its tool, and all faults."""
+        made = OffsetPath(own.elements, own.radius, own.side.sign, self.outside, own.levels)
+        return ToolRun(own, made, self, (*made.stops, *self._around(own)))
+
+    def stops(self, own: CuttingRun, radius: float) -> list[ToolFault]:
+        """The faults that keep a tool of a radius (mm) from a run."""
+        short = ToolFaultKind.ENTRY_TOO_SHORT if self.facts.needs_entry else None
+        faults = self.at(with_radius(own, radius)).stops
+        return [each for each in faults if each.kind.value.severity is Severity.ERROR or each.kind is short]
+
+    def _around(self, each: CuttingRun) -> Iterator[ToolFault]:
+        """The faults of the moves to a contour and away, of what interrupts it, and of the tip and the flanks."""
+        lead, leaving, last = each.lead if each.is_stated else None, each.leaving, len(each.elements) - 1
+        if lead is not None and lead.bend is not None:
+            yield ToolFault(ToolFaultKind.ENTRY_BY_ARC, 0)
+        if leaving is not None and each.is_stated and leaving.bend is not None:
+            yield ToolFault(ToolFaultKind.EXIT_BY_ARC, last)
+        if lead is not None and lead.bend is None:
+            (a, b), (c, d) = (place_of(lead, self.axes, at_end=at_end) for at_end in (False, True))
+            length = dist((a, b), (c or 0.0, d or 0.0)) if a is not None and b is not None else each.radius + 1
+            if length <= each.radius - LENGTH or (self.facts.needs_entry and length <= each.radius):
+                yield ToolFault(ToolFaultKind.ENTRY_TOO_SHORT, 0, each.radius - length, length=length)
+        if each.broken and each.is_stated:
+            yield ToolFault(ToolFaultKind.OTHER_TOOL if each.is_changed else ToolFaultKind.INTERRUPTED, 0)
+        if any(each.vector):
+            yield from tip_faults(each.elements, each.side.sign, each.radius, each.tip)
+            yield from flank_faults(each.elements, each.side.sign, each.tool)
+
+
+def with_radius(own: CuttingRun, radius: float) -> CuttingRun:
+    """A run with a tool of a radius, mm."""
+    shown = Decimal(repr(round(radius / float(own.unit.in_mm), 9)))
+    return replace(own, radius=radius, tool=replace(own.tool, radius=shown, is_metric=False))
+
+
 class ToolReport(Struct, frozen=True):
     """The runs of a program beside which a tool goes, and the findings about them."""
 
@@ -112,7 +165,7 @@ def look_at_tool(
     """The runs of a solved program with the paths of the tool, and what it cannot cut; places of its path are in these
     axes, or in those of its control. Raises ToolError."""
     path, runs = _tool_runs(result, dialect, asked, wanted, axes)
-    told = ToolFindings(result, dialect, asked, wanted, runs)
+    told = ToolFindings(result, dialect, asked, wanted)
     found = [each for number, tool_run in enumerate(runs) for each in told.of(tool_run, is_first=not number)]
     return ToolReport(tuple(runs), tuple(sorted(found, key=rank)), path)
 
@@ -121,41 +174,20 @@ def _tool_runs(
     result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest, axes: tuple[str, ...] = ()
 ) -> tuple[ToolPath, list[ToolRun]]:
     path = follow(result, dialect, asked.unit, axes or dialect.modes.axes)
-    facts, runs = TOOL_FACTS.get(dialect.name, ToolFacts()), find_runs(path, wanted, result.program.blocks)
-    return path, [with_faults(each, path.axes, wanted, facts) for each in runs]
+    rules = rules_of(dialect, wanted, path.axes)
+    return path, [rules.at(each) for each in find_runs(path, wanted, result.program.blocks)]
 
 
-def with_faults(
-    each: CuttingRun, axes: tuple[str, ...], wanted: ToolRequest, facts: ToolFacts, kind: type[OffsetPath] = OffsetPath
-) -> ToolRun:
-    """A run with the path of its tool, and all faults."""
-    made = kind(each.elements, each.radius, each.side.sign, wanted.outside, each.levels)
-    faults, lead, leaving = list(made.faults), each.lead if each.is_stated else None, each.leaving
-    if lead is not None and lead.bend is not None:
-        faults.append(ToolFault(ToolFaultKind.ENTRY_BY_ARC, 0))
-    if leaving is not None and each.is_stated and leaving.bend is not None:
-        faults.append(ToolFault(ToolFaultKind.EXIT_BY_ARC, len(each.elements) - 1))
-    if lead is not None and lead.bend is None:
-        (a, b), (c, d) = (place_of(lead, axes, at_end=at_end) for at_end in (False, True))
-        length = dist((a, b), (c or 0.0, d or 0.0)) if a is not None and b is not None else each.radius + 1
-        if length <= each.radius - LENGTH or (facts.needs_entry and length <= each.radius):
-            faults.append(ToolFault(ToolFaultKind.ENTRY_TOO_SHORT, 0, each.radius - length, length=length))
-    if each.broken and each.is_stated:
-        faults.append(ToolFault(ToolFaultKind.OTHER_TOOL if each.is_changed else ToolFaultKind.INTERRUPTED, 0))
-    if any(each.vector):
-        faults += tip_faults(each.elements, each.side.sign, each.radius, each.tip)
-        faults += flank_faults(each.elements, each.side.sign, each.tool)
-    return ToolRun(each, made, tuple(faults))
+def rules_of(dialect: Dialect, wanted: ToolRequest, axes: tuple[str, ...]) -> ToolRules:
+    """The ground on which the runs of a program are looked at."""
+    return ToolRules(axes, wanted.outside, TOOL_FACTS.get(dialect.name, ToolFacts()))
 
 
 class ToolFindings:
     """Faults as findings about the lines and words of one program."""
 
-    def __init__(
-        self, result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest, runs: Sequence[ToolRun]
-    ) -> None:
-        self.result, self.dialect, self.asked, self.wanted, self.runs = result, dialect, asked, wanted, runs
-        self.wholes = dict[int, float | None]()
+    def __init__(self, result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest) -> None:
+        self.result, self.dialect, self.asked, self.wanted = result, dialect, asked, wanted
         self.facts = TOOL_FACTS.get(dialect.name, ToolFacts())
         self.broken = set[int]()
         self.blocks = {block.line: block for block in result.program.blocks}
@@ -169,7 +201,7 @@ class ToolFindings:
         # What interrupts one run stands before the next one.
         faults = [each for each in tool_run.faults if each.kind not in _BREAKS or own.broken not in self.broken]
         self.broken.add(own.broken)
-        yield from (self._finding(own, fault) for fault in (*told, *faults, *uncut(tool_run.offset)))
+        yield from (self._finding(tool_run, fault) for fault in (*told, *faults, *uncut(tool_run.offset)))
 
     def _uncompensated(self, own: CuttingRun) -> Iterator[ToolFault]:
         """The error of each element where the programmed point runs along a contour, or along another tool's path."""
@@ -183,8 +215,9 @@ class ToolFindings:
             if each.element not in around:
                 yield replace(each, kind=ToolFaultKind.OTHER_RADIUS, length=made)
 
-    def _finding(self, own: CuttingRun, fault: ToolFault) -> Diagnostic:
-        row, travel = fault.kind.value, own.travels[fault.element]
+    def _finding(self, tool_run: ToolRun, fault: ToolFault) -> Diagnostic:
+        own, row = tool_run.run, fault.kind.value
+        travel = own.travels[fault.element]
         is_entry, is_exit = fault.kind in _ENTRIES, fault.kind is ToolFaultKind.EXIT_BY_ARC
         shown = own.lead if is_entry and own.lead else own.leaving if is_exit and own.leaving else travel
         word = self.word(own, fault) if fault.kind is ToolFaultKind.ARC_TOO_SMALL else None
@@ -204,7 +237,7 @@ class ToolFindings:
             (word.address,) if word is not None else (),
             self.facts.alarms.get(fault.kind.name.lower()),
             values if fault.largest is None else {**values, "limit": fault.largest, "actual": own.radius},
-            tuple(self._notes(own, fault)),
+            tuple(self._notes(tool_run, fault)),
             row.help.format(**texts),
             tuple(self._fixes(own, fault, word)) if word is not None else (),
             fault.kind,
@@ -250,16 +283,17 @@ class ToolFindings:
         told = (f", {length_in(abs(size / part), unit)} {where}" for part, size, where in ways if part > LENGTH)
         return f"line comes out {much}{''.join(told)}"
 
-    def _notes(self, own: CuttingRun, fault: ToolFault) -> Iterator[str]:
+    def _notes(self, tool_run: ToolRun, fault: ToolFault) -> Iterator[str]:
         """Notes about what fits, and where."""
+        own = tool_run.run
         kind, unit = _kind(own), own.unit
         if fault.largest is not None and fault.largest < LEAST:
             yield f"no {kind} fits here"
         elif fault.largest is not None:
-            whole = self._whole(own)
-            fits, all_ = (written(each / float(unit.in_mm), unit.value, 1) for each in (fault.largest, whole or 0.0))
+            whole = tool_run.largest_radius or 0.0
+            fits, all_ = (written(each / float(unit.in_mm), unit.value, 1) for each in (fault.largest, whole))
             where = "the whole contour (tried)" if fault.largest == whole else "this place"
-            more = f"; {all_} the whole contour (tried)" if whole and fault.largest != whole else ""
+            more = f"; {all_} the whole contour (tried)" if whole >= LEAST and fault.largest != whole else ""
             yield f"a {kind} of radius up to {fits} cuts {where}{more}"
         if fault.kind is ToolFaultKind.BY_HAND:
             places = [each.end for each in part_of(own, fault.length)][:_MOST_PLACES]
@@ -275,18 +309,6 @@ class ToolFindings:
             yield f"it cuts at {coordinates(fault.at, own.plane, unit)}"
             if self.facts.notice:
                 yield self.facts.notice
-
-    def _whole(self, own: CuttingRun) -> float | None:
-        """The largest radius (mm) with which a tool cuts a whole run (tried); None if a few trials find none."""
-        if id(own) not in self.wholes:
-            faults, least = next(each.offset.faults for each in self.runs if each.run is own), own.radius
-            for _ in range(_TRIALS if faults else 0):
-                least = min((each.largest for each in faults if each.largest is not None), default=0.0)
-                faults = OffsetPath(own.elements, least, own.side.sign, self.wanted.outside, own.levels).faults
-                if not faults:
-                    break
-            self.wholes[id(own)] = None if faults or least < LEAST else least
-        return self.wholes[id(own)]
 
     def word(self, own: CuttingRun, fault: ToolFault) -> Word | None:
         """The word that states the radius of an arc: that of a corner, or R."""
@@ -321,9 +343,6 @@ class ToolFindings:
         _, runs = _tool_runs(tried, self.dialect, self.asked, self.wanted)
         return all(not each.offset.faults for each in runs if {*each.run.lines} & {*own.lines})
 
-
-_TRIALS = 8
-"""Radii that are tried for a whole contour, each the largest that the faults of the one before allow."""
 
 _MOST_PLACES = 6
 """Places of a part that a note names."""

@@ -2,14 +2,14 @@
 
 from collections.abc import Mapping
 from decimal import Decimal
+from functools import partial
 from typing import Unpack
 
 from msgspec.structs import replace
 
 from contoursolve.comparison import follow
-from contoursolve.controls import TOOL_FACTS, ToolFacts
 from contoursolve.diagnosis import Depth, inward, limit_text
-from contoursolve.diagnostics import Severity, choice_of
+from contoursolve.diagnostics import choice_of
 from contoursolve.families import (
     TOOL,
     BlockOptions,
@@ -26,31 +26,18 @@ from contoursolve.families import (
 from contoursolve.geometry import Length
 from contoursolve.program import Request, Result
 from contoursolve.reading import Dialect, join_premises
-from contoursolve.solving import largest_fitting
-from contoursolve.tolerance import INCREMENT, LARGEST, LENGTH
-from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
-from contoursolve.tool_radius.findings import ToolFindings, ToolRun, with_faults
-from contoursolve.tool_radius.offset import GOUGE, OffsetPath
+from contoursolve.tolerance import LARGEST
+from contoursolve.tool_radius.faults import ToolFaultKind
+from contoursolve.tool_radius.findings import ToolFindings, rules_of, with_radius
+from contoursolve.tool_radius.offset import GOUGE, largest_radius
 from contoursolve.tool_radius.runs import ToolRequest, find_runs
 from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, make_tool
 
 _REACH = 1000.0
 """mm. Up to which a radius is looked for where no range is given, as for any length."""
 
-_ASIDE = (10 * LENGTH, GOUGE, INCREMENT)
-"""mm. How far beyond a limit a tool is tried, until one does not fit."""
-
-
-_SLACK = 0.7 * LENGTH
-"""mm. By so much a tool may be too large and still counts as one that fits: the limit itself lies below."""
-
 _UNSTATED = Tool(Decimal(1))
 """The tool with which runs are found where none is stated."""
-
-
-class _Trial(OffsetPath):
-    def largest(self, near: slice) -> float:  # noqa: ARG002 - nobody asks a trial what would fit instead
-        return 0.0
 
 
 class ToolTrials:
@@ -59,42 +46,26 @@ class ToolTrials:
     def __init__(self, result: Result, dialect: Dialect | None, asked: Request, wanted: ToolRequest) -> None:
         if dialect is None:
             raise ToolError("no block shows the control, which says how moves are read")
-        self.axes, self.facts = dialect.modes.axes, TOOL_FACTS.get(dialect.name, ToolFacts())
-        self.wanted = replace(wanted, default=_UNSTATED)
-        self.told = ToolFindings(result, dialect, asked, wanted, ())
-        path = follow(result, dialect, asked.unit, self.axes)
-        self.runs = find_runs(path, self.wanted, result.program.blocks)
+        self.rules = rules_of(dialect, wanted, dialect.modes.axes)
+        self.told = ToolFindings(result, dialect, asked, wanted)
+        path = follow(result, dialect, asked.unit, self.rules.axes)
+        self.runs = find_runs(path, replace(wanted, default=_UNSTATED), result.program.blocks)
         self.unfollowed = path.unfollowed
         self.premises = join_premises([each.premises for each in result.answers], dialect.name)
-
-    def at(self, number: int, radius: float) -> ToolRun:
-        """A run with a tool of a radius, mm."""
-        own = self.runs[number]
-        shown = Decimal(repr(round(radius / float(own.unit.in_mm), 9)))
-        moved = replace(own, radius=radius, tool=replace(own.tool, radius=shown, is_metric=False))
-        return with_faults(moved, self.axes, self.wanted, self.facts, _Trial)
-
-    def stops(self, number: int, radius: float) -> list[ToolFault]:
-        """The faults that keep a tool of a radius (mm) from a run."""
-        short = ToolFaultKind.ENTRY_TOO_SHORT if self.facts.needs_entry else None
-        faults = self.at(number, radius).faults
-        return [each for each in faults if each.kind.value.severity is Severity.ERROR or each.kind is short]
 
     def radii(self, number: int, within: tuple[float, float] | None) -> Feasible:
         """The radii that fit a run. Raises FamilyError, ToolError."""
         own = self.runs[number]
         unit, scale = own.unit.value, float(own.unit.in_mm)
         low, high = (0.0, _REACH / scale) if within is None else read_limits(TOOL, within, LARGEST / scale, unit)
+        stops = partial(self.rules.stops, own)
         if low < 0:
             raise ToolError(f"the radius of a tool is not below 0; search from 0, such as 0:{high:g}")
         end = End(high, Way.RANGE, None, True, None, None)
-        if self.stops(number, high * scale):
-            largest = largest_fitting(lambda size: -1.0 if self.stops(number, size + _SLACK) else 1.0, high * scale)
-            tried = (*(largest + each for each in _ASIDE), high * scale)
-            beyond = next(each for each in tried if self.stops(number, each))
-            largest -= GOUGE if self.stops(number, beyond)[0].kind is ToolFaultKind.INTERFERENCE else 0.0
+        if stops(high * scale):
+            largest, beyond = largest_radius(stops, high * scale)
             more = float(inward(Decimal(repr(beyond / scale)), unit, -1)) * scale
-            reason = self._reason(number, largest, more if self.stops(number, more) else beyond)
+            reason = self._reason(number, largest, more if stops(more) else beyond)
             largest = round(largest / scale, 12)
             end = End(largest, Way.BISECTION, reason, True, largest, beyond / scale)
         begin, has_any = End(low, Way.RANGE, None, True, None, None), end.value >= max(low, GOUGE)
@@ -105,7 +76,7 @@ class ToolTrials:
 
     def _reason(self, number: int, largest: float, beyond: float) -> Reason:
         """The finding about a tool beyond the largest, with its place."""
-        fault, made = self.stops(number, beyond)[0], self.at(number, beyond).run
+        fault, made = self.rules.stops(self.runs[number], beyond)[0], with_radius(self.runs[number], beyond)
         word = self.told.word(made, fault) if fault.kind is ToolFaultKind.ARC_TOO_SMALL else None
         where = f"program line {made.travels[fault.element].line}{f', {word.text}' if word is not None else ''}"
         message = fault.kind.value.message.format(**self.told.texts(made, fault))

@@ -1,16 +1,16 @@
 """The path of a tool's centre beside a contour, and what of the contour it cannot cut."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
-from math import atan2, degrees, dist, hypot, nan, pi
+from math import atan2, degrees, dist, hypot, pi
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.geometry import FIRST, SECOND, Circle, Line, Turn, Values, dot, make_tangent
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, largest_fitting
-from contoursolve.tolerance import AGREEMENT, LENGTH, REGULAR
+from contoursolve.tolerance import AGREEMENT, INCREMENT, LENGTH, REGULAR
 from contoursolve.tool_radius.clearance import ahead, gaps_below, is_on, nearest
 from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
 from contoursolve.tool_radius.joint import STRAY, direction, join, meet_outside
@@ -18,6 +18,12 @@ from contoursolve.tool_radius.tool import OutsideCorner, Tool
 
 GOUGE = 1e-6
 """mm. Nearer than the radius by less than this is no gouge: a thousandth of the controls' least increment."""
+
+_SLACK = 0.7 * LENGTH
+"""mm. By so much a tool may be too large and still counts as one that fits: the limit itself lies below."""
+
+_ASIDE = (10 * LENGTH, GOUGE, INCREMENT)
+"""mm. How far beyond a limit a tool is tried, until one does not fit."""
 
 _LOOKED = 500
 """Elements among which the largest radius is looked for where a tool cuts into others; of more, none is told."""
@@ -74,9 +80,15 @@ class OffsetPath:
         self.joints = [join(one, two, radius, side) for one, two in pairwise(elements)]
 
     @cached_property
-    def faults(self) -> tuple[ToolFault, ...]:
-        """The faults: those of neighbours, or else of our own check, or else of any elements."""
+    def stops(self) -> tuple[ToolFault, ...]:
+        """The faults that keep the tool from the path: of neighbours, or else of our own check, or else of any
+        elements."""
         return tuple(self._local()) or tuple(self._unverified()) or tuple(self._interferences())
+
+    @cached_property
+    def faults(self) -> tuple[ToolFault, ...]:
+        """The same, each with the largest radius that fits at its place."""
+        return tuple(self._with_largest(self.stops))
 
     @cached_property
     def walls(self) -> Mapping[int, Segment]:
@@ -97,7 +109,7 @@ class OffsetPath:
     @cached_property
     def pieces(self) -> tuple[OffsetElement, ...] | None:
         """The path; None where it does not fit."""
-        return None if self.faults else self._pieces
+        return None if self.stops else self._pieces
 
     # What fits --------------------------------------------------------------------------------------------------
 
@@ -111,33 +123,30 @@ class OffsetPath:
                 small |= {number - 1, number, number + 1}
         for number, joint in enumerate(self.joints):
             if joint.is_lost and number not in small:
-                yield self._fault(ToolFaultKind.NO_INTERSECTION, number, None, slice(number, number + 2))
+                yield ToolFault(ToolFaultKind.NO_INTERSECTION, number, length=self.elements[number].length)
                 small |= {number, number + 1}
         for number in range(len(self.elements)):
             if (room := self._room(number)) < -LENGTH and number not in small:
-                near = slice(max(0, number - 1), number + 2)
-                yield self._fault(ToolFaultKind.ELEMENT_VANISHES, number, -room, near)
+                yield ToolFault(ToolFaultKind.ELEMENT_VANISHES, number, -room, length=self.elements[number].length)
 
-    def _fault(self, kind: ToolFaultKind, number: int, short: float | None, near: slice) -> ToolFault:
-        largest = self.largest(near)
-        short = self.radius - largest if short is None else short
-        return ToolFault(kind, number, short, largest, self.elements[number].length)
+    def _with_largest(self, faults: Sequence[ToolFault]) -> Iterator[ToolFault]:
+        """Faults, each with the largest radius with which what is near it can be cut; unless too much is."""
+        looked = 0
+        for each in faults:
+            first, last = sorted((each.element, each.element if each.working is None else each.working))
+            is_joint = each.kind is ToolFaultKind.NO_INTERSECTION
+            looked += last - first
+            largest = each.largest
+            if largest is None and each.kind is not ToolFaultKind.NOT_VERIFIED and looked <= _LOOKED:
+                largest = self._largest(slice(max(first - (not is_joint), 0), last + 2))
+            short = self.radius - largest if is_joint and largest is not None else each.short
+            yield replace(each, largest=largest, short=short)
 
-    def largest(self, near: slice) -> float:
-        """The largest radius (mm) with which some elements in a row, at most all, can be cut."""
+    def _largest(self, near: slice) -> float:
+        def stops(size: float) -> Sequence[ToolFault]:
+            return OffsetPath(self.elements[near], size, self.side, self.outside, self.levels[near]).stops
 
-        def left(size: float) -> float:
-            part = OffsetPath(self.elements[near], size, self.side, self.outside, self.levels[near])
-            arcs = [
-                each.radius for each in part.elements if isinstance(each, ArcSegment) and each.turn.sign == self.side
-            ]
-            if any(joint.is_lost for joint in part.joints) or any(size > radius + LENGTH for radius in arcs):
-                return nan
-            room = min(part._room(number) for number in range(len(part.elements)))
-            deepest = max((each.depth for each in part._gouges()), default=-GOUGE) if room >= 0 else 0.0
-            return min(room, -deepest)
-
-        return largest_fitting(left, self.radius)
+        return largest_radius(stops, self.radius)[0]
 
     def _room(self, number: int) -> float:
         """The length that the corners at both ends leave of an element, mm."""
@@ -231,16 +240,20 @@ class OffsetPath:
 
     def _interferences(self) -> Iterator[ToolFault]:
         """Walls into which the tool cuts beside another element: of each place, the deepest."""
-        told, looked = list[Gouge](), 0
+        told = list[Gouge]()
         for each in sorted(self._gouges(), key=lambda gouge: (-round(gouge.depth, 6), -gouge.wall)):
             if any(each.is_like(other, self.radius) for other in told):
                 continue
             told.append(each)
-            first, last = sorted((each.wall, each.working))
-            length, near = self.elements[each.wall].length, slice(max(first - 1, 0), last + 2)
-            looked += last - first
-            largest = self.largest(near) if looked <= _LOOKED else None
-            yield ToolFault(ToolFaultKind.INTERFERENCE, each.wall, each.depth, largest, length, each.working, each.at)
+            length = self.elements[each.wall].length
+            yield ToolFault(ToolFaultKind.INTERFERENCE, each.wall, each.depth, None, length, each.working, each.at)
+
+
+def largest_radius(stops: Callable[[float], Sequence[ToolFault]], most: float) -> tuple[float, float]:
+    """The largest radius (mm) that nothing stops, below one that something does; and one beyond that is stopped."""
+    largest = largest_fitting(lambda size: -1.0 if stops(size + _SLACK) else 1.0, most)
+    beyond = next(size for size in (*(largest + each for each in _ASIDE), most) if stops(size))
+    return max(largest - GOUGE * (stops(beyond)[0].kind is ToolFaultKind.INTERFERENCE), 0.0), beyond
 
 
 NOTICED = 0.005

@@ -73,8 +73,8 @@ class ToolSweep(CompiledSweep, eq=False, kw_only=True):
 
         @cache
         def stop_of(radius: float) -> Stop:
-            size, every = radius * self.scale, range(len(trials.runs))
-            return next(((number, each.kind) for number in every for each in trials.stops(number, size)), None)
+            every, stops = enumerate(trials.runs), trials.rules.stops
+            return next(((at, each.kind) for at, own in every for each in stops(own, radius * self.scale)), None)
 
         return _fill(numpy.unique(radii).tolist(), stop_of)
 
