@@ -214,9 +214,9 @@ def _find_tool(
         trials = ToolTrials(result := run.collect(), run.asked.dialect, run.asked, wanted)
         found = largest_tools(trials, result, within)
     if format_ == "json":
-        print_json(tools_data(found, trials.unfollowed))
+        print_json(tools_data(found, trials.path.unfollowed))
     else:
-        print_lines(tools_lines(found, trials.unfollowed))
+        print_lines(tools_lines(found, trials.path.unfollowed))
     context.exit(0 if all(each.intervals for each in found.values()) else FOUND_ERRORS)
 
 

@@ -52,8 +52,6 @@ def moved_program(
             "fanuc-mill of what that writes"
         )
     is_solved = all(answer.contour is not None for answer in result.answers)
-    if not report.runs and is_solved:
-        raise ToolError("no cutting move goes beside a contour, so that nothing is to be written")
     texts = {block.line: block.text for block in program.blocks}
     left, kept, remarks, behind = dict[int, Left](), set[int](), dict[int, str](), 0
     warnings = dict[int, tuple[Diagnostic, ...]]()

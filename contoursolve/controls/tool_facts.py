@@ -18,6 +18,8 @@ class ToolFacts(Struct, frozen=True):
     """The moves among which it notices that the tool cuts into another element, and the grade."""
     needs_entry: bool = False
     """Whether it refuses a move to the contour that is no longer than the radius."""
+    no_offset: Evidence = _ASSUMED
+    """The grade of what D0 does: G41 stays, with radius 0."""
 
 
 def _alarms(evidence: Evidence, **numbers: str) -> dict[str, Alarm]:
@@ -43,7 +45,8 @@ _HAAS = ToolFacts(
 )
 _SIEMENS = ToolFacts(
     _alarms(_PRINTED, no_intersection="10751", interference="10751")
-    | _alarms(_DERIVED, arc_too_small="10751", element_vanishes="10751"),
+    | _alarms(_DERIVED, arc_too_small="10751", element_vanishes="10751")
+    | _alarms(_ASSUMED, no_offset="10750"),
     "the control checks the next blocks, by default 3 (printed)",
 )
 _NAMED = "Tool radius too large"
@@ -66,7 +69,7 @@ TOOL_FACTS: Mapping[str, ToolFacts] = {
         _alarms(_ASSUMED, no_intersection="P152", interference="P153", entry_by_arc="P151"),
         "the control looks five blocks ahead, and not farther (printed)",
     ),
-    "nct-99m": ToolFacts(_alarms(_ASSUMED, interference="3048")),
+    "nct-99m": ToolFacts(_alarms(_ASSUMED, interference="3048"), no_offset=_PRINTED),
     "linuxcnc": ToolFacts(
         notice="the control looks at the next move, and cuts here without an alarm (measured)", needs_entry=True
     ),

@@ -219,10 +219,10 @@ def length_in(mm: float, unit: Length) -> str:
 
 def written(value: float, unit: str, way: int = 0) -> str:
     """A value as its word has it, with its unit (mm, inch or deg); decimals as for lengths. An upper (`way` 1) or a
-    lower limit (-1) is rounded into its range."""
+    lower limit (-1) is rounded into its range, but for the rounding of floats."""
     decimals = 5 if unit == "inch" else 4
     rounding = {1: ROUND_FLOOR, -1: ROUND_CEILING}.get(way, ROUND_HALF_EVEN)
-    shown = Decimal(repr(value)).quantize(Decimal(1).scaleb(-decimals), rounding) if way else value
+    shown = Decimal(repr(round(value, 10))).quantize(Decimal(1).scaleb(-decimals), rounding) if way else value
     return f"{shown:z.{decimals}f} {short_name(unit)}"
 
 

@@ -38,12 +38,24 @@ class ToolFaultKind(Enum):
     )
     NOT_VERIFIED = _Row("the path of the tool misses this {element} by {short}: it is not used", "report it")
     INTERRUPTED = _Row(
-        "program line {broken} interrupts the contour while {code} is in force: what follows is no longer known",
+        "program line {broken}{why} interrupts the contour while {code} is in force: what follows is no longer known",
         "write G40 before it, or move it out of the contour",
     )
     OTHER_TOOL = _Row(
         "program line {broken} calls another tool in the midst of the contour",
         "write G40 and lead the tool away before it",
+    )
+    NO_OFFSET = _Row(
+        "{void} is in force: {code} works with radius 0 ({grade}), and does not compensate the {tool}",
+        "write the number of the tool for {void}",
+    )
+    NO_RADIUS = _Row(
+        "the tool has radius 0: its path is the contour itself", "state the radius of the tool", Severity.INFO
+    )
+    STILL_ON = _Row(
+        "{code} is still in force at program line {still_on}",
+        "write {off} in the move away from the contour, before that line",
+        Severity.WARNING,
     )
     ENTRY_BY_ARC = _Row("compensation begins in an arc", "write {code} in a straight move before it")
     EXIT_BY_ARC = _Row("compensation ends in an arc", "write G40 in a straight move behind it")

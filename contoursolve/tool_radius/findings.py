@@ -21,7 +21,7 @@ from contoursolve.diagnosis import (
     write_word,
     written,
 )
-from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Fix, Label, Severity, Span
+from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Evidence, Fix, Label, Severity, Span
 from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.program import Request, Result, run
 from contoursolve.reading import Dialect
@@ -40,7 +40,7 @@ from contoursolve.tool_radius.offset import (
     uncompensated,
     uncut,
 )
-from contoursolve.tool_radius.runs import CuttingRun, ToolRequest, find_runs, place_of
+from contoursolve.tool_radius.runs import CuttingRun, ToolRequest, find_runs, nothing_cut, place_of
 from contoursolve.tool_radius.tool import OutsideCorner
 
 
@@ -139,6 +139,8 @@ class ToolRules(Struct, frozen=True):
                 yield ToolFault(ToolFaultKind.ENTRY_TOO_SHORT, 0, each.radius - length, length=length)
         if each.broken and each.is_stated:
             yield ToolFault(ToolFaultKind.OTHER_TOOL if each.is_changed else ToolFaultKind.INTERRUPTED, 0)
+        if each.void is not None and each.radius > LENGTH:
+            yield ToolFault(ToolFaultKind.NO_OFFSET, 0)
         if any(each.vector):
             yield from tip_faults(each.elements, each.side.sign, each.radius, each.tip)
             yield from flank_faults(each.elements, each.side.sign, each.tool)
@@ -165,6 +167,8 @@ def look_at_tool(
     """The runs of a solved program with the paths of the tool, and what it cannot cut; places of its path are in these
     axes, or in those of its control. Raises ToolError."""
     path, runs = _tool_runs(result, dialect, asked, wanted, axes)
+    if not runs and all(answer.contour is not None for answer in result.answers):
+        raise nothing_cut(path)
     told = ToolFindings(result, dialect, asked, wanted)
     found = [each for number, tool_run in enumerate(runs) for each in told.of(tool_run, is_first=not number)]
     return ToolReport(tuple(runs), tuple(sorted(found, key=rank)), path)
@@ -175,7 +179,7 @@ def _tool_runs(
 ) -> tuple[ToolPath, list[ToolRun]]:
     path = follow(result, dialect, asked.unit, axes or dialect.modes.axes)
     rules = rules_of(dialect, wanted, path.axes)
-    return path, [rules.at(each) for each in find_runs(path, wanted, result.program.blocks)]
+    return path, [rules.at(each) for each in find_runs(path, wanted, result.program.blocks, dialect)]
 
 
 def rules_of(dialect: Dialect, wanted: ToolRequest, axes: tuple[str, ...]) -> ToolRules:
@@ -198,6 +202,8 @@ class ToolFindings:
         told = [ToolFault(ToolFaultKind.APPROACH, 0)] if own.is_approached else []
         told += [ToolFault(ToolFaultKind.SWITCHED, 0)] if own.lead is None and not is_first else []
         told += [] if own.is_stated else self._uncompensated(own)
+        told += [ToolFault(ToolFaultKind.NO_RADIUS, 0)] if own.radius <= LENGTH else []
+        told += [ToolFault(ToolFaultKind.STILL_ON, len(own.elements) - 1)] if own.still_on else []
         # What interrupts one run stands before the next one.
         faults = [each for each in tool_run.faults if each.kind not in _BREAKS or own.broken not in self.broken]
         self.broken.add(own.broken)
@@ -218,9 +224,11 @@ class ToolFindings:
     def _finding(self, tool_run: ToolRun, fault: ToolFault) -> Diagnostic:
         own, row = tool_run.run, fault.kind.value
         travel = own.travels[fault.element]
-        is_entry, is_exit = fault.kind in _ENTRIES, fault.kind is ToolFaultKind.EXIT_BY_ARC
-        shown = own.lead if is_entry and own.lead else own.leaving if is_exit and own.leaving else travel
+        is_entry, is_exit = fault.kind in _ENTRIES, fault.kind in _EXITS
+        leaving = own.leaving if not own.still_on or (own.leaving and own.leaving.line < own.still_on) else None
+        shown = own.lead if is_entry and own.lead else leaving if is_exit and leaving else travel
         word = self.word(own, fault) if fault.kind is ToolFaultKind.ARC_TOO_SMALL else None
+        word = own.void if fault.kind is ToolFaultKind.NO_OFFSET else word
         line = own.broken if fault.kind in _BREAKS else shown.line
         block = self.blocks.get(line)
         span = word.span if word is not None else block.span if block is not None else Span(line, 1, 2)
@@ -239,7 +247,7 @@ class ToolFindings:
             values if fault.largest is None else {**values, "limit": fault.largest, "actual": own.radius},
             tuple(self._notes(tool_run, fault)),
             row.help.format(**texts),
-            tuple(self._fixes(own, fault, word)) if word is not None else (),
+            tuple(self._fixes(own, fault, word)) if fault.kind is ToolFaultKind.ARC_TOO_SMALL and word else (),
             fault.kind,
         )
 
@@ -251,6 +259,11 @@ class ToolFindings:
             "tool": f"{_kind(own)} {own.size}",
             "kind": _kind(own),
             "broken": str(own.broken),
+            "why": f" ({own.why})" if own.why else "",
+            "still_on": str(own.still_on),
+            "off": self.dialect.modes.codes[40].text,
+            "void": own.void.text.strip() if own.void else "",
+            "grade": (self.facts.no_offset if own.void and own.void.address == "D" else Evidence.ASSUMED).value,
             "made": length_in(fault.length, unit),
             "element": "arc" if isinstance(element, ArcSegment) else "line",
             "radius": length_in(getattr(element, "radius", 0.0), unit),
@@ -348,6 +361,8 @@ _MOST_PLACES = 6
 """Places of a part that a note names."""
 
 _BREAKS = (ToolFaultKind.INTERRUPTED, ToolFaultKind.OTHER_TOOL)
+
+_EXITS = (ToolFaultKind.EXIT_BY_ARC, ToolFaultKind.STILL_ON)
 
 _ENTRIES = (ToolFaultKind.ENTRY_BY_ARC, ToolFaultKind.ENTRY_TOO_SHORT, ToolFaultKind.APPROACH)
 

@@ -30,7 +30,7 @@ from contoursolve.tolerance import LARGEST
 from contoursolve.tool_radius.faults import ToolFaultKind
 from contoursolve.tool_radius.findings import ToolFindings, rules_of, with_radius
 from contoursolve.tool_radius.offset import GOUGE, largest_radius
-from contoursolve.tool_radius.runs import ToolRequest, find_runs
+from contoursolve.tool_radius.runs import ToolRequest, find_runs, nothing_cut
 from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, make_tool
 
 _REACH = 1000.0
@@ -48,9 +48,8 @@ class ToolTrials:
             raise ToolError("no block shows the control, which says how moves are read")
         self.rules = rules_of(dialect, wanted, dialect.modes.axes)
         self.told = ToolFindings(result, dialect, asked, wanted)
-        path = follow(result, dialect, asked.unit, self.rules.axes)
-        self.runs = find_runs(path, replace(wanted, default=_UNSTATED), result.program.blocks)
-        self.unfollowed = path.unfollowed
+        self.path = path = follow(result, dialect, asked.unit, self.rules.axes)
+        self.runs = find_runs(path, replace(wanted, default=_UNSTATED), result.program.blocks, dialect)
         self.premises = join_premises([each.premises for each in result.answers], dialect.name)
 
     def radii(self, number: int, within: tuple[float, float] | None) -> Feasible:
@@ -91,7 +90,7 @@ def largest_tools(
     if errors_of(result) or any(each.contour is None for each in result.answers):
         raise RefusedError(result)
     if not trials.runs:
-        raise ToolError("no cutting move goes beside a contour, so no tool cuts anything")
+        raise nothing_cut(trials.path)
     found = dict[tuple[int, ...], Feasible]()
     for number, own in enumerate(trials.runs):
         each = trials.radii(number, within)

@@ -9,14 +9,15 @@ from math import dist
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.comparison import Motion, ToolPath, Travel
+from contoursolve.comparison import Motion, Step, ToolPath, Travel, Unfollowed
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane, Turn
+from contoursolve.reading import Dialect, Effect, Modes, rows_of
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import AGREEMENT, LENGTH
 from contoursolve.tool_radius.clearance import foot
 from contoursolve.tool_radius.joint import TANGENT, join
-from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, tool_in
+from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, plain_number, tool_in
 
 SIDES = {side.code: side for side in ToolSide}
 
@@ -62,8 +63,14 @@ class CuttingRun(Struct, frozen=True):
     """The line that interrupts it, or changes the tool, while G41 or G42 is in force; 0 without one."""
     is_changed: bool = False
     """Whether that is a change of the tool."""
+    why: str = ""
+    """The reason for which its way is not followed."""
     is_approached: bool = False
     """Whether the lead is a cutting move, of which nothing says that it is none of the contour."""
+    still_on: int = 0
+    """The line up to which nothing ends G41 or G42 behind it, where another tool or the end comes; 0 without one."""
+    void: Word | None = None
+    """The D or T word in force that calls no tool, `D0`."""
 
     @property
     def lines(self) -> tuple[int, ...]:
@@ -78,7 +85,7 @@ class CuttingRun(Struct, frozen=True):
     @property
     def size(self) -> str:
         """The radius as the program would write it, `R0.8`; with its unit where that is another one."""
-        return f"R{self.tool.radius}" + " mm" * (self.tool.is_metric and self.unit is not Length.MM)
+        return f"R{plain_number(self.tool.radius)}" + " mm" * (self.tool.is_metric and self.unit is not Length.MM)
 
     @property
     def tip(self) -> Point:
@@ -128,22 +135,63 @@ def _closes(parts: Sequence[Segment], first: int, last: int, *, is_end: bool = F
     return last > first + 1 and dist(at, foot(on, at)) <= AGREEMENT
 
 
-def find_runs(path: ToolPath, asked: ToolRequest, blocks: Sequence[Block]) -> list[CuttingRun]:
-    """The runs of a program's path for a tool that is asked for or stated. Raises ToolError."""
-    travels = [step for step in path.steps if isinstance(step, Travel)]
-    stated = next((each for each in travels if each.compensation in SIDES), None)
-    against = [each for each in travels if asked.side and each.compensation not in (40, asked.side.code)]
+def find_runs(path: ToolPath, asked: ToolRequest, blocks: Sequence[Block], dialect: Dialect) -> list[CuttingRun]:
+    """The runs of a program. Raises ToolError."""
+    switches = list(_switches(blocks, dialect.modes))
+    # In what is called, and in no block here, there may be more.
+    stated = [*switches, *((each.line, each.compensation) for each in path.steps if isinstance(each, Travel))]
+    against = [(line, code) for line, code in stated if asked.side and code in {*SIDES} - {asked.side.code}]
     if against and asked.side:
-        code = f"G{against[0].compensation}"
-        raise ToolError(f"--side {asked.side.value} is against {code} in program line {against[0].line}; leave one out")
-    if stated is None and asked.side is None:
+        told = f"--side {asked.side.value} is against {dialect.modes.codes[against[0][1]].text}"
+        raise ToolError(f"{told} in program line {against[0][0]}; leave one out")
+    is_stated = any(code in SIDES for _, code in stated)
+    groups = list(_groups(path, is_stated=is_stated))
+    if not is_stated and asked.side is None and any(group.travels for group in groups):
+        left, right = (dialect.modes.codes[side.code].text for side in ToolSide)
         raise ToolError(
-            "nothing says on which side of the contour the tool runs; write G41 or G42 (RL or RR) before it, or give "
+            f"nothing says on which side of the contour the tool runs; write {left} or {right} before it, or give "
             "--side left or --side right"
         )
-    stock = _Stock(asked, blocks)
-    groups = _groups(path, is_stated=stated is not None)
-    return [run for group in groups if (run := _run(group, path.axes, stock, asked.side)) is not None]
+    stock = _Stock(asked, blocks, dialect)
+    found = [run for group in groups if (run := _run(group, path.axes, stock, asked.side)) is not None]
+    firsts = [run.travels[0].line for run in found[1:]]
+    lines = [step.line for step in path.steps]
+    is_straight = lines == sorted(lines) and not any(step.file for step in path.steps)
+    return [
+        _left(run, switches, stock.ends, following) if run.is_stated and is_straight else run
+        for run, following in zip(found, [*firsts, stock.ends[-1] + 1], strict=False)
+    ]
+
+
+def _switches(blocks: Sequence[Block], modes: Modes) -> Iterator[tuple[int, int]]:
+    """The lines that switch compensation, each with the number of its code. Raises ToolError."""
+    for block in blocks:
+        rows = {row.number: row.text for row in rows_of(block, modes) if row.effect is Effect.COMPENSATION}
+        if len(rows) > 1:
+            told = " and ".join(rows[number] for number in sorted(rows))
+            raise ToolError(f"{told} stand together in program line {block.line}; leave one out")
+        yield from ((block.line, number) for number in rows)
+
+
+def _left(run: CuttingRun, switches: Sequence[tuple[int, int]], ends: Sequence[int], following: int) -> CuttingRun:
+    """A run that knows where G40 is missing behind it: before another tool, or a way home, or the end, where no other
+    run comes first. Where none comes at all, a way home interrupts nothing."""
+    first, last = run.travels[0].line, run.travels[-1].line
+    offs = [line for line, code in switches if code not in SIDES]
+    if any(run.broken < line <= first for line in offs):
+        run = replace(run, broken=0)
+    off = next((line for line in offs if line > last), ends[-1] + 1)
+    end = next(line for line in ends if line > last or line == ends[-1])
+    if end >= min(off, following) or (run.broken and (run.broken != end or off > following)):
+        return run
+    return replace(run, broken=0, still_on=end)
+
+
+def nothing_cut(path: ToolPath) -> ToolError:
+    """The error that no cutting move is there for a tool, with the first move that is not followed."""
+    moves = [each for each in path.unfollowed if any(not word.startswith("G") for word in each.words)]
+    lost = [f"; program line {each.line} is not followed: {each.reason}" for each in moves[:1]]
+    return ToolError(f"no cutting move goes beside a contour, so that no tool cuts anything{''.join(lost)}")
 
 
 class _Group(Struct):
@@ -153,14 +201,14 @@ class _Group(Struct):
     lead: Travel | None = None
     leaving: Travel | None = None
     side: ToolSide | None = None
-    broken: int = 0
-    """The line that interrupts it while G41 or G42 is in force."""
+    broken: Step | None = None
+    """The step that interrupts it while G41 or G42 is in force."""
 
 
 def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
     """Moves under G41 or G42, of which the first leads to the contour; or else cutting moves between those that do not
     cut. The first move behind leaves the contour."""
-    group, before, broken = _Group([]), None, 0
+    group, before, broken = _Group([]), None, None
     for step in path.steps:
         move = step if isinstance(step, Travel) and step.motion in (Motion.RAPID, Motion.FEED) else None
         if move is not None and not _moves(move, path.axes):
@@ -178,7 +226,7 @@ def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
         is_off = isinstance(step, Travel) and step.compensation not in SIDES
         if group.side is not None and side is not None and side is not group.side:
             is_off = True
-        broken = 0 if is_off else broken or (step.line if group.side is not None else 0)
+        broken = None if is_off else broken or (step if group.side is not None else None)
         group.broken = group.broken or broken
         yield group
         group = _Group([move] if is_there and move else [], None if is_there else move, None, side, broken)
@@ -222,7 +270,7 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
         first -= 1
     if first:
         lead, is_approached, travels, elements = travels[first - 1], True, travels[first:], elements[first:]
-    if tool.tip is None and any(plane.diameters):
+    if tool.tip is None and (any(plane.diameters) or (plane.axes == _TURNED and stock.has_lathe)):
         raise ToolError("a turning tool needs the number of its imaginary tip; give --tip 0 to 9, such as --tip 3")
     if tool.tip is not None and not _is_turned(plane, tool):
         raise ToolError(f"a cutter has no imaginary tip; leave tip {tool.tip} out")
@@ -238,9 +286,11 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
         lead,
         leaving,
         group.side is not None,
-        group.broken or stock.changed(travels),
-        not group.broken,
+        group.broken.line if group.broken else stock.changed(travels),
+        group.broken is None,
+        group.broken.reason if isinstance(group.broken, Unfollowed) else "",
         is_approached,
+        void=stock.void(travels[0]) if group.side is not None else None,
     )
 
 
@@ -279,32 +329,51 @@ def _segment(step: Travel, axes: Sequence[str]) -> Segment:
 class _Stock:
     """The tools that a program states, by the lines from which on they are in use."""
 
-    def __init__(self, asked: ToolRequest, blocks: Sequence[Block]) -> None:
+    def __init__(self, asked: ToolRequest, blocks: Sequence[Block], dialect: Dialect) -> None:
         self.asked = asked
-        self.lines: list[int] = []
-        self.tools: list[Tool] = []
+        # Such a control turns in its plane Z X, with X as diameter or radius.
+        self.has_lathe = dialect.diameter is not None or dialect.plane.axes == _TURNED
         table = {_key(name): tool for name, tool in asked.table.items()}
-        self.changes = [
-            block.line for block in blocks if any(word.address == "T" or _is_row(word, table) for word in block.words)
-        ]
-        for block in blocks if asked.tool is None else ():
-            found = tool_in(block.text)
-            for word in block.words if table else ():
-                if word.address in "TD" and word.number is not None:
-                    found = found or table.get((word.address, word.number))
-            if found is not None:
-                self.lines.append(block.line)
-                self.tools.append(found)
+        self.tools: list[tuple[int, Tool | None]] = []
+        self.voids: list[tuple[int, Word | None]] = []
+        self.changes, self.ends = list[int](), list[int]()
+        # D is another word in some contours.
+        addresses = [each for each in "TD" if each not in dialect.modes.lexicon.addresses]
+        has_change, ready = any(_is_change(block) for block in blocks), dict[str, Word]()
+        for block in blocks:
+            called = {word.address: word for word in block.words if word.address in addresses and word.number is not None}
+            # Where M6 changes tools, T makes one ready.
+            if has_change and "T" in called:
+                ready = {"T": called.pop("T")}
+            if _is_change(block):
+                called, ready = {**ready, **called}, {}
+            keys = [(word.address, word.number or Decimal(0)) for word in called.values()]
+            found = [tool for key in keys if (tool := table.get(key)) is not None]
+            stated = tool_in(block.text) if asked.tool is None else None
+            if stated or found or any(address == own[:1] for address, number in keys for own, _ in table if number):
+                self.tools.append((block.line, stated or (found[0] if found else None)))
+            if "T" in called or found:
+                self.changes.append(block.line)
+            if called:
+                self.voids.append((block.line, next((word for word in called.values() if not word.number), None)))
+            is_home = any(row.effect is Effect.SINGLE for row in rows_of(block, dialect.modes))
+            if "T" in called or is_home or any(word.address == "M" and word.number in _ENDS for word in block.words):
+                self.ends.append(block.line)
+        self.ends.append(max((block.line for block in blocks if block.words), default=0))
 
     def changed(self, travels: Sequence[Travel]) -> int:
         """The line of another tool behind the first of some moves and before the last; 0 without one."""
         first, last = bisect_right(self.changes, travels[0].line), bisect_right(self.changes, travels[-1].line)
         return self.changes[first] if first < last else 0
 
+    def void(self, step: Travel) -> Word | None:
+        """The word in force at a move that calls no tool."""
+        return next((word for line, word in reversed(self.voids) if line <= step.line), None)
+
     def at(self, step: Travel) -> Tool:
         """The tool that makes a move. Raises ToolError."""
-        place = bisect_right(self.lines, step.line)
-        tool = self.asked.tool or (self.tools[place - 1] if place else self.asked.default)
+        stated = next((tool for line, tool in reversed(self.tools) if line <= step.line), self.asked.default)
+        tool = self.asked.tool or stated or self.asked.default
         if tool is None:
             raise ToolError(
                 f"nothing says which tool cuts program line {step.line}; give --tool R0.8, or write the comment "
@@ -313,9 +382,13 @@ class _Stock:
         return tool if self.asked.tip is None else replace(tool, tip=self.asked.tip)
 
 
-def _is_row(word: Word, table: Mapping[tuple[str, Decimal], Tool]) -> bool:
-    """Whether a word names a tool of the table."""
-    return word.number is not None and (word.address, word.number) in table
+_ENDS = (2, 30)
+"""M functions that end a program."""
+
+
+def _is_change(block: Block) -> bool:
+    """Whether a block has M6, which changes the tool."""
+    return any(word.address == "M" and word.number == 6 for word in block.words)  # noqa: PLR2004 - M6
 
 
 def _key(name: str) -> tuple[str, Decimal]:

@@ -123,6 +123,11 @@ def make_tool(
     return Tool(radius, tip, is_metric, back, front)
 
 
+def plain_number(value: Decimal) -> str:
+    """A number without zeros at its end, however it is stated."""
+    return f"{value.normalize():f}"
+
+
 def radius_in(line: str) -> tuple[int, int] | None:
     """The place of the radius in a comment that states a tool: its first column and the one behind, from 1.
 

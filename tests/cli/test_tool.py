@@ -331,7 +331,7 @@ def test_a_change_of_the_side_is_told_and_written(tmp_path: Path):
 
 def test_no_alarm_is_invented():
     printed = {
-        *("33", "34", "41", "340", "341", "342", "10751", "90008", "90017", "90123", "P151", "P152", "P153", "3048"),
+        *("33", "34", "41", "340", "341", "342", "10750", "10751", "90008", "90017", "90123", "P151", "P152", "P153", "3048"),
         "Tool radius too large",
     }
     assert {alarm.number for facts in TOOL_FACTS.values() for alarm in facts.alarms.values()} == printed
@@ -388,3 +388,98 @@ def test_a_comment_that_is_meant_to_state_a_tool_is_told(tmp_path: Path):
     done = call("check", *LATHE, tmp_path / "a.nc")
     assert (done.exit_code, done.stdout) == (2, "")
     assert "states no tool; write (contoursolve tool: R0.8, tip 3)" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("size", "units"),
+    [("0.4", "mm"), ("0.3", "mm"), ("1.7", "mm"), ("0.0157", "inch"), ("0.1", "inch"), ("0.03125", "inch")],
+)
+def test_the_largest_radius_that_is_shown_fits_and_the_next_one_does_not(size: str, units: str):
+    """A fillet between a cylinder and a face, and the chamfer of two inside corners of the same size."""
+    from_axis = [f"G01 X2. Z-{2 - float(size):g}", f"G02 X{2 + 2 * float(size):g} Z-2. R{size}", "G01 X8. Z-2."]
+    chamfer = ["G01 X2. Z-2.", f"X{2 + 2 * float(size):g} Z-{2 + float(size):g}", f"X8. Z-{2 + float(size):g}"]
+    for blocks in (from_axis, chamfer):
+        words = ["--units", units, "--side", "right", "--start", "X2. Z0.", "--tip", "3", "--tool"]
+        given = [word for block in blocks for word in ("--block", block)]
+        text = call("check", *LATHE, *words, "R3.", *given).stdout
+        shown = re.search(r"up to ([0-9.]+) \S+ cuts", text)
+        assert shown is not None
+        step = 10.0 ** -len(shown[1].split(".")[1])
+        assert "error" not in call("check", *LATHE, *words, f"R{shown[1]}", *given).stdout
+        assert "error[tool-" in call("check", *LATHE, *words, f"R{float(shown[1]) + step:.5f}", *given).stdout
+
+
+def test_a_word_that_calls_no_tool_and_a_tool_without_a_radius(tmp_path: Path):
+    for control, word, told in (("nct-99m", "D00", "(printed)"), ("haas-mill", "D0", "(assumed)")):
+        program = PLATE.replace("D1", word).replace("<<MIDST>>\n", "")
+        (tmp_path / "a.nc").write_text(program)
+        done = call("expand", "--control", control, "--tool", "R5", tmp_path / "a.nc")
+        assert (done.exit_code, done.stdout) == (1, "")
+        assert f"error[tool-no-offset]: {word} is in force: G41 works with radius 0 {told}" in done.stderr
+    (tmp_path / "a.nc").write_text(PLATE.replace("T1", "T0").replace(" D1", "").replace("<<MIDST>>\n", ""))
+    assert "T0 is in force" in call("check", *MILL, "--tool", "R5", tmp_path / "a.nc").stdout
+    (tmp_path / "a.nc").write_text(PLATE.replace("<<MIDST>>\n", ""))
+    for row, told in (("D1 = {radius = 0}", "info[tool-no-radius]"), ("D2 = {radius = 5}", "nothing says which tool")):
+        (tmp_path / "contoursolve.toml").write_text(f"[tools]\n{row}\n")
+        assert told in call("check", *MILL, "--tool", "program", tmp_path / "a.nc").output
+
+
+def test_m6_changes_the_tool_that_t_makes_ready(tmp_path: Path):
+    (tmp_path / "contoursolve.toml").write_text("[tools]\nT1 = {radius = 5}\nT2 = {radius = 4}\n")
+    (tmp_path / "a.nc").write_text(PLATE.replace("<<MIDST>>\n", "").replace("G90", "T2\nG90"))
+    text = call("expand", *MILL, "--tool", "program", tmp_path / "a.nc").stdout
+    assert "path of the centre for cutter R5" in text
+
+
+def test_two_codes_of_compensation_in_one_block(tmp_path: Path):
+    for codes, named in (("G41 G42", "G41 and G42"), ("G42 G40", "G40 and G42"), ("G41 G41", "")):
+        (tmp_path / "a.nc").write_text(PLATE.replace("G41", codes).replace("<<MIDST>>\n", ""))
+        done = call("check", *MILL, "--tool", "R5", tmp_path / "a.nc")
+        assert (done.exit_code, f"{named} stand together in program line 3" in done.stderr) == (2, True) if named else (
+            0,
+            False,
+        )
+
+
+@pytest.mark.parametrize(
+    ("end", "line"), [("M30", 9), ("G28 X0 Y0", 9), ("T2 M6\nG40 G00 X0", 9), ("M05", 9), ("G40\nM30", 0)]
+)
+def test_compensation_that_nothing_ends(end: str, line: int, tmp_path: Path):
+    program = PLATE.replace("<<MIDST>>\n", "").replace("G40 ", "")
+    for name, text in (("on.nc", f"{program}{end}\n"), ("off.nc", f"{program.replace('G00 X-20', 'G40 G00 X-20')}")):
+        (tmp_path / name).write_text(text.replace("G90 G17 G54 G40 G00", "G90 G17 G54 G00"))
+    done = call("check", *MILL, "--tool", "R5", tmp_path / "on.nc")
+    told = f"warning[tool-still-on]: G41 is still in force at program line {line}"
+    assert (done.exit_code, told in done.stdout) == (0, bool(line))
+    assert "on.nc:8:1" in done.stdout or not line
+    on, off = (call("expand", *MILL, "--tool", "R5", "--no-comments", tmp_path / f"{each}.nc") for each in ("on", "off"))
+    assert on.stdout.splitlines()[:14] == off.stdout.splitlines()[:14]
+
+
+def test_a_lathe_asks_for_the_tip_whatever_x_counts(tmp_path: Path):
+    for codes in ("DIAMON", "DIAMOF", ""):
+        (tmp_path / "a.mpf").write_text(f"G90 G18 {codes}\nG0 X10 Z5\nG42 G1 X10 Z0 D1\nZ-10\nX20 Z-20\nG40 G0 X80\n")
+        words = ("check", "--control", "siemens-840d", "--tool", "R0.8", tmp_path / "a.mpf")
+        assert "a turning tool needs the number of its imaginary tip" in call(*words).stderr
+        assert call(*words, "--tip", "3").exit_code == 0
+    (tmp_path / "a.nc").write_text("G90 G18 G00 X10. Z5.\nG42 G01 Z0 D1 F100\nZ-10.\nX20.\nG40 G00 X80.\n")
+    assert call("check", *MILL, "--tool", "R0.8", tmp_path / "a.nc").exit_code == 0
+
+
+def test_the_side_of_a_contour_that_is_not_solved_is_known(tmp_path: Path):
+    blocks = ["BEGIN PGM A MM", "TOOL CALL 1 Z S2000", "L X-30 Y-30 R0 FMAX", "L X+0 Y+0 RR F300", "FL AN+0 LEN40"]
+    blocks += ["RND R6", "FL AN+90 LEN30", "FC DR+ R20 X+10 Y+40", "L X-30 Y+40 R0 FMAX", "END PGM A MM"]
+    for first in (None, "RND R3"):
+        lines = [*blocks[:4], *([first] if first else []), *blocks[4:]]
+        (tmp_path / "a.h").write_text("".join(f"{number} {line}\n" for number, line in enumerate(lines)))
+        done = call("check", "--tool", "R5", tmp_path / "a.h")
+        assert (done.exit_code, done.stderr) == (1, "")
+        assert "error[several-contours]" in done.stdout
+        assert "--side left is against RR" in call("check", "--tool", "R5", "--side", "left", tmp_path / "a.h").stderr
+
+
+def test_a_program_that_cuts_nothing_is_not_asked_for_a_side(tmp_path: Path):
+    (tmp_path / "a.nc").write_text("T1 M6\nG00 X0 Y0\nM30\n")
+    for command in ("check", "expand"):
+        done = call(command, *MILL, "--tool", "R5", tmp_path / "a.nc")
+        assert (done.exit_code, "no cutting move goes beside a contour" in done.stderr) == (2, True)
