@@ -341,7 +341,9 @@ class _Stock:
         addresses = [each for each in "TD" if each not in dialect.modes.lexicon.addresses]
         has_change, ready = any(_is_change(block) for block in blocks), dict[str, Word]()
         for block in blocks:
-            called = {word.address: word for word in block.words if word.address in addresses and word.number is not None}
+            called = {
+                word.address: word for word in block.words if word.address in addresses and word.number is not None
+            }
             # Where M6 changes tools, T makes one ready.
             if has_change and "T" in called:
                 ready = {"T": called.pop("T")}

@@ -331,7 +331,23 @@ def test_a_change_of_the_side_is_told_and_written(tmp_path: Path):
 
 def test_no_alarm_is_invented():
     printed = {
-        *("33", "34", "41", "340", "341", "342", "10750", "10751", "90008", "90017", "90123", "P151", "P152", "P153", "3048"),
+        *(
+            "33",
+            "34",
+            "41",
+            "340",
+            "341",
+            "342",
+            "10750",
+            "10751",
+            "90008",
+            "90017",
+            "90123",
+            "P151",
+            "P152",
+            "P153",
+            "3048",
+        ),
         "Tool radius too large",
     }
     assert {alarm.number for facts in TOOL_FACTS.values() for alarm in facts.alarms.values()} == printed
@@ -435,9 +451,13 @@ def test_two_codes_of_compensation_in_one_block(tmp_path: Path):
     for codes, named in (("G41 G42", "G41 and G42"), ("G42 G40", "G40 and G42"), ("G41 G41", "")):
         (tmp_path / "a.nc").write_text(PLATE.replace("G41", codes).replace("<<MIDST>>\n", ""))
         done = call("check", *MILL, "--tool", "R5", tmp_path / "a.nc")
-        assert (done.exit_code, f"{named} stand together in program line 3" in done.stderr) == (2, True) if named else (
-            0,
-            False,
+        assert (
+            (done.exit_code, f"{named} stand together in program line 3" in done.stderr) == (2, True)
+            if named
+            else (
+                0,
+                False,
+            )
         )
 
 
@@ -452,7 +472,9 @@ def test_compensation_that_nothing_ends(end: str, line: int, tmp_path: Path):
     told = f"warning[tool-still-on]: G41 is still in force at program line {line}"
     assert (done.exit_code, told in done.stdout) == (0, bool(line))
     assert "on.nc:8:1" in done.stdout or not line
-    on, off = (call("expand", *MILL, "--tool", "R5", "--no-comments", tmp_path / f"{each}.nc") for each in ("on", "off"))
+    on, off = (
+        call("expand", *MILL, "--tool", "R5", "--no-comments", tmp_path / f"{each}.nc") for each in ("on", "off")
+    )
     assert on.stdout.splitlines()[:14] == off.stdout.splitlines()[:14]
 
 
