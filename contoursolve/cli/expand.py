@@ -32,7 +32,6 @@ from contoursolve.gcode import (
     check_target,
     check_unprotected,
     open_program_file,
-    parse,
     program_file_of,
     write_whole,
 )
@@ -169,8 +168,8 @@ def expand(
         raise click.UsageError("name a program (- for standard input), or give --block")
     if options["tool"] is None:
         check_toolless(options)
-    elif options["has_formulas"] or options["is_inline"]:
-        raise click.UsageError("--tool goes without --formulas and --inline")
+    elif options["has_formulas"]:
+        raise click.UsageError("--tool goes without --formulas")
     target = program_itself(program, output) if is_in_place else target_of(program, output, is_forced=is_forced)
     wish = _wish(_post_of(post, options), options)
     source = (
@@ -278,10 +277,6 @@ def _wish(post: Post, options: Mapping[str, Any]) -> ExpansionOptions:
     return ExpansionOptions(post, arcs, options["decimals"], has_comments, numbering, is_inline)
 
 
-_ASKED = ("units", "rules", "facts", "variables", "folders")
-"""Options that say how a program is examined."""
-
-
 def _rewrite(
     opening: AbstractContextManager[OpenFile],
     body: IO[bytes],
@@ -292,32 +287,24 @@ def _rewrite(
 ) -> Rewritten:
     """Expand a program."""
     tool = {name: options[name] for name in ("tool", "tip", "side", "outside") if name in options}
-    with opening as source, naming(source.name):
-        return rewrite(
-            source,
-            body,
-            wish,
-            SolveOptions(start=start, **{each: options[each] for each in _ASKED if each in options}).request(
-                source.name
-            ),
-            control=options["control"],
-            settings=settings_of(source, options["assignments"]),
-            progress=progress,
-            writer=_formulas(source, wish, options)
-            if options.get("has_formulas")
-            else _beside_tool(source, start, tool, options)
-            if tool.get("tool")
-            else None,
-        )
+    told = {name: options[name] for name in ("units", "rules", "facts", "variables", "folders") if name in options}
+    with opening as opened, naming(opened.name):
+        source, settings, control = opened, settings_of(opened, options["assignments"]), options["control"]
+        writer: Writer | None = None
+        beside = None
+        if options.get("has_formulas"):
+            writer = _formulas(source, wish, options)
+        elif tool.get("tool"):
+            from contoursolve.cli.tool import open_beside_tool  # noqa: PLC0415 - few programs need it
 
-
-def _beside_tool(source: OpenFile, start: str | None, tool: Mapping[str, Any], options: Mapping[str, Any]) -> Writer:
-    """The writer of the path of a tool."""
-    from contoursolve.cli.tool import moved_program  # noqa: PLC0415 - few programs need it
-
-    program = parse(source.read(), source.name)
-    asked = {name: options[name] for name in ("units", "rules", "facts", "variables", "folders", "control")}
-    return moved_program(program, start, tool, {**asked, "settings": settings_of(source, options["assignments"])})
+            stated = {**told, "control": control, "settings": settings}
+            beside = open_beside_tool(source, start, tool, stated, is_inline=wish.is_inline)
+            source, control, writer = beside.source, beside.dialect, beside.writer
+        asked = SolveOptions(start=start, **told).request(source.name)
+        found = rewrite(source, body, wish, asked, control=control, settings=settings, progress=progress, writer=writer)
+        if beside is not None:
+            beside.say_at_home(found.summary)
+        return found
 
 
 def _formulas(source: OpenFile, wish: ExpansionOptions, options: Mapping[str, Any]) -> Writer:

@@ -1,20 +1,25 @@
 """The tool that a command, a program or a project file states, and what is said of it."""
 
+import re
 from collections.abc import Mapping
+from io import BytesIO
 from typing import Any
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.api import follow_program
 from contoursolve.diagnostics import Diagnostic
-from contoursolve.execution import needs_running
-from contoursolve.gcode import Program
+from contoursolve.execution import ProgramEvent, needs_running
+from contoursolve.gcode import Block, OpenFile, Program, parse
 from contoursolve.output import Collected
-from contoursolve.postprocess import Left, MovedProgram
-from contoursolve.program import Run
+from contoursolve.postprocess import Left, MovedProgram, Summary
+from contoursolve.program import Result, Run, lines_alone, machine_for
+from contoursolve.reading import Dialect
 from contoursolve.tool_radius import (
     ToolError,
     ToolFaultKind,
+    ToolReport,
     ToolRun,
     lines_of,
     moves_of,
@@ -37,20 +42,76 @@ def beside_tool(
     return Collected(result, run.is_strict, tool=report)
 
 
-def moved_program(
-    program: Program, start: str | None, tool: Mapping[str, Any], options: dict[str, Any]
-) -> MovedProgram:
+class BesideTool(Struct):
+    """A program that is written along the path of its tool: its file, without calls where it had some, and the block
+    as it stands in the old one, by line; its control, and what is written."""
+
+    source: OpenFile
+    blocks: Mapping[int, Block]
+    dialect: Dialect | None
+    writer: MovedProgram
+
+    def say_at_home(self, summary: Summary) -> None:
+        """Put the lines of the old program into what is told."""
+        if self.blocks:
+            summary.left = [
+                replace(
+                    each,
+                    lines=tuple(map(self._line, each.lines)),
+                    reason=self._text(each.reason),
+                    diagnostics=tuple(map(self._finding, each.diagnostics)),
+                    sources={self._line(line): text for line, text in each.sources.items()},
+                )
+                for each in summary.left
+            ]
+            summary.warned = [*map(self._finding, summary.warned)]
+            summary.unfamiliar = [replace(each, line=self._line(each.line)) for each in summary.unfamiliar]
+
+    def _line(self, line: int) -> int:
+        block = self.blocks.get(line)
+        return line if block is None else block.callers[0].line if block.file else block.line
+
+    def _text(self, text: str) -> str:
+        return _LINES.sub(lambda found: f"program line {self._line(int(found[1]))}", text)
+
+    def _finding(self, each: Diagnostic) -> Diagnostic:
+        span = each.span._replace(line=self._line(each.span.line))
+        labels = tuple(replace(one, span=one.span._replace(line=self._line(one.span.line))) for one in each.labels)
+        texts = {"message": self._text(each.message), "notes": tuple(map(self._text, each.notes))}
+        return replace(each, span=span, labels=labels, **texts)
+
+
+_LINES = re.compile(r"program line (\d+)")
+
+
+def _refuse(event: ProgramEvent) -> None:
+    raise ToolError(f"program line {event.line}: {event.reason or 'nobody knows what runs here'}")
+
+
+def open_beside_tool(
+    source: OpenFile, start: str | None, tool: Mapping[str, Any], options: dict[str, Any], *, is_inline: bool
+) -> BesideTool:
     """A program along the path of its tool. Raises ToolError."""
+    program, blocks = parse(source.read(), source.name), dict[int, Block]()
     run = follow_program(program, start=start, **options)
-    report = report_on(run, result := run.collect(), wanted_tool(program.name, **tool))
     dialect = run.asked.dialect
     if dialect is not None and needs_running((block.text for block in program.blocks), dialect.modes.language):
-        raise ToolError("a program with calls, jumps or variables has no one path; expand --inline writes it out first")
-    if dialect is not None and dialect.writing is not None:
-        raise ToolError(
-            "expand --tool reads G codes; write the program with expand --post fanuc first, and say --control "
-            "fanuc-mill of what that writes"
-        )
+        machine = machine_for(program, dialect, run.asked.around)
+        if machine is None or not is_inline:
+            raise ToolError("a program with calls, jumps or variables has no one path: add --inline")
+        ran = (each for each in lines_alone(machine, _refuse) if isinstance(each, Block))
+        blocks = dict(enumerate(ran, 1))
+        end = "\r\n" if "\r\n" in program.text else "\n"
+        data = source.mark + source.encode("".join(each.text + end for each in blocks.values()))
+        source = replace(source, data=BytesIO(data), size=len(data), stamp=None)
+        program, options = parse(source.read(), source.name), {**options, "control": dialect}
+        run = follow_program(program, start=start, **options)
+    report = report_on(run, result := run.collect(), wanted_tool(program.name, **tool))
+    return BesideTool(source, blocks, dialect, _moved_program(program, result, report))
+
+
+def _moved_program(program: Program, result: Result, report: ToolReport) -> MovedProgram:
+    """The moves that are written, and what stays as it is."""
     is_solved = all(answer.contour is not None for answer in result.answers)
     texts = {block.line: block.text for block in program.blocks}
     left, kept, remarks, behind = dict[int, Left](), set[int](), dict[int, str](), 0

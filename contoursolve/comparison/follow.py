@@ -54,6 +54,8 @@ class ToolPath(Struct, frozen=True):
     control: str
     axes: tuple[str, ...]
     steps: tuple[Step, ...]
+    blocks: tuple[Block, ...] = ()
+    """Its blocks as they run."""
 
     @property
     def unfollowed(self) -> tuple[Unfollowed, ...]:
@@ -71,7 +73,7 @@ def follow(result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...]
     else:
         asked = Request(dialect, unit, result.policy, Depth.VERDICT, result.start)
         steps = follower.run(walk(machine.run_all_alone(), asked))
-    return ToolPath(result.program.name, dialect.name, axes, tuple(steps))
+    return ToolPath(result.program.name, dialect.name, axes, tuple(steps), tuple(follower.ran))
 
 
 class _Follower:
@@ -83,6 +85,7 @@ class _Follower:
         self.centers = Centers.START
         self.state = dialect.initial_state(unit)
         self.axes = axes
+        self.ran: list[Block] = []
         self.plain = dialect.writing.plain() if dialect.writing is not None else None
 
     def walk(self, program: Program, answers: Sequence[Answer]) -> Iterator[Step]:
@@ -93,7 +96,8 @@ class _Follower:
             answer = contours.get(block.line)
             if answer is not None:
                 inside = answer.lines[-1]
-                yield from self._contour(answer)
+                between = program.blocks[block.line - 1 : inside]
+                yield from self._contour(answer, between)
             elif block.line > inside:
                 yield from self._beside(block)
 
@@ -102,26 +106,30 @@ class _Follower:
         for step in steps:
             self.state = step.before
             if step.answer is not None:
-                yield from self._contour(step.answer)
+                yield from self._contour(step.answer, step.blocks)
             else:
                 yield from (each for block in step.blocks for each in self._beside(block))
 
     def _beside(self, block: Block) -> Iterator[Step]:
         """The steps that a block beside contours adds to the path."""
+        self.ran.append(block)
         if block.words or block.macro or block.faults:
             yield from self._restated(self.plain, block) if self.plain else self._block(self._switch(block))
 
-    def _contour(self, answer: Answer) -> Iterator[Step]:
-        """The elements of a contour, each with the block that makes it: a form has one block, or one an element."""
+    def _contour(self, answer: Answer, blocks: Sequence[Block]) -> Iterator[Step]:
+        """The elements of a contour in some blocks, each with the one that makes it: a form has one block, or one an
+        element."""
         claim, parts = answer.claim, list(blocks_of(answer.claim, self.state, self.modes))
         reason = "the contour is not solved"
         left = leave(claim, answer.contour.end if answer.contour else None, self.modes, reason)
         elements = answer.contour.elements if answer.contour else ()
+        places = {block.line: len(self.ran) + number for number, block in enumerate(blocks)}
+        self.ran += blocks
         for element in elements:
             part = next((each for each in parts if each.makes(element.name)), parts[0])
             # Axes outside the plane move along.
             ends = self.state, left if element is elements[-1] else self.state
-            yield self._segment(part, answer.plane, element, ends)
+            yield replace(self._segment(part, answer.plane, element, ends), number=places[part.block.line])
         if answer.contour is None:
             yield self._unfollowed(claim.blocks[0], reason)
         elif not elements and any(map(claim.beside_plane, claim.blocks)):
@@ -311,6 +319,7 @@ class _Follower:
             doubled=tuple(axis in doubled for axis in self.axes),
             file=block.file,
             plane=state.plane,
+            number=len(self.ran) - 1,
         )
 
     def _unfollowed(self, block: Block, reason: str) -> Unfollowed:

@@ -59,6 +59,8 @@ class Travel(Struct, frozen=True):
     """The plane in force."""
     element: str = ""
     """The name of the element of a contour that it is."""
+    number: int = 0
+    """The place of its block among those that run, from 0."""
 
     def at(self, fraction: float) -> Place:
         """The point that lies at a fraction of the way."""

@@ -1,6 +1,6 @@
 """Writes a contour as plain G-code: rounded so that every arc stays valid, with the deviation that this costs."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from math import atan2, ceil, cos, floor, hypot, inf, pi, radians, sin, sqrt, tau
 from typing import NamedTuple
@@ -87,16 +87,34 @@ def longest(form: Format) -> float:
     return LONGEST_BY_RADIUS if form.arcs is Arcs.RADIUS else LONGEST_BY_CENTER
 
 
-def emit(segment: Segment, here: Point, form: Format, *, is_rapid: bool = False) -> Iterator[MotionBlock]:
-    """The moves that make an element, from where the tool really is; none if it rounds to nothing.
+_ALONE: Mapping[str, tuple[float, float]] = {}
+
+
+def emit(
+    segment: Segment,
+    here: Point,
+    form: Format,
+    *,
+    is_rapid: bool = False,
+    beside: Mapping[str, tuple[float, float]] = _ALONE,
+) -> Iterator[MotionBlock]:
+    """The moves that make an element, from where the tool really is; none if it rounds to nothing. Axes `beside` its
+    plane go along from one coordinate to another, mm.
 
     A last move without words tells how far off that is.
     """
     parts = ceil(segment.sweep / longest(form)) if isinstance(segment, ArcSegment) else 1
-    for part in (segment,) if parts <= 1 else _split(segment, parts):
+    places = {axis: low / form.mm for axis, (low, _) in beside.items()}
+    for number, part in enumerate((segment,) if parts <= 1 else _split(segment, parts), 1):
         move = _Writer(part, here, form).move(is_rapid)
-        here = move.end
-        yield move
+        here, words, off = move.end, list(move.words), move.deviation
+        for axis, (low, high) in beside.items():
+            exact, base = (low + (high - low) * number / parts) / form.mm, places[axis] * form.is_incremental
+            words.append(axis + form.number(exact - base))
+            places[axis] = base + float(form.number(exact - base))
+            off = max(off, abs(places[axis] - exact) * form.mm)
+        code = 0 if is_rapid and not move.words else move.code
+        yield MotionBlock(code, tuple(words), here, off) if beside else move
 
 
 def _split(arc: Segment, parts: int) -> Iterator[Segment]:

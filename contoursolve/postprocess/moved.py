@@ -16,13 +16,15 @@ from contoursolve.program import Lines, Step
 from contoursolve.reading import Effect, State, advance, apply_modes, blocks_of, codes_of
 from contoursolve.solving import Point, Segment
 
+Move = tuple[Segment, bool, Mapping[str, tuple[float, float]]]
+"""An element, whether it is a rapid, and axes outside its plane: from where to where (mm) they move along."""
+
 
 class MovedProgram(Struct, frozen=True):
-    """The elements that blocks make instead of their own, by program line, each with whether it is a rapid; the lines
-    that stay as they are, with the reason at the first of each; and remarks above lines. All other words of
-    compensation are taken out."""
+    """The elements that blocks make instead of their own, by program line; the lines that stay as they are, with the
+    reason at the first of each; and remarks above lines. All other words of compensation are taken out."""
 
-    moves: Mapping[int, tuple[tuple[Segment, bool], ...]]
+    moves: Mapping[int, tuple[Move, ...]]
     left: Mapping[int, Left]
     kept: Set[int]
     remarks: Mapping[int, str]
@@ -98,7 +100,9 @@ class MovedExpander(Expander):
         for block in step.blocks:
             part = parts.get(block.line)
             own = answer.contour.elements if part is not None and answer.contour is not None else ()
-            elements = tuple((each, part.is_rapid) for each in own if part is not None and part.makes(each.name))
+            elements: tuple[Move, ...] = tuple(
+                (each, part.is_rapid, {}) for each in own if part is not None and part.makes(each.name)
+            )
             state = part.state if part is not None else step.before
             if part is None and block.line not in self.moved.moves:
                 yield from self._keep(block, state)
@@ -107,24 +111,23 @@ class MovedExpander(Expander):
                 yield from self._move(block, replace(state, plane=answer.plane), moves)
         self.summary.warn(answer.diagnostics)
 
-    def _move(self, block: Block, state: State, moves: tuple[tuple[Segment, bool], ...]) -> Iterator[str]:
+    def _move(self, block: Block, state: State, moves: tuple[Move, ...]) -> Iterator[str]:
         """The lines in place of a block."""
         if block.line in self.moved.remarks:
             self.summary.replaced += 1
             self.summary.warn(self.moved.warnings.get(block.line, ()))
             yield comment_out(self.moved.remarks[block.line], self._syntax_of(block))[0] + self.lines.end
         form, written = self._format(state), list[MotionBlock]()
-        for segment, is_rapid in moves:
-            for move in emit(segment, self.here or segment.start, form, is_rapid=is_rapid):
+        for segment, is_rapid, along in moves:
+            for move in emit(segment, self.here or segment.start, form, is_rapid=is_rapid, beside=along):
                 self.here = move.end
                 self.summary.deviation = max(self.summary.deviation, move.deviation)
                 written += [move] if move.words else []
             self.offsets.leave(state.plane.axes, self.here or segment.end, segment.end)
         axes = self.modes.lexicon.addresses
         rows = ((word, axes.get(word.address)) for word in block.words)
-        beside = [word for word, row in rows if row and row.axis and row.axis not in state.plane.axes]
-        if beside and len(written) > 1:
-            self._tell(block, f"{beside[0].text.strip()} moves an axis outside the plane: move it in its own block")
+        made = {*state.plane.axes, *(axis for _, _, along in moves for axis in along)}
+        beside = [word for word, row in rows if row and row.axis and row.axis not in made]
         if beside:
             texts = [self._as_written(word, form, state) for word in beside]
             last = written.pop() if written else MotionBlock(state.motion or 0, (), self.here or (0.0, 0.0), 0.0)

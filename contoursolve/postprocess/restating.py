@@ -181,10 +181,10 @@ class InGCodes(_Expander):
             angle = begin + radians(sweep) * share
             end = (center[0] + radius * cos(angle), center[1] + radius * sin(angle))
             end = (ends[axes[0]], ends[axes[1]]) if number == parts else end
-            rise = [axis + form.number((low + (high - low) * share) / form.mm) for axis, (low, high) in beside.items()]
-            for move in emit(ArcSegment("", at, end, center, radius, turn), here, form):
+            rises = {axis: (low, low + (high - low) * share) for axis, (low, high) in beside.items()}
+            for move in emit(ArcSegment("", at, end, center, radius, turn), here, form, beside=rises):
                 here = move.end
-                yield move._replace(words=(*move.words, *rise)) if move.words else move
+                yield move
             at = end
         self.offsets.leave(axes, here, at)
 

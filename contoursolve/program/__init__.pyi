@@ -83,6 +83,9 @@ from .request import (
     SolveOptions as SolveOptions,
     takes as takes,
 )
+from .running import (
+    lines_alone as lines_alone,
+)
 from .solve_queue import (
     Step as Step,
 )

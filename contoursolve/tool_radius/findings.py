@@ -179,7 +179,7 @@ def _tool_runs(
 ) -> tuple[ToolPath, list[ToolRun]]:
     path = follow(result, dialect, asked.unit, axes or dialect.modes.axes)
     rules = rules_of(dialect, wanted, path.axes)
-    return path, [rules.at(each) for each in find_runs(path, wanted, result.program.blocks, dialect)]
+    return path, [rules.at(each) for each in find_runs(path, wanted, dialect)]
 
 
 def rules_of(dialect: Dialect, wanted: ToolRequest, axes: tuple[str, ...]) -> ToolRules:

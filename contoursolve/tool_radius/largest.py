@@ -49,7 +49,7 @@ class ToolTrials:
         self.rules = rules_of(dialect, wanted, dialect.modes.axes)
         self.told = ToolFindings(result, dialect, asked, wanted)
         self.path = path = follow(result, dialect, asked.unit, self.rules.axes)
-        self.runs = find_runs(path, replace(wanted, default=_UNSTATED), result.program.blocks, dialect)
+        self.runs = find_runs(path, replace(wanted, default=_UNSTATED), dialect)
         self.premises = join_premises([each.premises for each in result.answers], dialect.name)
 
     def radii(self, number: int, within: tuple[float, float] | None) -> Feasible:

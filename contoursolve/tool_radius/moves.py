@@ -1,91 +1,95 @@
 """The moves of a program for the path of its tool: what each of its lines makes instead of what it states."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import chain
+from collections.abc import Mapping, Sequence
+from itertools import chain, groupby
 from math import isnan, nan
+from operator import itemgetter
 
 from msgspec.structs import replace
 
-from contoursolve.comparison import Motion, Step, ToolPath, Travel, bend_of
-from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+from contoursolve.comparison import Motion, Place, ToolPath, Travel, bend_of
+from contoursolve.solving import ArcSegment, LineSegment, Segment
 from contoursolve.tool_radius.findings import ToolReport, ToolRun
-from contoursolve.tool_radius.runs import CuttingRun, place_of
+from contoursolve.tool_radius.runs import CuttingRun, place_of, segment_of
 
-Moves = tuple[tuple[Segment, bool], ...]
-"""Elements, each with whether it is a rapid."""
+Move = tuple[Segment, bool, Mapping[str, tuple[float, float]]]
+"""An element, whether it is a rapid, and axes outside its plane: from where to where (mm) they move along."""
 
 
-def moves_of(report: ToolReport) -> tuple[Mapping[int, Moves], frozenset[int]]:
-    """The elements of each line beside which the tool goes, and of the moves that lead there and away; and the lines
-    behind which the tool is where the program has it."""
-    found: dict[int, list[tuple[Segment, bool]]] = {}
-    for travel, moves in _by_travel(report):
-        found.setdefault(travel.line, []).extend(moves)
+def moves_of(report: ToolReport) -> tuple[Mapping[int, tuple[Move, ...]], frozenset[int]]:
+    """The moves of each line beside which the tool goes, and of those that lead there and away; and the lines behind
+    which the tool is where the program has it."""
+    found, moved, axes = dict[int, tuple[Move, ...]](), _by_travel(report), report.path.axes
+    for step in report.path.steps:
+        for each in moved.get(id(step), ()):
+            move = segment_of(each, axes, nan), each.motion is Motion.RAPID, _beside(each, axes)
+            found[step.line] = (*found.get(step.line, ()), move)
+        if id(step) in moved:
+            found.setdefault(step.line, ())
     leads = {id(each.run.lead) for each in report.runs if each.path is not None}
     leaving = [each.run.leaving for each in report.runs if each.run.leaving and id(each.run.leaving) not in leads]
-    return {line: tuple(moves) for line, moves in found.items()}, frozenset(travel.line for travel in leaving)
+    return found, frozenset(travel.line for travel in leaving)
 
 
 def path_of_tool(report: ToolReport) -> ToolPath:
     """The path of a program with the path of the tool in the place of what it cuts with G41 or G42."""
-    moved = {id(travel): moves for travel, moves in _by_travel(report)}
-    steps = (_moved(each, moved.get(id(each)), report.path.axes) for each in report.path.steps)
+    moved = _by_travel(report)
+    steps = (moved.get(id(each), (each,)) for each in report.path.steps)
     return replace(report.path, steps=tuple(chain.from_iterable(steps)))
 
 
-def _moved(step: Step, moves: Moves | None, axes: Sequence[str]) -> Iterator[Step]:
-    """A move along other elements; what moves outside their plane does so in the last one."""
-    if not isinstance(step, Travel) or step.plane is None or moves is None:
-        yield step
-        return
-    first, second = (axes.index(axis) for axis in step.plane.axes)
-    for number, (segment, is_rapid) in enumerate(moves):
-        ends = [[*step.start], [*(step.end if number == len(moves) - 1 else step.start)]]
-        for place, at in zip(ends, (segment.start, segment.end), strict=True):
-            place[first], place[second] = (None if isnan(value) else value for value in at)
-        bend = None
-        if isinstance(segment, ArcSegment):
-            bend = bend_of((first, second), segment.center, segment.start, segment.end, segment.turn)
-        motion = Motion.RAPID if is_rapid else Motion.FEED
-        yield replace(step, motion=motion, start=tuple(ends[0]), end=tuple(ends[1]), bend=bend, compensation=40)
+def _by_travel(report: ToolReport) -> Mapping[int, tuple[Travel, ...]]:
+    """The moves of the tool in the place of each one that leads to contours, along them and away, by its `id`. Axes
+    outside their plane move along the element itself, not around its corners."""
+    found, axes = dict[int, tuple[Travel, ...]](), report.path.axes
+    runs = [(each, path) for each in report.runs if (path := each.path) is not None]
+    starts = {id(each.run.leaving): path.end for each, path in runs}
+    ends = {id(each.run.lead): path.start for each, path in runs}
+    for each, path in runs:
+        rows = [(piece.element, each.written(piece), piece.is_own) for piece in each.offset.pieces or ()]
+        here, pieces = path.start, {number: [*own] for number, own in groupby(rows, key=itemgetter(0))}
+        for number, step in enumerate(each.run.travels):
+            own = pieces.get(number, [])
+            if not any(is_own for *_, is_own in own) and _beside(step, axes):
+                own.insert(0, (number, LineSegment("", here, here), True))
+            steps = [
+                _moved(step, segment, axes, (step.start if is_own else step.end, step.end))
+                for _, segment, is_own in own
+            ]
+            if not number and each.run.lead is None:
+                to_start = _moved(step, LineSegment("", each.part.start, path.start), axes, (step.start, step.start))
+                motion = Motion.RAPID if each is report.runs[0] else Motion.FEED
+                steps.insert(0, replace(to_start, motion=motion))
+            here = own[-1][1].end if own else here
+            found[id(step)] = tuple(steps)
+    for step in (step for each, _ in runs for step in (each.run.lead, each.run.leaving) if step is not None):
+        (a, b), (c, d) = (place_of(step, axes, at_end=at_end) for at_end in (False, True))
+        start, end = (nan if a is None else a, nan if b is None else b), (c or 0.0, d or 0.0)
+        segment = LineSegment("", starts.get(id(step), start), ends.get(id(step), end))
+        found[id(step)] = (_moved(step, segment, axes, (step.start, step.end)),)
+    return found
 
 
-def _by_travel(report: ToolReport) -> list[tuple[Travel, Moves]]:
-    """The moves that lead to contours, along them and away, each with what the tool makes in its place."""
-    starts, ends = dict[int, Point](), dict[int, Point]()
-    """Where the tool really is before a move, and behind it."""
-    for each in report.runs:
-        if each.path is not None:
-            ends |= {id(each.run.lead): each.path.start} if each.run.lead is not None else {}
-            starts |= {id(each.run.leaving): each.path.end} if each.run.leaving is not None else {}
-    found = dict[int, tuple[Travel, Moves]]()
-    for each in report.runs:
-        if each.path is None:
-            continue
-        pieces = dict[int, Moves]()
-        for piece in each.offset.pieces or ():
-            travel = each.run.travels[piece.element]
-            moves = pieces.get(id(travel), ())
-            pieces[id(travel)] = (*moves, (each.written(piece), travel.motion is Motion.RAPID))
-        for travel in filter(None, (each.run.lead, *each.run.travels, each.run.leaving)):
-            if id(travel) in found:
-                continue
-            if travel in (each.run.lead, each.run.leaving):
-                start, end = (_known(travel, report, at_end=at_end) for at_end in (False, True))
-                segment = LineSegment("", starts.get(id(travel), start), ends.get(id(travel), end))
-                found[id(travel)] = travel, ((segment, travel.motion is Motion.RAPID),)
-                continue
-            moves = pieces.get(id(travel), ())
-            if each.run.lead is None and travel is each.run.travels[0]:
-                moves = ((LineSegment("", each.part.start, each.path.start), each is report.runs[0]), *moves)
-            found[id(travel)] = travel, moves
-    return [*found.values()]
+def _moved(step: Travel, segment: Segment, axes: Sequence[str], ends: tuple[Place, Place]) -> Travel:
+    """A move along another element of its plane; other axes move from one place to the other."""
+    first, second = (axes.index(axis) for axis in (step.plane.axes if step.plane else ()))
+    start, end = ([*place] for place in ends)
+    for place, at in ((start, segment.start), (end, segment.end)):
+        place[first], place[second] = (None if isnan(value) else value for value in at)
+    bend = None
+    if isinstance(segment, ArcSegment):
+        bend = bend_of((first, second), segment.center, segment.start, segment.end, segment.turn)
+    return replace(step, start=tuple(start), end=tuple(end), bend=bend, compensation=40)
 
 
-def _known(travel: Travel, report: ToolReport, *, at_end: bool) -> Point:
-    """The place where a move begins or ends; what is not known is no number, and is not needed."""
-    first, second = place_of(travel, report.path.axes, at_end=at_end)
-    return nan if first is None else first, nan if second is None else second
+def _beside(step: Travel, axes: Sequence[str]) -> Mapping[str, tuple[float, float]]:
+    """The axes outside the plane of a move that move along, mm; X as it is written."""
+    ways = zip(axes, step.start, step.end, step.doubled, strict=True)
+    return {
+        axis: ((start or 0.0) * (1 + twice), end * (1 + twice))
+        for axis, start, end, twice in ways
+        if step.plane and axis not in step.plane.axes and end is not None and end != start
+    }
 
 
 def lines_of(own: CuttingRun) -> tuple[int, ...]:

@@ -135,16 +135,14 @@ def _closes(parts: Sequence[Segment], first: int, last: int, *, is_end: bool = F
     return last > first + 1 and dist(at, foot(on, at)) <= AGREEMENT
 
 
-def find_runs(path: ToolPath, asked: ToolRequest, blocks: Sequence[Block], dialect: Dialect) -> list[CuttingRun]:
+def find_runs(path: ToolPath, asked: ToolRequest, dialect: Dialect) -> list[CuttingRun]:
     """The runs of a program. Raises ToolError."""
-    switches = list(_switches(blocks, dialect.modes))
-    # In what is called, and in no block here, there may be more.
-    stated = [*switches, *((each.line, each.compensation) for each in path.steps if isinstance(each, Travel))]
-    against = [(line, code) for line, code in stated if asked.side and code in {*SIDES} - {asked.side.code}]
+    switches = list(_switches(path.blocks, dialect.modes))
+    against = [(line, code) for line, code in switches if asked.side and code in {*SIDES} - {asked.side.code}]
     if against and asked.side:
         told = f"--side {asked.side.value} is against {dialect.modes.codes[against[0][1]].text}"
         raise ToolError(f"{told} in program line {against[0][0]}; leave one out")
-    is_stated = any(code in SIDES for _, code in stated)
+    is_stated = any(code in SIDES for _, code in switches)
     groups = list(_groups(path, is_stated=is_stated))
     if not is_stated and asked.side is None and any(group.travels for group in groups):
         left, right = (dialect.modes.codes[side.code].text for side in ToolSide)
@@ -152,7 +150,7 @@ def find_runs(path: ToolPath, asked: ToolRequest, blocks: Sequence[Block], diale
             f"nothing says on which side of the contour the tool runs; write {left} or {right} before it, or give "
             "--side left or --side right"
         )
-    stock = _Stock(asked, blocks, dialect)
+    stock = _Stock(asked, path.blocks, dialect)
     found = [run for group in groups if (run := _run(group, path.axes, stock, asked.side)) is not None]
     firsts = [run.travels[0].line for run in found[1:]]
     lines = [step.line for step in path.steps]
@@ -262,7 +260,7 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
     if not travels or travels[0].plane is None or own is None:
         return None
     plane = travels[0].plane
-    elements = [_segment(each, axes) for each in travels]
+    elements = [segment_of(each, axes) for each in travels]
     tool = stock.at(travels[0])
     radius = float(tool.radius) * (1.0 if tool.is_metric else float(travels[0].unit.in_mm))
     first = next((number for number, each in enumerate(travels) if each.element), 0) if group.side is None else 0
@@ -309,11 +307,11 @@ def place_of(step: Travel, axes: Sequence[str], *, at_end: bool) -> tuple[float 
     return first, second
 
 
-def _segment(step: Travel, axes: Sequence[str]) -> Segment:
-    """A move as an element of its plane. The centre of an arc is put as far from one end as from the other: words are
-    rounded."""
+def segment_of(step: Travel, axes: Sequence[str], unknown: float = 0.0) -> Segment:
+    """A move as an element of its plane, where what is `unknown` of its start is this number. The centre of an arc is
+    put as far from one end as from the other: words are rounded."""
     (a, b), (c, d) = (place_of(step, axes, at_end=at_end) for at_end in (False, True))
-    start, end = (a or 0.0, b or 0.0), (c or 0.0, d or 0.0)
+    start, end = (unknown if a is None else a, unknown if b is None else b), (c or 0.0, d or 0.0)
     if step.bend is None:
         return LineSegment("", start, end)
     center, chord = step.bend.center, (end[0] - start[0], end[1] - start[1])
@@ -327,10 +325,10 @@ def _segment(step: Travel, axes: Sequence[str]) -> Segment:
 
 
 class _Stock:
-    """The tools that a program states, by the lines from which on they are in use."""
+    """The tools that a program states, by the places from which on they are in use, in the blocks as they run."""
 
     def __init__(self, asked: ToolRequest, blocks: Sequence[Block], dialect: Dialect) -> None:
-        self.asked = asked
+        self.asked, self.blocks = asked, blocks
         # Such a control turns in its plane Z X, with X as diameter or radius.
         self.has_lathe = dialect.diameter is not None or dialect.plane.axes == _TURNED
         table = {_key(name): tool for name, tool in asked.table.items()}
@@ -340,7 +338,7 @@ class _Stock:
         # D is another word in some contours.
         addresses = [each for each in "TD" if each not in dialect.modes.lexicon.addresses]
         has_change, ready = any(_is_change(block) for block in blocks), dict[str, Word]()
-        for block in blocks:
+        for place, block in enumerate(blocks):
             called = {
                 word.address: word for word in block.words if word.address in addresses and word.number is not None
             }
@@ -353,11 +351,11 @@ class _Stock:
             found = [tool for key in keys if (tool := table.get(key)) is not None]
             stated = tool_in(block.text) if asked.tool is None else None
             if stated or found or any(address == own[:1] for address, number in keys for own, _ in table if number):
-                self.tools.append((block.line, stated or (found[0] if found else None)))
+                self.tools.append((place, stated or (found[0] if found else None)))
             if "T" in called or found:
-                self.changes.append(block.line)
+                self.changes.append(place)
             if called:
-                self.voids.append((block.line, next((word for word in called.values() if not word.number), None)))
+                self.voids.append((place, next((word for word in called.values() if not word.number), None)))
             is_home = any(row.effect is Effect.SINGLE for row in rows_of(block, dialect.modes))
             if "T" in called or is_home or any(word.address == "M" and word.number in _ENDS for word in block.words):
                 self.ends.append(block.line)
@@ -365,16 +363,16 @@ class _Stock:
 
     def changed(self, travels: Sequence[Travel]) -> int:
         """The line of another tool behind the first of some moves and before the last; 0 without one."""
-        first, last = bisect_right(self.changes, travels[0].line), bisect_right(self.changes, travels[-1].line)
-        return self.changes[first] if first < last else 0
+        first, last = (bisect_right(self.changes, each.number) for each in (travels[0], travels[-1]))
+        return self.blocks[self.changes[first]].line if first < last else 0
 
     def void(self, step: Travel) -> Word | None:
         """The word in force at a move that calls no tool."""
-        return next((word for line, word in reversed(self.voids) if line <= step.line), None)
+        return next((word for place, word in reversed(self.voids) if place <= step.number), None)
 
     def at(self, step: Travel) -> Tool:
         """The tool that makes a move. Raises ToolError."""
-        stated = next((tool for line, tool in reversed(self.tools) if line <= step.line), self.asked.default)
+        stated = next((tool for place, tool in reversed(self.tools) if place <= step.number), self.asked.default)
         tool = self.asked.tool or stated or self.asked.default
         if tool is None:
             raise ToolError(

@@ -505,3 +505,152 @@ def test_a_program_that_cuts_nothing_is_not_asked_for_a_side(tmp_path: Path):
     for command in ("check", "expand"):
         done = call(command, *MILL, "--tool", "R5", tmp_path / "a.nc")
         assert (done.exit_code, "no cutting move goes beside a contour" in done.stderr) == (2, True)
+
+
+# Calls, helices and other controls -----------------------------------------------------------------------------------
+
+CALLED = """\
+O1000
+G21 G17 G40 G90
+T1 M06
+G00 X-20. Y-20. Z5.
+M98 P2000
+G00 X80. Y-20.
+#1=3.
+M98 P3000
+M30
+O2000
+G41 D1 G01 X0 Y-10. F200
+Y30. ,R6.
+X40. ,C3.
+Y0
+X-10.
+G40 G00 X-20. Y-20.
+M99
+O3000
+WHILE[#1GT0]DO1
+G41 D1 G01 X100. Y-10. F200
+Y[30.+#1] ,R6.
+X140. ,C3.
+Y0
+X90.
+G40 G00 X80. Y-20.
+#1=#1-1.
+END1
+M99
+"""
+SINUMERIK = """\
+G17 G90 G71 G94
+T1 D1 M6
+FOR R1=2 TO 6
+G0 X-20 Y-20 Z5
+G1 Z=-R1 F100
+KONTUR
+G0 Z10
+ENDFOR
+M30
+"""
+KONTUR = """\
+G41 G1 X0 Y-10 F500
+Y40 RND=6
+X30 RND=6
+ANG=-45 X60
+Y-10
+G40 G1 X90 Y-30
+M17
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "control", "count"), [(CALLED, "fanuc-mill", 4), (SINUMERIK, "siemens-840d", 5)], ids=["fanuc", "siemens"]
+)
+def test_a_program_with_calls_is_written_out_along_the_path_of_the_tool(
+    text: str, control: str, count: int, tmp_path: Path
+):
+    (tmp_path / "a.nc").write_bytes(text.replace("\n", "\r\n").encode("latin-1"))
+    (tmp_path / "KONTUR.SPF").write_text(KONTUR)
+    words, new = ("--control", control, "--tool", "R4"), tmp_path / "new.nc"
+    done = call("expand", *words, tmp_path / "a.nc")
+    assert (done.exit_code, "no one path: add --inline" in done.stderr) == (2, True)
+    done = call("expand", *words, "--inline", tmp_path / "a.nc", "-o", new)
+    assert (done.exit_code, f"{count} contours expanded" in done.stderr) == (0, True), done.stderr
+    assert not re.search(rb"(?m)^[^;(\r\n]*(?:G4[12]|M98|WHILE|KONTUR)|[^\r]\n", new.read_bytes())
+    assert call("diff", *words, tmp_path / "a.nc", new).exit_code == 0
+
+
+def test_a_finding_about_a_call_names_the_line_of_the_program(tmp_path: Path):
+    (tmp_path / "a.nc").write_text(CALLED.replace("X40. ,C3.", "X20. ,R2.\nY40. ,R1.\nX40."))
+    words = (*MILL, "--tool", "R4", "--inline")
+    done = call("expand", *words, tmp_path / "a.nc")
+    assert (done.exit_code, done.stdout) == (1, "")
+    assert "a.nc:13:6\n" in done.stderr
+    assert "13 | X20. ,R2." in done.stderr
+    (tmp_path / "a.nc").write_text(CALLED.replace("P3000\nM30", "P9000\nM30"))
+    done = call("expand", *words, tmp_path / "a.nc")
+    told = "program line 8: M98 P9000 calls 9000, which is not in this file"
+    assert (done.exit_code, told in done.stderr) == (2, True)
+
+
+def test_each_call_is_cut_by_the_tool_that_is_in_use(tmp_path: Path):
+    """The same subprogram for two tools: the arc is too small for the second one alone."""
+    stated = CALLED.replace("T1 M06", "T1 M06\nD1").replace("#1=3.\nM98 P3000", "T2 M06\nM98 P2000").split("O3000")[0]
+    (tmp_path / "a.nc").write_text(stated.replace("X40. ,C3.", "X20. ,R5.\nY40. ,R1.\nX40."))
+    (tmp_path / "contoursolve.toml").write_text("[tools]\nT1 = {radius = 4.0}\nT2 = {radius = 6.0}\n")
+    done = call("check", *MILL, "--tool", "program", tmp_path / "a.nc")
+    assert done.stdout.count("error[tool-arc-too-small]") == 1
+    assert "radius 5.0000 mm is 1.0000 mm too small for the cutter R6" in done.stdout
+
+
+HELIX = """\
+G17 G90 G00 X20. Y0 Z2.
+G41 D1 G01 X30. Y-5. Z0 F200
+G03 X40. Y5. J10.
+G03 X40. Y5. I-40. Z-2.
+G03 X40. Y5. I-40.
+G03 X30. Y15. I-10.
+G40 G01 X0 Y0
+"""
+RAMPS = """\
+G17 G90 G00 X100. Y100. Z0
+G41 D1 G01 X110. F100
+Y120. Z-3.
+X140. Z-5.
+Y{0}
+G40 X160.
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "made"),
+    [
+        (
+            HELIX,
+            (
+                "G01 X30. Y-1. Z0. F200/G03 X36. Y5. I0. J6./G03 X-36. Y5. I-36. J0. Z-1./G03 X36. Y5. I36. J0. Z-2./"
+                "G03 X-36. Y5. I-36. J0./G03 X36. Y5. I36. J0./G03 X30. Y11. I-6. J0./G01 X0. Y0."
+            ),
+        ),
+        (
+            RAMPS.format("100."),
+            (
+                "G01 X106. Y100. F100/G01 X106. Y120. Z-3./G02 X110. Y124. I4. J0./G01 X140. Y124. Z-5./"
+                "G02 X144. Y120. I0. J-4./G01 X144. Y100./G01 X160. Y100."
+            ),
+        ),
+        # An inside arc of the radius of the tool is a point: what moves along moves alone.
+        (
+            RAMPS.format("110.\nG03 X144. Y106. R4. Z-7.\nG01 X150."),
+            (
+                "G01 X106. Y100. F100/G01 X106. Y120. Z-3./G02 X110. Y124. I4. J0./G01 X140. Y124. Z-5./"
+                "G02 X144. Y120. I0. J-4./G01 X144. Y110./G01 Z-7./G01 X150. Y110./G01 X160. Y106."
+            ),
+        ),
+    ],
+    ids=["helix", "ramps", "point"],
+)
+def test_what_moves_outside_the_plane_goes_along(text: str, made: str, tmp_path: Path):
+    (tmp_path / "a.nc").write_text(text)
+    done = call("expand", *MILL, "--tool", "R4", "--no-comments", tmp_path / "a.nc", "-o", tmp_path / "new.nc")
+    assert done.exit_code == 0, done.stderr
+    assert (tmp_path / "new.nc").read_text().splitlines()[2:] == made.split("/")
+    assert call("diff", *MILL, "--tool", "R4", tmp_path / "a.nc", tmp_path / "new.nc").exit_code == 0
