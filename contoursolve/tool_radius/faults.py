@@ -65,7 +65,7 @@ class ToolFaultKind(Enum):
         Severity.WARNING,
     )
     TIP_AGAINST_SIDE = _Row(
-        "tip {tip} points away from this {element}, with the tool {side} of it: the nose would lie {short} deep",
+        "tip {tip} points away from this {element}, with the tool {side} of it",
         "check the number of the tip, and G41 or G42",
         Severity.WARNING,
     )
@@ -80,6 +80,11 @@ class ToolFaultKind(Enum):
     UNCOMPENSATED = _Row(
         "without {code} this {comes_out}",
         "write {code}, or the path of the tool: contoursolve expand --tool",
+        Severity.WARNING,
+    )
+    STUB = _Row(
+        "without {code} a stub of diameter {short} stands at X0",
+        "write {code}, or go {short} farther in X",
         Severity.WARNING,
     )
     BY_HAND = _Row(

@@ -33,9 +33,11 @@ from contoursolve.tool_radius.joint import direction
 from contoursolve.tool_radius.offset import (
     OffsetElement,
     OffsetPath,
+    are_walls,
     flank_faults,
     largest_radius,
     shifted,
+    stub,
     tip_faults,
     uncompensated,
     uncut,
@@ -121,9 +123,9 @@ class ToolRules(Struct, frozen=True):
 
     def stops(self, own: CuttingRun, radius: float) -> list[ToolFault]:
         """The faults that keep a tool of a radius (mm) from a run."""
-        short = ToolFaultKind.ENTRY_TOO_SHORT if self.facts.needs_entry else None
+        others = {ToolFaultKind.TIP_AGAINST_SIDE} | ({ToolFaultKind.ENTRY_TOO_SHORT} if self.facts.needs_entry else set())
         faults = self.at(with_radius(own, radius)).stops
-        return [each for each in faults if each.kind.value.severity is Severity.ERROR or each.kind is short]
+        return [each for each in faults if each.kind.value.severity is Severity.ERROR or each.kind in others]
 
     def _around(self, each: CuttingRun) -> Iterator[ToolFault]:
         """The faults of the moves to a contour and away, of what interrupts it, and of the tip and the flanks."""
@@ -214,6 +216,7 @@ class ToolFindings:
         made = made_for(own)
         if made is None:
             yield from uncompensated(own.elements, own.side.sign, own.radius, own.tip)
+            yield from stub(own.elements, own.side.sign, own.radius, own.tip)
             return
         around = [number for number, each in enumerate(own.elements) if is_around(each, made, own)]
         yield ToolFault(ToolFaultKind.BY_HAND, around[0], length=made)
@@ -311,11 +314,13 @@ class ToolFindings:
         if fault.kind is ToolFaultKind.BY_HAND:
             places = [each.end for each in part_of(own, fault.length)][:_MOST_PLACES]
             yield f"the part goes through {join([coordinates(at, own.plane, unit) for at in places])}"
+        if fault.kind is ToolFaultKind.TIP_AGAINST_SIDE:
+            yield f"the nose would lie {length_in(fault.short or 0.0, unit)} deep"
         if fault.kind is ToolFaultKind.ARC_TOO_SMALL:
             yield f"the smallest inside radius that this {kind} makes is {length_in(own.radius, unit)}"
         if fault.kind is ToolFaultKind.ELEMENT_VANISHES and 0 < fault.element < len(own.elements) - 1:
             before, after = own.elements[fault.element - 1], own.elements[fault.element + 1]
-            if _are_walls(before, after):
+            if are_walls(before, after, own.side.sign):
                 wide, needs = length_in(fault.length, unit), length_in(2 * own.radius, unit)
                 yield f"the groove is {wide} wide; this {kind} needs {needs}"
         if fault.kind is ToolFaultKind.INTERFERENCE and fault.at is not None:
@@ -369,11 +374,3 @@ _ENTRIES = (ToolFaultKind.ENTRY_BY_ARC, ToolFaultKind.ENTRY_TOO_SHORT, ToolFault
 
 def _kind(own: CuttingRun) -> str:
     return "nose" if own.is_lathe else "cutter"
-
-
-def _are_walls(before: Segment, after: Segment) -> bool:
-    """Whether two lines are the parallel walls of a groove."""
-    if not (isinstance(before, LineSegment) and isinstance(after, LineSegment)):
-        return False
-    (a, b), (c, d) = direction(before, at_end=True), direction(after, at_end=False)
-    return a * c + b * d < LENGTH - 1

@@ -252,12 +252,19 @@ class OffsetPath:
 def largest_radius(stops: Callable[[float], Sequence[ToolFault]], most: float) -> tuple[float, float]:
     """The largest radius (mm) that nothing stops, below one that something does; and one beyond that is stopped."""
     largest = largest_fitting(lambda size: -1.0 if stops(size + _SLACK) else 1.0, most)
+    # Two corners take the slack twice: the decimal that they miss by it fits.
+    decimal = round(largest, 6)
+    largest = decimal if 0 < decimal - largest <= _ASIDE[0] and not stops(decimal) else largest
     beyond = next(size for size in (*(largest + each for each in _ASIDE), most) if stops(size))
     return max(largest - GOUGE * (stops(beyond)[0].kind is ToolFaultKind.INTERFERENCE), 0.0), beyond
 
 
 NOTICED = 0.005
 """mm. A smaller error is not told (assumed)."""
+
+
+_GROOVE = 4
+"""Elements from one wall of a groove to the other, with its floor and two roundings."""
 
 
 def shifted(segment: Segment, by: Point) -> Segment:
@@ -272,8 +279,19 @@ def tip_faults(elements: Sequence[Segment], side: int, radius: float, tip: Point
         normals = [normal_of(element, side, at_end=at_end) for at_end in (False, True)]
         # An arc over the top of a ball begins towards the tip; the flanks decide how far it may go.
         along = min(float(dot(tip, normal)) for normal in normals)
-        if along > _CLEAR:
+        # Between the walls of a groove, the tip is the corner at which the tool is set.
+        near = elements[max(number - _GROOVE, 0) : number + _GROOVE + 1]
+        if along > _CLEAR and not any(are_walls(element, other, side) for other in near):
             yield ToolFault(ToolFaultKind.TIP_AGAINST_SIDE, number, radius * (1 + along))
+
+
+def are_walls(one: Segment, other: Segment, side: int) -> bool:
+    """Whether two lines are the parallel walls of a groove, each before the other."""
+    if isinstance(one, ArcSegment) or isinstance(other, ArcSegment):
+        return False
+    (a, b), (c, d) = direction(one, at_end=True), direction(other, at_end=False)
+    across = dot(normal_of(one, side, at_end=True), (other.start[0] - one.end[0], other.start[1] - one.end[1]))
+    return a * c + b * d < LENGTH - 1 and across > LENGTH
 
 
 def flank_faults(elements: Sequence[Segment], side: int, tool: Tool) -> Iterator[ToolFault]:
@@ -306,6 +324,19 @@ def uncompensated(elements: Sequence[Segment], side: int, radius: float, tip: Po
         off = max((-radius * (1 + float(dot(tip, normal))) for normal in normals), key=abs)
         if abs(off) >= NOTICED and (any(tip) or not number):
             yield ToolFault(ToolFaultKind.UNCOMPENSATED, number, off)
+
+
+def stub(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[ToolFault]:
+    """The stub (its diameter) that stands on the axis of a lathe where the tip does not go far enough past it."""
+    found = list[tuple[float, int]]()
+    for number, element in enumerate(elements):
+        for at_end, at in enumerate((element.start, element.end)):
+            along, away = normal_of(element, side, at_end=bool(at_end))
+            if at[1] <= LENGTH and abs(along) > _CLEAR and tip[1] < 0:
+                found.append((2 * (at[1] - radius * (tip[1] + away)), number))
+    size, number = min(found, default=(0.0, 0))
+    if size >= NOTICED:
+        yield ToolFault(ToolFaultKind.STUB, number, size)
 
 
 def uncut(made: OffsetPath) -> Iterator[ToolFault]:

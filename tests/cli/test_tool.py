@@ -411,10 +411,11 @@ def test_a_comment_that_is_meant_to_state_a_tool_is_told(tmp_path: Path):
     [("0.4", "mm"), ("0.3", "mm"), ("1.7", "mm"), ("0.0157", "inch"), ("0.1", "inch"), ("0.03125", "inch")],
 )
 def test_the_largest_radius_that_is_shown_fits_and_the_next_one_does_not(size: str, units: str):
-    """A fillet between a cylinder and a face, and the chamfer of two inside corners of the same size."""
+    """A fillet between a cylinder and a face, the chamfer of two inside corners of the same size, and a groove."""
     from_axis = [f"G01 X2. Z-{2 - float(size):g}", f"G02 X{2 + 2 * float(size):g} Z-2. R{size}", "G01 X8. Z-2."]
     chamfer = ["G01 X2. Z-2.", f"X{2 + 2 * float(size):g} Z-{2 + float(size):g}", f"X8. Z-{2 + float(size):g}"]
-    for blocks in (from_axis, chamfer):
+    groove = ["G01 X40.", "Z-2.", "X2.", f"Z-{2 + 2 * float(size):g}", "X40."]
+    for blocks in (from_axis, chamfer, groove):
         words = ["--units", units, "--side", "right", "--start", "X2. Z0.", "--tip", "3", "--tool"]
         given = [word for block in blocks for word in ("--block", block)]
         text = call("check", *LATHE, *words, "R3.", *given).stdout
@@ -422,7 +423,46 @@ def test_the_largest_radius_that_is_shown_fits_and_the_next_one_does_not(size: s
         assert shown is not None
         step = 10.0 ** -len(shown[1].split(".")[1])
         assert "error" not in call("check", *LATHE, *words, f"R{shown[1]}", *given).stdout
+        assert blocks is chamfer or float(shown[1]) == float(size)
         assert "error[tool-" in call("check", *LATHE, *words, f"R{float(shown[1]) + step:.5f}", *given).stdout
+
+
+@pytest.mark.parametrize(
+    ("tip", "side", "blocks", "told"),
+    [
+        (3, "right", "X0. Z0./G03 X20. Z-10. R10./G01 Z-25.", "1.6000"),
+        (3, "right", "X0. Z5./G01 Z0./G03 X20. Z-10. R10./G01 Z-25.", "1.6000"),
+        (3, "left", "X30. Z0./G01 X0.", "1.6000"),
+        (3, "left", "X30. Z0./G01 X-1.", "0.6000"),
+        (3, "left", "X30. Z0./G01 X-1.6", ""),
+        (3, "left", "X30. Z0./G01 X0./X-1.6", ""),
+        (8, "left", "X30. Z0./G01 X0.", "1.6000"),
+        (3, "right", "X0. Z0./G01 X20. Z-17.3205", "0.2144"),
+        (3, "left", "X30. Z0./G01 X2.", ""),
+        (0, "left", "X30. Z0./G01 X0.", ""),
+    ],
+)
+def test_a_stub_stands_where_the_tip_stops_at_the_axis(tip: int, side: str, blocks: str, told: str):
+    start, *others = blocks.split("/")
+    words = [word for block in others for word in ("--block", block)]
+    done = call("check", *LATHE, "--tool", "R0.8", "--tip", tip, "--side", side, "--start", start, *words)
+    assert done.stdout.count("[tool-stub]") == bool(told)
+    assert f"a stub of diameter {told} mm stands at X0" in done.stdout or not told
+
+
+def test_a_tip_that_points_away_cuts_with_no_radius():
+    about = [*LATHE, "--tip", "3", "--side", "left", *TAPER]
+    done = call("range", "--word", "tool", *about)
+    assert (done.exit_code, "tip 3 points away from this line" in done.output) == (1, True)
+    rounded = [word.replace("Z-10.", "Z-10. ,R2.") for word in about]
+    text = call("sweep", "--vary", "tool=0.2:0.8:0.2", *rounded).stdout
+    assert text.count("not 1 (tip against side)") == 4
+    groove = ["X30. Z-10.", "X20. Z-10. ,R1.", "X20. Z-13. ,R1.", "X30. Z-13.", "X30. Z-20."]
+    blocks = [word for block in groove for word in ("--block", f"G01 {block}")]
+    assert "away" not in call("check", *LATHE, *NOSE, "--side", "right", "--start", "X30. Z0.", *blocks).stdout
+    rib = ["X40. Z-10.", "X40. Z-20.", "X30. Z-20."]
+    blocks = [word for block in rib for word in ("--block", f"G01 {block}")]
+    assert "away" in call("check", *LATHE, *NOSE, "--side", "right", "--start", "X30. Z-10.", *blocks).stdout
 
 
 def test_a_word_that_calls_no_tool_and_a_tool_without_a_radius(tmp_path: Path):
