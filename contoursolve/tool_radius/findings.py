@@ -123,7 +123,9 @@ class ToolRules(Struct, frozen=True):
 
     def stops(self, own: CuttingRun, radius: float) -> list[ToolFault]:
         """The faults that keep a tool of a radius (mm) from a run."""
-        others = {ToolFaultKind.TIP_AGAINST_SIDE} | ({ToolFaultKind.ENTRY_TOO_SHORT} if self.facts.needs_entry else set())
+        others = {ToolFaultKind.TIP_AGAINST_SIDE} | (
+            {ToolFaultKind.ENTRY_TOO_SHORT} if self.facts.needs_entry else set()
+        )
         faults = self.at(with_radius(own, radius)).stops
         return [each for each in faults if each.kind.value.severity is Severity.ERROR or each.kind in others]
 
