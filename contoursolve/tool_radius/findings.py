@@ -25,7 +25,7 @@ from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Evidence,
 from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.program import Request, Result, run
 from contoursolve.reading import Dialect
-from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment
+from contoursolve.solving import LEAST, ArcSegment, Contour, Segment
 from contoursolve.tolerance import LARGEST, LENGTH
 from contoursolve.tool_radius.by_hand import is_around, made_for, part_of
 from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
