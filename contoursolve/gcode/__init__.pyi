@@ -7,6 +7,7 @@ from .comments import (
 )
 from .decoding import (
     decode as decode,
+    encoding_of as encoding_of,
 )
 from .files import (
     ANY_TEXT as ANY_TEXT,

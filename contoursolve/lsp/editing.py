@@ -30,7 +30,7 @@ def formatted(opened: Opened) -> list[types.TextEdit]:
         raise EditRefusedError(f"nothing was changed: {error}") from None
     ends = str.maketrans("", "", "\r\n")
     lines = enumerate(new.replace("\r\n", "\n").replace("\r", "\n").split("\n"), 1)
-    return edits(opened.places, [(line, text.translate(ends)) for line, text in lines], opened.line_end)
+    return edits(opened.places, {line: text.translate(ends) for line, text in lines})
 
 
 def block_number_under(opened: Opened, position: types.Position) -> types.PrepareRenamePlaceholder | None:

@@ -98,7 +98,7 @@ def actions_of(opened: Opened, wanted: types.Range) -> Iterator[types.CodeAction
         codes.setdefault(finding.code, shown)
         old = {line: opened.places.text(line) for line in lines}
         for fix in finding.fixes:
-            changes = edits(opened.places, changes_of(fix, lines, old).items(), opened.line_end)
+            changes = edits(opened.places, changes_of(fix, lines, old))
             title = fix.description
             yield types.CodeAction(
                 title=title if len(title) <= LONGEST_TITLE else f"{title[: LONGEST_TITLE - 3]}...",

@@ -105,11 +105,6 @@ class Opened:
         return [*filter(None, (project, self.program.trouble))]
 
     @property
-    def line_end(self) -> str:
-        """The end of its lines."""
-        return self.program.line_end
-
-    @property
     def source(self) -> str:
         """The source that names the control."""
         if self.program.dialect is None:

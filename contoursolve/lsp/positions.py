@@ -1,10 +1,13 @@
 """Places in a text: a client counts lines from 0 and UTF-16 units, contoursolve lines and characters from 1."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 from lsprotocol import types
 
 import contoursolve
+
+Place = tuple[int, int]
+"""A line and a column, both from 1."""
 
 _FAR = 0xFFFF
 """The last character that takes one unit of UTF-16."""
@@ -43,30 +46,19 @@ class ClientPositions:
         return line, len(self.text(line)) + 1
 
 
-def edits(places: ClientPositions, changes: Iterable[tuple[int, str | None]], end: str) -> list[types.TextEdit]:
-    """The edits that write other texts for lines, each from its first character that differs to its last one, or take
-    out a line where there is none; `end` is how the program's lines end."""
-    found = []
-    for line, text in changes:
-        if text is None:
-            found.append(types.TextEdit(types.Range(types.Position(line - 1, 0), types.Position(line, 0)), ""))
-            continue
-        old, new = places.text(line), text.replace("\n", end)
-        most = min(len(old), len(new))
-        same = next((at for at in range(most) if old[at] != new[at]), most)
-        most -= same
-        behind = next((at for at in range(most) if old[-1 - at] != new[-1 - at]), most)
-        if old != new:
-            stretch = places.range(line, same + 1, len(old) - behind + 1)
-            found.append(types.TextEdit(stretch, new[same : len(new) - behind]))
-    return found
+def edits(places: ClientPositions, changes: Mapping[int, str | None]) -> list[types.TextEdit]:
+    """The edits that write other texts for lines, or take out a line where there is none."""
+    return _as_client(places, places.program.edits_of(changes))
 
 
 def edits_to(places: ClientPositions, text: str) -> list[types.TextEdit]:
     """The edits that make another text of a program."""
+    return _as_client(places, places.program.changes_to(text))
+
+
+def _as_client(places: ClientPositions, edits: Iterable[tuple[Place, Place, str]]) -> list[types.TextEdit]:
     return [
-        types.TextEdit(types.Range(places.position(*begin), places.position(*end)), new)
-        for begin, end, new in places.program.changes_to(text)
+        types.TextEdit(types.Range(places.position(*begin), places.position(*end)), new) for begin, end, new in edits
     ]
 
 

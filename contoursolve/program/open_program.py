@@ -220,6 +220,11 @@ class OpenProgram:
         texts = self._lines.texts
         return texts[number - 1].rstrip("\r\n") if 0 < number <= len(texts) else ""
 
+    @property
+    def is_in_parts(self) -> bool:
+        """Whether it is examined in parts: a program with calls or variables is examined as a whole."""
+        return self._examination is not None
+
     def changes_to(self, text: str) -> Iterator[tuple[Place, Place, str]]:
         """The edits by whole lines, each as `edit` takes it, that make another text of the program; places are those
         before any of them."""
@@ -227,6 +232,21 @@ class OpenProgram:
         for tag, first, last, begin, end in SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
             if tag != "equal":
                 yield self._begin_of(first), self._begin_of(last), "".join(new[begin:end])
+
+    def edits_of(self, changes: Mapping[int, str | None]) -> Iterator[tuple[Place, Place, str]]:
+        """The edits, each as `edit` takes it, that write other texts for lines, with a line feed between several, or
+        take lines out (None): each from the first character that differs to the last one. Places are those before."""
+        for line, text in changes.items():
+            if text is None:
+                yield (line, 1), (line + 1, 1), ""
+                continue
+            old, new = self.line(line), text.replace("\n", self.line_end)
+            most = min(len(old), len(new))
+            same = next((at for at in range(most) if old[at] != new[at]), most)
+            most -= same
+            behind = next((at for at in range(most) if old[-1 - at] != new[-1 - at]), most)
+            if old != new:
+                yield (line, same + 1), (line, len(old) - behind + 1), new[same : len(new) - behind]
 
     def _begin_of(self, index: int) -> Place:
         """The place where a line begins; behind the last one, where that ends."""

@@ -30,7 +30,7 @@ FLOORS = (
     "api output",
     "notebook try_edits",
     "__init__",
-    "lsp cli",
+    "lsp cli workbench",
     "__main__",
 )
 FLOOR_OF = {room: number for number, rooms in enumerate(FLOORS) for room in rooms.split()}
@@ -111,7 +111,7 @@ def rooms(module: Path) -> Iterator[str]:
 
 def test_the_house_is_small_enough_to_be_walked_through():
     folders = {path.parent.name for path in HOUSE.glob("*/*.py")}
-    assert len(folders) <= 19
+    assert len(folders) <= 21
     assert len(FLOORS) - 1 <= 12  # without __main__
     assert {path.name for path in HOUSE.glob("*.py")} == {
         "__init__.py",

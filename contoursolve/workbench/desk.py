@@ -1,0 +1,346 @@
+"""The desk of the workbench: what a page asks for, and what it is told. No web is known here.
+
+`Desk.answer` takes an action and gives a reply, both plain data. It raises nothing: what goes wrong is one sentence,
+and the reader's text stays.
+"""
+
+import base64
+import binascii
+import logging
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from threading import Lock
+from typing import Any
+
+from msgspec.structs import replace
+
+import contoursolve
+from contoursolve.controls import DIALECTS, ChainFinder
+from contoursolve.diagnostics import ProgramError, UserError
+from contoursolve.gcode import Blocks
+from contoursolve.program import find_settings, likely_fixes, mend_open, safe_fixes
+from contoursolve.workbench.explored import Explored
+from contoursolve.workbench.files import FileConflictError, FileText, Folder, text_of
+from contoursolve.workbench.open_view import Data, ProgramView
+
+logger = logging.getLogger(__name__)
+
+MOST_WINDOWS, MOST_PROGRAMS, MOST_EXAMINED = 32, 16, 8
+"""Windows that are known, programs that each has, and programs of all windows of which more than the text is kept. The
+oldest go first; a page opens them again with its own text."""
+
+
+class ActionError(UserError, ValueError):
+    """An action that cannot be done; the message says why, and `more` what else is told."""
+
+    def __init__(self, message: str, **more: Any) -> None:
+        super().__init__(message)
+        self.more = more
+
+
+class PageWindow:
+    """A window, and its programs by their numbers."""
+
+    def __init__(self) -> None:
+        self.programs: dict[str, ProgramView] = {}
+        self.opened = 0
+
+
+class Desk:
+    """The programs that are open in the windows of a page. Actions of one window come one after the other; those of
+    several may come at once.
+
+    >>> desk = Desk()
+    >>> reply = desk.answer({"window": "a", "do": "open", "name": "part.nc", "text": "G00 X40. Z0.\\nG111 X100. A180."})
+    >>> reply["counts"]["errors"], reply["findings"][0]["line"]
+    (1, 2)
+    """
+
+    def __init__(self, folder: Path | None = None, *, may_write: bool = True, first: str = "") -> None:
+        self.folder = Folder(folder) if folder is not None else None
+        self.may_write, self.first = may_write, first
+        self._windows: dict[str, PageWindow] = {}
+        self._lock = Lock()
+
+    def answer(self, action: Mapping[str, Any], *, may_write: bool | None = None) -> Data:
+        """The reply to an action; `may_write` where this window may do less or more than others."""
+        do = action.get("do") if isinstance(action, Mapping) else None
+        try:
+            if not isinstance(do, str) or do not in ACTIONS:
+                raise ActionError(f"nothing is called {do!r} here")
+            if do in WRITING and not (self.may_write if may_write is None else may_write):
+                raise ActionError("this window may only read: the workbench was started so that nobody writes from it")
+            return ACTIONS[do](self, self._window(action), action)
+        except FileConflictError as error:
+            return {"trouble": str(error), "conflict": error.mark}
+        except ActionError as error:
+            return {"trouble": str(error), **error.more}
+        except (UserError, ProgramError, ValueError) as error:
+            return {"trouble": str(error)}
+        except Exception as error:  # the page waits for an answer, whatever happens
+            logger.exception("%s", do)
+            return {"trouble": f"{do} did not work: {type(error).__name__}: {error}; please report it"}
+
+    def _window(self, action: Mapping[str, Any]) -> PageWindow:
+        """The window of an action, the newest from now on."""
+        name = str(action.get("window", ""))[:_LONGEST_NAME]
+        with self._lock:
+            window = self._windows.pop(name, None) or PageWindow()
+            self._windows[name] = window
+            while len(self._windows) > MOST_WINDOWS:
+                del self._windows[next(iter(self._windows))]
+        return window
+
+    def program(self, window: PageWindow, action: Mapping[str, Any]) -> ProgramView:
+        """The program of an action, the newest of its window from now on. Raises ActionError."""
+        number = str(action.get("program", ""))
+        found = window.programs.pop(number, None)
+        if found is None:
+            raise ActionError("the workbench does not have this program any more; open it again", is_gone=True)
+        window.programs[number] = found
+        return found
+
+    def _add(self, window: PageWindow, file: FileText, control: str | None) -> ProgramView:
+        """Another program of a window."""
+        window.opened += 1
+        view = ProgramView(str(window.opened), file, control, self.settings())
+        window.programs[view.number] = view
+        while len(window.programs) > MOST_PROGRAMS:
+            del window.programs[next(iter(window.programs))]
+        return view
+
+    def settings(self) -> dict[str, str]:
+        """The settings of the project file of the folder. Raises SettingError."""
+        return find_settings(self.folder.path) if self.folder is not None else {}
+
+    def files(self) -> Folder:
+        """The folder. Raises ActionError where there is none."""
+        if self.folder is None:
+            raise ActionError("there is no folder here: open a file by dropping it, and save it by your browser")
+        return self.folder
+
+
+_LONGEST_NAME = 64
+
+# Actions ------------------------------------------------------------------------------------------------------------
+
+
+def _hello(desk: Desk, _window: PageWindow, _action: Mapping[str, Any]) -> Data:
+    return {
+        "version": contoursolve.__version__,
+        "controls": [
+            {"name": name, "title": each.title, "may_be_target": isinstance(each.find, ChainFinder)}
+            for name, each in DIALECTS.items()
+        ],
+        "folder": desk.folder.name if desk.folder is not None else "",
+        "has_folder": desk.folder is not None,
+        "may_write": desk.may_write and desk.folder is not None,
+        "open": desk.first,
+        "examples": [{"control": name, "title": each.title} for name, each in DIALECTS.items()],
+    }
+
+
+def _files(desk: Desk, _window: PageWindow, _action: Mapping[str, Any]) -> Data:
+    found, left_out = desk.files().names()
+    return {"files": found, "left_out": left_out}
+
+
+def _open(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    control = _control_of(action)
+    name = _text(action, "name", "program.nc")
+    if "example" in action:
+        file = FileText(*_example(_text(action, "example")))
+        control = control or _text(action, "example")
+    elif "base64" in action:
+        file = text_of(_bytes(action), name, is_file=False)
+    elif "text" in action:
+        encoding = _text(action, "encoding", "utf-8")
+        if encoding not in ("utf-8", "latin-1"):
+            raise ActionError(f"{encoding!r} is no encoding of programs; it is utf-8 or latin-1")
+        mark = b"\xef\xbb\xbf" if action.get("has_order_mark") else b""
+        file = FileText(name, _text(action, "text"), encoding, mark, _text(action, "base", ""))
+    else:
+        file = desk.files().read(name)
+    return desk._add(window, file, control).view(is_whole=True)
+
+
+def _example(control: str) -> tuple[str, str]:
+    """The name and the text of a small program with a mistake, for a control: a corner that does not fit, if it has an
+    example of that."""
+    dialect = DIALECTS.get(control)
+    if dialect is None:
+        raise ActionError(f"{control!r} is no control here")
+    rules = sorted(dialect.rules, key=lambda rule: not rule.code.endswith("corner-too-large"))
+    texts = (text for rule in rules for text in rule.rejected)
+    # Rules that all controls share have examples in the words of others.
+    own = (text for text in texts if any(map(dialect.signs, Blocks(text, 1, dialect.modes.syntax))))
+    return f"example-{control}.nc", f"{next(own)}\n"
+
+
+def _view(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    return desk.program(window, action).view(is_whole=True)
+
+
+def _go_on(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    return desk.program(window, action).view()
+
+
+def _edit(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    program = desk.program(window, action)
+    if "text" in action:
+        program.replace(_text(action, "text"))
+    else:
+        edits = action.get("edits")
+        _check_seq(program, action)
+        program.edit(_read_edits(edits))
+    try:
+        return program.view()
+    except Exception as error:  # the text is the reader's: it stays, whatever cannot be said of it
+        logger.exception("edit")
+        program.rest()
+        return {
+            "trouble": f"this text could not be examined: {type(error).__name__}: {error}; please report it",
+            "seq": program.seq,
+        }
+
+
+def _read_edits(edits: object) -> list[tuple[int, int, str]]:
+    found = []
+    for each in edits if isinstance(edits, list) else ():
+        begin, end, text = (
+            (each.get(name) for name in ("from", "to", "text")) if isinstance(each, dict) else (None,) * 3
+        )
+        if not (isinstance(begin, int) and isinstance(end, int) and isinstance(text, str)):
+            break
+        found.append((begin, end, text))
+    if not isinstance(edits, list) or len(found) != len(edits):
+        raise ActionError("edits are a list of {from, to, text}; nothing was changed")
+    return found
+
+
+def _check_seq(program: ProgramView, action: Mapping[str, Any]) -> None:
+    if action.get("seq") != program.seq:
+        raise ActionError(
+            "this was meant for another text of the program; nothing was changed",
+            is_old=True,
+            text="\n".join(program.lines()),
+            seq=program.seq,
+        )
+
+
+def _set_control(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    program = desk.program(window, action)
+    program.configure(_control_of(action), desk.settings())
+    return program.view(is_whole=True)
+
+
+def _fix(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    program = desk.program(window, action)
+    _check_seq(program, action)
+    finding, lines = program.finding(_number(action, "finding"))
+    number = _number(action, "fix")
+    if not 0 <= number < len(finding.fixes):
+        raise ActionError(f"there is no fix {number + 1} of this finding; nothing was changed")
+    edits = program.changed_by(program.program.edits_of(program.changes_of(finding.fixes[number], lines)))
+    return {**program.view(), "edits": edits}
+
+
+_WAYS = {"safe": safe_fixes, "likely": likely_fixes}
+
+
+def _fix_all(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    program, way = desk.program(window, action), _WAYS.get(_text(action, "kind", "safe"))
+    if way is None:
+        raise ActionError("all fixes are applied by kind: safe, or likely")
+    mended = mend_open(program.program, way)
+    edits = program.become(mended.text)
+    left = [{"line": each.line, "text": f"{each.fix.description}: {each.trouble}"} for each in mended.left]
+    return {**program.view(), "edits": edits, "applied": len(mended.applied), "left": left}
+
+
+def _look(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    program = desk.program(window, action)
+    return _explored(program, program.look(_number(action, "line")))
+
+
+def _act(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    program, asked = desk.program(window, action), action.get("action")
+    if not isinstance(asked, dict):
+        raise ActionError("act needs an action of the explorer")
+    changed, edits = program.act(asked, _number(action, "line"))
+    return {**_explored(program, program.explored, changed), **({**program.view(), "edits": edits} if edits else {})}
+
+
+def _explored(program: ProgramView, explored: Explored | None, changed: Data | None = None) -> Data:
+    """What a page is told of the contour that is explored."""
+    if explored is None:
+        return {"line": None, "last": None}
+    told = {"state": explored.conversation.state} if changed is None else {"changed": changed}
+    return {"line": explored.first, "last": explored.last, "seq": program.seq, **told}
+
+
+def _save(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    program, folder = desk.program(window, action), desk.files()
+    file = program.file
+    name = _text(action, "name", file.name)
+    base = _text(action, "over", file.mark if name == file.name else "")
+    mark = folder.write(name, replace(file, name=name).encode(program.text), base)
+    program.file = replace(file, name=name, mark=mark)
+    return {"saved": name, "base": mark, "has_changes": False, "seq": program.seq}
+
+
+def _close(_desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
+    window.programs.pop(str(action.get("program", "")), None)
+    return {}
+
+
+ACTIONS: dict[str, Callable[[Desk, PageWindow, Mapping[str, Any]], Data]] = {
+    "hello": _hello,
+    "files": _files,
+    "open": _open,
+    "view": _view,
+    "go_on": _go_on,
+    "edit": _edit,
+    "control": _set_control,
+    "fix": _fix,
+    "fix_all": _fix_all,
+    "look": _look,
+    "act": _act,
+    "save": _save,
+    "close": _close,
+}
+"""Functions that answer, by the name of the action."""
+
+WRITING = frozenset(("save",))
+"""Actions that write files."""
+
+
+def _text(action: Mapping[str, Any], name: str, default: str | None = None) -> str:
+    """A text of an action. Raises ActionError."""
+    value = action.get(name, default)
+    if not isinstance(value, str):
+        raise ActionError(f"{action['do']} needs a text {name}")
+    return value
+
+
+def _number(action: Mapping[str, Any], name: str) -> int:
+    """A whole number of an action. Raises ActionError."""
+    value = action.get(name)
+    if not isinstance(value, int) or isinstance(value, bool):
+        raise ActionError(f"{action['do']} needs a whole number {name}")
+    return value
+
+
+def _control_of(action: Mapping[str, Any]) -> str | None:
+    """The control that an action chooses; None where it chooses none."""
+    control = action.get("control")
+    if control is None or control in DIALECTS:
+        return control
+    raise ActionError(f"{control!r} is no control here")
+
+
+def _bytes(action: Mapping[str, Any]) -> bytes:
+    try:
+        return base64.b64decode(_text(action, "base64"), validate=True)
+    except binascii.Error:
+        raise ActionError("the file did not arrive whole; drop it again") from None

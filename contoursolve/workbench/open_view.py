@@ -1,0 +1,308 @@
+"""A program that is open in a window of the workbench: its text as a page counts it, and what a page shows of it.
+
+A page has lines that end in a line feed alone, and counts UTF-16 units from 0, as JavaScript does. The program keeps
+the end of each line as it was.
+"""
+
+from bisect import bisect_right
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import accumulate
+from time import monotonic
+from typing import Any
+
+from msgspec.structs import replace
+
+from contoursolve.diagnosis import rank
+from contoursolve.diagnostics import Diagnostic, Fix, Severity, Span, UserError
+from contoursolve.output import effect_of
+from contoursolve.program import CONTROL, OpenProgram, changes_of
+from contoursolve.solving import Status
+from contoursolve.workbench.explored import Explored
+from contoursolve.workbench.files import FileRefusedError, FileText, mark_of
+
+Data = dict[str, Any]
+Edit = tuple[int, int, str]
+"""Two offsets in a text as a page counts it, and what stands between them instead."""
+
+MOST_FINDINGS = 500
+"""Of one program. A program for another control may have some in every line, and no page shows them all."""
+
+MOMENT = 0.3
+"""Seconds for which is examined before a page is told how far that is."""
+
+
+class OldEditError(UserError, ValueError):
+    """Edits of another text than the program has."""
+
+
+class ProgramView:
+    """One program of a window. `seq` counts its texts; `view` is what a page does not have yet."""
+
+    def __init__(self, number: str, file: FileText, control: str | None, settings: Mapping[str, str]) -> None:
+        self.number, self.seq, self.file = number, 0, replace(file, text="")
+        self.control, self.settings = control, settings
+        self._text = file.text
+        self._program: OpenProgram | None = None
+        self.explored: Explored | None = None
+        """The contour that is in the explorer."""
+        self._told: Data = {}
+        self._shown: dict[int, tuple[Diagnostic, tuple[int, ...], Data]] = {}
+        """What is shown of each finding, by the identity of its record."""
+
+    @property
+    def program(self) -> OpenProgram:
+        """The program; examined anew where it was at rest."""
+        if self._program is None:
+            self._program = OpenProgram(self._text, control=self.control, settings=self.settings, name=self.file.name)
+            self._text = ""
+        return self._program
+
+    @property
+    def text(self) -> str:
+        """Its text with the ends of lines as they are in the file."""
+        return self._program.text if self._program is not None else self._text
+
+    @property
+    def has_changes(self) -> bool:
+        """Whether its text is not that of its file."""
+        try:
+            return self.file.mark != mark_of(self.file.encode(self.text))
+        except FileRefusedError:  # a character that the file cannot hold
+            return True
+
+    def rest(self) -> None:
+        """Forget all that can be made anew from the text."""
+        if self._program is not None:
+            self._text, self._program, self.explored, self._shown = self._program.text, None, None, {}
+
+    def configure(self, control: str | None, settings: Mapping[str, str]) -> None:
+        """Read it as a program for this control; None is the one that it shows."""
+        self.control, self.settings = control, settings
+        self.program.configure(control, settings)
+
+    # Text --------------------------------------------------------------------------------------------------------
+
+    def lines(self) -> list[str]:
+        """The lines as a page has them, without ends."""
+        program = self.program
+        return [program.line(number) for number in range(1, len(program.blocks) + 1)]
+
+    def edit(self, edits: Iterable[Edit]) -> None:
+        """Follow edits, all of the text as it is. Raises OldEditError where they are not."""
+        lines = self.lines()
+        starts = [*accumulate((_units(line) + 1 for line in lines), initial=0)]
+        several = sorted(edits, key=lambda each: each[:2], reverse=True)
+        behind = starts[-1] - 1
+        for begin, end, _ in several:
+            if not 0 <= begin <= end <= behind:
+                raise OldEditError("these edits are of another text; nothing was changed")
+            behind = begin
+        for begin, end, text in several:
+            new = text.replace("\r\n", "\n").replace("\r", "\n").replace("\n", self.program.line_end)
+            self.program.edit(_place(lines, starts, begin), _place(lines, starts, end), new)
+        self.seq += 1
+
+    def replace(self, text: str) -> None:
+        """Put another text of a page in the place of the whole; lines that both have keep their ends."""
+        change = difference(self.lines(), _page_lines(text))
+        if change is not None:
+            self.edit([change])
+
+    def changed_by(self, edits: Iterable[tuple[tuple[int, int], tuple[int, int], str]]) -> list[Data]:
+        """Make edits of the program, all of the text as it is; the same as one edit of a page."""
+        old = self.lines()
+        for begin, end, new in sorted(edits, reverse=True):
+            self.program.edit(begin, end, new)
+        return self._told_as_edit(old)
+
+    def become(self, text: str) -> list[Data]:
+        """Put another text of the program in the place of the whole; the same as one edit of a page."""
+        old = self.lines()
+        self.program.replace(text)
+        return self._told_as_edit(old)
+
+    def _told_as_edit(self, old: Sequence[str]) -> list[Data]:
+        change = difference(old, self.lines())
+        if change is None:
+            return []
+        self.seq += 1
+        return [{"from": change[0], "to": change[1], "text": change[2]}]
+
+    # The explorer ------------------------------------------------------------------------------------------------
+
+    def look(self, line: int) -> Explored | None:
+        """Open the explorer on the contour on a line; None where there is none."""
+        answer = self.program.contour_at(line)
+        self.explored = Explored(self.program, answer) if answer is not None else None
+        return self.explored
+
+    def act(self, action: Data, line: int) -> tuple[Data | None, list[Data]]:
+        """Do what the explorer asks for at the contour on a line; what changes of its state (None: all of it), and the
+        edits that this is of the program."""
+        explored, is_new = self.explored, False
+        if explored is None or explored.text != self.text or not explored.first <= line <= explored.last:
+            explored, is_new = self.look(line), True
+        if explored is None:
+            return None, []
+        changed = explored.answer(action)
+        if changed is None:  # it reaches beyond the contour
+            answer = self.program.contour_at(line)
+            assert answer is not None
+            explored, is_new = Explored(self.program, answer, is_whole=True), True
+            self.explored = explored
+            explored.answer(action)
+        return None if is_new else changed, self.become(explored.text)
+
+    # View --------------------------------------------------------------------------------------------------------
+
+    def go_on(self) -> None:
+        """Examine what is not up to date, for a moment."""
+        end = monotonic() + MOMENT
+        while not self.program.check(1) and monotonic() < end:
+            pass
+
+    def view(self, *, is_whole: bool = False, has_text: bool = False) -> Data:
+        """What a page shows of the program as it is; of the long lists only those that it was not sent before, unless
+        all `is_whole`."""
+        self.go_on()
+        program = self.program
+        found = sorted(program.found(), key=lambda each: rank(each[0])) if not program.trouble else []
+        contours = [*program.contours]
+        severities = [each.severity for each, _ in found]
+        now: Data = {
+            "findings": self._findings(found),
+            "more_findings": max(len(found) - MOST_FINDINGS, 0),
+            "contours": [
+                {
+                    "line": each.first,
+                    "last": each.last,
+                    "status": each.answer.status.value,
+                    "title": each.answer.claim.form.name,
+                }
+                for each in contours
+            ],
+        }
+        news = {name: value for name, value in now.items() if is_whole or self._told.get(name) != value}
+        self._told = now
+        dialect = program.dialect
+        return {
+            "id": self.number,
+            "name": self.file.name,
+            "seq": self.seq,
+            "base": self.file.mark,
+            "encoding": self.file.encoding,
+            "has_changes": self.has_changes,
+            "control": {"name": dialect.name, "title": dialect.title} if dialect is not None else None,
+            "control_from": self._source(),
+            "trouble_control": program.trouble,
+            "lines": len(program.blocks),
+            "examined": program.examined,
+            "counts": {
+                "contours": len(contours),
+                "solved": sum(each.answer.status is Status.SOLVED for each in contours),
+                "errors": severities.count(Severity.ERROR),
+                "warnings": severities.count(Severity.WARNING),
+            },
+            **({"text": "\n".join(self.lines())} if is_whole or has_text else {}),
+            **news,
+        }
+
+    def _source(self) -> str:
+        """The source that names the control."""
+        if self.program.dialect is None:
+            return "none"
+        if self.control is not None:
+            return "choice"
+        if self.program.is_stated:
+            return "comment"
+        return "project file" if CONTROL in self.settings else "program"
+
+    def _findings(self, found: Sequence[tuple[Diagnostic, tuple[int, ...]]]) -> list[Data]:
+        """The findings as a page shows them; each is written anew only where it or its lines are others."""
+        shown: dict[int, tuple[Diagnostic, tuple[int, ...], Data]] = {}
+        for finding, lines in found[:MOST_FINDINGS]:
+            before = self._shown.get(id(finding))
+            is_same = before is not None and before[0] is finding and before[1] == lines
+            shown[id(finding)] = before if is_same and before else (finding, lines, self._shown_as(finding, lines))
+        self._shown = shown
+        return [data for _, _, data in shown.values()]
+
+    def _shown_as(self, finding: Diagnostic, lines: tuple[int, ...]) -> Data:
+        alarm = finding.alarm
+        return {
+            "code": finding.code,
+            "severity": finding.severity.value,
+            **self._stretch(finding.span),
+            "message": finding.message,
+            "notes": [*finding.notes],
+            "help": finding.help,
+            "source": str(finding.source) if finding.source.is_of_manual else "",
+            "alarm": f"alarm {alarm.number} ({alarm.evidence.value})" if alarm else "",
+            "labels": [{**self._stretch(each.span), "text": each.text} for each in finding.labels if each.text],
+            "fixes": [self._fix(each, finding, lines) for each in finding.fixes],
+        }
+
+    def _fix(self, fix: Fix, finding: Diagnostic, lines: tuple[int, ...]) -> Data:
+        changes = self.changes_of(fix, lines)
+        return {
+            "title": fix.description,
+            "kind": fix.applicability.value,
+            "effect": effect_of(fix, finding),
+            "lines": [{"line": line, "text": text} for line, text in changes.items()],
+        }
+
+    def changes_of(self, fix: Fix, lines: Sequence[int]) -> Mapping[int, str | None]:
+        """The texts that a fix writes, by their lines."""
+        return changes_of(fix, lines, {line: self.program.line(line) for line in lines})
+
+    def finding(self, number: int) -> tuple[Diagnostic, tuple[int, ...]]:
+        """A finding of those that were shown last, and the lines that its fixes replace. Raises OldEditError."""
+        shown = [*self._shown.values()]
+        if not 0 <= number < len(shown):
+            raise OldEditError(f"there is no finding {number + 1} here; nothing was changed")
+        return shown[number][:2]
+
+    def _stretch(self, span: Span) -> Data:
+        """A stretch of a line as a page counts it; at the begin of the program, what was stated apart from it."""
+        if span.line < 1:
+            return {"line": 1, "from": 0, "to": min(1, len(self.program.line(1)))}
+        text = self.program.line(span.line)
+        begin = _units(text[: span.column - 1])
+        return {"line": span.line, "from": begin, "to": _units(text[: max(span.end_column, span.column + 1) - 1])}
+
+
+def _page_lines(text: str) -> list[str]:
+    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+
+
+def difference(old: Sequence[str], new: Sequence[str]) -> Edit | None:
+    """The one edit that makes other lines of some, in as few characters as that takes; None if they are the same."""
+    most = min(len(old), len(new))
+    head = next((at for at in range(most - 1) if old[at] != new[at]), most - 1)
+    most -= head
+    tail = next((at for at in range(most) if old[-1 - at] != new[-1 - at]), most)
+    before, after = old[head : len(old) - tail], new[head : len(new) - tail]
+    # Lines that are followed by others have an end of their own.
+    one, other = ("".join(f"{each}\n" for each in lines) if tail else "\n".join(lines) for lines in (before, after))
+    if one == other:
+        return None
+    most = min(len(one), len(other))
+    same = next((at for at in range(most) if one[at] != other[at]), most)
+    most -= same
+    behind = next((at for at in range(most) if one[-1 - at] != other[-1 - at]), most)
+    begin = sum(_units(each) + 1 for each in old[:head]) + _units(one[:same])
+    return begin, begin + _units(one[same : len(one) - behind]), other[same : len(other) - behind]
+
+
+def _units(text: str) -> int:
+    """The number of UTF-16 units of a text."""
+    return len(text) if text.isascii() else len(text.encode("utf-16-le", "surrogatepass")) // 2
+
+
+def _place(lines: Sequence[str], starts: Sequence[int], offset: int) -> tuple[int, int]:
+    """The line and the column, from 1, of an offset as a page counts it."""
+    index = bisect_right(starts, offset, 0, len(lines)) - 1
+    text, units = lines[index], offset - starts[index]
+    if text.isascii():
+        return index + 1, units + 1
+    return index + 1, 1 + len(text.encode("utf-16-le", "surrogatepass")[: 2 * units].decode("utf-16-le", "ignore"))

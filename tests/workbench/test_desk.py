@@ -1,0 +1,75 @@
+"""The desk of the workbench: every action through its one door, without a server."""
+
+import pytest
+
+from contoursolve.controls import DIALECTS
+from contoursolve.workbench import Desk
+
+BROKEN = b"%\r\nO1\r\n\r\nG00 X40. Z0.\r\n  G111 X100. A180. K-30. B120. P60. \r\nM30\n"
+
+
+class Page:
+    """A window of a page: it keeps the text as the page's own editor does."""
+
+    def __init__(self, desk, window="a"):
+        self.desk, self.window, self.text, self.seq, self.program = desk, window, "", 0, ""
+        self.view = {}
+
+    def ask(self, do, **fields):
+        reply = self.desk.answer({"window": self.window, "do": do, "program": self.program, "seq": self.seq, **fields})
+        for each in sorted(reply.get("edits", ()), key=lambda each: -each["from"]):
+            self.text = edited(self.text, each)
+        self.text = reply.get("text", self.text)
+        self.seq = reply.get("seq", self.seq)
+        self.program = reply.get("id", self.program)
+        self.view |= reply
+        return reply
+
+    def type(self, old, new):
+        edit = {"from": units(self.text[: self.text.index(old)]), "text": new}
+        edit["to"] = edit["from"] + units(old)
+        self.text = edited(self.text, edit)
+        return self.ask("edit", edits=[edit])
+
+
+def units(text):
+    return len(text.encode("utf-16-le")) // 2
+
+
+def edited(text, edit):
+    wide = text.encode("utf-16-le")
+    new = wide[: 2 * edit["from"]] + edit["text"].encode("utf-16-le") + wide[2 * edit["to"] :]
+    return new.decode("utf-16-le")
+
+
+@pytest.mark.parametrize("control", DIALECTS)
+def test_the_broken_program_of_every_control_is_opened_mended_and_saved(control, tmp_path):
+    page = Page(Desk(tmp_path))
+    opened = page.ask("open", example=control)
+    assert opened["control"]["name"] == control
+    assert opened["counts"]["errors"] > 0
+    for number, finding in enumerate(opened["findings"]):
+        if finding["fixes"]:
+            fixed = page.ask("fix", finding=number, fix=0)
+            break
+    assert fixed["counts"]["errors"] < opened["counts"]["errors"]
+    again = Page(page.desk)
+    assert again.ask("open", name="x", text=page.text, control=control)["findings"] == page.view["findings"]
+    saved = page.ask("save", name="new.nc")
+    assert (tmp_path / saved["saved"]).read_bytes() == page.text.encode()
+    assert not page.ask("view")["has_changes"]
+
+
+def test_a_saved_program_keeps_every_byte_that_nobody_changed(tmp_path):
+    data = "(Ø, Bohrung 😀)\r\n".encode() + BROKEN
+    (tmp_path / "part.nc").write_bytes(data)
+    page = Page(Desk(tmp_path))
+    page.ask("open", name="part.nc")
+    assert page.text == data.decode().replace("\r\n", "\n")
+    page.type("P60.", "P5.\nG01 Z-60.")
+    page.ask("look", line=6)
+    page.ask("act", line=6, action={"do": "move", "values": {"P": 6}})
+    assert "P6. " not in page.text
+    assert page.text == data.decode().replace("\r\n", "\n").replace("P60.", "P6.\nG01 Z-60.")
+    page.ask("save")
+    assert (tmp_path / "part.nc").read_bytes() == data.replace(b"P60.", b"P6.\r\nG01 Z-60.")
