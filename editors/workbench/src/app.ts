@@ -1,0 +1,331 @@
+// The page: programs as tabs, opened, saved and taken along; what goes wrong is said at the top.
+import { button, copyText, dialog, download, type Entry, labelled, make, menu, newId, showTabs } from "./dom";
+import { ProgramPane } from "./pane";
+import type { Program } from "./program";
+import { type Hello, type Made, type Transport, Trouble, type View } from "./protocol";
+
+export class App {
+  private hello: Hello | null = null;
+  private programs: Program[] = [];
+  private active: Program | null = null;
+  private readonly pane: ProgramPane;
+  private readonly trouble = make("p", { class: "trouble", role: "alert" });
+  private readonly rescue = make("div", { class: "rescue bar", hidden: true });
+  private readonly said = make("span", { class: "said", role: "status" });
+  private readonly tabs = make("div", { class: "programs", "aria-label": "Open programs" });
+  private readonly control = make("select", { "aria-label": "Control", onchange: () => this.pane.setControl(this.control.value) });
+  private readonly facts = make("span", { class: "facts" });
+  private readonly save = button("Save", () => void this.saveActive(), { title: "Save (Ctrl+S)" });
+  private readonly picker = make("input", { type: "file", multiple: true, hidden: true, "aria-label": "Open files" });
+  private readonly start = make("section", { class: "start", "aria-label": "Begin" });
+  private readonly host = make("div", { class: "host", role: "tabpanel", id: newId(), "aria-label": "Program" });
+
+  constructor(
+    private readonly root: HTMLElement,
+    private readonly transport: Transport,
+    private readonly isEmbedded: boolean,
+  ) {
+    root.classList.add("workbench");
+    const title = make(isEmbedded ? "strong" : "h1", { class: "title", text: "contoursolve" });
+    const actions = menu("Do", () => this.pane.entries());
+    this.pane = new ProgramPane({
+      root,
+      transport,
+      controls: () => this.hello?.controls ?? [],
+      changed: (program, why) => this.changed(program, why),
+      openText: (name, text) => void this.open({ name, text }),
+      keep: isEmbedded ? null : (made) => void this.keep(made),
+    });
+    this.actions = make("div", { class: "actions" }, this.save, actions, labelled("Control", this.control), this.facts);
+    root.replaceChildren(
+      this.trouble,
+      this.rescue,
+      make("div", { class: "head" }, title, menu("File", () => this.fileEntries()), this.actions, this.said),
+      this.tabs,
+      this.start,
+      this.host,
+      this.picker,
+    );
+    this.host.append(this.pane.node);
+    this.picker.addEventListener("change", () => {
+      void this.openFiles(this.picker.files);
+      this.picker.value = "";
+    });
+    this.follow();
+    this.listen();
+  }
+
+  private readonly actions: HTMLElement;
+
+  private listen(): void {
+    const { root } = this;
+    root.addEventListener("dragover", (event) => {
+      event.preventDefault();
+      root.classList.add("dropping");
+    });
+    root.addEventListener("dragleave", (event) => {
+      if (!(event.relatedTarget instanceof Node && root.contains(event.relatedTarget))) root.classList.remove("dropping");
+    });
+    root.addEventListener("drop", (event) => {
+      event.preventDefault();
+      root.classList.remove("dropping");
+      void this.openFiles(event.dataTransfer?.files ?? null);
+    });
+    root.addEventListener("keydown", (event) => {
+      if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
+      const key = event.key.toLowerCase();
+      if (key === "s" && this.active) void (event.shiftKey ? this.saveAs() : this.saveActive());
+      else if (key === "o") this.picker.click();
+      else return;
+      event.preventDefault();
+    });
+    addEventListener("beforeunload", (event) => {
+      if (!this.isEmbedded && this.programs.some((each) => each.isChanged && each.text)) event.preventDefault();
+    });
+  }
+
+  async begin(): Promise<void> {
+    try {
+      this.hello = await this.transport.ask<Hello>({ do: "hello" });
+    } catch (error) {
+      return this.tell(error);
+    }
+    const { style, controls, open } = this.hello;
+    if (style) {
+      const sheet = new CSSStyleSheet();
+      sheet.replaceSync(style);
+      const place = this.root.getRootNode() as Document | ShadowRoot;
+      place.adoptedStyleSheets = [...place.adoptedStyleSheets, sheet];
+    }
+    this.control.replaceChildren(make("option", { value: "", text: "as the words tell" }), ...controls.map((each) => make("option", { value: each.name, text: each.title })));
+    this.showStart();
+    if (open) await this.open({ name: open });
+  }
+
+  // Beginning ------------------------------------------------------------------------------------------------------
+
+  private showStart(): void {
+    const { examples, folder } = this.hello!;
+    const files = make("ul", { class: "files", "aria-label": "Programs in the folder" });
+    const choices = examples.map((each) => make("li", {}, button(each.title, () => void this.open({ example: each.control }))));
+    this.start.replaceChildren(
+      make("h2", { text: "Open a program" }),
+      make(
+        "ol",
+        {},
+        make("li", { text: "Drop a program on this page, or choose one below." }),
+        make("li", { text: "What is wrong is underlined and listed with its fixes. Touch a fix, and the text changes." }),
+        make("li", { text: "The drawing shows every contour. Touch one to see its words and to drag its points." }),
+      ),
+      make("div", { class: "bar" }, button("Open a file…", () => this.picker.click(), { class: "main" }), button("New program", () => void this.open({ name: "", text: "" }))),
+      ...(folder ? [make("h2", { text: `In the folder ${folder}` }), files] : []),
+      make("h2", { text: "An example for each control" }),
+      make("ul", { class: "examples", "aria-label": "Examples" }, ...choices),
+    );
+    if (folder) void this.listFiles(files);
+  }
+
+  private async listFiles(list: HTMLElement): Promise<void> {
+    const found = await this.asked<{ files: { name: string; size: number }[]; left_out?: number }>({ do: "files" });
+    if (!found) return;
+    list.replaceChildren(...found.files.map((each) => make("li", {}, button(each.name, () => void this.open({ name: each.name })))));
+    if (!found.files.length) list.append(make("li", { class: "muted", text: "There is no program in it yet." }));
+    if (found.left_out) list.append(make("li", { class: "muted", text: `and ${found.left_out} more` }));
+  }
+
+  private fileEntries(): Entry[] {
+    const { active, hello } = this;
+    return [
+      { text: "Open a file…", key: "Ctrl+O", act: () => this.picker.click() },
+      { text: hello?.folder ? "Open from the folder, or an example…" : "Open an example…", act: () => this.choose(null) },
+      { text: "New program", act: () => void this.open({ name: "", text: "" }) },
+      ...(hello?.may_write ? [{ text: "Save", key: "Ctrl+S", act: () => void this.saveActive(), isOff: !active }, { text: "Save as…", key: "Ctrl+Shift+S", act: () => void this.saveAs(), isOff: !active }] : []),
+      { text: "Download", act: () => this.downloadActive(), isOff: !active },
+      { text: "Copy the text", act: () => void this.copyActive(), isOff: !active },
+      ...(hello?.can_unlock && !hello.may_write ? [{ text: "Allow saving: enter the password…", act: () => void this.unlock() }] : []),
+      { text: "Close", act: () => void this.close(active!), isOff: !active },
+    ];
+  }
+
+  // Programs -------------------------------------------------------------------------------------------------------
+
+  private async open(what: { name?: string; text?: string; base64?: string; example?: string }): Promise<void> {
+    const known = what.text === undefined && what.base64 === undefined && what.name && this.programs.find((each) => each.name === what.name && each.view.base);
+    if (known) return this.choose(known);
+    const view = await this.asked<View>({ do: "open", ...what });
+    if (!view) return;
+    const program = this.pane.make(view);
+    this.programs.push(program);
+    this.choose(program);
+    this.pane.focus();
+  }
+
+  private async openFiles(files: FileList | null): Promise<void> {
+    for (const file of [...(files ?? [])]) {
+      const bytes = new Uint8Array(await file.arrayBuffer());
+      let text = "";
+      for (let at = 0; at < bytes.length; at += 0x8000) text += String.fromCharCode(...bytes.subarray(at, at + 0x8000));
+      await this.open({ name: file.name, base64: btoa(text) });
+    }
+  }
+
+  private choose(program: Program | null): void {
+    this.active = program;
+    if (program) this.pane.show(program);
+    else if (this.hello) this.showStart();
+    this.follow();
+  }
+
+  private async close(program: Program): Promise<void> {
+    if (program.isChanged && program.text && !this.isEmbedded) {
+      const answer = await dialog(this.root, `Close ${titleOf(program)}?`, [make("p", { text: "Its changes are not saved." })], "Close without saving", this.hello?.may_write ? ["Save"] : ["Download"]);
+      if (!answer) return;
+      if (answer === "Download") this.downloadActive();
+      if (answer === "Save" && !(await this.saveActive())) return;
+    }
+    void this.asked({ do: "close", program: program.view.id });
+    const at = this.programs.indexOf(program);
+    this.programs = this.programs.filter((each) => each !== program);
+    this.choose(this.programs[Math.min(at, this.programs.length - 1)] ?? null);
+  }
+
+  private changed(program: Program, why: Trouble | null): void {
+    if (why) this.tell(why);
+    else if (this.trouble.textContent) this.tell(null);
+    if (program === this.active) this.follow();
+  }
+
+  private follow(): void {
+    const { active } = this;
+    this.start.hidden = active !== null;
+    this.host.hidden = this.actions.hidden = active === null;
+    this.tabs.hidden = !this.programs.length;
+    const names = this.programs.map((each, number) => ({
+      name: String(number),
+      text: `${titleOf(each)}${each.isChanged && each.text ? " •" : ""}`,
+      title: each.isChanged ? `${titleOf(each)}: changes are not saved` : titleOf(each),
+      panel: this.host.id,
+    }));
+    showTabs(this.tabs, names, String(active ? this.programs.indexOf(active) : -1), (name) => this.choose(this.programs[Number(name)]!));
+    if (!active) return;
+    const { view } = active;
+    const open = this.control.options[0];
+    if (open) open.text = view.control && view.control_from !== "choice" ? `${view.control.title} (the ${view.control_from === "program" ? "words" : view.control_from} say so)` : "as the words tell";
+    if (this.control !== (this.root.getRootNode() as Document).activeElement) this.control.value = this.pane.control;
+    this.facts.textContent = [view.unit, view.trouble_control].filter(Boolean).join(" · ");
+    this.save.textContent = this.hello?.may_write ? "Save" : "Download";
+    this.save.setAttribute("aria-disabled", String(Boolean(this.hello?.may_write) && !active.isChanged));
+    if (!this.isEmbedded) document.title = `${active.isChanged ? "• " : ""}${titleOf(active)} - contoursolve`;
+  }
+
+  // Saving ---------------------------------------------------------------------------------------------------------
+
+  private async saveActive(): Promise<boolean> {
+    const { active } = this;
+    if (!active) return false;
+    if (!this.hello?.may_write) {
+      this.downloadActive();
+      return true;
+    }
+    if (!active.view.base) return this.saveAs();
+    return this.write(active, {});
+  }
+
+  private async saveAs(): Promise<boolean> {
+    const { active } = this;
+    if (!active) return false;
+    const name = make("input", { type: "text", value: active.name || "program.nc", autocomplete: "off" });
+    const folder = this.hello?.folder;
+    const answer = await dialog(this.root, "Save as", [labelled(folder ? `Name in the folder ${folder}` : "Name", name)], "Save");
+    return answer !== null && name.value.trim() !== "" && this.write(active, { name: name.value.trim() });
+  }
+
+  private async write(program: Program, options: { name?: string; over?: string }): Promise<boolean> {
+    let doc = program.state.doc;
+    let conflict = "";
+    const saved = await program.ask<{ saved: string; base: string }>(
+      () => {
+        doc = program.state.doc;
+        return { do: "save", ...options };
+      },
+      false,
+      (why) => {
+        conflict = String(why.reply?.["conflict"] ?? "");
+        return conflict !== "";
+      },
+    );
+    if (conflict) {
+      const what = make("p", { text: "Somebody else has changed this file since it was opened. Your text is still here." });
+      const answer = await dialog(this.root, `${options.name ?? program.name} has changed`, [what], "Save under another name", ["Replace it"]);
+      if (answer === "Replace it") return this.write(program, { ...options, over: conflict });
+      return answer !== null && this.saveAs();
+    }
+    if (!saved) return false;
+    program.view = { ...program.view, name: saved.saved, base: saved.base };
+    program.saved = doc;
+    this.say(`Saved as ${saved.saved}.`);
+    this.follow();
+    return true;
+  }
+
+  private async keep(made: Made): Promise<void> {
+    const content = made.base64 === undefined ? { text: made.text ?? "" } : { base64: made.base64 };
+    const saved = await this.asked<{ saved: string }>({ do: "save", name: made.name, ...content });
+    if (saved) this.say(`Saved as ${saved.saved}.`);
+  }
+
+  private downloadActive(): void {
+    if (!this.active) return;
+    download(this.active.name || "program.nc", this.active.text);
+    this.say("Downloaded.");
+  }
+
+  private async copyActive(): Promise<void> {
+    if (this.active) this.say((await copyText(this.active.text)) ? "The text is copied." : "This browser copies nothing: use Ctrl+C in the text.");
+  }
+
+  private async unlock(): Promise<void> {
+    const password = make("input", { type: "password", autocomplete: "current-password" });
+    if (!(await dialog(this.root, "Allow saving", [labelled("Password", password)], "Allow"))) return;
+    const reply = await this.asked<{ may_write: boolean }>({ do: "unlock", password: password.value });
+    if (!reply || !this.hello) return;
+    this.hello.may_write = reply.may_write;
+    this.follow();
+  }
+
+  // What is said -----------------------------------------------------------------------------------------------------
+
+  private async asked<Reply>(request: Record<string, unknown>): Promise<Reply | null> {
+    try {
+      const reply = await this.transport.ask<Reply>(request);
+      if (this.trouble.textContent) this.tell(null);
+      return reply;
+    } catch (error) {
+      this.tell(error);
+      return null;
+    }
+  }
+
+  private say(text: string): void {
+    this.said.textContent = text;
+    setTimeout(() => this.said.textContent === text && (this.said.textContent = ""), 6000);
+  }
+
+  progress(text: string): void {
+    this.said.textContent = text;
+  }
+
+  // One sentence at the top; where nobody answers, the text can be taken along.
+  private tell(error: unknown): void {
+    if (error !== null && !(error instanceof Trouble)) throw error;
+    this.trouble.textContent = error?.message ?? "";
+    this.rescue.hidden = !error || error.reply !== null;
+    if (this.rescue.hidden) return;
+    this.rescue.replaceChildren(
+      button("Try again", () => void (this.hello ? (this.active?.ask(() => ({ do: "view" })) ?? this.asked({ do: "hello" })) : this.begin())),
+      ...(this.active ? [button("Copy the text", () => void this.copyActive()), button("Download the text", () => this.downloadActive())] : []),
+    );
+  }
+}
+
+const titleOf = (program: Program): string => program.name || "new program";

@@ -1,0 +1,87 @@
+// All contours of a program on one drawing: touch one, and its text is shown.
+import { button, make, picture } from "./dom";
+import { kindOf } from "./editor";
+import type { ContourRow } from "./protocol";
+
+const ZOOMS = [1, 1.5, 2, 3, 4, 6, 8];
+const MOST = 200; // buttons under the drawing
+
+export interface DrawingPanel {
+  node: HTMLElement;
+  show(svg: string | null): void;
+  list(contours: ContourRow[]): void;
+  light(line: number | null): void;
+}
+
+export function drawingPanel(go: (line: number) => void, open: (line: number) => void): DrawingPanel {
+  let zoom = 0;
+  let isLit: number | null = null;
+  let listed: ContourRow[] | null = null;
+  const paper = make("div", { class: "canvas" });
+  const scroller = make("div", { class: "all contoursolve", tabindex: 0, role: "group", "aria-label": "Drawing of all contours; arrow keys move it" }, paper);
+  const smaller = button("−", () => zoomTo(zoom - 1), { "aria-label": "Smaller" });
+  const larger = button("+", () => zoomTo(zoom + 1), { "aria-label": "Larger" });
+  const whole = button("Whole", () => zoomTo(0));
+  const rows = make("ul", { class: "contours", "aria-label": "Contours" });
+  const said = make("p", { class: "muted" });
+  const node = make("div", { class: "drawing" }, make("div", { class: "bar", role: "group", "aria-label": "Size of the drawing" }, smaller, larger, whole), scroller, said, rows);
+
+  function zoomTo(wanted: number): void {
+    const before = ZOOMS[zoom]!;
+    zoom = Math.max(0, Math.min(ZOOMS.length - 1, wanted));
+    const by = ZOOMS[zoom]! / before;
+    // The middle of what is seen stays there.
+    const [x, y] = [scroller.scrollLeft + scroller.clientWidth / 2, scroller.scrollTop + scroller.clientHeight / 2];
+    paper.style.width = `${100 * ZOOMS[zoom]!}%`;
+    scroller.scrollTo(x * by - scroller.clientWidth / 2, y * by - scroller.clientHeight / 2);
+    smaller.setAttribute("aria-disabled", String(zoom === 0));
+    larger.setAttribute("aria-disabled", String(zoom === ZOOMS.length - 1));
+  }
+  scroller.addEventListener(
+    "wheel",
+    (event) => {
+      if (!event.ctrlKey) return;
+      event.preventDefault();
+      zoomTo(zoom + (event.deltaY < 0 ? 1 : -1));
+    },
+    { passive: false },
+  );
+  const lineOf = (event: Event) => Number((event.target as Element).closest?.("[data-line]")?.getAttribute("data-line") ?? 0);
+  paper.addEventListener("click", (event) => lineOf(event) && go(lineOf(event)));
+  paper.addEventListener("dblclick", (event) => lineOf(event) && open(lineOf(event)));
+
+  function relight(): void {
+    for (const each of paper.querySelectorAll("[data-line]")) each.classList.toggle("lit", Number(each.getAttribute("data-line")) === isLit);
+    for (const each of rows.querySelectorAll<HTMLElement>("button")) each.setAttribute("aria-pressed", String(Number(each.dataset["at"]) === isLit));
+  }
+  zoomTo(0);
+
+  return {
+    node,
+    show(svg) {
+      const drawn = svg ? picture(svg) : null;
+      paper.replaceChildren(...(drawn ? [drawn] : []));
+      relight();
+    },
+    list(contours) {
+      if (contours === listed) return;
+      listed = contours;
+      const shown = contours.slice(0, MOST);
+      const left = contours.length - shown.length;
+      said.textContent = contours.length
+        ? `${contours.length} ${contours.length === 1 ? "contour" : "contours"}${left ? `; the first ${MOST} are listed, the text has a mark at each` : ""}. Touch one to see its text.`
+        : "There is no contour to solve in this program yet.";
+      rows.replaceChildren(
+        ...shown.map((each) =>
+          make("li", {}, make("button", { type: "button", class: kindOf(each.status), "data-at": each.line, onclick: () => go(each.line) }, make("span", { class: "line", text: `line ${each.line}` }), ` ${each.title}: ${each.status}`)),
+        ),
+      );
+      relight();
+    },
+    light(line) {
+      if (line === isLit) return;
+      isLit = line;
+      relight();
+    },
+  };
+}

@@ -1,0 +1,157 @@
+// A program that is open here and at the Desk: edits go there, findings come back, one question after another.
+import type { ChangeSet, EditorState, Text, TransactionSpec } from "@codemirror/state";
+import type { EditorView } from "@codemirror/view";
+
+import { changesOf, editsOf, type Heard, markEffect, moveMarks, newState, placed, pythonEdits } from "./editor";
+import { type Change, type ContourRow, type Finding, type Transport, Trouble, type View } from "./protocol";
+
+const PAUSE = 40; // ms in which keys are gathered
+
+export type Question = Record<string, unknown>;
+
+export class Program {
+  view: View;
+  findings: Finding[] = []; // as they came last
+  contours: ContourRow[] = [];
+  state: EditorState;
+  saved: Text | null; // null where no file has it
+  private editor: EditorView | null = null;
+  private acknowledged: Text; // the text that the Desk has
+  private pending: ChangeSet | null = null; // since then
+  private isWhole = false; // whether the Desk needs the whole text, for it may have missed something
+  private last: Promise<unknown> = Promise.resolve();
+  private timer = 0;
+
+  constructor(
+    private readonly transport: Transport,
+    view: View,
+    heard: Omit<Heard, "changed">,
+    private readonly shown: (program: Program, why: Trouble | null) => void,
+  ) {
+    this.view = view;
+    this.state = newState(view.text ?? "", { ...heard, changed: (changes) => this.changed(changes) });
+    this.acknowledged = this.state.doc;
+    this.saved = view.base && !view.has_changes ? this.state.doc : null;
+    this.adopt(view);
+  }
+
+  get name(): string {
+    return this.view.name;
+  }
+
+  get text(): string {
+    return this.state.doc.toString();
+  }
+
+  get isChanged(): boolean {
+    return this.saved === null || !this.state.doc.eq(this.saved);
+  }
+
+  // The editor shows one program at a time.
+  show(editor: EditorView | null): void {
+    if (this.editor) this.state = this.editor.state;
+    this.editor = editor;
+    editor?.setState(this.state);
+  }
+
+  update(spec: TransactionSpec): void {
+    if (this.editor) {
+      this.editor.dispatch(spec);
+      this.state = this.editor.state;
+    } else this.state = this.state.update(spec).state;
+  }
+
+  private changed(changes: ChangeSet): void {
+    if (this.editor) this.state = this.editor.state;
+    this.pending = this.pending ? this.pending.compose(changes) : changes;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => void this.ask(() => null), PAUSE);
+  }
+
+  // Ask about the text as it is now; null where that failed, which is said at the top. What is asked is made when its
+  // turn comes; null asks nothing more than the findings. Trouble that `isKnown` takes is not said at the top.
+  ask<Reply extends object>(question: () => Question | null, isHeld = false, isKnown?: (why: Trouble) => boolean): Promise<Reply | null> {
+    const next = this.last.then(() => this.asked<Reply>(question, isHeld, isKnown));
+    this.last = next.catch(() => null);
+    return next;
+  }
+
+  private async asked<Reply extends object>(question: () => Question | null, isHeld: boolean, isKnown?: (why: Trouble) => boolean): Promise<Reply | null> {
+    try {
+      await this.send();
+      const what = question();
+      const reply = what && (await this.tell<Reply & { edits?: Change[] } & Partial<View>>(what));
+      if (reply?.edits?.length) this.take(reply.edits, isHeld);
+      if (reply?.seq !== undefined && reply.counts) this.adopt(reply as View);
+      this.shown(this, null);
+      return reply;
+    } catch (error) {
+      if (!(error instanceof Trouble)) throw error;
+      if (!isKnown?.(error)) this.shown(this, error);
+      return null;
+    }
+  }
+
+  private tell<Reply>(what: Question): Promise<Reply> {
+    return this.transport.ask<Reply>({ program: this.view.id, seq: this.view.seq, ...what });
+  }
+
+  // Bring the Desk's text up to what stands here, and let it examine all of it.
+  private async send(): Promise<void> {
+    clearTimeout(this.timer);
+    const under = this.pending;
+    if (under || this.isWhole) {
+      const text = this.whole();
+      const what = this.isWhole || !under ? { text } : { edits: editsOf(under) };
+      try {
+        this.adopt(await this.tell<View>({ do: "edit", ...what }));
+      } catch (error) {
+        this.isWhole = true; // whether it came there is not known
+        if (!(error instanceof Trouble)) throw error;
+        if (error.reply?.["is_gone"]) await this.openAnew();
+        else if (error.reply?.["is_old"]) this.adopt(await this.tell<View>({ do: "edit", text: this.whole() }));
+        else throw error;
+      }
+      this.isWhole = false;
+    }
+    // What is typed meanwhile goes first.
+    if (this.view.examined < this.view.lines && !this.pending) {
+      this.adopt(await this.tell<View>({ do: "go_on" }));
+      if (this.view.examined < this.view.lines) void this.ask(() => null);
+    }
+  }
+
+  // The text as it is now, with which the Desk has all.
+  private whole(): string {
+    this.pending = null;
+    this.acknowledged = this.state.doc;
+    return this.text;
+  }
+
+  private async openAnew(): Promise<void> {
+    const { name, base, encoding, control, control_from } = this.view;
+    const chosen = control_from === "choice" && control ? { control: control.name } : {};
+    this.adopt(await this.transport.ask<View>({ do: "open", name, text: this.whole(), base, encoding, ...chosen }));
+  }
+
+  private take(edits: Change[], isHeld: boolean): void {
+    let changes = changesOf(edits, this.acknowledged.length);
+    this.acknowledged = changes.apply(this.acknowledged);
+    if (this.pending) {
+      const own = this.pending;
+      this.pending = own.map(changes);
+      changes = changes.map(own, true);
+    }
+    this.update(pythonEdits(changes, isHeld));
+  }
+
+  // The findings are about the text that the Desk has; what was typed since moves them.
+  private adopt(view: View): void {
+    this.view = view;
+    this.contours = view.contours ?? this.contours;
+    if (!view.findings && !view.contours) return;
+    this.findings = view.findings ?? this.findings;
+    const marks = { findings: placed(this.findings, this.acknowledged), contours: this.contours };
+    this.update({ effects: markEffect(this.pending ? moveMarks(marks, this.pending) : marks) });
+  }
+}

@@ -1,0 +1,84 @@
+// The two ways to a Desk.
+import { type Transport, Trouble } from "./protocol";
+
+const GONE = "The workbench does not answer: its program was ended. Start it again. The text here stays: copy it or download it.";
+
+const asWindow = Array.from(crypto.getRandomValues(new Uint8Array(8)), (each) => each.toString(16).padStart(2, "0")).join("");
+
+function checked<Reply>(reply: Record<string, unknown>): Reply {
+  if (typeof reply["trouble"] === "string" && reply["trouble"]) throw new Trouble(reply["trouble"], reply);
+  return reply as Reply;
+}
+
+// To the server that sent this page; the token stands in the page's address.
+export class ServerTransport implements Transport {
+  private readonly token = new URLSearchParams(location.search).get("token") ?? "";
+  private key = ""; // where a password has unlocked writing
+
+  async ask<Reply>(request: Record<string, unknown>): Promise<Reply> {
+    let answer: Response;
+    try {
+      answer = await fetch("ask", {
+        method: "POST",
+        headers: { "Content-Type": "application/json", "X-Token": this.token, ...(this.key ? { "X-Key": this.key } : {}) },
+        body: JSON.stringify({ window: asWindow, ...request }),
+      });
+    } catch {
+      throw new Trouble(GONE);
+    }
+    let reply: Record<string, unknown>;
+    try {
+      reply = await answer.json();
+    } catch {
+      throw new Trouble(`The workbench answers ${answer.status}. Load this page again.`);
+    }
+    if (!answer.ok && !reply["trouble"]) throw new Trouble(`The workbench answers ${answer.status}. Load this page again.`);
+    if (request["do"] === "unlock" && typeof reply["key"] === "string") this.key = reply["key"];
+    return checked<Reply>(reply);
+  }
+}
+
+// To Python in a worker: it is loaded with the first question.
+export class WorkerTransport implements Transport {
+  private worker: Worker | null = null;
+  private readonly waiting = new Map<number, { done: (reply: Record<string, unknown>) => void; failed: (why: Trouble) => void }>();
+  private asked = 0;
+
+  constructor(
+    private readonly address: string,
+    private readonly tell: (progress: string) => void,
+  ) {}
+
+  ask<Reply>(request: Record<string, unknown>): Promise<Reply> {
+    const worker = (this.worker ??= this.start());
+    this.asked += 1;
+    const number = this.asked;
+    return new Promise<Record<string, unknown>>((done, failed) => {
+      this.waiting.set(number, { done, failed });
+      worker.postMessage({ number, request: JSON.stringify({ window: asWindow, ...request }) });
+    }).then((reply) => checked<Reply>(reply));
+  }
+
+  private start(): Worker {
+    const worker = new Worker(this.address, { type: "module" });
+    worker.onmessage = ({ data: [kind, value, number] }) => {
+      if (kind === "progress") this.tell(value ? `${value} …` : "");
+      else if (kind === "failed") this.fail(value);
+      else {
+        this.waiting.get(number)?.done(JSON.parse(value));
+        this.waiting.delete(number);
+      }
+    };
+    worker.onerror = (event) => this.fail(event.message || "this browser is too old for it");
+    return worker;
+  }
+
+  private fail(why: string): void {
+    this.worker?.terminate();
+    this.worker = null;
+    this.tell("");
+    const said = `Python could not be loaded: ${why}. Is this computer online, and may it read from there? Then try again.`;
+    for (const { failed } of this.waiting.values()) failed(new Trouble(said));
+    this.waiting.clear();
+  }
+}
