@@ -107,6 +107,13 @@ from .program import (
 from .reading import (
     Dialect as Dialect,
 )
+from .sketches import (
+    ContourSketch as ContourSketch,
+    SketchCorner as SketchCorner,
+    SketchElement as SketchElement,
+    read_sketch as read_sketch,
+    write_sketch as write_sketch,
+)
 from .solving import (
     ArcSegment as ArcSegment,
     Contour as Contour,

@@ -17,6 +17,10 @@ from .chain.language import (
 from .common import (
     COMMON_RULES as COMMON_RULES,
 )
+from .drawing import (
+    DRAWINGS as DRAWINGS,
+    words_of_drawing as words_of_drawing,
+)
 from .fanuc import (
     FANUC_LATHE as FANUC_LATHE,
     FANUC_MILL as FANUC_MILL,

@@ -27,7 +27,7 @@ FLOORS = (
     "program",
     "comparison families",
     "postprocess pictures tool_radius",
-    "api output",
+    "api output sketches",
     "notebook try_edits",
     "__init__",
     "lsp cli workbench",

@@ -10,7 +10,6 @@ from msgspec import Struct
 
 from contoursolve.controls.heidenhain.follow import (
     CENTER,
-    PLANE,
     POLE,
     keep_joint,
     pole_of,
@@ -20,9 +19,11 @@ from contoursolve.controls.heidenhain.follow import (
 from contoursolve.controls.heidenhain.lexicon import (
     CHAMFER,
     FREE,
+    IN_KLARTEXT,
     MOVES,
     ROUNDING,
     TANGENT,
+    PlaneWords,
     function_of,
 )
 from contoursolve.gcode import Block, Word
@@ -59,8 +60,9 @@ class ChainMember(Struct):
 class ChainBlocks:
     """The blocks of a chain as they are read."""
 
-    def __init__(self, state: State, modes: Modes) -> None:
+    def __init__(self, state: State, modes: Modes, words: PlaneWords = IN_KLARTEXT) -> None:
         self.start = self.state = state
+        self.words = words
         self.modes = modes
         self.blocks: list[Block] = []
         self.members: list[ChainMember] = []
@@ -166,7 +168,16 @@ class ChainBlocks:
         index = len(self.blocks)
         self._pass(block)
         self.state = keep_joint(self.state, block, function)
-        self.members.append(ChainMember(block, function, self.state, index, pole, center))
+        member = ChainMember(block, function, self.state, index, pole, center)
+        if self.words.has_corners:
+            member.corners = ((index, block),) if has_corner(block) else ()
+            member.picked = block.find("FSELECT")
+        self.members.append(member)
+
+
+def has_corner(block: Block) -> bool:
+    """Whether a block has the size of a corner."""
+    return any(word.address in (ROUNDING, CHAMFER) for word in block.words)
 
 
 def stands_between(block: Block, function: str) -> bool:
@@ -226,7 +237,7 @@ def _numbers(chain: ChainBlocks) -> dict[Decimal, int]:
         own = word.number if word is not None else None if is_numbered else Decimal(member.block.line - 1)
         if own is not None:
             found[own] = number if own not in found else TWICE
-    first, where = chain.members[0].block, [chain.start.axes[axis].span for axis in PLANE]
+    first, where = chain.members[0].block, [chain.start.axes[axis].span for axis in chain.words.axes]
     if found and where[0] is not None and where[0] == where[1]:
         found.setdefault(next(iter(found)) - (first.line - where[0].line), 0)
     return found

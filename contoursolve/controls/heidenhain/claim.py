@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import replace as replace_fields
 from decimal import Decimal
+from functools import cache
 
 from msgspec.structs import replace
 
@@ -33,9 +34,6 @@ from contoursolve.controls.heidenhain.circumstances import (
 )
 from contoursolve.controls.heidenhain.elements import (
     ALONG,
-    BESIDE,
-    OF_ARCS,
-    OF_LINES,
     POINTS,
     POLAR,
     TANGENCY,
@@ -43,7 +41,6 @@ from contoursolve.controls.heidenhain.elements import (
 )
 from contoursolve.controls.heidenhain.follow import (
     CENTER,
-    PLANE,
     POLE,
     TOOL_AXIS,
     full_circles,
@@ -55,15 +52,13 @@ from contoursolve.controls.heidenhain.lexicon import (
     AMBIGUOUS,
     CHAMFER,
     FREE,
-    LEXICON,
     MOVES,
-    REFERRED,
-    REFERRING,
     REFERRING_TO_LINES,
     ROUNDING,
     SELECTION,
     STRAIGHT,
     TANGENT,
+    PlaneWords,
     function_of,
 )
 from contoursolve.gcode import Block, Word
@@ -72,27 +67,30 @@ from contoursolve.reading import ContourBuilder, Convention, Modes, ParsedContou
 from contoursolve.solving import analyse, place_cuts
 
 _BESIDE_ANY = frozenset({"N", "G", "F", "M", "S"})
-_POINTS = frozenset(f"{point}{axis}" for point in POINTS for axis in PLANE)
-_SHARED = frozenset({f"{BESIDE}X", f"{BESIDE}Y", "D", "CLSD", "Z", "IZ", *REFERRING[1:]})
-_LINE_WORDS = frozenset({*OF_LINES, "P1X", "P1Y", "P2X", "P2Y", "PAR", "DP"}) | _SHARED
-_ARC_WORDS = frozenset({*OF_ARCS, "DR"}) | _POINTS | _SHARED
-_ENDS = frozenset({"X", "Y", "Z", "IX", "IY", "IZ"})
-_ALLOWED: Mapping[str, frozenset[str]] = {
-    **{name: (_LINE_WORDS if name in STRAIGHT else _ARC_WORDS) for name in FREE},
-    "L": _ENDS,
-    "LP": frozenset({"PR", "PA", "IPR", "IPA", "Z", "IZ"}),
-    "C": _ENDS | {"DR"},
-    "CP": frozenset({"PA", "IPA", "DR", "Z", "IZ"}),
-    "CR": _ENDS | {"DR", "R"},
-    "CT": _ENDS,
-    "CTP": frozenset({"PR", "PA", "IPR", "IPA", "Z", "IZ"}),
-    "FPOL": frozenset({"X", "Y"}),
-    "CC": _ENDS,
-    "RND": frozenset({ROUNDING}),
-    "CHF": frozenset({CHAMFER}),
-    "FSELECT": frozenset({"FSELECT"}),
-}
-"""The words that a function may have."""
+
+
+@cache
+def _allowed(words: PlaneWords) -> Mapping[str, frozenset[str]]:
+    """The words that a function may have."""
+    beside = {"CLSD", *words.across, *((ROUNDING, CHAMFER, "FSELECT") if words.has_corners else ())}
+    of_lines = frozenset({*words.of_element(is_line=True), *beside})
+    of_arcs = frozenset({*words.of_element(is_line=False), "DR", *beside})
+    ends, polar = frozenset({*words.axes, *words.increments, *words.across}), {"PR", "PA", "IPR", "IPA"}
+    return {
+        **{name: (of_lines if name in STRAIGHT else of_arcs) for name in FREE},
+        "L": ends,
+        "LP": frozenset({*polar, *words.across}),
+        "C": ends | {"DR"},
+        "CP": frozenset({"PA", "IPA", "DR", *words.across}),
+        "CR": ends | {"DR", "R"},
+        "CT": ends,
+        "CTP": frozenset({*polar, *words.across}),
+        "FPOL": frozenset(words.axes),
+        "CC": ends,
+        "RND": frozenset({ROUNDING}),
+        "CHF": frozenset({CHAMFER}),
+        "FSELECT": frozenset({"FSELECT"}),
+    }
 
 
 def claim_of(chain: ChainBlocks, before: State, modes: Modes) -> ParsedContour:
@@ -106,9 +104,9 @@ def claim_of(chain: ChainBlocks, before: State, modes: Modes) -> ParsedContour:
     for number, member in enumerate(members, 1):
         elements.append(_element(chain, number, elements))
         circumstances = *_lacking(chain, number, elements), *_corner_circumstances(members, number)
-        lasting = [name for name in member.own if name in _NO_FACTS or name in elements[-1].touching]
+        lasting = [name for name in member.own if name in _no_facts(chain.words) or name in elements[-1].touching]
         builder.state(f"{number}:", member.own, _givens(chain, elements, builder), circumstances, lasting=lasting)
-        _name_words(builder, number, member)
+        _name_words(builder, number, member, chain.words)
     for name, pole in chain.poles.items():
         _state_pole(builder, f"{name}:", pole, before)
     picks = [
@@ -118,8 +116,8 @@ def claim_of(chain: ChainBlocks, before: State, modes: Modes) -> ParsedContour:
     ]
     stated = tuple(name for name, (_, block) in chain.poles.items() if isinstance(block, Block))
     claim = replace_fields(
-        builder.build(compose(tuple(elements), labels, stated), before, chain.state),
-        unknown=tuple(word for block in chain.blocks for word in _foreign(block)),
+        builder.build(compose(tuple(elements), labels, stated, chain.words), before, chain.state),
+        unknown=tuple(word for block in chain.blocks for word in _foreign(block, chain)),
         choices=tuple(_choices(members, elements, labels)),
         makes=tuple(_makes(chain, labels)),
         picks=tuple(_picks(picks, len(members), modes)),
@@ -149,10 +147,10 @@ def _choices(members: Sequence[ChainMember], elements: Sequence[FkElement], labe
             yield Choice(f"C{label}", Side.LEFT if is_left else Side.RIGHT, f"{number}:R")
 
 
-def _name_words(builder: ContourBuilder, number: int, member: ChainMember) -> None:
+def _name_words(builder: ContourBuilder, number: int, member: ChainMember, words: PlaneWords) -> None:
     """Add the names of all that the blocks of an element may state."""
     prefix, own = f"{number}:", member.own
-    builder.name(prefix, member.index, ((name, name) for name in _may_state(member, own.keys())))
+    builder.name(prefix, member.index, ((name, name) for name in _may_state(member, own.keys(), words)))
     builder.name(prefix, member.index, ((name, word.address) for name, word in own.items()))
     if number == 1 and member.function in FREE and "CLSD+" not in own:
         builder.name(prefix, member.index, [("CLSD+", "CLSD")])
@@ -162,14 +160,14 @@ def _name_words(builder: ContourBuilder, number: int, member: ChainMember) -> No
 
 def _state_pole(builder: ContourBuilder, prefix: str, pole: Pole, before: State) -> None:
     """Add what a pole states: its block, or the coordinates that were in force before the chain."""
-    place, block = pole
+    (place, block), plane = pole, before.plane.axes
     if isinstance(block, Block):
-        words = {word.address: word for word in block.words if word.address in PLANE}
+        words = {word.address: word for word in block.words if word.address in plane}
         circumstances = () if words else (NO_COORDINATE,)
         builder.state(prefix, words, builder.values(words, before), circumstances)
-        builder.name(prefix, int(place), ((axis, axis) for axis in PLANE))
+        builder.name(prefix, int(place), ((axis, axis) for axis in plane))
     else:
-        values = zip(PLANE, (Decimal(place), block), strict=True)
+        values = zip(plane, (Decimal(place), block), strict=True)
         builder.state(prefix, {}, {axis: Given(axis, value, Unit.MM, None) for axis, value in values})
 
 
@@ -189,19 +187,19 @@ def _picks(stated: Sequence[Pick], count: int, modes: Modes) -> Iterator[Pick]:
         yield from (Pick(number, 1, "") for number in range(1, count + 1) if number not in told)
 
 
-def _on_circle_of(element: FkElement, before: Block, block: Block) -> FkElement:
+def _on_circle_of(element: FkElement, before: Block, block: Block, words: PlaneWords) -> FkElement:
     """An arc that touches one that runs the same way, where both are on one circle: by the centres that they state, or
     by the radii."""
-    if _is_same_circle(before, block):
+    if _is_same_circle(before, block, words):
         return replace(element, goes_round=True)
     radii = [word.number for word in (before.find("R"), block.find("R")) if word is not None]
     is_one = len(radii) == 2 and radii[0] == radii[1] is not None  # noqa: PLR2004 - of both
     return replace(element, has_radius_of_before=is_one)
 
 
-def _is_same_circle(before: Block, block: Block) -> bool:
+def _is_same_circle(before: Block, block: Block, words: PlaneWords) -> bool:
     """Whether two arcs have the same stated centre."""
-    pairs = [(each.find("CCX"), each.find("CCY")) for each in (before, block)]
+    pairs = [tuple(map(each.find, words.each("CC{}"))) for each in (before, block)]
     places = [tuple(word.number if word else None for word in pair) for pair in pairs]
     return None not in places[0] and places[0] == places[1]
 
@@ -214,15 +212,19 @@ def _conventions(is_picked: bool, modes: Modes) -> Iterator[Convention]:
         yield modes.convention(AMBIGUOUS)
 
 
-def _is_placed(own: Set[str]) -> bool:
+def _is_placed(own: Set[str], words: PlaneWords) -> bool:
     """Whether words state where an element ends: both coordinates, or one on a circle of which all is stated."""
-    coordinates = [not own.isdisjoint((axis, f"I{axis}")) for axis in PLANE]
-    return all(coordinates) or (any(coordinates) and own >= {"CCX", "CCY", "R"})
+    coordinates = [not own.isdisjoint((axis, f"I{axis}")) for axis in words.axes]
+    return all(coordinates) or (any(coordinates) and own >= {*words.each("CC{}"), "R"})
 
 
 _CONTINUES = re.compile(r"~[ \t]*(?:;.*)?$")
-_NO_FACTS = frozenset({TANGENCY, "DR", "CLSD+", "FSELECT", "Z", "IZ", *REFERRING[1:]})
-"""Words that state no equation, or not always: they say which one it is."""
+
+
+@cache
+def _no_facts(words: PlaneWords) -> frozenset[str]:
+    """Words that state no equation, or not always: they say which one it is."""
+    return frozenset({TANGENCY, "DR", "CLSD+", "FSELECT", *words.across, *words.referring[1:]})
 
 
 def _own_words(member: ChainMember, builder: ContourBuilder) -> dict[str, Word]:
@@ -232,7 +234,7 @@ def _own_words(member: ChainMember, builder: ContourBuilder) -> dict[str, Word]:
         (_name_of(word), word)
         for block in blocks.values()
         for word in block.words
-        if word.address not in _BESIDE_ANY and word.address in LEXICON.addresses
+        if word.address not in _BESIDE_ANY and word.address in builder.modes.lexicon.addresses
     )
     if member.picked is not None:
         own["FSELECT"] = member.picked
@@ -250,14 +252,15 @@ def _name_of(word: Word) -> str:
     return "CLSD-" if word.text.strip().endswith("-") else "CLSD+"
 
 
-def _foreign(block: Block) -> Iterator[Word]:
+def _foreign(block: Block, chain: ChainBlocks) -> Iterator[Word]:
     """The words of a block that have no meaning in it."""
-    function = function_of(block)
-    allowed, is_plain = _ALLOWED.get(function, frozenset()) | _BESIDE_ANY, function in MOVES and function not in FREE
+    function, lexicon = function_of(block), chain.modes.lexicon
+    allowed = _allowed(chain.words).get(function, frozenset()) | _BESIDE_ANY
+    is_plain = function in MOVES and function not in FREE
     return (
         word
         for word in block.words
-        if word.address not in allowed and not (is_plain and LEXICON.is_beside(word.address))
+        if word.address not in allowed and not (is_plain and lexicon.is_beside(word.address))
     )
 
 
@@ -273,9 +276,9 @@ def _labels(chain: ChainBlocks) -> tuple[str, ...]:
 def _referred(chain: ChainBlocks, number: int) -> Iterator[tuple[str, int | str]]:
     """The words of a block that refer to another one, each with the number of its element, or with what is wrong."""
     place, member = number - 1, chain.members[number - 1]
-    for name in REFERRING:
+    for name in chain.words.referring:
         word = member.own.get(name)
-        if word is None or name not in _ALLOWED[member.function]:
+        if word is None or name not in _allowed(chain.words)[member.function]:
             continue
         other = chain.numbers.get(word.number) if word.number is not None else None
         # From the element right before, IAN counts anyway, whatever that is.
@@ -304,16 +307,16 @@ def _element(chain: ChainBlocks, number: int, before: Sequence[FkElement]) -> Fk
         member.function,
         None if is_line else Turn.CW if (sign_of(member.block, "DR") or member.sense) < 0 else Turn.CCW,
         member.pole,
-        counted=tuple((f"I{name}", known[f"R{name}"]) for name in REFERRED if f"R{name}" in known),
+        counted=tuple((f"I{name}", known[f"R{name}"]) for name in chain.words.referred if f"R{name}" in known),
         parallel=known.get("PAR", 0),
         touching=frozenset(name for name in ("D", "DP") if name in own and own[name].number == 0),
         is_entered=stated[0],
         is_ended=stated[1] and not is_line,
-        is_placed=member.function not in FREE or _is_placed(own.keys()),
+        is_placed=member.function not in FREE or _is_placed(own.keys(), chain.words),
         closes=chain.opening if "CLSD-" in own and chain.opening < number else 0,
     )
     if before and member.function == "FCT" and element.turn is before[-1].turn:
-        return _on_circle_of(element, chain.members[number - 2].block, member.block)
+        return _on_circle_of(element, chain.members[number - 2].block, member.block, chain.words)
     return element
 
 
@@ -321,9 +324,9 @@ def _doubts(member: ChainMember) -> Iterator[tuple[str, str]]:
     """Poles, or another tool axis, that a block needs and on which ways that meet before it do not agree; and why."""
     needed: dict[str, tuple[str, ...]] = {f"a {TOOL_AXIS}": (TOOL_AXIS,)}
     if member.own.keys() & POLAR and not member.pole and member.function in FREE:
-        needed[POLE] = tuple(f"{POLE} {axis}" for axis in PLANE)
+        needed[POLE] = tuple(f"{POLE} {axis}" for axis in member.here.plane.axes)
     if member.function in OF_CENTER and member.center_at is None:
-        needed[CENTER] = tuple(f"{CENTER} {axis}" for axis in PLANE)
+        needed[CENTER] = tuple(f"{CENTER} {axis}" for axis in member.here.plane.axes)
     for told, names in needed.items():
         whys = [member.here.doubts[name] for name in names if name in member.here.doubts]
         yield from ((told, why) for why in whys[:1])
@@ -354,7 +357,7 @@ def _lacking(chain: ChainBlocks, number: int, elements: Sequence[FkElement]) -> 
         TOOL: tool is not None,
         # To which side CT turns is not known before what is still to be found.
         NO_TURN: is_bent and not member.sense and _has_free(before),
-        TURNS_BACK: is_turned and _is_same_circle(before[-1].block, member.block),
+        TURNS_BACK: is_turned and _is_same_circle(before[-1].block, member.block, chain.words),
     }
     yield from (name for name, is_so in holds.items() if is_so)
 
@@ -376,29 +379,30 @@ def _givens(chain: ChainBlocks, elements: Sequence[FkElement], builder: ContourB
             tangent = replace(own[TANGENCY], has_point=True)
             stated[ALONG] = replace(ended, value=ended.value + quarter, word=tangent, follows=ended.name)
     if function not in FREE:
-        stated |= _supplied(member, stated)
+        stated |= _supplied(member, stated, chain.words)
     return stated
 
 
-def _supplied(member: ChainMember, stated: Mapping[str, Given]) -> Iterator[tuple[str, Given]]:
+def _supplied(member: ChainMember, stated: Mapping[str, Given], words: PlaneWords) -> Iterator[tuple[str, Given]]:
     """The givens that a conventional move states by its function: what it does not program stays as it is."""
     if "R" in stated:
         # The sign of CR chooses the arc.
         yield "R", replace(stated["R"], value=abs(stated["R"].value))
-    for name, unit in _STAYING.get(member.function, {}).items():
+    for name, unit in _staying(member.function, words):
         if name not in member.own and f"I{name}" not in member.own:
             yield f"I{name}", Given("", Decimal(0), unit, None)
     if member.function in ABOUT_CENTER and member.center_at is not None:
         yield from (
-            (f"CC{axis}", Given("", value, Unit.MM, None)) for axis, value in zip(PLANE, member.center_at, strict=True)
+            (f"CC{axis}", Given("", value, Unit.MM, None))
+            for axis, value in zip(words.axes, member.center_at, strict=True)
         )
 
 
-_STAYING: Mapping[str, Mapping[str, Unit]] = {
-    **dict.fromkeys(("L", "C", "CR", "CT"), dict.fromkeys(PLANE, Unit.MM)),
-    "LP": {"PR": Unit.MM, "PA": Unit.DEGREE},
-}
-"""The words of conventional moves that mean no step where they are missing."""
+def _staying(function: str, words: PlaneWords) -> Sequence[tuple[str, Unit]]:
+    """The words of conventional moves that mean no step where they are missing."""
+    if function == "LP":
+        return ("PR", Unit.MM), ("PA", Unit.DEGREE)
+    return [(axis, Unit.MM) for axis in words.axes] if function in ("L", "C", "CR", "CT") else ()
 
 
 def _corner_circumstances(members: Sequence[ChainMember], number: int) -> Iterator[str]:
@@ -414,18 +418,15 @@ def _corner_circumstances(members: Sequence[ChainMember], number: int) -> Iterat
     return (name for name, is_so in holds.items() if is_so)
 
 
-def _may_state(member: ChainMember, own: Set[str]) -> Iterator[str]:
+def _may_state(member: ChainMember, own: Set[str], words: PlaneWords) -> Iterator[str]:
     """The words that a free element may have: those that stand alone, and those that the others need."""
     if member.function in FREE:
         is_line = member.function in STRAIGHT
-        words = OF_LINES if is_line else (*OF_ARCS, "DR")
-        yield from (word for word in words if member.pole or word not in POLAR)
-        for together in _TOGETHER:
+        names = words.of_lines if is_line else (*words.of_arcs, "DR")
+        yield from (word for word in names if member.pole or word not in POLAR)
+        # The words of a point, all or none.
+        for together in (*(words.each(f"{point}{{}}") for point in POINTS), (*words.beside, "D")):
             yield from together if not own.isdisjoint(together) else ()
-
-
-_TOGETHER = (*((f"{point}X", f"{point}Y") for point in POINTS), (f"{BESIDE}X", f"{BESIDE}Y", "D"))
-"""The words of a point, all or none."""
 
 
 def _makes(chain: ChainBlocks, labels: Sequence[str]) -> Iterator[tuple[str, ...]]:

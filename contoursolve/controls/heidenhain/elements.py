@@ -1,6 +1,7 @@
 """The elements of a chain of lines and arcs, and the facts that their words state, alone or several together."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cache
 from operator import attrgetter
 
 from msgspec import Struct
@@ -12,6 +13,7 @@ from contoursolve.controls.heidenhain.lexicon import (
     ROUNDING,
     STRAIGHT,
     TANGENT,
+    PlaneWords,
 )
 from contoursolve.geometry import (
     FIRST,
@@ -138,6 +140,7 @@ class Chain(Struct, frozen=True):
     """All elements with their names; `poles` are the names of the poles that blocks of the chain state."""
 
     places: tuple[PlacedElement, ...]
+    words: PlaneWords
 
     def at(self, number: int) -> str:
         """The end of the element of a number; of 0, the begin of the chain."""
@@ -153,7 +156,7 @@ Facts = Callable[[Chain, PlacedElement, str], Iterable[Fact]]
 """(chain, element, name of the word) to what the word states."""
 
 
-def _placing(of: str, mark: str) -> Iterator[tuple[str, Facts]]:
+def _placing(of: str, mark: str, axes: tuple[str, str]) -> Iterator[tuple[str, Facts]]:
     """The words that place the end of an element, or its centre: the same, but for a mark in their names."""
     point = attrgetter(of)
 
@@ -174,7 +177,7 @@ def _placing(of: str, mark: str) -> Iterator[tuple[str, Facts]]:
         before = Chord(pole, chain.counted_from(place, f"I{mark}PA"))
         yield TurnBetween(given, before, Chord(pole, point(place)))
 
-    for axis, letter in enumerate("XY"):
+    for axis, letter in enumerate(axes):
         yield mark + letter, coordinate(axis)
         yield f"I{mark}{letter}", step(axis, f"I{mark}{letter}")
     yield f"{mark}PR", lambda _, place, given: [Distance(given, place.element.pole, point(place))]
@@ -259,9 +262,7 @@ def _goes_on(before: PlacedElement, place: PlacedElement) -> Iterator[Fact]:
 ALONG = "along"
 """The direction of a line that begins where CCA ends an arc: a quarter of a turn from that."""
 
-WORDS: Mapping[str, Facts] = {
-    **dict(_placing("head", "")),
-    **dict(_placing("center", "CC")),
+_BY_THEMSELVES: Mapping[str, Facts] = {
     "AN": _direction,
     "IAN": _angle_to,
     "LEN": _length,
@@ -270,23 +271,24 @@ WORDS: Mapping[str, Facts] = {
     "CLSD-": _closes,
     TANGENCY: _touches_before,
 }
-"""The facts that a word states by itself."""
 
-OF_LINES = ("X", "Y", "IX", "IY", "PR", "PA", "IPR", "IPA", "AN", "IAN", "LEN")
-OF_ARCS = (*OF_LINES, "CCX", "CCY", "CCPR", "CCPA", "ICCX", "ICCY", "ICCPR", "ICCPA", "R", "CCA")
+
+@cache
+def facts_of(axes: tuple[str, str]) -> Mapping[str, Facts]:
+    """The facts that a word states by itself, in a plane of these axes."""
+    return {**dict(_placing("head", "", axes)), **dict(_placing("center", "CC", axes)), **_BY_THEMSELVES}
+
+
 POLAR = frozenset({"PR", "PA", "IPR", "IPA", "CCPR", "CCPA", "ICCPR", "ICCPA"})
 POINTS = ("P1", "P2", "P3")
 BESIDE = "PD"
 
-PARTNERS = {"D": f"{BESIDE}Y", "DP": "PAR"}
-"""Words that tell of what a distance of 0 is."""
 
-
-def point_rows(place: PlacedElement) -> Iterator[FactRow]:
+def point_rows(place: PlacedElement, axes: tuple[str, str]) -> Iterator[FactRow]:
     """Points on the element, each by two words, and one beside it, by three."""
     q = place.prefix
     for point in (POINTS[:2] if place.element.is_line else POINTS) + (BESIDE,):
-        name, words = f"{q}{point}", [f"{q}{point}{axis}" for axis in "XY"]
+        name, words = f"{q}{point}", [f"{q}{point}{axis}" for axis in axes]
         distance = f"{q}D"
         needs = (*words, *([distance] if point == BESIDE else []))
         radius, side = f"{name} distance", f"{name}.side"

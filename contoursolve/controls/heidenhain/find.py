@@ -16,14 +16,15 @@ from contoursolve.controls.heidenhain.claim import claim_of
 from contoursolve.controls.heidenhain.follow import (
     DEPARTED,
     JOINT,
-    PLANE,
     POLE,
     begins_chain,
 )
 from contoursolve.controls.heidenhain.lexicon import (
     FREE,
+    IN_KLARTEXT,
     MOVES,
     TANGENT,
+    PlaneWords,
     function_of,
 )
 from contoursolve.gcode import Block
@@ -32,11 +33,15 @@ from contoursolve.reading import Modes, ParsedContour, State
 
 def _follows_elsewhere(block: Block, state: State) -> bool:
     """Whether a corner that follows no element may join an approach, or one that another call has run."""
-    lost = (each for each in (state.axes[axis] for axis in PLANE) if each.value is None and each.span is not None)
+    lost = (
+        each for each in (state.axes[axis] for axis in state.plane.axes) if each.value is None and each.span is not None
+    )
     return bool(block.callers) or JOINT in state.memory or any(each.reason != DEPARTED for each in lost)
 
 
-def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> ParsedContour | None:
+def find(
+    blocks: Sequence[Block], index: int, state: State, modes: Modes, words: PlaneWords = IN_KLARTEXT
+) -> ParsedContour | None:
     """The chain that begins at a block, if any: with a free element, a move with a corner, one that the next element
     touches, or a corner behind no element."""
     block = blocks[index]
@@ -45,23 +50,23 @@ def find(blocks: Sequence[Block], index: int, state: State, modes: Modes) -> Par
     function, is_known = function_of(block), state.start().is_known
     if function in FREE:
         # A chain may begin with where it begins.
-        is_begun = is_known or not begins_chain(function, block)
+        is_begun = is_known or not begins_chain(function, block, words.axes)
     elif function in MOVES:
         # What touches a move from an unknown place cannot be found.
         joins = (*OF_CORNERS, *TANGENT) if is_known else tuple(OF_CORNERS)
         is_begun = is_in_plane(block) and _next_function(blocks, index) in joins
     elif function == POLE:
         # A pole is read where it stands; one with a coordinate missing is none for the chain behind it.
-        is_begun = block.find("X") is None or block.find("Y") is None
+        is_begun = any(block.find(axis) is None for axis in words.axes)
     else:
         is_begun = function in OF_CORNERS
     if not is_begun:
         return None
-    chain = ChainBlocks(state, modes)
+    chain = ChainBlocks(state, modes, words)
     if function != POLE or _next_function(blocks, index) in MOVES:
         chain.read(blocks, index)
     if not chain.is_contour and function == POLE:
-        chain = ChainBlocks(state, modes)
+        chain = ChainBlocks(state, modes, words)
         chain.read_pole(block)
         return _without_path(claim_of(chain, state, modes))
     if not chain.is_contour:

@@ -51,9 +51,9 @@ def follow(state: State, block: Block, modes: Modes) -> State:
     elif function in (CENTER, POLE):
         return set_pole(state, block, function, modes)
     elif function.startswith("DEP"):
-        return state.lose(PLANE, DEPARTED, block.span)
-    elif function in FREE and not begins_chain(function, block):
-        return state.lose(PLANE, "a free contour leads there", block.span)
+        return state.lose(state.plane.axes, DEPARTED, block.span)
+    elif function in FREE and not begins_chain(function, block, state.plane.axes):
+        return state.lose(state.plane.axes, "a free contour leads there", block.span)
     elif any(block.find(name) for name in ("PR", "PA", "IPR", "IPA")):
         moved = _polar(state, block, modes)
     else:
@@ -78,16 +78,16 @@ def keep_joint(state: State, block: Block, function: str) -> State:
 _LOSING_M = {(2, 30): "the program ends there", (91, 92): "its coordinates are those of the machine"}
 
 
-def begins_chain(function: str, block: Block) -> bool:
+def begins_chain(function: str, block: Block, plane: Sequence[str] = PLANE) -> bool:
     """Whether a free line is where a chain begins: it states both coordinates of its end."""
-    return function == "FL" and all(block.find(axis) for axis in PLANE)
+    return function == "FL" and all(block.find(axis) for axis in plane)
 
 
 def set_pole(state: State, block: Block, function: str, modes: Modes) -> State:
     """The state behind a block that sets a pole: where the tool is, if it has no coordinates."""
     moved = positions(state, axis_words(block, modes), modes, block.is_skippable)
     memory, stated = dict(state.memory), list[str]()
-    for axis in PLANE:
+    for axis in state.plane.axes:
         # A centre keeps the coordinate that its block leaves out; CC alone takes the position.
         if axis in moved or (function == CENTER and not moved):
             value = (moved[axis] if axis in moved else state.axes[axis]).value
@@ -101,7 +101,7 @@ def set_pole(state: State, block: Block, function: str, modes: Modes) -> State:
 
 def pole_words(state: State, function: str) -> list[Word | None]:
     """The words of a pole that are in force, by the axes of the plane."""
-    return [state.memory.get(f"{function} {axis}") for axis in PLANE]
+    return [state.memory.get(f"{function} {axis}") for axis in state.plane.axes]
 
 
 def pole_of(state: State, function: str) -> tuple[Decimal, Decimal] | None:
@@ -122,20 +122,21 @@ def _polar(state: State, block: Block, modes: Modes) -> State:
     }
     if pole is None or None in values.values():
         what = "the pole is not known" if pole is None else "its polar coordinates depend on a parameter"
-        return state.lose(PLANE, what, block.span)
+        return state.lose(state.plane.axes, what, block.span)
     known = here[0] is not None and here[1] is not None
     spoke = (float((here[0] or 0) - pole[0]), float((here[1] or 0) - pole[1]))
     distance, angle = values.get("PR"), values.get("PA")
     if (distance is None or angle is None) and not known:
-        return state.lose(PLANE, "where the tool was is not known", block.span)
+        return state.lose(state.plane.axes, "where the tool was is not known", block.span)
     radius = float(distance) if distance is not None else hypot(*spoke) + float(values.get("IPR") or 0)
     turn = float(angle) if angle is not None else degrees(atan2(spoke[1], spoke[0])) + float(values.get("IPA") or 0)
     ends = (float(pole[0]) + radius * cos(radians(turn)), float(pole[1]) + radius * sin(radians(turn)))
     moved = {
         axis: Position(Decimal(repr(end)).quantize(_DECIMALS), "polar coordinates", block.span, block.is_skippable)
-        for axis, end in zip(PLANE, ends, strict=True)
+        for axis, end in zip(state.plane.axes, ends, strict=True)
     }
-    others = [word for word in axis_words(block, modes) if modes.lexicon.addresses[word.address].axis not in PLANE]
+    addresses, plane = modes.lexicon.addresses, state.plane.axes
+    others = [word for word in axis_words(block, modes) if addresses[word.address].axis not in plane]
     return state.move({**moved, **positions(state, others, modes, block.is_skippable)})
 
 

@@ -14,19 +14,16 @@ from contoursolve.controls.heidenhain.elements import (
     BESIDE,
     CORNERS,
     LINE,
-    OF_ARCS,
-    OF_LINES,
-    PARTNERS,
     PLAIN,
     POINTS,
     POLAR,
     POLE,
     START,
     TANGENCY,
-    WORDS,
     Chain,
     FkElement,
     PlacedElement,
+    facts_of,
     is_aimed,
     parallel_rows,
     point_rows,
@@ -34,9 +31,10 @@ from contoursolve.controls.heidenhain.elements import (
 from contoursolve.controls.heidenhain.lexicon import (
     BOOK,
     FREE,
+    IN_KLARTEXT,
     LEXICON,
-    REFERRED,
     TANGENT,
+    PlaneWords,
 )
 from contoursolve.geometry import (
     BlockRole,
@@ -58,19 +56,19 @@ def _aimed_by(chain: Chain, place: PlacedElement) -> tuple[str, ...]:
 
 
 def _rows(chain: Chain) -> Iterator[FactRow]:
-    places = chain.places
+    places, words, facts = chain.places, chain.words, facts_of(chain.words.axes)
     for pole in dict.fromkeys(place.element.pole for place in places if place.element.pole):
-        for axis, letter in enumerate("XY"):
+        for axis, letter in enumerate(words.axes):
             yield FactRow(Coordinate(f"{pole}:{letter}", pole, axis), (f"{pole}:{letter}",))
     for place in places:
-        own = OF_LINES if place.element.is_line else OF_ARCS
+        own = words.of_lines if place.element.is_line else words.of_arcs
         for word in (*own, "CLSD-", TANGENCY):
             given = place.prefix + word
-            needs = (given, *((f"{place.element.pole}:{axis}") for axis in "XY" if word in POLAR))
+            needs = (given, *((f"{place.element.pole}:{axis}") for axis in words.axes if word in POLAR))
             needs += tuple(name for name in _aimed_by(chain, place) if word == TANGENCY)
             if word not in POLAR or place.element.pole:
-                yield from (FactRow(fact, needs) for fact in WORDS[word](chain, place, given))
-        yield from point_rows(place)
+                yield from (FactRow(fact, needs) for fact in facts[word](chain, place, given))
+        yield from point_rows(place, words.axes)
         yield from parallel_rows(chain, place)
         if place.element.is_line:
             continue
@@ -139,22 +137,18 @@ def _has_direction(element: FkElement) -> bool:
     return element.function in TANGENT and not element.is_line
 
 
-_USUAL = (
-    *("R", "AN", "X", "Y", "LEN", "CCX", "CCY", "PR", "PA", "CCA", "IX", "IY", "IAN"),
-    *("CCPR", "CCPA", "ICCX", "ICCY", "IPR", "IPA", "ICCPR", "ICCPA"),
-)
-"""The words that complete a chain, in the order in which drawings have them."""
-
-
 @lru_cache(maxsize=2048)
 def compose(
-    elements: tuple[FkElement, ...], labels: tuple[str, ...], stated_poles: tuple[str, ...] = ()
+    elements: tuple[FkElement, ...],
+    labels: tuple[str, ...],
+    stated_poles: tuple[str, ...] = (),
+    words: PlaneWords = IN_KLARTEXT,
 ) -> ContourForm:
     """The form of a chain: everything that its words may state; `labels` are the numbers of its blocks,
     `stated_poles` the poles that these state, though no word may count from one."""
     points = [START, *(f"P{label}" for label in labels)]
     named = zip(labels, elements, points, points[1:], strict=False)
-    chain = Chain(tuple(PlacedElement(n, *each) for n, each in enumerate(named, 1)))
+    chain = Chain(tuple(PlacedElement(n, *each) for n, each in enumerate(named, 1)), words)
     places = chain.places
     rows = tuple(_rows(chain))
     headings = {each.name: _heading(chain, each) for each in places}
@@ -199,13 +193,13 @@ def compose(
         free=FreeFactWords(
             usual=tuple(
                 f"{each.prefix}{word}"
-                for word in _USUAL
+                for word in words.usual
                 for each in places
                 if each.element.function in FREE and not (word in _OF_DIRECTION and _has_direction(each.element))
             ),
             swaps={"DR+": "DR-", "DR-": "DR+", "FLT": "FL", "FCT": "FC"},
             picking="FSELECT",
-            companions=dict(_companions(places)),
+            companions=dict(_companions(chain)),
             poles=poles,
         ),
     )
@@ -221,11 +215,13 @@ def _form_name(elements: Sequence[FkElement]) -> str:
     return "tangent" if any(each.function in TANGENT for each in elements) else "corners"
 
 
-def _companions(places: tuple[PlacedElement, ...]) -> Iterator[tuple[str, str]]:
+def _companions(chain: Chain) -> Iterator[tuple[str, str]]:
     """Words that say from where another one counts, or that repeat what its fact says already."""
-    for place in places:
+    # What tells of which thing a distance of 0 is.
+    partners = {"D": chain.words.beside[1], "DP": "PAR"}
+    for place in chain.places:
         q = place.prefix
-        yield from ((f"{q}I{name}", f"{q}R{name}") for name in REFERRED)
-        yield from ((q + PARTNERS[name], q + name) for name in place.element.touching)
+        yield from ((f"{q}I{name}", f"{q}R{name}") for name in chain.words.referred)
+        yield from ((q + partners[name], q + name) for name in place.element.touching)
         if place.element.closes:
             yield f"{q}CLSD-", f"{place.element.closes}:CLSD+"

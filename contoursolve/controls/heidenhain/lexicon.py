@@ -2,13 +2,17 @@
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
+from functools import cached_property
+
+from msgspec import Struct
 
 from contoursolve.controls.control_settings import setting
 from contoursolve.controls.further import rows as rows_beside
 from contoursolve.diagnostics import Book, Source
 from contoursolve.gcode import NUMBER, Block, Syntax, Word, late_pattern, plain_spelling, words_as
 from contoursolve.geometry import Unit
-from contoursolve.reading import Address, Bearing, Code, Effect, Lexicon, NumberFormat, WithoutPoint
+from contoursolve.reading import TURNED, Address, Bearing, Code, Effect, Lexicon, NumberFormat, WithoutPoint
 
 BOOK = Book("HEIDENHAIN TNC user's manuals")
 _FK, _PATH = BOOK.printed("free contour programming FK"), BOOK.printed("path functions")
@@ -52,20 +56,83 @@ def _codes() -> dict[int, Code]:
 CODES = _codes()
 _NAMES = {code.name: code.number for code in CODES.values()}
 
+
+class PlaneWords(Struct, frozen=True, dict=True):
+    """The names of the words of a chain, some of which name an axis of its plane."""
+
+    axes: tuple[str, str] = ("X", "Y")
+    across: tuple[str, ...] = ("Z", "IZ")
+    """Words that lead out of the plane."""
+    has_corners: bool = False
+    """Whether the block of an element may have the corner behind it."""
+
+    def each(self, *texts: str) -> tuple[str, ...]:
+        """Texts with each axis for their braces, text by text."""
+        return tuple(text.format(axis) for text in texts for axis in self.axes)
+
+    @cached_property
+    def increments(self) -> tuple[str, ...]:
+        return self.each("I{}")
+
+    @cached_property
+    def referred(self) -> tuple[str, ...]:
+        """Increments that may count from another block: I and these, whose block R and these name."""
+        return (*self.axes, "PR", "PA", "AN", *self.each("CC{}"), "CCPR", "CCPA")
+
+    @cached_property
+    def referring(self) -> tuple[str, ...]:
+        """Words whose number is that of another block."""
+        return ("PAR", *(f"R{name}" for name in self.referred))
+
+    @cached_property
+    def of_lines(self) -> tuple[str, ...]:
+        """Words that state a fact about a line, each by itself."""
+        return (*self.axes, *self.increments, "PR", "PA", "IPR", "IPA", "AN", "IAN", "LEN")
+
+    @cached_property
+    def of_arcs(self) -> tuple[str, ...]:
+        """Words that state a fact about an arc, each by itself."""
+        return (
+            *(*self.of_lines, *self.each("CC{}"), "CCPR", "CCPA"),
+            *(*self.each("ICC{}"), "ICCPR", "ICCPA", "R", "CCA"),
+        )
+
+    @cached_property
+    def beside(self) -> tuple[str, ...]:
+        """The coordinates of a point beside an element."""
+        return self.each("PD{}")
+
+    def of_element(self, *, is_line: bool) -> tuple[str, ...]:
+        """All words that a line, or an arc, may have beside its sense: in the order of those tables."""
+        points = self.each("P1{}", "P2{}") if is_line else self.each("P1{}", "P2{}", "P3{}")
+        parallel = ("PAR", "DP") if is_line else ()
+        own = self.of_lines if is_line else self.of_arcs
+        return (*own, *points, *self.beside, "D", *parallel, *self.referring[1:])
+
+    @cached_property
+    def usual(self) -> tuple[str, ...]:
+        """The words that complete a chain, in the order in which drawings have them."""
+        return (
+            *("R", "AN", *self.axes, "LEN", *self.each("CC{}"), "PR", "PA", "CCA", *self.increments, "IAN"),
+            *("CCPR", "CCPA", *self.each("ICC{}"), "IPR", "IPA", "ICCPR", "ICCPA"),
+        )
+
+
+IN_KLARTEXT = PlaneWords()
+
+
+def _long(words: PlaneWords) -> str:
+    """The names that have several letters."""
+    first, second = words.axes
+    return (
+        rf"I?(?:CC{first}|CC{second}|CCPR|CCPA|PR|PA|AN)|LEN|CCA|P[123][{first}{second}]|PD[{first}{second}]|PAR|DP"
+        rf"|R(?:{first}|{second}|PR|PA|AN|CC{first}|CC{second}|CCPR|CCPA)|FSELECT"
+    )
+
+
 _NUMBER = r"[+-]?+(?>\d++(?>[.,]\d*+)?|[.,]\d++)"
-_LONG = (
-    r"I?(?:CCX|CCY|CCPR|CCPA|PR|PA|AN)|LEN|CCA|P[123][XY]|PD[XY]|PAR|DP"
-    r"|R(?:X|Y|PR|PA|AN|CCX|CCY|CCPR|CCPA)|FSELECT"
-)
 _AXIS = "I?[XYZABCUVW]"
 _BY_LENGTH = "|".join(sorted((*MOVES, "FPOL", "CC", "STOP", "R0", "RL", "RR"), key=len, reverse=True))
-_MOVING = (
-    rf"(?:{_BY_LENGTH}|FSELECT|RND|CHF|APPR|DEP)(?![A-Z])|{_AXIS}[ \t]*+[+-]?+[\d.,Q?]"
-    rf"|(?:{_LONG})[ \t]*+[+-]?+[\d.,Q?]|(?:DR|CLSD)[ \t]*+[+-]|[FMS][ \t]*+[\dQ]"
-)
-"""The begin of a block that is read into words."""
-
-
 _MISSPELT = (
     # FN15: has no blank before its number.
     r"F(?!N(?![A-Z])|UNCTION\b)[A-Z]|L(?!BL(?![A-Z])|N(?![A-Z]))[A-Z]"
@@ -96,33 +163,63 @@ def _parts(token: re.Match[str]) -> tuple[str, str | None, bool]:
 
 
 _LACKS_R = r"RND[ \t]++[+-]?+Q[LRS]?+\d++"
-_OWN_WORD = rf"{_LACKS_R}|(?:F[LC]T?)?+(?:{_LONG}|RND|CHF|{_AXIS})[ \t]*+[-+.,\d=]|[A-Z]++(?<=Q)\d|[A-Z]++(?<=Q[LRS])\d"
-_WORDS = (
-    r"(?P<label>(?:\A|(?<=/))[ \t]*+N?+\d++(?![.,\w]))",
-    r"(?P<sense>DR(?=[ \t]*+[+-])|CLSD(?!\w))[ \t]*+(?P<sign>[+-]?+)",
-    rf"(?P<feed>F[ \t]*+(?:AUTO|MAX)\b|F[UZ][ \t]*+{_NUMBER}|M[BT][ \t]*+(?:MAX|{_NUMBER}))",
-    rf"(?P<long>{_LONG})[ \t]*+{_value('long')}",
-    rf"(?P<corner>RND(?![A-Z])[ \t]*+R[ \t]*+|CHF(?![A-Z])[ \t]*+(?!R)){_value('corner')}",
-    # R0 is no radius: it ends the compensation.
-    rf"(?!R0(?![\w.,]))(?P<letter>{_AXIS}|[A-Z])(?!(?!Q[LRS]?\d)[A-Z])[ \t]*+{_value('letter')}",
-    # Such as LEM20 or ANG=30: no word of Klartext.
-    rf"(?!{_OWN_WORD})(?P<foreign>[A-Z]{{2,}}?(?:[1-3][XY])?)(?>(?:[ \t]*+=)?)[ \t]*+{_value('foreign')}",
-)
+_BEHIND = r"[ \t]*+=?+[ \t]*+(?=[\d.,+-])[\w.,+-]++"
+"""A text that is almost a number, behind an address."""
 BLOCK_NUMBER = r"[ \t/]*+(?>(?:N?(?P<number>\d++)(?![.,\w])[ \t]*+)?)"
 """The begin of a statement: its sign to skip it and its number, if any."""
 
-_BEHIND = r"[ \t]*+=?+[ \t]*+(?=[\d.,+-])[\w.,+-]++"
-"""A text that is almost a number, behind an address."""
-_TOKENS = (
-    f"(?P<word>{'|'.join(_WORDS)})",
-    r"(?P<blank>[ \t\f\v\x1a\ufeff~]++)",
-    r"(?P<comment>;.*+)",
-    rf"(?P<glued>(?:{'|'.join(sorted(FREE, key=len, reverse=True))})(?=(?:{_LONG}|{_AXIS})[ \t]*+[+-]?+[\d.,]))",
-    rf"(?P<name>(?:APPR|DEP)[ \t]++[A-Z]++|(?:{_BY_LENGTH})(?![\w.,]))",
-    rf"(?P<malformed>(?:{_LONG}|(?:RND|CHF)[ \t]*+R?+|{_AXIS}|[A-Z](?![A-Z])){_BEHIND}|{_LACKS_R})",
-    r"(?P<bare>[A-Z]++[+-]?+)",
-    r"(?P<stray>[^ \tA-Z;]++)",
-)
+
+def spelling(name: str, words: PlaneWords) -> Syntax:
+    """The spelling of blocks with these words: letters and a number without an equals sign, comments behind a
+    semicolon, a number before each block."""
+    long = _long(words)
+    # The begin of a block that is read into words.
+    moving = (
+        rf"(?:{_BY_LENGTH}|FSELECT|RND|CHF|APPR|DEP)(?![A-Z])|{_AXIS}[ \t]*+[+-]?+[\d.,Q?]"
+        rf"|(?:{long})[ \t]*+[+-]?+[\d.,Q?]|(?:DR|CLSD)[ \t]*+[+-]|[FMS][ \t]*+[\dQ]"
+    )
+    own = (
+        rf"{_LACKS_R}|(?:F[LC]T?)?+(?:{long}|RND|CHF|{_AXIS})[ \t]*+[-+.,\d=]|[A-Z]++(?<=Q)\d"
+        r"|[A-Z]++(?<=Q[LRS])\d"
+    )
+    each_word = (
+        r"(?P<label>(?:\A|(?<=/))[ \t]*+N?+\d++(?![.,\w]))",
+        r"(?P<sense>DR(?=[ \t]*+[+-])|CLSD(?!\w))[ \t]*+(?P<sign>[+-]?+)",
+        rf"(?P<feed>F[ \t]*+(?:AUTO|MAX)\b|F[UZ][ \t]*+{_NUMBER}|M[BT][ \t]*+(?:MAX|{_NUMBER}))",
+        rf"(?P<long>{long})[ \t]*+{_value('long')}",
+        rf"(?P<corner>RND(?![A-Z])[ \t]*+R[ \t]*+|CHF(?![A-Z])[ \t]*+(?!R)){_value('corner')}",
+        # R0 is no radius: it ends the compensation.
+        rf"(?!R0(?![\w.,]))(?P<letter>{_AXIS}|[A-Z])(?!(?!Q[LRS]?\d)[A-Z])[ \t]*+{_value('letter')}",
+        # Such as LEM20 or ANG=30: no word of Klartext.
+        rf"(?!{own})(?P<foreign>[A-Z]{{2,}}?(?:[1-3][XY])?)(?>(?:[ \t]*+=)?)[ \t]*+{_value('foreign')}",
+    )
+    tokens = (
+        f"(?P<word>{'|'.join(each_word)})",
+        r"(?P<blank>[ \t\f\v\x1a\ufeff~]++)",
+        r"(?P<comment>;.*+)",
+        rf"(?P<glued>(?:{'|'.join(sorted(FREE, key=len, reverse=True))})(?=(?:{long}|{_AXIS})[ \t]*+[+-]?+[\d.,]))",
+        rf"(?P<name>(?:APPR|DEP)[ \t]++[A-Z]++|(?:{_BY_LENGTH})(?![\w.,]))",
+        rf"(?P<malformed>(?:{long}|(?:RND|CHF)[ \t]*+R?+|{_AXIS}|[A-Z](?![A-Z])){_BEHIND}|{_LACKS_R})",
+        r"(?P<bare>[A-Z]++[+-]?+)",
+        r"(?P<stray>[^ \tA-Z;]++)",
+    )
+    return Syntax(
+        name,
+        token=re.compile("|".join(tokens), re.ASCII | re.IGNORECASE),
+        statement=re.compile(
+            BLOCK_NUMBER + rf"(?!{moving}|{_MISSPELT}|;|~?+[ \t]*+$)"
+            r"(?:(?P<flow>CALL\b|FN[ \t]*+(?:9|10|11|12)[ \t]*+:)|(?P<assignment>\S))",
+            re.IGNORECASE,
+        ),
+        comment=re.compile(r";.*+"),
+        remark=";{}",
+        codes=_NAMES,
+        parts=_parts,
+        skip=re.compile(r"[ \t]*+/"),
+        bare_number=re.compile(r"[ \t/]*+N?\d++[ \t]*+"),
+    )
+
+
 # In this order, as the control writes them: a line, an arc with its radius or about CC, and CC.
 _GAP = r"[ \t]{1,20}+"
 _PLACE = rf"(?>(?:{_GAP}X{NUMBER})?)(?>(?:{_GAP}Y{NUMBER})?)"
@@ -132,79 +229,74 @@ _PLAIN = (
     rf"(?>(?:[0-9]{{1,6}}+{_GAP})?)(?:L(?=[^\r\n;]*[XYZ][-+.0-9]){_PLACE}(?>(?:{_GAP}Z{NUMBER})?){_TAIL}"
     rf"|CC{_BOTH}|(?:CR{_BOTH}{_GAP}R{NUMBER}|C{_BOTH}){_GAP}DR[-+]{_TAIL})[ \t]{{0,20}}+"
 )
-SYNTAX = Syntax(
-    "klartext",
-    token=re.compile("|".join(_TOKENS), re.ASCII | re.IGNORECASE),
-    statement=re.compile(
-        BLOCK_NUMBER + rf"(?!{_MOVING}|{_MISSPELT}|;|~?+[ \t]*+$)"
-        r"(?:(?P<flow>CALL\b|FN[ \t]*+(?:9|10|11|12)[ \t]*+:)|(?P<assignment>\S))",
-        re.IGNORECASE,
-    ),
-    comment=re.compile(r";.*+"),
-    remark=";{}",
-    codes=_NAMES,
-    parts=_parts,
-    skip=re.compile(r"[ \t]*+/"),
-    bare_number=re.compile(r"[ \t/]*+N?\d++[ \t]*+"),
+SYNTAX = replace(
+    spelling("klartext", IN_KLARTEXT),
     plain=plain_spelling(
         *(_PLAIN, ";", "FMAX"),
         begins=late_pattern(r"(?:\A|[\r\n])[ \t]*+(?>(?:[0-9]++[ \t]++)?)(?!CC)[^\r\n]*[XY]"),
         parts=late_pattern(r"CC[^\r\n]*+|[XYZ]|R[0LR](?!\w)"),
     ),
 )
-"""Words of letters and a number without an equals sign, comments behind a semicolon, a number before each block."""
 
 NUMBERS = NumberFormat(WithoutPoint.AS_WRITTEN, _PATH)
 
 
-def _rows() -> dict[str, Address]:
-    """The addresses; of what another block counts for, the address of its number, too."""
+def rows_of(
+    words: PlaneWords, path: Source, free: Source, chord: Source, angle: Source, *, is_diameter: bool = False
+) -> dict[str, Address]:
+    """The addresses, by what is printed about paths and about free contours, and why LEN of an arc is its chord and CCA
+    an angle; of what another block counts for, the address of its number, too. X is a diameter, or not."""
+    axes = tuple(dict.fromkeys((*words.axes, *(name for name in words.across if not name.startswith("I")))))
     rows = [
-        *(Address(axis, "coordinate", Unit.MM, _PATH, axis, is_absolute=True) for axis in "XYZ"),
-        *(Address(f"I{axis}", "increment", Unit.MM, _PATH, axis, True) for axis in "XYZ"),
+        *(Address(axis, "coordinate", Unit.MM, path, axis, is_absolute=True) for axis in axes),
+        *(Address(f"I{axis}", "increment", Unit.MM, path, axis, True) for axis in axes),
     ]
+    first, second = words.axes
     table = (
-        (_PATH, Unit.MM, "PR", "distance of the end from the pole"),
-        (_PATH, Unit.DEGREE, "PA", "direction from the pole to the end"),
-        (_PATH, Unit.MM, "IPR", "how much farther the end is from the pole"),
-        (_PATH, Unit.DEGREE, "IPA", "how far the direction from the pole turns"),
-        (_FK, Unit.DEGREE, "AN", "direction of the line, or of the arc where it begins"),
-        (_FK, Unit.DEGREE, "IAN", "angle to the element before it"),
-        (BOOK.assumed("LEN of an arc is its chord"), Unit.MM, "LEN", "length of the line, or chord of the arc"),
-        (_FK, Unit.MM, "CCX", "X of the centre"),
-        (_FK, Unit.MM, "CCY", "Y of the centre"),
-        (_FK, Unit.MM, "CCPR", "distance of the centre from the pole"),
-        (_FK, Unit.DEGREE, "CCPA", "direction from the pole to the centre"),
-        (_FK, Unit.MM, "ICCX", "increment along X to the centre"),
-        (_FK, Unit.MM, "ICCY", "increment along Y to the centre"),
-        (_FK, Unit.MM, "ICCPR", "how much farther the centre is from the pole"),
-        (_FK, Unit.DEGREE, "ICCPA", "how far the direction from the pole turns to that of the centre"),
-        (_FK, Unit.MM, "R", "radius"),
-        (_FK, Unit.SIGN, "DR", "sense of the arc: + is counter-clockwise"),
-        (BOOK.assumed("CCA counts from +X"), Unit.DEGREE, "CCA", "direction from the centre to the end of the arc"),
-        *((_FK, Unit.MM, f"P{number}{axis}", f"{axis} of a point on the element") for number in "123" for axis in "XY"),
-        (_FK, Unit.MM, "PDX", "X of a point beside the element"),
-        (_FK, Unit.MM, "PDY", "Y of a point beside the element"),
-        (_FK, Unit.MM, "D", "distance of that point from the element"),
-        (_FK, Unit.SIGN, "PAR", "block of the line to which it is parallel"),
-        (_FK, Unit.MM, "DP", "distance from that line"),
-        *((_FK, Unit.SIGN, f"R{name}", f"block from which I{name} counts") for name in REFERRED),
-        *((_FK, Unit.SIGN, name, "begins in the direction of the element before it") for name in TANGENT),
-        (_FK, Unit.SIGN, "CLSD", "begin (+) and end (-) of a closed contour"),
-        (_FK, Unit.SIGN, "FSELECT", "which of several solutions"),
-        (_PATH, Unit.MM, ROUNDING, "rounding"),
-        (_PATH, Unit.MM, CHAMFER, "chamfer: the distance of both its ends from the corner"),
+        (path, Unit.MM, "PR", "distance of the end from the pole"),
+        (path, Unit.DEGREE, "PA", "direction from the pole to the end"),
+        (path, Unit.MM, "IPR", "how much farther the end is from the pole"),
+        (path, Unit.DEGREE, "IPA", "how far the direction from the pole turns"),
+        (free, Unit.DEGREE, "AN", "direction of the line, or of the arc where it begins"),
+        (free, Unit.DEGREE, "IAN", "angle to the element before it"),
+        (chord, Unit.MM, "LEN", "length of the line, or chord of the arc"),
+        (free, Unit.MM, f"CC{first}", f"{first} of the centre"),
+        (free, Unit.MM, f"CC{second}", f"{second} of the centre"),
+        (free, Unit.MM, "CCPR", "distance of the centre from the pole"),
+        (free, Unit.DEGREE, "CCPA", "direction from the pole to the centre"),
+        (free, Unit.MM, f"ICC{first}", f"increment along {first} to the centre"),
+        (free, Unit.MM, f"ICC{second}", f"increment along {second} to the centre"),
+        (free, Unit.MM, "ICCPR", "how much farther the centre is from the pole"),
+        (free, Unit.DEGREE, "ICCPA", "how far the direction from the pole turns to that of the centre"),
+        (free, Unit.MM, "R", "radius"),
+        (free, Unit.SIGN, "DR", "sense of the arc: + is counter-clockwise"),
+        (angle, Unit.DEGREE, "CCA", "direction from the centre to the end of the arc"),
+        *(
+            (free, Unit.MM, f"P{number}{axis}", f"{axis} of a point on the element")
+            for number in "123"
+            for axis in words.axes
+        ),
+        *((free, Unit.MM, f"PD{axis}", f"{axis} of a point beside the element") for axis in words.axes),
+        (free, Unit.MM, "D", "distance of that point from the element"),
+        (free, Unit.SIGN, "PAR", "block of the line to which it is parallel"),
+        (free, Unit.MM, "DP", "distance from that line"),
+        *((free, Unit.SIGN, f"R{name}", f"block from which I{name} counts") for name in words.referred),
+        *((free, Unit.SIGN, name, "begins in the direction of the element before it") for name in TANGENT),
+        (free, Unit.SIGN, "CLSD", "begin (+) and end (-) of a closed contour"),
+        (free, Unit.SIGN, "FSELECT", "which of several solutions"),
+        (path, Unit.MM, ROUNDING, "rounding"),
+        (path, Unit.MM, CHAMFER, "chamfer: the distance of both its ends from the corner"),
     )
     rows += [Address(address, meaning, unit, source) for source, unit, address, meaning in table]
-    return {row.address: row for row in rows}
+    named = {row.address: row for row in rows}
+    if is_diameter:
+        halved = words.each("{}", "I{}", "CC{}", "ICC{}", "P1{}", "P2{}", "P3{}", "PD{}")
+        named |= {name: replace(named[name], is_diameter=True) for name in halved if name.endswith(TURNED)}
+    return named
 
 
-REFERRED = ("X", "Y", "PR", "PA", "AN", "CCX", "CCY", "CCPR", "CCPA")
-"""Increments that may count from another block: I and these, whose block R and these name."""
-REFERRING = ("PAR", *(f"R{name}" for name in REFERRED))
-"""Words whose number is that of another block."""
 REFERRING_TO_LINES = ("PAR", "RAN")
-"""Those of them that name a line: no page tells which direction of an arc they would mean."""
+"""Words that name a line: no page tells which direction of an arc they would mean."""
 
 _BESIDE = (
     ("N", "number of a block", Bearing.NONE),
@@ -215,7 +307,10 @@ _BESIDE = (
     ("H", "height of an approach or a helix", Bearing.NONE),
 )
 LEXICON = Lexicon(
-    _rows(),
+    rows_of(
+        IN_KLARTEXT,
+        *(_PATH, _FK, BOOK.assumed("LEN of an arc is its chord"), BOOK.assumed("CCA counts from +X")),
+    ),
     NUMBERS,
     rows_beside(BOOK.assumed("addresses"), _BESIDE),
     BOOK.assumed("the control refuses what it has no function for"),

@@ -1,0 +1,18 @@
+from .as_program import (
+    SketchProgram as SketchProgram,
+    as_program as as_program,
+)
+from .sketch import (
+    ASKED as ASKED,
+    ContourSketch as ContourSketch,
+    SketchCorner as SketchCorner,
+    SketchElement as SketchElement,
+    SketchError as SketchError,
+)
+from .sketch_file import (
+    plain_sketch as plain_sketch,
+    read_sketch as read_sketch,
+    sketch_of as sketch_of,
+    sketch_schema as sketch_schema,
+    write_sketch as write_sketch,
+)

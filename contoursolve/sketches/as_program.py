@@ -1,0 +1,85 @@
+"""A sketch as a program of the control `drawing`: one line for each element, and the place of each field."""
+
+from collections.abc import Iterator, Mapping
+from decimal import Decimal
+
+from msgspec import Struct
+
+from contoursolve.controls import words_of_drawing
+from contoursolve.diagnostics import Span
+from contoursolve.sketches.sketch import ASKED, ContourSketch, SketchElement, Value
+
+FUNCTIONS = {("line", False): "FL", ("line", True): "FLT", ("arc", False): "FC", ("arc", True): "FCT"}
+SENSES = {"cw": "DR-", "ccw": "DR+"}
+CORNERS = {"rounding": "RND R", "chamfer": "CHF "}
+_FACT = " ; contoursolve: "
+
+Field = tuple[int, str]
+"""The number of an element, from 1, and the name of one of its fields; that of a fact has its place, as `facts.0`."""
+
+
+class SketchProgram(Struct, frozen=True):
+    """The text of a sketch's program, the words that state where it begins, and the place of each field in it. An
+    element of a number stands in the line of that number."""
+
+    text: str
+    start: str | None
+    places: Mapping[Field, Span]
+
+    def field_at(self, place: Span) -> Field | None:
+        """The field that stands at a place; of a whole line, the kind of its element."""
+        for field, span in self.places.items():
+            if span.line == place.line and span.column <= place.column < span.end_column:
+                return field
+        return (place.line, "kind") if 0 < place.line <= self.text.count("\n") + 1 and self.text else None
+
+
+def as_program(sketch: ContourSketch, picks: Mapping[int, int] = {}) -> SketchProgram:
+    """The program of a sketch; `picks` are the numbers of solutions by elements, as FSELECT has them."""
+    lines, places = list[str](), dict[Field, Span]()
+    for number, element in enumerate(sketch.elements, 1):
+        text = f"{number} "
+        for name, words in _words(sketch, number, element, picks.get(number)):
+            begin = len(text) + 1
+            text += f"{words} "
+            places[number, name] = Span(number, begin, begin + len(words))
+        text = text.rstrip()
+        facts = (*element.facts, *(sketch.facts if number == 1 else ()))
+        mark = _FACT
+        for place, fact in enumerate(facts):
+            text += mark
+            told = (
+                (number, f"facts.{place}") if place < len(element.facts) else (0, f"facts.{place - len(element.facts)}")
+            )
+            places[told] = Span(number, len(text) + 1, len(text) + 1 + len(fact))
+            text, mark = text + fact, "; "
+        lines.append(text)
+    return SketchProgram("\n".join(lines), _start(sketch), places)
+
+
+def _words(sketch: ContourSketch, number: int, element: SketchElement, pick: int | None) -> Iterator[tuple[str, str]]:
+    """The words of an element, each with the name of its field."""
+    yield "kind", FUNCTIONS[element.kind, element.tangent]
+    if element.turn:
+        yield "turn", SENSES[element.turn]
+    order = words_of_drawing(sketch.part, element.kind)
+    yield from ((name, f"{name}{_number(element.words[name])}") for name in order if name in element.words)
+    if element.corner:
+        yield "corner", f"{CORNERS[element.corner.shape]}{_number(element.corner.size)}"
+    if sketch.closed and len(sketch.elements) > 1 and number in (1, len(sketch.elements)):
+        yield "closed", "CLSD+" if number == 1 else "CLSD-"
+    if pick is not None:
+        yield "guess", f"FSELECT{pick}"
+
+
+def _number(value: Value) -> str:
+    return ASKED if value == ASKED else f"{Decimal(value):f}"
+
+
+def _start(sketch: ContourSketch) -> str | None:
+    """The words that state where it begins, and its pole; None where that is not known."""
+    if any(axis not in sketch.start for axis in sketch.axes):
+        return None
+    begins = " ".join(f"{axis}{_number(sketch.start[axis])}" for axis in sketch.axes)
+    pole = " ".join(f"{axis}{_number(value)}" for axis, value in sketch.pole.items())
+    return f"{begins}\nFPOL {pole}" if pole else begins

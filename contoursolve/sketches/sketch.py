@@ -1,0 +1,89 @@
+"""A sketch: a chain of lines and arcs with what the drawing gives of each; all else is left out."""
+
+from collections.abc import Mapping
+from decimal import Decimal
+from typing import Final, Literal
+
+from msgspec import Struct
+
+from contoursolve.controls import DRAWINGS
+from contoursolve.diagnostics import UserError
+from contoursolve.reading import Dialect
+
+VERSION = 1
+"""The version of a sketch's file."""
+
+ASKED: Final = "?"
+"""Stands for a number that is asked for."""
+
+Value = Decimal | Literal["?"]
+
+
+class SketchError(UserError, ValueError):
+    """A sketch that cannot be read; the message says where, and what is meant there."""
+
+
+class SketchCorner(Struct, frozen=True):
+    """The corner behind an element: a `rounding` by its radius, or a `chamfer` by its setback."""
+
+    shape: Literal["rounding", "chamfer"]
+    size: Value
+
+
+class SketchElement(Struct, frozen=True):
+    """A line or an arc with what the drawing gives of it.
+
+    Attributes:
+        kind: `line` or `arc`.
+        words: numbers by the names of words, such as X, IZ, AN, LEN, R, CCX, P1X, PAR: in the unit of the sketch, or
+            degrees; X of a turned part is a diameter. `?` asks for one.
+        turn: the sense of an arc, `cw` or `ccw`.
+        tangent: whether it begins in the direction of the element before it.
+        corner: what stands behind it.
+        guess: about where it ends, by axes: it chooses among solutions, and never counts as a dimension.
+        facts: statements about it, as `contoursolve facts` lists them.
+    """
+
+    kind: Literal["line", "arc"]
+    words: Mapping[str, Value] = {}
+    turn: Literal["cw", "ccw"] | None = None
+    tangent: bool = False
+    corner: SketchCorner | None = None
+    guess: Mapping[str, Decimal] = {}
+    facts: tuple[str, ...] = ()
+
+
+class ContourSketch(Struct, frozen=True):
+    """A contour as the drawing gives it.
+
+    Attributes:
+        part: `turned` (Z and X, X a diameter) or `milled` (X and Y).
+        unit: `mm` or `inch`.
+        start: where it begins, by axes.
+        elements: lines and arcs in their order.
+        closed: whether it ends where it begins.
+        pole: the place from which PR and PA count.
+        facts: statements about several elements.
+    """
+
+    part: Literal["turned", "milled"]
+    elements: tuple[SketchElement, ...] = ()
+    start: Mapping[str, Decimal] = {}
+    unit: Literal["mm", "inch"] = "mm"
+    closed: bool = False
+    pole: Mapping[str, Decimal] = {}
+    facts: tuple[str, ...] = ()
+
+    @property
+    def control(self) -> Dialect:
+        """The tables by which it is read."""
+        return DRAWINGS[self.part]
+
+    @property
+    def axes(self) -> tuple[str, str]:
+        """The axes of its plane."""
+        return self.control.plane.axes
+
+    def name_of(self, number: int) -> str:
+        """The name of an element, by its number from 1: `line 1`, `arc 2`."""
+        return f"{self.elements[number - 1].kind} {number}"

@@ -1,0 +1,356 @@
+"""Sketches as text: TOML or JSON in, TOML or JSON out, and the schema, all by one table."""
+
+import json
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from decimal import Decimal, InvalidOperation
+from difflib import get_close_matches
+from enum import Enum
+from typing import Any
+
+from msgspec import Struct
+
+from contoursolve.controls import DRAWINGS, words_of_drawing
+from contoursolve.sketches.sketch import ASKED, VERSION, ContourSketch, SketchCorner, SketchElement, SketchError
+from contoursolve.tolerance import LARGEST
+
+
+class _Kind(Enum):
+    """Kinds of values in a sketch: what is meant, for a reader."""
+
+    VERSION = f"{VERSION}, the version of the file"
+    CHOICE = "one of its names"
+    FLAG = "true or false"
+    PLACE = "a number for each axis, such as {{ {0} = 10, {1} = 20 }}"
+    CORNER = "a rounding or a chamfer, such as {{ rounding = 2 }}"
+    VALUE = 'a number, or "?"'
+    FACTS = 'a list of statements, such as ["length of line 2 = 30"]'
+    ELEMENTS = "a list of lines and arcs"
+
+
+class _Field(Struct, frozen=True):
+    """A key of a table: its kind, what it means, its names where it is a choice, whether it must be there."""
+
+    kind: _Kind
+    meaning: str
+    names: tuple[str, ...] = ()
+    is_needed: bool = False
+
+
+_CHAIN: Mapping[str, _Field] = {
+    "sketch": _Field(_Kind.VERSION, "version of the file", is_needed=True),
+    "part": _Field(_Kind.CHOICE, "turned: Z and X, X a diameter; milled: X and Y", tuple(DRAWINGS), is_needed=True),
+    "unit": _Field(_Kind.CHOICE, "unit of all lengths", ("mm", "inch")),
+    "closed": _Field(_Kind.FLAG, "whether it ends where it begins"),
+    "start": _Field(_Kind.PLACE, "where it begins"),
+    "pole": _Field(_Kind.PLACE, "place from which PR and PA count"),
+    "facts": _Field(_Kind.FACTS, "statements about several elements"),
+    "element": _Field(_Kind.ELEMENTS, "lines and arcs in their order"),
+}
+_ELEMENT: Mapping[str, _Field] = {
+    "kind": _Field(_Kind.CHOICE, "line or arc", ("line", "arc"), is_needed=True),
+    "turn": _Field(_Kind.CHOICE, "sense of an arc: clockwise or counter-clockwise", ("cw", "ccw")),
+    "tangent": _Field(_Kind.FLAG, "whether it begins in the direction of the element before it"),
+    "corner": _Field(_Kind.CORNER, "what stands behind it: the radius of a rounding, the setback of a chamfer"),
+    "guess": _Field(_Kind.PLACE, "about where it ends: chooses among solutions, never counts as a dimension"),
+    "facts": _Field(_Kind.FACTS, "statements about it"),
+}
+_CORNERS = ("rounding", "chamfer")
+_KINDS = {"line": "arcs", "arc": "lines"}
+"""The kinds of elements, each with what those are of which another field is."""
+
+
+def _word_fields(part: str, kind: str | None = None) -> Mapping[str, _Field]:
+    """The words of lines or arcs, or of both, of a part."""
+    return {name: _Field(_Kind.VALUE, meaning) for name, meaning in words_of_drawing(part, kind).items()}
+
+
+def read_sketch(text: str) -> ContourSketch:
+    """The sketch of a file's text, TOML or JSON.
+
+    Numbers are exact; a text such as "12,5" is a number with a decimal comma. Raises SketchError, which names the place
+    and what is meant there.
+
+    >>> read_sketch('sketch = 1\\npart = "turned"\\nstart = { Z = 0, X = 0 }').axes
+    ('Z', 'X')
+    """
+    return sketch_of(_parsed(text))
+
+
+def _parsed(text: str) -> object:
+    is_json = text.lstrip("\ufeff \t\r\n").startswith("{")
+    try:
+        if is_json:
+            return json.loads(text, parse_float=Decimal, object_pairs_hook=_once, parse_constant=Decimal)
+        return tomllib.loads(text.removeprefix("\ufeff"), parse_float=Decimal)
+    except SketchError:
+        raise
+    except (ValueError, RecursionError, InvalidOperation) as error:
+        comma = None if is_json else _COMMA.search(text)
+        if comma:
+            line = text.count("\n", 0, comma.start()) + 1
+            number = comma["number"].replace(",", ".")
+            raise SketchError(f"line {line} of the file: write {number} with a point, or in quotes") from None
+        raise SketchError(f"the file is no {'JSON' if is_json else 'TOML'}: {str(error)[:200]}") from None
+
+
+_COMMA = re.compile(r"=[ \t]*+(?P<number>[+-]?\d++,\d++)[ \t]*+(?=[,}#\r\n]|$)")
+
+
+def _once(pairs: Sequence[tuple[str, object]]) -> dict[str, object]:
+    found: dict[str, object] = {}
+    for name, value in pairs:
+        if name in found:
+            raise SketchError(f"{name} is given twice in one table; leave one out")
+        found[name] = value
+    return found
+
+
+def sketch_of(table: object) -> ContourSketch:
+    """The sketch of a table with plain values, such as JSON has them. Raises SketchError."""
+    if not isinstance(table, Mapping):
+        raise SketchError("a sketch is a table with sketch, part, start and element")
+    part = table.get("part")
+    axes = DRAWINGS[part].plane.axes if isinstance(part, str) and part in DRAWINGS else ("X", "Y")
+    own = _Reader("", axes).table(table, _CHAIN)
+    elements = tuple(_element(number, each, own["part"], axes) for number, each in enumerate(own.pop("element", ()), 1))
+    del own["sketch"]
+    return ContourSketch(elements=elements, **own)
+
+
+def _element(number: int, table: object, part: str, axes: tuple[str, str]) -> SketchElement:
+    if not isinstance(table, Mapping):
+        raise SketchError(f"element {number}: {_shown(table)} is no table; write kind = and what the drawing gives")
+    kind = table.get("kind")
+    words = _word_fields(part, kind if kind in _KINDS else None)
+    fields = {name: each for name, each in _ELEMENT.items() if name != "turn" or kind != "line"}
+    reader = _Reader(f"element {number}", axes)
+    for name in table:
+        if kind in _KINDS and name not in (*fields, *words) and name in ("turn", *_word_fields(part)):
+            raise reader.refusal(name, f"is a field of {_KINDS[kind]}; leave it out, or change kind")
+    own = reader.table(table, {**fields, **words})
+    return SketchElement(
+        words={name: own.pop(name) for name in tuple(own) if name in words},
+        **own,
+    )
+
+
+class _Reader(Struct, frozen=True):
+    """A reader of one table: which one, for messages, and the axes of the part."""
+
+    where: str
+    axes: tuple[str, str]
+
+    def table(self, table: Mapping[str, object], fields: Mapping[str, _Field]) -> dict[str, Any]:
+        """The values of a table by the names of its fields. Raises SketchError."""
+        for name in table:
+            if name not in fields:
+                raise self.refusal(str(name)[:40], "is no field here" + _meant(str(name), fields))
+        for name, field in fields.items():
+            if field.is_needed and name not in table:
+                raise self.refusal(name, f"is missing; write {name} = {_example(field)}")
+        return {name: self.value(name, fields[name], value) for name, value in table.items() if value is not None}
+
+    def value(self, name: str, field: _Field, value: object) -> Any:
+        """The value of a field."""
+        match field.kind, value:
+            case _Kind.VERSION, bool():
+                pass
+            case _Kind.VERSION, int() if value == VERSION:
+                return value
+            case _Kind.VERSION, int():
+                raise self.refusal(
+                    name, f"is {value}, and this contoursolve reads version {VERSION}; install a newer one"
+                )
+            case _Kind.CHOICE, str() if value in field.names:
+                return value
+            case _Kind.CHOICE, _:
+                raise self.refusal(name, f"is {_shown(value)}; write {_example(field)}")
+            case _Kind.FLAG, bool():
+                return value
+            case _Kind.PLACE, Mapping():
+                return self._place(name, value)
+            case _Kind.CORNER, Mapping() if len(value) == 1 and next(iter(value)) in _CORNERS:
+                ((shape, size),) = value.items()
+                return SketchCorner(shape, self._value(f"{name}.{shape}", size))
+            case _Kind.VALUE, _:
+                return self._value(name, value)
+            case _Kind.FACTS, list() | tuple() if all(_is_line(each) for each in value):
+                return tuple(value)
+            case _Kind.ELEMENTS, list() | tuple():
+                return value
+        raise self.refusal(name, f"is {_shown(value)}; write {field.kind.value.format(*self.axes)}")
+
+    def _place(self, name: str, table: Mapping[str, object]) -> Mapping[str, Decimal]:
+        for axis in table:
+            if axis not in self.axes:
+                raise self.refusal(
+                    f"{name}.{str(axis)[:40]}", f"is no axis of this part; its axes are {' and '.join(self.axes)}"
+                )
+        found = {axis: self._value(f"{name}.{axis}", table[axis]) for axis in self.axes if axis in table}
+        asked = next((axis for axis, value in found.items() if value == ASKED), None)
+        if asked is not None:
+            raise self.refusal(f"{name}.{asked}", 'is "?", and a number must stand there')
+        return {axis: Decimal(value) for axis, value in found.items()}
+
+    def _value(self, name: str, value: object) -> Any:
+        if value == ASKED:
+            return ASKED
+        number = _number(value)
+        if number is None:
+            raise self.refusal(name, f'is {_shown(value)}; write a number, such as 12.5 or "12,5", or "?"')
+        if abs(number) > Decimal(LARGEST):
+            raise self.refusal(name, f"is {_shown(value)}, which is larger than a control can travel")
+        return number
+
+    def refusal(self, name: str, trouble: str) -> SketchError:
+        """The error about a field."""
+        return SketchError(f"{self.where + ': ' if self.where else ''}{name} {trouble}")
+
+
+_NUMBER = re.compile(r"[+-]?+(?:\d++(?:[.,]\d*+)?|[.,]\d++)(?:[eE][+-]?\d{1,2})?")
+LONGEST = 40
+"""Characters of a number; 17 digits are all that a double holds."""
+
+
+def _number(value: object) -> Decimal | None:
+    """A number, or a text that is one, perhaps with a decimal comma; None for all else."""
+    text = value.strip() if isinstance(value, str) else str(value) if isinstance(value, int | Decimal | float) else ""
+    if isinstance(value, bool) or len(text) > LONGEST or not _NUMBER.fullmatch(text):
+        return None
+    return Decimal(text.replace(",", "."))
+
+
+def _is_line(value: object) -> bool:
+    return isinstance(value, str) and value.isprintable() and bool(value.strip())
+
+
+def _shown(value: object) -> str:
+    text = _json(value)
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
+
+
+def _example(field: _Field) -> str:
+    return " or ".join(f'"{name}"' for name in field.names) if field.names else field.kind.value.partition(",")[0]
+
+
+def _meant(name: str, fields: Mapping[str, _Field]) -> str:
+    """The fields that an unknown name was probably meant to be."""
+    near = get_close_matches(name.upper(), [each.upper() for each in fields], 2, 0.6)
+    meant = [each for each in fields if each.upper() in near]
+    return f"; {' or '.join(meant)} was probably meant" if meant else f"; there are {', '.join(fields)}"
+
+
+def write_sketch(sketch: ContourSketch, *, as_json: bool = False) -> str:
+    """The text of a sketch's file, TOML or JSON; `read_sketch` of it is the same sketch.
+
+    >>> print(write_sketch(ContourSketch("milled", start={"X": Decimal("0.50")})), end="")
+    sketch = 1
+    part = "milled"
+    start = { X = 0.50 }
+    """
+    table = plain_sketch(sketch)
+    if as_json:
+        return _json(table) + "\n"
+    elements = table.pop("element", [])
+    lines = [f"{name} = {_toml(value)}" for name, value in table.items()]
+    for each in elements:
+        lines += ["", "[[element]]", *(f"{name} = {_toml(value)}" for name, value in each.items())]
+    return "\n".join(lines) + "\n"
+
+
+def plain_sketch(sketch: ContourSketch) -> dict[str, Any]:
+    """A sketch as a table with plain values; numbers are Decimal."""
+    table: dict[str, Any] = {"sketch": VERSION, "part": sketch.part}
+    if sketch.unit != "mm":
+        table["unit"] = sketch.unit
+    if sketch.closed:
+        table["closed"] = True
+    table |= {name: dict(place) for name, place in (("start", sketch.start), ("pole", sketch.pole)) if place}
+    if sketch.facts:
+        table["facts"] = [*sketch.facts]
+    if sketch.elements:
+        table["element"] = [_plain_element(each) for each in sketch.elements]
+    return table
+
+
+def _plain_element(element: SketchElement) -> dict[str, Any]:
+    table: dict[str, Any] = {"kind": element.kind}
+    if element.turn:
+        table["turn"] = element.turn
+    if element.tangent:
+        table["tangent"] = True
+    table |= element.words
+    if element.corner:
+        table["corner"] = {element.corner.shape: element.corner.size}
+    if element.guess:
+        table["guess"] = dict(element.guess)
+    if element.facts:
+        table["facts"] = [*element.facts]
+    return table
+
+
+def _toml(value: object) -> str:
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(f'{name} = {_toml(each)}' for name, each in value.items())} }}"
+    return _json(value)
+
+
+def _json(value: object) -> str:
+    """A value as JSON has it, and TOML beside tables; numbers with the digits that they have."""
+    match value:
+        case Decimal():
+            return f"{value:f}"
+        case Mapping():
+            return f"{{{', '.join(f'{json.dumps(name)}: {_json(each)}' for name, each in value.items())}}}"
+        case list() | tuple():
+            return f"[{', '.join(map(_json, value))}]"
+    return json.dumps(value, default=str, ensure_ascii=False)
+
+
+def sketch_schema() -> dict[str, Any]:
+    """The JSON schema of a sketch's file."""
+    words = {name: each for part in DRAWINGS for name, each in _word_fields(part).items()}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Sketch of a contour for contoursolve",
+        **_schema_of(_CHAIN),
+        "$defs": {"element": _schema_of({**_ELEMENT, **words})},
+    }
+
+
+def _schema_of(fields: Mapping[str, _Field]) -> dict[str, Any]:
+    return {
+        "type": "object",
+        "properties": {name: {"description": each.meaning, **_schema(each)} for name, each in fields.items()},
+        "required": [name for name, each in fields.items() if each.is_needed],
+        "additionalProperties": False,
+    }
+
+
+def _schema(field: _Field) -> dict[str, Any]:
+    number: dict[str, Any] = {"type": ["number", "string"]}
+    match field.kind:
+        case _Kind.VERSION:
+            return {"const": VERSION}
+        case _Kind.CHOICE:
+            return {"enum": [*field.names]}
+        case _Kind.FLAG:
+            return {"type": "boolean"}
+        case _Kind.PLACE:
+            axes = dict.fromkeys(sorted({axis for each in DRAWINGS.values() for axis in each.plane.axes}), number)
+            return {"type": "object", "properties": axes, "additionalProperties": False}
+        case _Kind.CORNER:
+            return {
+                "type": "object",
+                "properties": dict.fromkeys(_CORNERS, number),
+                "minProperties": 1,
+                "maxProperties": 1,
+                "additionalProperties": False,
+            }
+        case _Kind.FACTS:
+            return {"type": "array", "items": {"type": "string"}}
+        case _Kind.ELEMENTS:
+            return {"type": "array", "items": {"$ref": "#/$defs/element"}}
+    return number
