@@ -3,6 +3,7 @@
 import io
 import sys
 from importlib import import_module
+from itertools import pairwise
 
 import click
 
@@ -71,7 +72,10 @@ class _Commands(click.Group):
         """The command that is named, and the arguments behind it; of another name, the commands that it is close to."""
         name, names = args[0], self.list_commands(ctx)
         if name in names or name.startswith("-"):
-            return super().resolve_command(ctx, args)
+            found = super().resolve_command(ctx, args)
+            for option in found[1].params if found[1] is not None else ():
+                _check_once(option, args, ctx)
+            return found
         from difflib import get_close_matches  # noqa: PLC0415 - most names are those of commands
 
         close = get_close_matches(name.lower(), names)
@@ -85,6 +89,17 @@ class _Commands(click.Group):
             return super().get_command(ctx, cmd_name)
         command: click.Command = getattr(import_module(f"contoursolve.cli.{module}"), name)
         return command
+
+
+def _check_once(option: click.Parameter, args: list[str], ctx: click.Context) -> None:
+    """Refuse two values of an option that has one."""
+    if not isinstance(option, click.Option) or option.multiple or option.is_flag or option.count or option.nargs != 1:
+        return
+    values = [value for name, value in pairwise([*args, ""]) if name in option.opts]
+    values += [arg.partition("=")[2] for arg in args if arg.partition("=")[0] in option.opts and "=" in arg]
+    if len(dict.fromkeys(values)) > 1:
+        told = " and ".join(dict.fromkeys(values))
+        raise click.UsageError(f"{option.opts[0]} is given several times, as {told}; leave all but one out", ctx)
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})

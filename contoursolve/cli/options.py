@@ -375,7 +375,7 @@ def follow(program: Program, start: str | None, assignments: Sequence[str], opti
     with naming(program.name):
         run = follow_program(program, start=start, settings=settings_of(program, assignments), **options)
     check_start(run.asked)
-    if stated and (stated["tool"] is not None or "contoursolve" in program.text):
+    if stated and (stated["tool"] is not None or any(each in program.text for each in _NAMED)):
         from contoursolve.cli.tool import beside_tool  # noqa: PLC0415 - few programs state a tool
 
         with naming(program.name):
@@ -384,6 +384,10 @@ def follow(program: Program, start: str | None, assignments: Sequence[str], opti
             return found
     check_toolless(stated)
     return run
+
+
+_NAMED = ("contoursolve", "CONTOURSOLVE", "Contoursolve")
+"""The beginning of a comment that may state a tool."""
 
 
 def check_toolless(stated: Mapping[str, Any], remedy: str = "--tool, such as --tool R0.8") -> None:

@@ -26,7 +26,7 @@ from contoursolve.tool_radius import (
     report_on,
     result_beside_tool,
     title_of,
-    tool_in,
+    tool_of,
     wanted_tool,
 )
 
@@ -36,7 +36,7 @@ def beside_tool(
 ) -> Run | Collected:
     """The result of a run with the findings about its tool; the run itself where nothing states one."""
     wanted = wanted_tool(run.frame.program.name, tool, tip, side, outside)
-    if tool is None and not any(tool_in(block.text) for block in run.frame.program.blocks):
+    if tool is None and not any(tool_of(block) for block in run.frame.program.blocks):
         return run
     result, report = result_beside_tool(run, wanted)
     return Collected(result, run.is_strict, tool=report)
@@ -98,7 +98,7 @@ def open_beside_tool(
     if dialect is not None and needs_running((block.text for block in program.blocks), dialect.modes.language):
         machine = machine_for(program, dialect, run.asked.around)
         if machine is None or not is_inline:
-            raise ToolError("a program with calls, jumps or variables has no one path: add --inline")
+            raise ToolError("a program that calls, jumps or computes has no one path: add --inline")
         ran = (each for each in lines_alone(machine, _refuse) if isinstance(each, Block))
         blocks = dict(enumerate(ran, 1))
         end = "\r\n" if "\r\n" in program.text else "\n"

@@ -15,7 +15,7 @@ A program says the same for itself in a comment among its first lines, which cou
 """
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -58,13 +58,19 @@ def find_baseline(folder: Path) -> Path | None:
     return found[1].parent / named if found is not None and isinstance(named, str) else None
 
 
-def find_tool_table(folder: Path) -> Mapping[str, Any]:
-    """The table of tools of this file; empty if it has none. Raises SettingError."""
+def find_tool_table(folder: Path, read: Callable[[str, Mapping[str, Any]], Any] = lambda _, row: row) -> dict[str, Any]:
+    """The table of tools of this file, each row as it is read; empty if it has none. Raises SettingError."""
     found = _find(folder)
     tools = found[0].get(TOOLS, {}) if found is not None else {}
     if not isinstance(tools, dict) or not all(isinstance(each, dict) for each in tools.values()):
         raise SettingError(f"{found and found[1]}: write tools as T0101 = {{radius = 0.8, tip = 3}} below [{TOOLS}]")
-    return tools
+    rows = dict[str, Any]()
+    for name, row in tools.items():
+        try:
+            rows[name] = read(name, row)
+        except ValueError as error:
+            raise SettingError(f"{found and found[1]}: {TOOLS}.{name}: {error}") from None
+    return rows
 
 
 def _find(folder: Path) -> tuple[dict[str, Any], Path] | None:

@@ -50,6 +50,7 @@ from .tool import (
     radius_in as radius_in,
     read_tool as read_tool,
     tool_in as tool_in,
+    tool_of as tool_of,
 )
 from .tool_sweep import (
     ToolSweep as ToolSweep,

@@ -26,7 +26,7 @@ from contoursolve.gcode import Block, Word, parse, spelled
 from contoursolve.program import Request, Result, run
 from contoursolve.reading import Dialect
 from contoursolve.solving import LEAST, ArcSegment, Contour, Segment
-from contoursolve.tolerance import LARGEST, LENGTH
+from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH
 from contoursolve.tool_radius.by_hand import is_around, made_for, part_of
 from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
 from contoursolve.tool_radius.joint import direction
@@ -208,7 +208,8 @@ class ToolFindings:
         told += [] if own.is_stated else self._uncompensated(own)
         told += [ToolFault(ToolFaultKind.NO_RADIUS, 0)] if own.radius <= LENGTH else []
         told += [ToolFault(ToolFaultKind.STILL_ON, len(own.elements) - 1)] if own.still_on else []
-        # What interrupts one run stands before the next one.
+        # What interrupts one run stands before the next one; of a contour without a solution, its own finding tells.
+        self.broken |= {line for each in self.result.answers if each.contour is None for line in each.lines}
         faults = [each for each in tool_run.faults if each.kind not in _BREAKS or own.broken not in self.broken]
         self.broken.add(own.broken)
         yield from (self._finding(tool_run, fault) for fault in (*told, *faults, *uncut(tool_run.offset)))
@@ -251,7 +252,7 @@ class ToolFindings:
             self.facts.alarms.get(fault.kind.name.lower()),
             values if fault.largest is None else {**values, "limit": fault.largest, "actual": own.radius},
             tuple(self._notes(tool_run, fault)),
-            row.help.format(**texts),
+            _ELSEWHERE if _is_at_start(own, fault) else row.help.format(**texts),
             tuple(self._fixes(own, fault, word)) if fault.kind is ToolFaultKind.ARC_TOO_SMALL and word else (),
             fault.kind,
         )
@@ -372,6 +373,17 @@ _BREAKS = (ToolFaultKind.INTERRUPTED, ToolFaultKind.OTHER_TOOL)
 _EXITS = (ToolFaultKind.EXIT_BY_ARC, ToolFaultKind.STILL_ON)
 
 _ENTRIES = (ToolFaultKind.ENTRY_BY_ARC, ToolFaultKind.ENTRY_TOO_SHORT, ToolFaultKind.APPROACH)
+
+
+_ELSEWHERE = "begin the contour in the middle of an element, not in an inside corner"
+
+
+def _is_at_start(own: CuttingRun, fault: ToolFault) -> bool:
+    """Whether a tool cuts into the last element of a closed contour while it begins with the first, or the reverse."""
+    if fault.kind is not ToolFaultKind.INTERFERENCE or fault.working is None:
+        return False
+    first, last = sorted((fault.element, fault.working))
+    return dist(own.elements[first].start, own.elements[last].end) <= AGREEMENT
 
 
 def _kind(own: CuttingRun) -> str:

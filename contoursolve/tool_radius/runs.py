@@ -17,7 +17,7 @@ from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import AGREEMENT, LENGTH
 from contoursolve.tool_radius.clearance import foot
 from contoursolve.tool_radius.joint import TANGENT, join
-from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, plain_number, tool_in
+from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, plain_number, tool_of
 
 SIDES = {side.code: side for side in ToolSide}
 
@@ -332,7 +332,7 @@ class _Stock:
         # Such a control turns in its plane Z X, with X as diameter or radius.
         self.has_lathe = dialect.diameter is not None or dialect.plane.axes == _TURNED
         table = {_key(name): tool for name, tool in asked.table.items()}
-        self.tools: list[tuple[int, Tool | None]] = []
+        self.tools: list[tuple[int, Tool | Word]] = []
         self.voids: list[tuple[int, Word | None]] = []
         self.changes, self.ends = list[int](), list[int]()
         # D is another word in some contours.
@@ -349,9 +349,11 @@ class _Stock:
                 called, ready = {**ready, **called}, {}
             keys = [(word.address, word.number or Decimal(0)) for word in called.values()]
             found = [tool for key in keys if (tool := table.get(key)) is not None]
-            stated = tool_in(block.text) if asked.tool is None else None
-            if stated or found or any(address == own[:1] for address, number in keys for own, _ in table if number):
-                self.tools.append((place, stated or (found[0] if found else None)))
+            stated = tool_of(block) if asked.tool is None else None
+            known = [stated] if stated is not None else found
+            letters = [address for address, _ in table]
+            unknown = [word for word in called.values() if word.address in letters and word.number]
+            self.tools += [(place, each) for each in [*known, *unknown][:1]]
             if "T" in called or found:
                 self.changes.append(place)
             if called:
@@ -372,8 +374,11 @@ class _Stock:
 
     def at(self, step: Travel) -> Tool:
         """The tool that makes a move. Raises ToolError."""
-        stated = next((tool for place, tool in reversed(self.tools) if place <= step.number), self.asked.default)
+        stated = next((tool for place, tool in reversed(self.tools) if place <= step.number), None)
         tool = self.asked.tool or stated or self.asked.default
+        if isinstance(tool, Word):
+            told = f"{tool.text.strip()} in program line {tool.span.line} has no row in the table of tools"
+            raise ToolError(f"{told}; write one below [tools] in contoursolve.toml, or give --tool R0.8")
         if tool is None:
             raise ToolError(
                 f"nothing says which tool cuts program line {step.line}; give --tool R0.8, or write the comment "

@@ -9,7 +9,7 @@ from typing import Any
 from msgspec import Struct
 
 from contoursolve.diagnostics import ProgramError
-from contoursolve.gcode import late_pattern
+from contoursolve.gcode import Block, late_pattern
 from contoursolve.solving import Point
 from contoursolve.tolerance import LARGEST
 
@@ -82,8 +82,10 @@ _STATED = late_pattern(r"[(;]\s*+contoursolve\s++tool\s*+:(?P<stated>[^()\r\n]*+
 """A comment that states the tool of what follows."""
 
 
-_ALIKE = late_pattern(r"[(;]\s*+contoursolve\s++tools?+\b", re.IGNORECASE)
-"""A comment that is meant to."""
+_ALIKE = late_pattern(r"[(;]\s*+contoursolve\s++(?P<word>[a-z]{1,20}+)\b\s*+(?P<colon>:?)", re.IGNORECASE)
+"""A comment that may be meant to."""
+_MEANT = late_pattern(r"R?\s*+(\d{1,6}+)(?:[.,](\d{1,6}+))?(?:\D*+(\d))?\D*+", re.IGNORECASE | re.ASCII)
+"""A radius and perhaps a tip, however they are written."""
 
 
 def read_tool(text: str, tip: int | None = None) -> Tool:
@@ -94,18 +96,26 @@ def read_tool(text: str, tip: int | None = None) -> Tool:
     3
     """
     radius, *others = (part.strip() for part in text.split(","))
-    found = _RADIUS.fullmatch(radius)
-    if found is None:
-        raise ToolError(f"{text.strip()!r} is no tool; write its radius, such as R0.8")
+    found, rows = _RADIUS.fullmatch(radius), [_MORE.fullmatch(other) for other in others]
+    if found is None or any(row is None or (row["name"].lower() == "tip" and "." in row["number"]) for row in rows):
+        raise ToolError(f"{text.strip()!r} is no tool; write {_meant(text.strip())}")
+    stated = [(row["name"].lower(), float(row["number"])) for row in rows if row is not None]
+    stated += [("tip", float(tip))] if tip is not None else []
     more: dict[str, Any] = {}
-    for other in others:
-        stated = _MORE.fullmatch(other)
-        if stated is None or (stated["name"].lower() == "tip" and "." in stated["number"]):
-            raise ToolError(f"{other!r} is not known of a tool; write its radius and its tip, such as R0.8, tip 3")
-        more[stated["name"].lower()] = float(stated["number"])
-    tip = int(more.pop("tip", -1)) if tip is None and "tip" in more else tip
-    more.pop("tip", None)
+    for name, number in stated:
+        if more.setdefault(name, number) != number:
+            raise ToolError(f"the tool has {name} {more[name]:g} and {name} {number:g}; leave one out")
+    tip = int(more.pop("tip")) if "tip" in more else None
     return make_tool(Decimal(found["number"]), tip, **more)
+
+
+def _meant(text: str) -> str:
+    """The tool for which a text is meant."""
+    found = _MEANT.fullmatch(text)
+    if found is None:
+        return "its radius and, on a lathe, its tip, such as R0.8, tip 3"
+    whole, part, tip = found.groups()
+    return f"R{whole}{part and '.' + part or ''}{tip and ', tip ' + tip or ''}"
 
 
 def make_tool(
@@ -145,6 +155,23 @@ def radius_in(line: str) -> tuple[int, int] | None:
 def tool_in(line: str) -> Tool | None:
     """The tool that a comment in a line states, `(contoursolve tool: R0.8, tip 3)`. Raises ToolError."""
     comment = _STATED.search(line)
-    if comment is None and _ALIKE.search(line):
+    alike = _ALIKE.search(line) if comment is None else None
+    # In prose, no colon stands behind the word.
+    if alike is not None and (alike["word"].lower() in ("tool", "tools") or (alike["colon"] and _is_near(alike["word"]))):
         raise ToolError(f"{line.strip()!r} states no tool; write (contoursolve tool: R0.8, tip 3)")
     return None if comment is None else read_tool(comment["stated"])
+
+
+def tool_of(block: Block) -> Tool | None:
+    """The same of a block. Raises ToolError, naming its line."""
+    try:
+        return tool_in(block.text)
+    except ToolError as error:
+        raise ToolError(f"program line {block.line}: {error}") from None
+
+
+def _is_near(word: str) -> bool:
+    """Whether a word is a slip of `tool`."""
+    from difflib import get_close_matches  # noqa: PLC0415 - few comments have one
+
+    return get_close_matches(word.lower(), ("tool", "control"))[:1] == ["tool"]

@@ -42,7 +42,7 @@ def call(*words: str | Path) -> Result:
             "the radius of the tool is R-1; it must not be less than 0",
         ),
         (("--tool", "R0.8", "--tip", "12", "--side", "left"), "there is no tip 12; the tips have the numbers 0 to 9"),
-        (("--tool", "8mm", "--tip", "3", "--side", "left"), "'8mm' is no tool; write its radius, such as R0.8"),
+        (("--tool", "8mm", "--tip", "3", "--side", "left"), "'8mm' is no tool; write R8"),
         (("--tool", "R0.8", "--side", "left"), "a turning tool needs the number of its imaginary tip"),
         (NOSE, "nothing says on which side of the contour the tool runs"),
         (("--tool", "program", "--side", "left"), "nothing says which tool cuts program line 1"),
@@ -475,7 +475,7 @@ def test_a_word_that_calls_no_tool_and_a_tool_without_a_radius(tmp_path: Path):
     (tmp_path / "a.nc").write_text(PLATE.replace("T1", "T0").replace(" D1", "").replace("<<MIDST>>\n", ""))
     assert "T0 is in force" in call("check", *MILL, "--tool", "R5", tmp_path / "a.nc").stdout
     (tmp_path / "a.nc").write_text(PLATE.replace("<<MIDST>>\n", ""))
-    for row, told in (("D1 = {radius = 0}", "info[tool-no-radius]"), ("D2 = {radius = 5}", "nothing says which tool")):
+    for row, told in (("D1 = {radius = 0}", "info[tool-no-radius]"), ("D2 = {radius = 5}", "D1 in program line 3 has no row")):
         (tmp_path / "contoursolve.toml").write_text(f"[tools]\n{row}\n")
         assert told in call("check", *MILL, "--tool", "program", tmp_path / "a.nc").output
 
@@ -694,3 +694,75 @@ def test_what_moves_outside_the_plane_goes_along(text: str, made: str, tmp_path:
     assert done.exit_code == 0, done.stderr
     assert (tmp_path / "new.nc").read_text().splitlines()[2:] == made.split("/")
     assert call("diff", *MILL, "--tool", "R4", tmp_path / "a.nc", tmp_path / "new.nc").exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("stated", "told"),
+    [
+        ("R0,8", "'R0,8' is no tool; write R0.8\n"),
+        ("R0.8 tip3", "'R0.8 tip3' is no tool; write R0.8, tip 3\n"),
+        ("R0,8; tip 3", "write R0.8, tip 3\n"),
+        ("R0.8, 3", "write R0.8, tip 3\n"),
+        ("R0.8, tip 2", "the tool has tip 2 and tip 3; leave one out"),
+        ("D1.6", "write its radius and, on a lathe, its tip, such as R0.8, tip 3"),
+    ],
+)
+def test_a_tool_in_another_spelling_is_told_with_the_right_one(stated: str, told: str):
+    assert told in call("check", *LATHE, "--tool", stated, "--tip", "3", "--side", "right", *TAPER).stderr
+    comment = stated if "," in stated or " " in stated else f"{stated}, tip 3"
+    blocks = ["--block", f"(contoursolve tool: {comment})", *TAPER]
+    if "tip 2" not in stated:
+        assert f"program line 1: {comment!r} is no tool" in call("check", *LATHE, "--side", "right", *blocks).stderr
+
+
+@pytest.mark.parametrize(
+    ("row", "told"),
+    [
+        ("T0101 = {radius = -1}", "tools.T0101: the radius of the tool is R-1; it must not be less than 0"),
+        ("T0101 = {radius = 0.8, tip = 12}", "tools.T0101: there is no tip 12"),
+        ("X1 = {radius = 0.8}", "tools.X1: it is no tool; write T0101"),
+        ("T0202 = {radius = 0.8, tip = 3}", "T0101 in program line 1 has no row in the table of tools"),
+    ],
+)
+def test_a_row_of_the_table_is_named(row: str, told: str, tmp_path: Path):
+    (tmp_path / "a.nc").write_text(f"T0101\n{COMPENSATED}")
+    (tmp_path / "contoursolve.toml").write_text(f"[tools]\n{row}\n")
+    done = call("check", *LATHE, "--tool", "program", tmp_path / "a.nc")
+    assert (done.exit_code, told in done.stderr, "contoursolve.toml" in done.stderr) == (2, True, True)
+
+
+@pytest.mark.parametrize("comment", ["tol: R0.8", "toool: R0.8, tip 3", "too: R0.8", "TOOLS: R0.8"])
+def test_a_misspelt_comment_about_a_tool(comment: str, tmp_path: Path):
+    (tmp_path / "a.nc").write_text(f"(contoursolve {comment})\n{COMPENSATED}")
+    done = call("check", *LATHE, tmp_path / "a.nc")
+    assert (done.exit_code, "program line 1: " in done.stderr) == (2, True)
+    assert "states no tool; write (contoursolve tool: R0.8, tip 3)" in done.stderr
+    (tmp_path / "a.nc").write_text(f"(CONTOURSOLVE TOOL: R0.80, TIP 3)\n(contoursolve note: it runs)\n{COMPENSATED}")
+    assert "nose R0.8, tip 3, right" in call("expand", *LATHE, "--tool", "program", tmp_path / "a.nc").stdout
+
+
+def test_an_option_that_is_given_twice():
+    for words in (("--side", "left", "--side", "right"), ("--side=left", "--side", "right")):
+        done = call("check", *LATHE, *NOSE, *words, *TAPER)
+        assert (done.exit_code, "--side is given several times" in done.stderr) == (2, True)
+    assert call("check", *LATHE, *NOSE, "--side", "right", "--side", "right", *TAPER).exit_code == 0
+
+
+def test_a_closed_contour_that_begins_in_an_inside_corner(tmp_path: Path):
+    lines = ["G90 G17 G00 X10. Y10.", "G41 D1 G01 X0 Y0 F100", "X60.", "Y40.", "X0", "Y0", "G40 X10. Y10."]
+    for turned in (lines, [each.replace("G41", "G42") for each in (*lines[:2], "Y40.", "X60.", "Y0", "X0", lines[-1])]):
+        (tmp_path / "a.nc").write_text("\n".join(turned) + "\n")
+        text = call("check", *MILL, "--tool", "R5", tmp_path / "a.nc").stdout
+        assert "help: begin the contour in the middle of an element, not in an inside corner" in text
+
+
+def test_what_is_not_followed_or_not_solved_is_told_once(tmp_path: Path):
+    lines = ["G90 G17 G0 X0 Y0", "G41 G1 X20 Y0 F300 D1", "RND=50 X40", "X40 Y20", "G3 X20 Y0 TURN=X", "G40 X0", "M30"]
+    (tmp_path / "a.mpf").write_text("\n".join(lines) + "\n")
+    done = call("check", "--control", "siemens-840d", "--tool", "R5", tmp_path / "a.mpf")
+    assert "the contour is not solved" not in done.stdout
+    blocks = ["G90 G17 G00 X0 Y0", "G41 D1 G01 X20. Y0 F100", "Y20.", "G02 X40. Y20.", "G40 G00 X80."]
+    for number, told in ((0, "program line 4 (the centre or the radius of the arc is not known) interrupts"), (2, "")):
+        (tmp_path / "b.nc").write_text("\n".join([*blocks[:2], *blocks[2 + number // 2 :]]) + "\n")
+        done = call("check", *MILL, "--tool", "R5", tmp_path / "b.nc")
+        assert (told or "no tool cuts anything; program line 3 is not followed: the centre or the radius") in done.output
