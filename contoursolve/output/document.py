@@ -227,7 +227,7 @@ def _beside_tool(result: Result, report: "ToolReport") -> Iterator[dict[str, Any
                 "element": fault.element,
                 "kind": fault.kind.name.lower(),
                 "short_by_mm": None if fault.short is None else _number(fault.short),
-                "largest_radius": None if fault.largest is None else _number(fault.largest),
+                "largest_radius": _number(fault.largest) if fault.largest else None,
             }
             for fault in each.faults
         ]

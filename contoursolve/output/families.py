@@ -90,6 +90,7 @@ def range_data(found: Feasible) -> dict[str, Any]:
     return {
         "schema": "contoursolve/range/1",
         **members(found, "word unit stated within complete=is_complete doubts"),
+        **({"stated": None} if found.is_open else {}),
         "refusal": found.refusal or None,
         **premise_data(found.premises),
         "ranges": [{"low": _end_data(each.low), "high": _end_data(each.high)} for each in found.intervals],

@@ -754,6 +754,11 @@ def test_a_closed_contour_that_begins_in_an_inside_corner(tmp_path: Path):
         (tmp_path / "a.nc").write_text("\n".join(turned) + "\n")
         text = call("check", *MILL, "--tool", "R5", tmp_path / "a.nc").stdout
         assert "help: begin the contour in the middle of an element, not in an inside corner" in text
+        (contour,) = run("solve", "--format", "json", *MILL, "--tool", "R5.0", str(tmp_path / "a.nc"))["contours"]
+        assert [each["largest_radius"] for each in contour["tool"]["faults"]] == [None]
+        assert json.loads(call("find", "--word", "tool", *MILL, tmp_path / "a.nc", "--format", "json").stdout)[
+            "contours"
+        ][0]["stated"] is None
 
 
 def test_what_is_not_followed_or_not_solved_is_told_once(tmp_path: Path):
