@@ -55,5 +55,5 @@ def _tool_of(name: str, row: Mapping[str, Any]) -> Tool:
     are_numbers = all(isinstance(each, int | float) and not isinstance(each, bool) for each in numbers)
     is_named = name[:1].upper() in ("T", "D") and name[1:].isdecimal()
     if row.keys() - {"radius", "tip", "back", "front"} or not are_numbers or not is_named or isinstance(tip, float):
-        raise ToolError(f"it is no tool; write T0101 = {{radius = 0.8, tip = 3}} or D1 = {{radius = 5.0}}")
+        raise ToolError("it is no tool; write T0101 = {radius = 0.8, tip = 3} or D1 = {radius = 5.0}")
     return make_tool(Decimal(str(radius)), tip, is_metric=True, **flanks)

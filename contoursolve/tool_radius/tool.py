@@ -115,7 +115,7 @@ def _meant(text: str) -> str:
     if found is None:
         return "its radius and, on a lathe, its tip, such as R0.8, tip 3"
     whole, part, tip = found.groups()
-    return f"R{whole}{part and '.' + part or ''}{tip and ', tip ' + tip or ''}"
+    return f"R{whole}{(part and '.' + part) or ''}{(tip and ', tip ' + tip) or ''}"
 
 
 def make_tool(
@@ -157,7 +157,9 @@ def tool_in(line: str) -> Tool | None:
     comment = _STATED.search(line)
     alike = _ALIKE.search(line) if comment is None else None
     # In prose, no colon stands behind the word.
-    if alike is not None and (alike["word"].lower() in ("tool", "tools") or (alike["colon"] and _is_near(alike["word"]))):
+    if alike is not None and (
+        alike["word"].lower() in ("tool", "tools") or (alike["colon"] and _is_near(alike["word"]))
+    ):
         raise ToolError(f"{line.strip()!r} states no tool; write (contoursolve tool: R0.8, tip 3)")
     return None if comment is None else read_tool(comment["stated"])
 

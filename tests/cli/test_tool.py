@@ -475,7 +475,10 @@ def test_a_word_that_calls_no_tool_and_a_tool_without_a_radius(tmp_path: Path):
     (tmp_path / "a.nc").write_text(PLATE.replace("T1", "T0").replace(" D1", "").replace("<<MIDST>>\n", ""))
     assert "T0 is in force" in call("check", *MILL, "--tool", "R5", tmp_path / "a.nc").stdout
     (tmp_path / "a.nc").write_text(PLATE.replace("<<MIDST>>\n", ""))
-    for row, told in (("D1 = {radius = 0}", "info[tool-no-radius]"), ("D2 = {radius = 5}", "D1 in program line 3 has no row")):
+    for row, told in (
+        ("D1 = {radius = 0}", "info[tool-no-radius]"),
+        ("D2 = {radius = 5}", "D1 in program line 3 has no row"),
+    ):
         (tmp_path / "contoursolve.toml").write_text(f"[tools]\n{row}\n")
         assert told in call("check", *MILL, "--tool", "program", tmp_path / "a.nc").output
 
@@ -756,9 +759,12 @@ def test_a_closed_contour_that_begins_in_an_inside_corner(tmp_path: Path):
         assert "help: begin the contour in the middle of an element, not in an inside corner" in text
         (contour,) = run("solve", "--format", "json", *MILL, "--tool", "R5.0", str(tmp_path / "a.nc"))["contours"]
         assert [each["largest_radius"] for each in contour["tool"]["faults"]] == [None]
-        assert json.loads(call("find", "--word", "tool", *MILL, tmp_path / "a.nc", "--format", "json").stdout)[
-            "contours"
-        ][0]["stated"] is None
+        assert (
+            json.loads(call("find", "--word", "tool", *MILL, tmp_path / "a.nc", "--format", "json").stdout)["contours"][
+                0
+            ]["stated"]
+            is None
+        )
 
 
 def test_what_is_not_followed_or_not_solved_is_told_once(tmp_path: Path):
@@ -770,4 +776,6 @@ def test_what_is_not_followed_or_not_solved_is_told_once(tmp_path: Path):
     for number, told in ((0, "program line 4 (the centre or the radius of the arc is not known) interrupts"), (2, "")):
         (tmp_path / "b.nc").write_text("\n".join([*blocks[:2], *blocks[2 + number // 2 :]]) + "\n")
         done = call("check", *MILL, "--tool", "R5", tmp_path / "b.nc")
-        assert (told or "no tool cuts anything; program line 3 is not followed: the centre or the radius") in done.output
+        assert (
+            told or "no tool cuts anything; program line 3 is not followed: the centre or the radius"
+        ) in done.output
