@@ -350,7 +350,7 @@ class _Stock:
             keys = [(word.address, word.number or Decimal(0)) for word in called.values()]
             found = [tool for key in keys if (tool := table.get(key)) is not None]
             stated = tool_of(block) if asked.tool is None else None
-            known = [stated] if stated is not None else found
+            known: list[Tool | Word] = [stated] if stated is not None else [*found]
             letters = [address for address, _ in table]
             unknown = [word for word in called.values() if word.address in letters and word.number]
             self.tools += [(place, each) for each in [*known, *unknown][:1]]
