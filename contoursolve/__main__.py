@@ -56,11 +56,13 @@ def _open_pipe(stream: TextIO | None) -> TextIO:
 
 
 def commands() -> "click.Group":
-    """The command `contoursolve`: the command line, and the language server beside it."""
+    """The command `contoursolve`: the command line, and the language server and the workbench beside it."""
     from contoursolve.cli import main as command  # noqa: PLC0415 - after the collector is off
     from contoursolve.lsp import lsp  # noqa: PLC0415 - as above
+    from contoursolve.workbench import serve  # noqa: PLC0415 - as above
 
     command.add_command(lsp)
+    command.add_command(serve)
     return command
 
 

@@ -1,1 +1,2 @@
+from .command import serve as serve
 from .desk import Desk as Desk

@@ -43,7 +43,7 @@ class PageWindow:
 
     def __init__(self) -> None:
         self.programs: dict[str, ProgramView] = {}
-        self.opened = 0
+        self.opened, self.may_write = 0, True
 
 
 class Desk:
@@ -56,21 +56,23 @@ class Desk:
     (1, 2)
     """
 
-    def __init__(self, folder: Path | None = None, *, may_write: bool = True, first: str = "") -> None:
+    def __init__(self, folder: Path | None = None, *, first: str = "", can_unlock: bool = False) -> None:
         self.folder = Folder(folder) if folder is not None else None
-        self.may_write, self.first = may_write, first
+        self.first, self.can_unlock = first, can_unlock
         self._windows: dict[str, PageWindow] = {}
         self._lock = Lock()
 
-    def answer(self, action: Mapping[str, Any], *, may_write: bool | None = None) -> Data:
-        """The reply to an action; `may_write` where this window may do less or more than others."""
+    def answer(self, action: Mapping[str, Any], *, may_write: bool = True) -> Data:
+        """The reply to an action of a window that may write, or only read."""
         do = action.get("do") if isinstance(action, Mapping) else None
         try:
             if not isinstance(do, str) or do not in ACTIONS:
                 raise ActionError(f"nothing is called {do!r} here")
-            if do in WRITING and not (self.may_write if may_write is None else may_write):
-                raise ActionError("this window may only read: the workbench was started so that nobody writes from it")
-            return ACTIONS[do](self, self._window(action), action)
+            if do in WRITING and not may_write:
+                raise ActionError("this window may only read; your text is still here")
+            window = self._window(action)
+            window.may_write = may_write
+            return ACTIONS[do](self, window, action)
         except FileConflictError as error:
             return {"trouble": str(error), "conflict": error.mark}
         except ActionError as error:
@@ -125,7 +127,7 @@ _LONGEST_NAME = 64
 # Actions ------------------------------------------------------------------------------------------------------------
 
 
-def _hello(desk: Desk, _window: PageWindow, _action: Mapping[str, Any]) -> Data:
+def _hello(desk: Desk, window: PageWindow, _action: Mapping[str, Any]) -> Data:
     return {
         "version": contoursolve.__version__,
         "controls": [
@@ -134,7 +136,8 @@ def _hello(desk: Desk, _window: PageWindow, _action: Mapping[str, Any]) -> Data:
         ],
         "folder": desk.folder.name if desk.folder is not None else "",
         "has_folder": desk.folder is not None,
-        "may_write": desk.may_write and desk.folder is not None,
+        "may_write": window.may_write and desk.folder is not None,
+        "can_unlock": desk.can_unlock and not window.may_write,
         "open": desk.first,
         "examples": [{"control": name, "title": each.title} for name, each in DIALECTS.items()],
     }
@@ -272,7 +275,7 @@ def _act(desk: Desk, window: PageWindow, action: Mapping[str, Any]) -> Data:
 
 
 def _explored(program: ProgramView, explored: Explored | None, changed: Data | None = None) -> Data:
-    """What a page is told of the contour that is explored."""
+    """The reply about the contour that is explored."""
     if explored is None:
         return {"line": None, "last": None}
     told = {"state": explored.conversation.state} if changed is None else {"changed": changed}

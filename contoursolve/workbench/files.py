@@ -10,7 +10,7 @@ from msgspec import Struct
 from contoursolve.diagnostics import UserError
 from contoursolve.gcode import CannotWriteError, decode, encoding_of, open_whole
 
-MOST_BYTES = 20_000_000
+MOST_BYTES = 10_000_000
 """Of a file that is opened."""
 
 MOST_NAMES = 2_000
@@ -185,7 +185,7 @@ def _conflict(name: str, base: str, now: str) -> str:
 
 
 def _fault_of(name: str) -> str:
-    """Why a name is none of a file in the folder; empty if it is."""
+    """The reason why a name is none of a file in the folder; empty if it is."""
     if not name or name.strip(". ") == "" or len(name) > _LONGEST:
         return "it is empty, too long, or has only points"
     if found := _FORBIDDEN.search(name):

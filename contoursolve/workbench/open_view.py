@@ -47,7 +47,7 @@ class ProgramView:
         """The contour that is in the explorer."""
         self._told: Data = {}
         self._shown: dict[int, tuple[Diagnostic, tuple[int, ...], Data]] = {}
-        """What is shown of each finding, by the identity of its record."""
+        """The data of each finding that is shown, by the identity of its record."""
 
     @property
     def program(self) -> OpenProgram:
@@ -162,7 +162,7 @@ class ProgramView:
             pass
 
     def view(self, *, is_whole: bool = False, has_text: bool = False) -> Data:
-        """What a page shows of the program as it is; of the long lists only those that it was not sent before, unless
+        """The program as a page shows it; of the long lists only those that it was not sent before, unless
         all `is_whole`."""
         self.go_on()
         program = self.program
