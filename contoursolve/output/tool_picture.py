@@ -30,10 +30,20 @@ from contoursolve.pictures import (
 )
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import LENGTH, REGULAR
-from contoursolve.tool_radius import OffsetPath, ToolFault, ToolFaultKind, ToolReport, ToolRun, meet, nearest, title_of
+from contoursolve.tool_radius import (
+    OffsetPath,
+    ToolFault,
+    ToolFaultKind,
+    ToolReport,
+    ToolRun,
+    meet,
+    nearest,
+    title_of,
+    uncompensated,
+)
 
-MOST_STANCES, MOST_DEPTHS = 16, 3
-"""Places of one run at which the tool is drawn, and at which there stands how much stays."""
+MOST_STANCES, MOST_DEPTHS, MOST_WRONG = 16, 3, 2
+"""Places of one run at which the tool is drawn, at which there stands how much stays, and that come out wrong."""
 
 _READABLE, _NOTICED = 24.0, 0.005
 """Pixels of a tool that can be read, and mm that stay in a corner that is shown."""
@@ -60,7 +70,12 @@ def parts_beside(report: ToolReport, answer: Answer | None = None) -> tuple[Tool
     for each in report.runs:
         own = [place for place, travel in enumerate(each.run.travels) if answer is None or travel.line in lines]
         if own:
-            findings = [one for one in report.findings if one.span.line in (lines or each.run.lines)]
+            # Beside a whole program, nobody sees which line "this line" is.
+            findings = [
+                one if lines else replace(one, message=f"line {one.span.line}: {one.message}")
+                for one in report.findings
+                if one.span.line in (lines or each.run.lines)
+            ]
             drawn.append(_beside(each, own, tuple(remarks_of(findings)), is_whole=answer is None))
     planes = groupby(sorted(drawn, key=lambda one: one.plane.code), key=lambda one: one.plane)
     return tuple(_together([*several]) for _, several in planes)
@@ -106,8 +121,8 @@ def _beside(
     meanings |= {Role.GHOST: f"comes out without G{run.side.code}"} if beside else {}
     meanings |= {Role.CONFLICTING: "refused, or the tool does not fit"} if each.faults else {}
     closeups = []
-    for stance in stances:
-        name = f"line {run.travels[stance.element].line}" if stance.fault or stance.rest else "start"
+    for place, stance in enumerate(stances):
+        name = f"line {run.travels[stance.element].line}" if place or stance.fault or stance.rest else "start"
         closeups.append(Closeup(name, (_circle(each, stance), *stance.rest), _READABLE))
     told = title_of(each) if path else f"{title}: it does not fit"
     return ToolDrawing(run.plane, run.unit, told, tuple(parts), cut, remarks, meanings, tuple(closeups))
@@ -154,7 +169,8 @@ def _length(each: ToolRun, mm: float) -> str:
 
 
 def _stances(each: ToolRun) -> Iterator[Stance]:
-    """The places that matter: where the tool does not fit; else where it begins, and in inside corners."""
+    """The places that matter: where the tool does not fit; else where it begins, in inside corners, and where most
+    comes out wrong."""
     own, pieces = each.run, each.offset.pieces or ()
     yield from (_at_fault(each, fault) for fault in each.faults)
     if pieces and not each.faults:
@@ -165,6 +181,9 @@ def _stances(each: ToolRun) -> Iterator[Stance]:
             depth = dist(near[0].end, at) - own.radius
             if depth >= _NOTICED:
                 yield Stance(at, place, None, _outline(own.side.sign, near, at), depth)
+    wrong = list(uncompensated(own.elements, own.side.sign, own.radius, own.tip)) if each.uncompensated else []
+    for fault in sorted(wrong, key=lambda one: -round(abs(one.short or 0.0), 6))[:MOST_WRONG]:
+        yield Stance(_at_fault(each, fault).center, fault.element)
 
 
 def _at_fault(each: ToolRun, fault: ToolFault) -> Stance:

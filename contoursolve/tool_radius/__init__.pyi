@@ -29,6 +29,7 @@ from .moves import (
 from .offset import (
     OffsetElement as OffsetElement,
     OffsetPath as OffsetPath,
+    uncompensated as uncompensated,
 )
 from .runs import (
     CuttingRun as CuttingRun,
