@@ -12,12 +12,12 @@ from msgspec.structs import replace
 from contoursolve.comparison import Motion, Step, ToolPath, Travel, Unfollowed
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane, Turn
-from contoursolve.reading import Dialect, Effect, Modes, rows_of
+from contoursolve.reading import Dialect, Effect, rows_of
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import AGREEMENT, LENGTH
 from contoursolve.tool_radius.clearance import foot
 from contoursolve.tool_radius.joint import TANGENT, join
-from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, plain_number, tool_of
+from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, tool_of
 
 SIDES = {side.code: side for side in ToolSide}
 
@@ -85,7 +85,7 @@ class CuttingRun(Struct, frozen=True):
     @property
     def size(self) -> str:
         """The radius as the program would write it, `R0.8`; with its unit where that is another one."""
-        return f"R{plain_number(self.tool.radius)}" + " mm" * (self.tool.is_metric and self.unit is not Length.MM)
+        return f"R{self.tool.radius.normalize():f}" + " mm" * (self.tool.is_metric and self.unit is not Length.MM)
 
     @property
     def tip(self) -> Point:
@@ -137,52 +137,23 @@ def _closes(parts: Sequence[Segment], first: int, last: int, *, is_end: bool = F
 
 def find_runs(path: ToolPath, asked: ToolRequest, dialect: Dialect) -> list[CuttingRun]:
     """The runs of a program. Raises ToolError."""
-    switches = list(_switches(path.blocks, dialect.modes))
-    against = [(line, code) for line, code in switches if asked.side and code in {*SIDES} - {asked.side.code}]
-    if against and asked.side:
-        told = f"--side {asked.side.value} is against {dialect.modes.codes[against[0][1]].text}"
-        raise ToolError(f"{told} in program line {against[0][0]}; leave one out")
-    is_stated = any(code in SIDES for _, code in switches)
+    stock = _Stock(asked, path.blocks, dialect)
+    texts = {side: dialect.modes.codes[side.code].text for side in ToolSide}
+    for place, code in stock.switches:
+        if asked.side and code in {*SIDES} - {asked.side.code}:
+            told = (
+                f"--side {asked.side.value} is against {texts[SIDES[code]]} in program line {path.blocks[place].line}"
+            )
+            raise ToolError(f"{told}; leave one out")
+    is_stated = any(code in SIDES for _, code in stock.switches)
     groups = list(_groups(path, is_stated=is_stated))
     if not is_stated and asked.side is None and any(group.travels for group in groups):
-        left, right = (dialect.modes.codes[side.code].text for side in ToolSide)
         raise ToolError(
-            f"nothing says on which side of the contour the tool runs; write {left} or {right} before it, or give "
-            "--side left or --side right"
+            f"nothing says on which side of the contour the tool runs; write {' or '.join(texts.values())} before it, "
+            "or give --side left or --side right"
         )
-    stock = _Stock(asked, path.blocks, dialect)
     found = [run for group in groups if (run := _run(group, path.axes, stock, asked.side)) is not None]
-    firsts = [run.travels[0].line for run in found[1:]]
-    lines = [step.line for step in path.steps]
-    is_straight = lines == sorted(lines) and not any(step.file for step in path.steps)
-    return [
-        _left(run, switches, stock.ends, following) if run.is_stated and is_straight else run
-        for run, following in zip(found, [*firsts, stock.ends[-1] + 1], strict=False)
-    ]
-
-
-def _switches(blocks: Sequence[Block], modes: Modes) -> Iterator[tuple[int, int]]:
-    """The lines that switch compensation, each with the number of its code. Raises ToolError."""
-    for block in blocks:
-        rows = {row.number: row.text for row in rows_of(block, modes) if row.effect is Effect.COMPENSATION}
-        if len(rows) > 1:
-            told = " and ".join(rows[number] for number in sorted(rows))
-            raise ToolError(f"{told} stand together in program line {block.line}; leave one out")
-        yield from ((block.line, number) for number in rows)
-
-
-def _left(run: CuttingRun, switches: Sequence[tuple[int, int]], ends: Sequence[int], following: int) -> CuttingRun:
-    """A run that knows where G40 is missing behind it: before another tool, or a way home, or the end, where no other
-    run comes first. Where none comes at all, a way home interrupts nothing."""
-    first, last = run.travels[0].line, run.travels[-1].line
-    offs = [line for line, code in switches if code not in SIDES]
-    if any(run.broken < line <= first for line in offs):
-        run = replace(run, broken=0)
-    off = next((line for line in offs if line > last), ends[-1] + 1)
-    end = next(line for line in ends if line > last or line == ends[-1])
-    if end >= min(off, following) or (run.broken and (run.broken != end or off > following)):
-        return run
-    return replace(run, broken=0, still_on=end)
+    return [stock.left(run, found) for run in found] if is_stated else found
 
 
 def nothing_cut(path: ToolPath) -> ToolError:
@@ -334,7 +305,7 @@ class _Stock:
         table = {_key(name): tool for name, tool in asked.table.items()}
         self.tools: list[tuple[int, Tool | Word]] = []
         self.voids: list[tuple[int, Word | None]] = []
-        self.changes, self.ends = list[int](), list[int]()
+        self.changes, self.ends, self.switches = list[int](), list[int](), list[tuple[int, int]]()
         # D is another word in some contours.
         addresses = [each for each in "TD" if each not in dialect.modes.lexicon.addresses]
         has_change, ready = any(_is_change(block) for block in blocks), dict[str, Word]()
@@ -358,15 +329,35 @@ class _Stock:
                 self.changes.append(place)
             if called:
                 self.voids.append((place, next((word for word in called.values() if not word.number), None)))
-            is_home = any(row.effect is Effect.SINGLE for row in rows_of(block, dialect.modes))
+            rows = rows_of(block, dialect.modes)
+            is_home = any(row.effect is Effect.SINGLE for row in rows)
             if "T" in called or is_home or any(word.address == "M" and word.number in _ENDS for word in block.words):
-                self.ends.append(block.line)
-        self.ends.append(max((block.line for block in blocks if block.words), default=0))
+                self.ends.append(place)
+            codes = {row.number: row.text for row in rows if row.effect is Effect.COMPENSATION}
+            if len(codes) > 1:
+                told = " and ".join(text for _, text in sorted(codes.items()))
+                raise ToolError(f"{told} stand together in program line {block.line}; leave one out")
+            self.switches += [(place, code) for code in codes]
 
     def changed(self, travels: Sequence[Travel]) -> int:
         """The line of another tool behind the first of some moves and before the last; 0 without one."""
         first, last = (bisect_right(self.changes, each.number) for each in (travels[0], travels[-1]))
         return self.blocks[self.changes[first]].line if first < last else 0
+
+    def left(self, run: CuttingRun, found: Sequence[CuttingRun]) -> CuttingRun:
+        """A run that knows where G40 is missing behind it: before another tool, or a way home, or the end, where no
+        other run comes first. Where none comes at all, a way home interrupts nothing."""
+        first, last, never = run.travels[0].number, run.travels[-1].number, len(self.blocks)
+        offs = [place for place, code in self.switches if code not in SIDES]
+        if any(run.broken < self.blocks[place].line and place <= first for place in offs):
+            run = replace(run, broken=0)
+        off = next((place for place in offs if place > last), never)
+        following = min((other.travels[0].number for other in found if other.travels[0].number > last), default=never)
+        end = next((place for place in self.ends if place > last), never - 1)
+        line = self.blocks[end].line
+        if end >= min(off, following) or (run.broken and (run.broken != line or off > following)):
+            return run
+        return replace(run, broken=0, still_on=line)
 
     def void(self, step: Travel) -> Word | None:
         """The word in force at a move that calls no tool."""

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping
 from decimal import Decimal
+from difflib import get_close_matches
 from enum import Enum
 from typing import Any
 
@@ -133,11 +134,6 @@ def make_tool(
     return Tool(radius, tip, is_metric, back, front)
 
 
-def plain_number(value: Decimal) -> str:
-    """A number without zeros at its end, however it is stated."""
-    return f"{value.normalize():f}"
-
-
 def radius_in(line: str) -> tuple[int, int] | None:
     """The place of the radius in a comment that states a tool: its first column and the one behind, from 1.
 
@@ -156,10 +152,10 @@ def tool_in(line: str) -> Tool | None:
     """The tool that a comment in a line states, `(contoursolve tool: R0.8, tip 3)`. Raises ToolError."""
     comment = _STATED.search(line)
     alike = _ALIKE.search(line) if comment is None else None
+    word = alike["word"].lower() if alike is not None else ""
     # In prose, no colon stands behind the word.
-    if alike is not None and (
-        alike["word"].lower() in ("tool", "tools") or (alike["colon"] and _is_near(alike["word"]))
-    ):
+    is_near = alike is not None and alike["colon"] and get_close_matches(word, ("tool", "control"))[:1] == ["tool"]
+    if is_near or word in ("tool", "tools"):
         raise ToolError(f"{line.strip()!r} states no tool; write (contoursolve tool: R0.8, tip 3)")
     return None if comment is None else read_tool(comment["stated"])
 
@@ -170,10 +166,3 @@ def tool_of(block: Block) -> Tool | None:
         return tool_in(block.text)
     except ToolError as error:
         raise ToolError(f"program line {block.line}: {error}") from None
-
-
-def _is_near(word: str) -> bool:
-    """Whether a word is a slip of `tool`."""
-    from difflib import get_close_matches  # noqa: PLC0415 - few comments have one
-
-    return get_close_matches(word.lower(), ("tool", "control"))[:1] == ["tool"]
