@@ -125,7 +125,8 @@ def diff(
             say("not compared: a program that has errors has no path")
         context.exit(FOUND_ERRORS)
     axes = tuple(sorted({axis for _, dialect, _ in sides for axis in dialect.modes.axes}))
-    one, other = (follow(result, dialect, asked.unit, axes) for result, dialect, asked in sides)
+    finishes = tool is not None
+    one, other = (follow(result, dialect, asked.unit, axes, finishes=finishes) for result, dialect, asked in sides)
     if tool is not None:
         one, other = _beside_tool(sides, (one, other), tool, stated)
     comparison = compare(one, other, tolerance)

@@ -10,14 +10,12 @@ from msgspec.structs import replace
 
 from contoursolve.api import follow_program
 from contoursolve.diagnostics import Diagnostic
-from contoursolve.execution import ProgramEvent, needs_running
 from contoursolve.gcode import Block, OpenFile, Program, parse
 from contoursolve.output import Collected
 from contoursolve.postprocess import Left, MovedProgram, Summary
-from contoursolve.program import Result, Run, lines_alone, machine_for
+from contoursolve.program import Result, Run
 from contoursolve.reading import Dialect
 from contoursolve.tool_radius import (
-    ToolError,
     ToolFaultKind,
     ToolReport,
     ToolRun,
@@ -28,6 +26,7 @@ from contoursolve.tool_radius import (
     title_of,
     tool_of,
     wanted_tool,
+    written_out,
 )
 
 
@@ -84,10 +83,6 @@ class BesideTool(Struct):
 _LINES = re.compile(r"program line (\d+)")
 
 
-def _refuse(event: ProgramEvent) -> None:
-    raise ToolError(f"program line {event.line}: {event.reason or 'nobody knows what runs here'}")
-
-
 def open_beside_tool(
     source: OpenFile, start: str | None, tool: Mapping[str, Any], options: dict[str, Any], *, is_inline: bool
 ) -> BesideTool:
@@ -95,12 +90,9 @@ def open_beside_tool(
     program, blocks = parse(source.read(), source.name), dict[int, Block]()
     run = follow_program(program, start=start, **options)
     dialect = run.asked.dialect
-    if dialect is not None and needs_running((block.text for block in program.blocks), dialect.modes.language):
-        machine = machine_for(program, dialect, run.asked.around)
-        if machine is None or not is_inline:
-            raise ToolError("a program that calls, jumps or computes has no one path: add --inline")
-        ran = (each for each in lines_alone(machine, _refuse) if isinstance(each, Block))
-        blocks = dict(enumerate(ran, 1))
+    if dialect is not None:
+        blocks = dict(enumerate(written_out(run, dialect, is_inline=is_inline), 1))
+    if blocks:
         end = "\r\n" if "\r\n" in program.text else "\n"
         data = source.mark + source.encode("".join(each.text + end for each in blocks.values()))
         source = replace(source, data=BytesIO(data), size=len(data), stamp=None)

@@ -13,9 +13,12 @@ from .compare import (
     compare as compare,
 )
 from .follow import (
+    FINISHING as FINISHING,
+    ROUGHING as ROUGHING,
     ToolPath as ToolPath,
     bend_of as bend_of,
     follow as follow,
+    in_cycle as in_cycle,
 )
 from .travel import (
     Motion as Motion,

@@ -4,6 +4,7 @@ them."""
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from decimal import Decimal
+from itertools import chain
 from math import atan2, ceil, cos, dist, hypot, radians, sin, tau
 
 from msgspec import Struct
@@ -38,6 +39,9 @@ from contoursolve.reading import (
 from contoursolve.solving import ArcSegment, Segment, center_by_radius
 from contoursolve.tolerance import LENGTH, REGULAR
 
+FINISHING, ROUGHING = ("G70",), ("G71", "G72", "G73")
+"""The cycles that cut a profile once, along it, and those before it."""
+_G70 = 70
 _TURNS = {2: Turn.CW, 3: Turn.CCW}
 _LINES = {0: Motion.RAPID, 1: Motion.FEED}
 _BESIDE = frozenset("NGFSTMDHEO")
@@ -63,17 +67,25 @@ class ToolPath(Struct, frozen=True):
         return tuple(step for step in self.steps if isinstance(step, Unfollowed))
 
 
-def follow(result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...]) -> ToolPath:
-    """The path of a program that has been solved for this control; `unit` is that before any G20 or G21."""
+def follow(
+    result: Result, dialect: Dialect, unit: Length, axes: tuple[str, ...], *, finishes: bool = False
+) -> ToolPath:
+    """The path of a program that has been solved for this control; `unit` is that before any G20 or G21. With
+    `finishes`, G70 runs the profile that it names."""
     follower, machine = _Follower(dialect, unit, axes), machine_for(result.program, dialect, result.around)
     if machine is None:
         for block in result.start.blocks if result.start else ():
             follower.state = advance(follower.state, block, dialect.modes)
         steps = follower.walk(result.program, result.answers)
     else:
-        asked = Request(dialect, unit, result.policy, Depth.VERDICT, result.start)
-        steps = follower.run(walk(machine.run_all_alone(), asked))
+        asked, machine.finishes = Request(dialect, unit, result.policy, Depth.VERDICT, result.start), finishes
+        steps = follower.run(walk(machine.run_all_alone(), asked), finishes=finishes)
     return ToolPath(result.program.name, dialect.name, axes, tuple(steps), tuple(follower.ran))
+
+
+def in_cycle(block: Block, cycles: Sequence[str]) -> bool:
+    """Whether it is cut as a part of a profile by one of some cycles."""
+    return bool(block.callers) and block.callers[-1].cycle in cycles
 
 
 class _Follower:
@@ -101,14 +113,42 @@ class _Follower:
             elif block.line > inside:
                 yield from self._beside(block)
 
-    def run(self, steps: Iterable[Passed]) -> Iterator[Step]:
-        """The same of a program that calls or computes, as it runs."""
-        for step in steps:
+    def run(self, steps: Iterable[Passed], *, finishes: bool) -> Iterator[Step]:
+        """The same of a program that calls or computes, as it runs. Behind the profile that G70 cuts, the tool goes
+        back to where it was."""
+        cycle, number, last = None, 0, None
+        for step in chain((each for each in steps if each.blocks), (None,)):
+            block = step.blocks[0] if step is not None else None
+            if cycle is not None and (block is None or not in_cycle(block, FINISHING)):
+                self.state, back = cycle.before, step.before if step is not None else cycle.before
+                if last is None:
+                    yield from self._block(cycle.blocks[0])
+                elif self._place(back) != last.end:
+                    ways = last.end, self._place(back)
+                    yield replace(self._travel(cycle.blocks[0], back, Motion.RAPID, ways, None), number=number)
+                cycle = None
+            if step is None or block is None:
+                return
             self.state = step.before
-            if step.answer is not None:
-                yield from self._contour(step.answer, step.blocks)
-            else:
-                yield from (each for block in step.blocks for each in self._beside(block))
+            if finishes and self._finishes(block):
+                cycle, number, last = step, len(self.ran), None
+                self.ran.append(block)
+                continue
+            made = self._contour(step.answer, step.blocks) if step.answer is not None else self._besides(step.blocks)
+            for each in made:
+                last = each if isinstance(each, Travel) else last
+                # Compensation is for the finishing pass (assumed).
+                is_rough = finishes and isinstance(each, Travel) and in_cycle(block, ROUGHING)
+                yield replace(each, compensation=40) if is_rough else each
+
+    @staticmethod
+    def _finishes(block: Block) -> bool:
+        """Whether it is a call of G70 with a profile."""
+        is_cycle = any(word.address == "G" and word.number == _G70 for word in block.words)
+        return is_cycle and block.find("P") is not None and block.find("Q") is not None
+
+    def _besides(self, blocks: Iterable[Block]) -> Iterator[Step]:
+        return chain.from_iterable(map(self._beside, blocks))
 
     def _beside(self, block: Block) -> Iterator[Step]:
         """The steps that a block beside contours adds to the path."""

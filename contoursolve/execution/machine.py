@@ -254,6 +254,8 @@ class Machine:
         """The mark to which what runs came back last, where whoever follows says that nothing new follows there."""
         self.passed_over: set[int] = set()
         """The lines of the main file that do not run, because of what was decided."""
+        self.finishes = False
+        """Whether a program without calls has the profile where G70 cuts it."""
         self._is_alone, self._is_reached, self._is_passing_over = False, True, False
         """Whether calls are written out, whether what runs is reached from the main program, and whether what runs is
         passed over there."""
@@ -1129,7 +1131,8 @@ class Machine:
         if call.kind is CallKind.PROFILE and is_inside:
             # In a profile, no control runs a cycle.
             return
-        if self._is_alone and call.kind is CallKind.PROFILE and not is_behind:
+        is_finishing = self.finishes and call.cycle == "G70"
+        if self._is_alone and call.kind is CallKind.PROFILE and not is_behind and not is_finishing:
             if not self._says_words(frame, index):
                 yield frame.source.blocks[index]
             if not call.cycle.startswith("G"):

@@ -58,3 +58,6 @@ from .tool_sweep import (
     family_of_tools as family_of_tools,
     sweep_tools as sweep_tools,
 )
+from .written_out import (
+    written_out as written_out,
+)

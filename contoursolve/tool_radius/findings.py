@@ -146,8 +146,10 @@ class ToolRules(Struct, frozen=True):
         if each.void is not None and each.radius > LENGTH:
             yield ToolFault(ToolFaultKind.NO_OFFSET, 0)
         if any(each.vector):
-            yield from tip_faults(each.elements, each.side.sign, each.radius, each.tip)
-            yield from flank_faults(each.elements, each.side.sign, each.tool)
+            own = [*tip_faults(each.elements, each.side.sign, each.radius, each.tip)]
+            own += flank_faults(each.elements, each.side.sign, each.tool)
+            # A rapid is no surface.
+            yield from (fault for fault in own if each.levels[fault.element] > 0)
 
 
 def with_radius(own: CuttingRun, radius: float) -> CuttingRun:
@@ -181,7 +183,7 @@ def look_at_tool(
 def _tool_runs(
     result: Result, dialect: Dialect, asked: Request, wanted: ToolRequest, axes: tuple[str, ...] = ()
 ) -> tuple[ToolPath, list[ToolRun]]:
-    path = follow(result, dialect, asked.unit, axes or dialect.modes.axes)
+    path = follow(result, dialect, asked.unit, axes or dialect.modes.axes, finishes=True)
     rules = rules_of(dialect, wanted, path.axes)
     return path, [rules.at(each) for each in find_runs(path, wanted, dialect)]
 

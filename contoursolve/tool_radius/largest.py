@@ -48,7 +48,7 @@ class ToolTrials:
             raise ToolError("no block shows the control, which says how moves are read")
         self.rules = rules_of(dialect, wanted, dialect.modes.axes)
         self.told = ToolFindings(result, dialect, asked, wanted)
-        self.path = path = follow(result, dialect, asked.unit, self.rules.axes)
+        self.path = path = follow(result, dialect, asked.unit, self.rules.axes, finishes=True)
         self.runs = find_runs(path, replace(wanted, default=_UNSTATED), dialect)
         self.premises = join_premises([each.premises for each in result.answers], dialect.name)
 

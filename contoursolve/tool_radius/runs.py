@@ -9,7 +9,7 @@ from math import dist
 from msgspec import Struct
 from msgspec.structs import replace
 
-from contoursolve.comparison import Motion, Step, ToolPath, Travel, Unfollowed
+from contoursolve.comparison import ROUGHING, Motion, Step, ToolPath, Travel, Unfollowed, in_cycle
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.reading import Dialect, Effect, rows_of
@@ -160,6 +160,10 @@ def nothing_cut(path: ToolPath) -> ToolError:
     """The error that no cutting move is there for a tool, with the first move that is not followed."""
     moves = [each for each in path.unfollowed if any(not word.startswith("G") for word in each.words)]
     lost = [f"; program line {each.line} is not followed: {each.reason}" for each in moves[:1]]
+    rough = next((each.callers[-1] for each in path.blocks if in_cycle(each, ROUGHING)), None)
+    if rough is not None:
+        told = f"{rough.cycle} in program line {rough.line} is not compensated (assumed), and no G70 cuts its profile"
+        lost = [f"; {told}"]
     return ToolError(f"no cutting move goes beside a contour, so that no tool cuts anything{''.join(lost)}")
 
 
@@ -179,6 +183,9 @@ def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
     cut. The first move behind leaves the contour."""
     group, before, broken = _Group([]), None, None
     for step in path.steps:
+        if isinstance(step, Travel) and in_cycle(path.blocks[step.number], ROUGHING):
+            # What they leave is for the finishing pass.
+            continue
         move = step if isinstance(step, Travel) and step.motion in (Motion.RAPID, Motion.FEED) else None
         if move is not None and not _moves(move, path.axes):
             continue

@@ -779,3 +779,72 @@ def test_what_is_not_followed_or_not_solved_is_told_once(tmp_path: Path):
         assert (
             told or "no tool cuts anything; program line 3 is not followed: the centre or the radius"
         ) in done.output
+
+
+TURNED = """\
+G21 G40 G99
+T0101
+G00 X62. Z2.
+G71 U2. R0.5
+G71 P100 Q200 U0.4 W0.1 F0.25
+N100 G00 {0}X16.
+G01 Z0. F0.1
+X20. ,C2.
+Z-15. ,R2.
+X30.
+X60. Z-40.
+N200 {1}X62.
+G00 X100. Z50.
+T0202
+{2}
+{3}G70 P100 Q200
+{4}G00 X100. Z50.
+M30
+"""
+FINISHED = (
+    "G01 X16. Z-0.469 F0.1|G01 X19.531 Z-2.234|G03 X20. Z-2.8 I-0.566 K-0.566|G01 X20. Z-13.8|G02 X22.4 Z-15. I1.2 K0."
+)
+
+
+@pytest.mark.parametrize("control", ["fanuc-lathe", "haas-lathe"])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("", "", "G00 X62. Z2.", "G42\n", "G40 "),
+        ("", "", "G00 G42 X62. Z2.", "", "G40 "),
+        ("G42 ", "G40 ", "G00 X62. Z2.", "", ""),
+    ],
+    ids=["before", "in a move", "in the profile"],
+)
+def test_the_finishing_pass_is_written_and_roughing_stays(words: tuple[str, ...], control: str, tmp_path: Path):
+    (tmp_path / "a.nc").write_text(TURNED.format(*words))
+    (tmp_path / "contoursolve.toml").write_text(
+        "[tools]\nT0101 = {radius = 1.6, tip = 3}\nT0202 = {radius = 0.8, tip = 3}\n"
+    )
+    given = ("--control", control, "--tool", "program")
+    done = call("expand", *given, "--no-comments", tmp_path / "a.nc", "-o", tmp_path / "new.nc")
+    assert done.exit_code == 0, done.stderr
+    text = (tmp_path / "new.nc").read_text()
+    assert not re.search(r"G4[012]", text)
+    rough, behind = text.split("(G70 P100 Q200)\n")
+    assert "G71 P100 Q200 U0.4 W0.1 F0.25\nN100 G00 X16.\nG01 Z0. F0.1\nG01 X20. Z-2.\n" in rough
+    assert text.count("(path of the tip for nose R0.8, tip 3, right of the contour)") == 1
+    assert FINISHED.replace("|", "\n") in behind
+    assert behind.splitlines()[-3].startswith("G00 ")
+    assert call("diff", *given, tmp_path / "a.nc", tmp_path / "new.nc").exit_code == 0
+    found = call("check", *given, tmp_path / "a.nc")
+    assert (found.exit_code, "warning" in found.stdout) == (0, False)
+
+
+def test_what_of_a_finishing_pass_cannot_be_written_is_told(tmp_path: Path):
+    (tmp_path / "a.nc").write_text(TURNED.format("", "", "G00 X62. Z2.", "G42\n", "G40 ").replace("G99", "G18"))
+    done = call("expand", "--control", "mitsubishi", *NOSE, tmp_path / "a.nc")
+    assert "program line 17: where the tool is behind G70 is not known of this control" in done.stderr
+    given, words = (*LATHE, *NOSE), ("G42 ", "G40 ", "G00 X62. Z2.", "", "")
+    for old, new, told in (
+        ("G70 P100 Q200", "", "G71 in program line 5 is not compensated (assumed), and no G70 cuts its profile"),
+        ("G70 P100 Q200", "G70 P100 Q200 U0.2", "program line 16: U0.2 beside G70 cannot be written out"),
+    ):
+        (tmp_path / "a.nc").write_text(TURNED.format(*words).replace(old, new))
+        done = call("expand", *given, tmp_path / "a.nc")
+        assert (done.exit_code, told in done.stderr) == (2, True), done.stderr
