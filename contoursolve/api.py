@@ -251,7 +251,7 @@ def solve_with_tool(
     *,
     tip: int | None = None,
     side: str | None = None,
-    outside: str = "roll",
+    outside: str | None = None,
     name: str = "<program>",
     **options: Unpack[SolveKeywords],
 ) -> tuple[Result, ToolReport]:

@@ -275,9 +275,8 @@ side_options = together(
     click.option(
         "--outside",
         type=click.Choice(["roll", "intersect"]),
-        default="roll",
-        show_default=True,
-        help="The way around an outside corner: an arc about it, or to where both offsets meet.",
+        help="The way around an outside corner: an arc about it, or to where both offsets meet. Without it, as the "
+        "program says (G450, G451; G25, G26), or the setting tool-outside.",
     ),
 )
 """The options that state a tool but for its radius."""

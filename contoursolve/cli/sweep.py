@@ -212,7 +212,7 @@ def sweep_(
     varied: tuple[str, ...],
     tip: int | None,
     side: str | None,
-    outside: str,
+    outside: str | None,
     facts: tuple[str, ...],
     is_paired: bool,
     output: str | None,

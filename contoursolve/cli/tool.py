@@ -31,7 +31,7 @@ from contoursolve.tool_radius import (
 
 
 def beside_tool(
-    run: Run, tool: str | None, tip: int | None, side: str | None, outside: str = "roll"
+    run: Run, tool: str | None, tip: int | None, side: str | None, outside: str | None = None
 ) -> Run | Collected:
     """The result of a run with the findings about its tool; the run itself where nothing states one."""
     wanted = wanted_tool(run.frame.program.name, tool, tip, side, outside)

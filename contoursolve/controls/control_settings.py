@@ -1,11 +1,12 @@
 """Settings of controls: how rows of them are made, and those of every control."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from decimal import Decimal
 from typing import Any
 
 from contoursolve.controls.further import WORDS
+from contoursolve.controls.tool_settings import TOOL_SETTINGS
 from contoursolve.diagnostics import OWN, Evidence, Source
 from contoursolve.execution import MOST_BLOCKS, Limit
 from contoursolve.reading import Dialect, Setting, WithoutPoint
@@ -113,5 +114,10 @@ SUSPICIONS_SETTING = setting(
     {"on": "each with what was probably meant", "off": "not at all"},
     own_source("one right program of fifty at most is warned of without a reason"),
 )
-SETTINGS_OF_ALL = (TRAVEL_SETTING, BLOCKS_SETTING, SUSPICIONS_SETTING, WORDS)
+SETTINGS_OF_ALL = (TRAVEL_SETTING, BLOCKS_SETTING, SUSPICIONS_SETTING, WORDS, *TOOL_SETTINGS)
 """Those of every control."""
+
+
+def with_default(settings: Iterable[Setting], name: str, default: str) -> tuple[Setting, ...]:
+    """Settings, of which one has another value in force."""
+    return tuple(replace(each, default=default) if each.name == name else each for each in settings)

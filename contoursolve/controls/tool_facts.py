@@ -16,6 +16,8 @@ class ToolFacts(Struct, frozen=True):
     """Its alarms, with their grades, by the kinds of `ToolFaultKind`."""
     notice: str = ""
     """The moves among which it notices that the tool cuts into another element, and the grade."""
+    corners: Mapping[str, str] = {}
+    """The words that say the way around an outside corner, `roll` or `intersect` (printed)."""
     needs_entry: bool = False
     """Whether it refuses a move to the contour that is no longer than the radius."""
     no_offset: Evidence = _ASSUMED
@@ -48,6 +50,7 @@ _SIEMENS = ToolFacts(
     | _alarms(_DERIVED, arc_too_small="10751", element_vanishes="10751")
     | _alarms(_ASSUMED, no_offset="10750"),
     "the control checks the next blocks, by default 3 (printed)",
+    {"G450": "roll", "G451": "intersect"},
 )
 _NAMED = "Tool radius too large"
 TOOL_FACTS: Mapping[str, ToolFacts] = {
@@ -61,8 +64,9 @@ TOOL_FACTS: Mapping[str, ToolFacts] = {
         _alarms(_PRINTED, element_vanishes=_NAMED) | _alarms(_DERIVED, arc_too_small=_NAMED, no_intersection=_NAMED)
     ),
     "isg": ToolFacts(
-        _alarms(_PRINTED, arc_too_small="90017", entry_too_short="90123", entry_by_arc="90008"),
+        _alarms(_PRINTED, arc_too_small="90017", equal_radius="90017", entry_too_short="90123", entry_by_arc="90008"),
         "the control looks at this block and two more, and not farther (printed)",
+        {"G25": "intersect", "G26": "roll"},
         needs_entry=True,
     ),
     "mitsubishi": ToolFacts(

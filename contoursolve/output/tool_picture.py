@@ -8,7 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.diagnosis import Answer
-from contoursolve.geometry import Turn, cross
+from contoursolve.geometry import Turn
 from contoursolve.pictures import (
     Closeup,
     Leader,
@@ -22,21 +22,22 @@ from contoursolve.pictures import (
     Weight,
     along,
     direction,
-    foot,
     middle,
     number,
     on_arc,
     remarks_of,
 )
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
-from contoursolve.tolerance import LENGTH, REGULAR
+from contoursolve.tolerance import LENGTH
 from contoursolve.tool_radius import (
+    CuttingRun,
     OffsetPath,
+    Rest,
     ToolFault,
     ToolFaultKind,
     ToolReport,
     ToolRun,
-    meet,
+    foot,
     nearest,
     title_of,
     uncompensated,
@@ -45,8 +46,8 @@ from contoursolve.tool_radius import (
 MOST_STANCES, MOST_DEPTHS, MOST_WRONG = 16, 3, 2
 """Places of one run at which the tool is drawn, at which there stands how much stays, and that come out wrong."""
 
-_READABLE, _NOTICED = 24.0, 0.005
-"""Pixels of a tool that can be read, and mm that stay in a corner that is shown."""
+_READABLE = 24.0
+"""Pixels of a tool that can be read."""
 
 _HATCHES, _PIECES = 7, 12
 """Lines across what stays in a corner, and straight pieces of an arc of its outline."""
@@ -110,7 +111,7 @@ def _beside(
 ) -> ToolDrawing:
     run, title = each.run, each.title
     cut = tuple(run.elements[place] for place in own if is_whole and not run.travels[place].element)
-    path = tuple(each.written(piece) for piece in each.offset.pieces or () if piece.element in own)
+    path = tuple(each.written(piece) for piece in each.pieces if piece.element in own)
     beside = each.uncompensated if is_whole else ()
     trails = ((cut, Role.INK, Weight.MAIN), (path, Role.TRACK, Weight.BESIDE), (beside, Role.GHOST, Weight.BESIDE))
     stances = [stance for stance in _stances(each) if stance.element in own][:MOST_STANCES]
@@ -172,16 +173,14 @@ def _stances(each: ToolRun) -> Iterator[Stance]:
     """The places that matter: where the tool does not fit; else where it begins, in inside corners, and where most
     comes out wrong."""
     own, pieces = each.run, each.offset.pieces or ()
-    yield from (_at_fault(each, fault) for fault in each.faults)
-    if pieces and not each.faults:
+    faults = [fault for fault in each.faults if fault.kind is not ToolFaultKind.LEFT_OUT]
+    yield from (_at_fault(each, fault) for fault in faults)
+    if pieces and not faults:
         yield Stance(pieces[0].segment.start, 0)
-    for place, joint in enumerate(each.offset.joints if pieces else ()):
-        if joint.meeting is not None:
-            at, near = joint.meeting.center, own.elements[place : place + 2]
-            depth = dist(near[0].end, at) - own.radius
-            if depth >= _NOTICED:
-                yield Stance(at, place, None, _outline(own.side.sign, near, at), depth)
-    wrong = list(uncompensated(own.elements, own.side.sign, own.radius, own.tip)) if each.uncompensated else []
+    noticed = each.offset.settings.noticed
+    yield from (_resting(own, rest) for rest in each.offset.rests(pieces) if rest.depth >= noticed)
+    about = own.elements, own.side.sign, own.radius, own.tip, noticed
+    wrong = list(uncompensated(*about)) if each.uncompensated else []
     for fault in sorted(wrong, key=lambda one: -round(abs(one.short or 0.0), 6))[:MOST_WRONG]:
         yield Stance(_at_fault(each, fault).center, fault.element)
 
@@ -191,10 +190,9 @@ def _at_fault(each: ToolRun, fault: ToolFault) -> Stance:
     own, place, side = each.run, fault.element, each.run.side.sign
     at, way = middle(own.elements[place])
     if fault.kind in (ToolFaultKind.ARC_TOO_SMALL, ToolFaultKind.ELEMENT_VANISHES):
-        near = own.elements[max(place - 1, 0) : place + 2]
-        found = _between(near, own.radius)
-        if found is not None:
-            return Stance(found, place, fault, _outline(side, near, found), dist(at, found) - own.radius)
+        for rest in each.offset.rests(each.offset.shortcut or ()):
+            if rest.first < place < rest.last:
+                return replace(_resting(own, rest), element=place, fault=fault)
     if fault.kind is ToolFaultKind.INTERFERENCE and fault.working is not None:
         beside = OffsetPath([own.elements[fault.working]], own.radius, side).pieces
         if beside:
@@ -202,33 +200,18 @@ def _at_fault(each: ToolRun, fault: ToolFault) -> Stance:
     return Stance(along(at, (-way[1] * side, way[0] * side), own.radius), place, fault)
 
 
-def _between(near: Sequence[Segment], radius: float) -> Point | None:
-    """The centre of a tool that touches the lines before and behind an element, prolonged; None without such lines."""
-    if len(near) < 3 or isinstance(near[0], ArcSegment) or isinstance(near[2], ArcSegment):  # noqa: PLR2004
-        return None
-    way, on = (direction(each.start, each.end) for each in (near[0], near[2]))
-    if abs(cross(way, on)) <= REGULAR:
-        return None
-    step = near[2].start[0] - near[0].end[0], near[2].start[1] - near[0].end[1]
-    corner = along(near[0].end, way, cross(step, on) / cross(way, on))
-    before, after = along(corner, way, -1.0), along(corner, on, 1.0)
-    found = meet(LineSegment("", before, corner), LineSegment("", corner, after), radius)
-    return found.center if found is not None else None
+def _resting(own: CuttingRun, rest: Rest) -> Stance:
+    """The place at which a tool leaves something."""
+    near = own.elements[rest.first : rest.last + 1]
+    return Stance(rest.center, rest.first, None, _outline(own.side.sign, near, rest.center), rest.depth)
 
 
 def _outline(side: int, near: Sequence[Segment], center: Point) -> tuple[Segment, ...]:
     """The outline of what a tool leaves that touches the first and the last of some elements."""
-    first, last = _touched(near[0], center), _touched(near[-1], center)
+    first, last = foot(near[0], center), foot(near[-1], center)
     parts = (replace(near[0], start=first), *near[1:-1], replace(near[-1], end=last))
     nose = ArcSegment("", last, first, center, dist(center, first), Turn.CW if side > 0 else Turn.CCW)
     return (*(each for each in parts if dist(each.start, each.end) > LENGTH), nose)
-
-
-def _touched(element: Segment, center: Point) -> Point:
-    """The place of a line or a circle that is nearest to a centre."""
-    if isinstance(element, ArcSegment):
-        return along(element.center, direction(element.center, center), element.radius)
-    return foot(center, element.start, direction(element.start, element.end))
 
 
 def _hatches(outline: Sequence[Segment]) -> Iterator[LineSegment]:

@@ -46,7 +46,7 @@ class Setting:
     """The changes of values that are about more than its contours: from the control to the control with it, by the
     value."""
     unit: str = "mm"
-    """Of a number: `mm` or `blocks`."""
+    """Of a number: `mm`, `deg` or `blocks`."""
     names: Callable[[Any, tuple[str, ...]], Any] | None = None
     """From the control and some names to the control with them."""
 
@@ -64,7 +64,7 @@ class Setting:
         if self.bounds is None:
             return "" if value in self.values else f"values are: {', '.join(self.values)}"
         least, most = self.bounds
-        pattern = _NUMBER if self.unit == "mm" else _WHOLE
+        pattern = _WHOLE if self.unit == "blocks" else _NUMBER
         is_number = pattern.fullmatch(value) is not None
         return (
             ""

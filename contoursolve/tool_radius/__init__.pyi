@@ -1,4 +1,5 @@
 from .clearance import (
+    foot as foot,
     nearest as nearest,
 )
 from .faults import (
@@ -9,10 +10,6 @@ from .findings import (
     ToolReport as ToolReport,
     ToolRun as ToolRun,
     look_at_tool as look_at_tool,
-)
-from .joint import (
-    Joint as Joint,
-    meet as meet,
 )
 from .largest import (
     ToolTrials as ToolTrials,
@@ -29,6 +26,7 @@ from .moves import (
 from .offset import (
     OffsetElement as OffsetElement,
     OffsetPath as OffsetPath,
+    Rest as Rest,
     uncompensated as uncompensated,
 )
 from .runs import (

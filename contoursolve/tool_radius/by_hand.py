@@ -11,6 +11,7 @@ from contoursolve.tool_radius.joint import direction
 from contoursolve.tool_radius.offset import OffsetPath, shifted
 from contoursolve.tool_radius.runs import CuttingRun
 from contoursolve.tool_radius.tool import OutsideCorner
+from contoursolve.tool_radius.tool_settings import ToolSettings
 
 _ROUNDED = 0.002
 """mm. By so much words move an arc when they are rounded."""
@@ -34,7 +35,7 @@ def part_of(own: CuttingRun, radius: float, outside: OutsideCorner = OutsideCorn
         if way is not None and not is_around(way, radius, own):
             stretch.append(way)
             continue
-        pieces = OffsetPath(stretch, radius, -own.side.sign, outside).pieces if stretch else ()
+        pieces = OffsetPath(stretch, radius, -own.side.sign, ToolSettings(outside=outside)).pieces if stretch else ()
         if pieces is None:
             return ()
         own_pieces = [each.segment for each in pieces]

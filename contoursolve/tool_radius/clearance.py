@@ -1,13 +1,16 @@
 """Distances of elements that need not be neighbours: where a path comes nearest to the walls of a part."""
 
-from collections.abc import Iterator, Sequence
-from math import atan2, dist, inf, radians, sqrt, tau
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
+from math import atan2, cos, dist, inf, radians, sin, sqrt, tau
 
 import numpy
 from msgspec import Struct
+from msgspec.structs import replace
 
 from contoursolve.geometry import cross
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
+from contoursolve.tolerance import LENGTH
 
 _TURN = 1e-12
 """rad. By so much an angle may lie before the start of an arc and count as there: the rounding of arctangents."""
@@ -42,7 +45,7 @@ def nearest(one: Segment, other: Segment) -> tuple[float, Point]:
     """The distance of two elements, mm, and the place on the other one: a crossing, an end, or square to both."""
     pairs = [(here, foot(other, here)) for here in _salient(one, other)]
     pairs += [(foot(one, there), there) for there in _salient(other, one)]
-    pairs += [(at, at) for at in _crossings(one, other) if is_on(one, at) and is_on(other, at)]
+    pairs += [(at, at) for at in crossings(one, other) if is_on(one, at) and is_on(other, at)]
     return min((dist(here, there), there) for here, there in pairs)
 
 
@@ -51,15 +54,44 @@ def _salient(one: Segment, other: Segment) -> Iterator[Point]:
     centre."""
     yield from (one.start, one.end)
     if isinstance(other, ArcSegment):
-        if isinstance(one, ArcSegment):
-            base, unit, places = one.center, _unit(one.center, other.center), [one.radius, -one.radius]
-        else:
-            base, unit = one.start, _unit(one.start, one.end)
-            places = [_along(base, other.center, unit)]
-        yield from (at for at in (ahead(base, unit, place) for place in places) if is_on(one, at))
+        yield from square_to(one, other.center)
 
 
-def _crossings(one: Segment, other: Segment) -> Iterator[Point]:
+def square_to(segment: Segment, center: Point) -> Iterator[Point]:
+    """The places of an element where it is square to the way to a centre."""
+    if isinstance(segment, ArcSegment):
+        base, unit, places = segment.center, _unit(segment.center, center), [segment.radius, -segment.radius]
+    else:
+        base, unit = segment.start, _unit(segment.start, segment.end)
+        places = [_along(base, center, unit)]
+    yield from (at for at in (ahead(base, unit, place) for place in places) if is_on(segment, at))
+
+
+def split(segment: Segment, places: Iterable[Point]) -> Iterator[Segment]:
+    """The parts of an element between places on it."""
+    inner = sorted(places, key=lambda at: share_of(segment, at))
+    if not inner:
+        yield segment
+        return
+    for start, end in pairwise((segment.start, *inner, segment.end)):
+        if dist(start, end) > LENGTH:
+            yield replace(segment, start=start, end=end)
+
+
+def middle_of(segment: Segment) -> LineSegment:
+    """The place halfway along an element, as a line without length."""
+    at = (segment.start[0] + segment.end[0]) / 2, (segment.start[1] + segment.end[1]) / 2
+    if isinstance(segment, ArcSegment):
+        angle = segment.turn.sign * radians(segment.sweep) / 2
+        (a, b), (c, d) = segment.start, segment.center
+        at = (
+            c + (a - c) * cos(angle) - (b - d) * sin(angle),
+            d + (a - c) * sin(angle) + (b - d) * cos(angle),
+        )
+    return LineSegment("", at, at)
+
+
+def crossings(one: Segment, other: Segment) -> Iterator[Point]:
     """The places where the lines or circles of two elements cross."""
     if isinstance(one, ArcSegment) and isinstance(other, ArcSegment):
         apart, unit = dist(one.center, other.center), _unit(one.center, other.center)
@@ -96,11 +128,16 @@ def ahead(at: Point, unit: Point, length: float) -> Point:
 
 def is_on(segment: Segment, at: Point) -> bool:
     """Whether a place of the line or the circle of an element lies between its ends."""
+    low, high = (-_TURN, radians(segment.sweep) + _TURN) if isinstance(segment, ArcSegment) else (0.0, segment.length)
+    return low <= share_of(segment, at) <= high
+
+
+def share_of(segment: Segment, at: Point) -> float:
+    """The way along the line (mm) or the circle (rad) of an element to a place of it."""
     if isinstance(segment, LineSegment):
-        unit = _unit(segment.start, segment.end)
-        return 0 <= _along(segment.start, at, unit) <= segment.length
+        return _along(segment.start, at, _unit(segment.start, segment.end))
     begin, angle = (atan2(place[1] - segment.center[1], place[0] - segment.center[0]) for place in (segment.start, at))
-    return ((angle - begin) * segment.turn.sign + _TURN) % tau <= radians(segment.sweep) + 2 * _TURN
+    return ((angle - begin) * segment.turn.sign + _TURN) % tau - _TURN
 
 
 def foot(segment: Segment, at: Point) -> Point:

@@ -25,6 +25,10 @@ class ToolFaultKind(Enum):
         "the inside arc of radius {radius} is {short} too small for the {tool}",
         "take a smaller tool or a larger radius",
     )
+    EQUAL_RADIUS = _Row(
+        "the inside arc of radius {radius} is no larger than the {tool}: it would be a point",
+        "take a smaller tool or a larger radius",
+    )
     ELEMENT_VANISHES = _Row(
         "the {element} is {length} long, the {tool} needs {needs} between its corners: {short} short",
         "take a smaller tool or make it longer",
@@ -101,6 +105,11 @@ class ToolFaultKind(Enum):
         "the inside corner behind this {element} keeps the radius of the {tool}: {short} stays in it, {rest}",
         "a smaller tool leaves less",
         Severity.INFO,
+    )
+    LEFT_OUT = _Row(
+        "the {tool} leaves out {left}: {short} stays there{beside}",
+        "a smaller tool leaves less",
+        Severity.WARNING,
     )
     SWITCHED = _Row(
         "the path of the tool begins anew here: the side or the plane changes without a move away",

@@ -23,11 +23,13 @@ from contoursolve.diagnosis import (
 )
 from contoursolve.diagnostics import Applicability, Basis, Diagnostic, Evidence, Fix, Label, Severity, Span
 from contoursolve.gcode import Block, Word, parse, spelled
+from contoursolve.geometry import dot
 from contoursolve.program import Request, Result, run
 from contoursolve.reading import Dialect
-from contoursolve.solving import LEAST, ArcSegment, Contour, Segment
+from contoursolve.solving import LEAST, ArcSegment, Contour, LineSegment, Segment
 from contoursolve.tolerance import AGREEMENT, LARGEST, LENGTH
 from contoursolve.tool_radius.by_hand import is_around, made_for, part_of
+from contoursolve.tool_radius.clearance import ahead
 from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
 from contoursolve.tool_radius.joint import direction
 from contoursolve.tool_radius.offset import (
@@ -41,9 +43,11 @@ from contoursolve.tool_radius.offset import (
     tip_faults,
     uncompensated,
     uncut,
+    without_short,
 )
-from contoursolve.tool_radius.runs import CuttingRun, ToolRequest, find_runs, nothing_cut, place_of
+from contoursolve.tool_radius.runs import CuttingRun, ToolRequest, find_runs, nothing_cut, place_of, segment_of
 from contoursolve.tool_radius.tool import OutsideCorner
+from contoursolve.tool_radius.tool_settings import ToolSettings, settings_of
 
 
 class ToolRun(Struct, frozen=True, dict=True):
@@ -68,10 +72,29 @@ class ToolRun(Struct, frozen=True, dict=True):
     @cached_property
     def path(self) -> Contour | None:
         """The path of the programmed point: the imaginary tip, or the centre; None where the tool does not fit."""
-        if not self.offset.pieces or any(each.kind.value.severity is Severity.ERROR for each in self.stops):
+        if not self.pieces:
             return None
-        names = [self.run.travels[each.element].element if each.is_own else "around" for each in self.offset.pieces]
-        return _contour(self.run, names, [self.written(each) for each in self.offset.pieces])
+        names = [self.run.travels[each.element].element if each.is_own else "around" for each in self.pieces]
+        return _contour(self.run, names, [self.written(each) for each in self.pieces])
+
+    @cached_property
+    def pieces(self) -> tuple[OffsetElement, ...]:
+        """The path of the centre as it is written: from where the move to the contour ends, to where the setting says,
+        without moves that are too short; empty where there is none."""
+        if not self.offset.pieces or any(self.rules.is_error(each.kind) for each in self.stops):
+            return ()
+        own, settings, found = self.run, self.offset.settings, list(self.offset.pieces)
+        if (entry := self.rules.entry_of(own)) is not None:
+            first = entry.pieces[-1].segment.start if entry.pieces else found[0].segment.start
+            found[0] = replace(found[0], segment=replace(found[0].segment, start=first))
+            found[:0] = [replace(each, element=0) for each in (entry.pieces or ())[1:-1]]
+        last = found[-1].segment
+        if settings.ends_at_tip and isinstance(last, LineSegment):
+            way = direction(last, at_end=True)
+            past = dot(own.vector, way)
+            if 0 < past < last.length:
+                found[-1] = replace(found[-1], segment=replace(last, end=ahead(last.end, way, -past)))
+        return tuple(without_short(found, settings.least))
 
     def written(self, piece: OffsetElement) -> Segment:
         """A piece of the centre's path as that of the programmed point."""
@@ -113,21 +136,37 @@ class ToolRules(Struct, frozen=True):
     about the control."""
 
     axes: tuple[str, ...]
-    outside: OutsideCorner
+    outside: OutsideCorner | None
     facts: ToolFacts
+    settings: ToolSettings
 
     def at(self, own: CuttingRun) -> ToolRun:
         """A run with the path of its tool, and all faults."""
-        made = OffsetPath(own.elements, own.radius, own.side.sign, self.outside, own.levels)
-        return ToolRun(own, made, self, (*made.stops, *self._around(own)))
+        outside = self.outside or own.outside or self.settings.outside
+        settings = replace(self.settings, outside=outside)
+        made = OffsetPath(own.elements, own.radius, own.side.sign, settings, own.levels)
+        told = ToolFaultKind.LEFT_OUT, ToolFaultKind.INSIDE_CORNER if self.settings.refuses_corner else None
+        rests = (each for each in uncut(made) if each.kind in told)
+        return ToolRun(own, made, self, (*made.stops, *self._around(own), *rests))
 
     def stops(self, own: CuttingRun, radius: float) -> list[ToolFault]:
         """The faults that keep a tool of a radius (mm) from a run."""
-        others = {ToolFaultKind.TIP_AGAINST_SIDE} | (
-            {ToolFaultKind.ENTRY_TOO_SHORT} if self.facts.needs_entry else set()
-        )
-        faults = self.at(with_radius(own, radius)).stops
-        return [each for each in faults if each.kind.value.severity is Severity.ERROR or each.kind in others]
+        strict = replace(self, settings=replace(self.settings, leaves=False))
+        found = strict.at(with_radius(own, radius)).stops
+        return [each for each in found if self.is_error(each.kind) or each.kind is ToolFaultKind.TIP_AGAINST_SIDE]
+
+    def entry_of(self, own: CuttingRun) -> OffsetPath | None:
+        """The path beside the move to a contour and its first element, where the setting has that as an element."""
+        lead = own.lead if self.settings.is_entry_offset and own.is_stated else None
+        if lead is None or lead.bend is not None or None in place_of(lead, self.axes, at_end=False):
+            return None
+        return OffsetPath((segment_of(lead, self.axes), own.elements[0]), own.radius, own.side.sign, self.settings)
+
+    def is_error(self, kind: ToolFaultKind) -> bool:
+        """Whether a fault leaves no path."""
+        refused = {ToolFaultKind.ENTRY_TOO_SHORT: self.facts.needs_entry}
+        refused[ToolFaultKind.INSIDE_CORNER] = self.settings.refuses_corner
+        return refused.get(kind, False) or kind.value.severity is Severity.ERROR
 
     def _around(self, each: CuttingRun) -> Iterator[ToolFault]:
         """The faults of the moves to a contour and away, of what interrupts it, and of the tip and the flanks."""
@@ -141,12 +180,15 @@ class ToolRules(Struct, frozen=True):
             length = dist((a, b), (c or 0.0, d or 0.0)) if a is not None and b is not None else each.radius + 1
             if length <= each.radius - LENGTH or (self.facts.needs_entry and length <= each.radius):
                 yield ToolFault(ToolFaultKind.ENTRY_TOO_SHORT, 0, each.radius - length, length=length)
+        if (entry := self.entry_of(each)) is not None:
+            yield from (replace(fault, element=0) for fault in entry.stops)
         if each.broken and each.is_stated:
             yield ToolFault(ToolFaultKind.OTHER_TOOL if each.is_changed else ToolFaultKind.INTERRUPTED, 0)
         if each.void is not None and each.radius > LENGTH:
             yield ToolFault(ToolFaultKind.NO_OFFSET, 0)
         if any(each.vector):
-            own = [*tip_faults(each.elements, each.side.sign, each.radius, each.tip)]
+            silent = self.settings.is_tip_silent
+            own = [] if silent else [*tip_faults(each.elements, each.side.sign, each.radius, each.tip)]
             own += flank_faults(each.elements, each.side.sign, each.tool)
             # A rapid is no surface.
             yield from (fault for fault in own if each.levels[fault.element] > 0)
@@ -190,7 +232,7 @@ def _tool_runs(
 
 def rules_of(dialect: Dialect, wanted: ToolRequest, axes: tuple[str, ...]) -> ToolRules:
     """The ground on which the runs of a program are looked at."""
-    return ToolRules(axes, wanted.outside, TOOL_FACTS.get(dialect.name, ToolFacts()))
+    return ToolRules(axes, wanted.outside, TOOL_FACTS.get(dialect.name, ToolFacts()), settings_of(dialect))
 
 
 class ToolFindings:
@@ -207,25 +249,27 @@ class ToolFindings:
         own = tool_run.run
         told = [ToolFault(ToolFaultKind.APPROACH, 0)] if own.is_approached else []
         told += [ToolFault(ToolFaultKind.SWITCHED, 0)] if own.lead is None and not is_first else []
-        told += [] if own.is_stated else self._uncompensated(own)
+        noticed = tool_run.rules.settings.noticed
+        told += [] if own.is_stated else self._uncompensated(own, noticed)
         told += [ToolFault(ToolFaultKind.NO_RADIUS, 0)] if own.radius <= LENGTH else []
         told += [ToolFault(ToolFaultKind.STILL_ON, len(own.elements) - 1)] if own.still_on else []
         # What interrupts one run stands before the next one; of a contour without a solution, its own finding tells.
         self.broken |= {line for each in self.result.answers if each.contour is None for line in each.lines}
         faults = [each for each in tool_run.faults if each.kind not in _BREAKS or own.broken not in self.broken]
         self.broken.add(own.broken)
-        yield from (self._finding(tool_run, fault) for fault in (*told, *faults, *uncut(tool_run.offset)))
+        rests = (each for each in uncut(tool_run.offset) if each not in tool_run.stops)
+        yield from (self._finding(tool_run, fault) for fault in (*told, *faults, *rests))
 
-    def _uncompensated(self, own: CuttingRun) -> Iterator[ToolFault]:
+    def _uncompensated(self, own: CuttingRun, noticed: float) -> Iterator[ToolFault]:
         """The error of each element where the programmed point runs along a contour, or along another tool's path."""
         made = made_for(own)
         if made is None:
-            yield from uncompensated(own.elements, own.side.sign, own.radius, own.tip)
-            yield from stub(own.elements, own.side.sign, own.radius, own.tip)
+            yield from uncompensated(own.elements, own.side.sign, own.radius, own.tip, noticed)
+            yield from stub(own.elements, own.side.sign, own.radius, own.tip, noticed)
             return
         around = [number for number, each in enumerate(own.elements) if is_around(each, made, own)]
         yield ToolFault(ToolFaultKind.BY_HAND, around[0], length=made)
-        for each in uncompensated(own.elements, own.side.sign, own.radius - made, own.tip):
+        for each in uncompensated(own.elements, own.side.sign, own.radius - made, own.tip, noticed):
             if each.element not in around:
                 yield replace(each, kind=ToolFaultKind.OTHER_RADIUS, length=made)
 
@@ -241,10 +285,9 @@ class ToolFindings:
         block = self.blocks.get(line)
         span = word.span if word is not None else block.span if block is not None else Span(line, 1, 2)
         texts, values = self.texts(own, fault), {"off_by_mm": fault.short} if fault.short is not None else {}
-        is_refused = fault.kind is ToolFaultKind.ENTRY_TOO_SHORT and self.facts.needs_entry
         return Diagnostic(
             fault.kind.code,
-            Severity.ERROR if is_refused else row.severity,
+            Severity.ERROR if tool_run.rules.is_error(fault.kind) else row.severity,
             Basis.NUMERICAL,
             span,
             row.message.format(**texts),
@@ -263,6 +306,8 @@ class ToolFindings:
         """The numbers and names of a message."""
         element, unit, short = own.elements[fault.element], own.unit, fault.short or 0.0
         back, on = (length_in(each, unit) for each in fault.rest)
+        name, last = "arc" if isinstance(element, ArcSegment) else "line", fault.working or fault.element
+        lines = " to ".join(str(own.travels[number].line) for number in (fault.element, last))
         return {
             "tool": f"{_kind(own)} {own.size}",
             "kind": _kind(own),
@@ -272,8 +317,9 @@ class ToolFindings:
             "off": self.dialect.modes.codes[40].text,
             "void": own.void.text.strip() if own.void else "",
             "grade": (self.facts.no_offset if own.void and own.void.address == "D" else Evidence.ASSUMED).value,
+            "left": f"this {name}" if last == fault.element else f"what program lines {lines} make",
             "made": length_in(fault.length, unit),
-            "element": "arc" if isinstance(element, ArcSegment) else "line",
+            "element": name,
             "radius": length_in(getattr(element, "radius", 0.0), unit),
             "short": length_in(short, unit),
             "length": length_in(fault.length, unit),
@@ -287,6 +333,7 @@ class ToolFindings:
             "needed": angle_text(fault.rest[0]),
             "stated": angle_text(fault.rest[1]),
             "rest": f"{back} and {on} along its sides",
+            "beside": f", {back} before it and {on} behind it" * any(each > LENGTH for each in fault.rest),
             "comes_out": self._comes_out(own, element, short),
         }
 

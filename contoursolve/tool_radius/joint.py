@@ -5,7 +5,7 @@ form. Where both offsets meet beyond an outside corner, it is that of the corner
 """
 
 from functools import lru_cache
-from math import atan2, hypot, isfinite, radians
+from math import atan2, hypot, isfinite
 from typing import Any
 
 from msgspec import Struct
@@ -20,14 +20,12 @@ from contoursolve.geometry import (
     Line,
     Turn,
     build_system,
+    cross,
     put_on,
     scalar,
 )
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, compile_system
 from contoursolve.tolerance import LENGTH, RESIDUAL
-
-TANGENT = radians(0.01)
-"""Turn up to which elements whose offsets do not meet are taken for tangent: words are rounded (assumed)."""
 
 STRAY = 1e-7
 """mm. What straight on strays from the way around an outside corner where that is left out: words are rounded."""
@@ -66,15 +64,21 @@ def direction(segment: Segment, *, at_end: bool) -> Point:
     return first / length, second / length
 
 
-def join(before: Segment, after: Segment, radius: float, side: int) -> Joint:
-    """The joint of two elements for a tool of a radius (mm) to the left (`side` +1) or right (-1) of them."""
+def turn_of(before: Segment, after: Segment) -> float:
+    """The turn from the end of an element to the start of the next one, rad, to the left positive."""
     one, two = direction(before, at_end=True), direction(after, at_end=False)
-    turn = side * atan2(one[0] * two[1] - one[1] * two[0], one[0] * two[0] + one[1] * two[1])
+    return atan2(cross(one, two), one[0] * two[0] + one[1] * two[1])
+
+
+def join(before: Segment, after: Segment, radius: float, side: int, tangent: float = 0.0) -> Joint:
+    """The joint of two elements for a tool of a radius (mm) to the left (`side` +1) or right (-1) of them; up to a turn
+    (rad) they are tangent if their offsets do not meet: words are rounded."""
+    turn = side * turn_of(before, after)
     if abs(turn) * max(radius, 1.0) <= LENGTH or (turn < 0 and radius * turn * turn / 2 <= STRAY):
         return Joint(0.0, None)
     if turn > 0:
         found = meet(before, after, radius)
-        return Joint(0.0 if found is None and turn <= TANGENT else turn, found)
+        return Joint(0.0 if found is None and turn <= tangent else turn, found)
     return Joint(turn, None)
 
 

@@ -109,7 +109,7 @@ class ToolOptions(BlockOptions, total=False):
 
     side: str | None
     tip: int | None
-    outside: str
+    outside: str | None
 
 
 def find_tools(
@@ -122,7 +122,7 @@ def find_tools(
         within: the range of radii to search; without it, up to 1 m.
         side: `left` or `right`; without it what the program's G41 or G42 (RL, RR) says.
         tip: the number of the imaginary tip of a turning tool, 0 to 9.
-        outside: the way around an outside corner, `roll` (without it) or `intersect`.
+        outside: the way around an outside corner, `roll` or `intersect`; without it as the program or the control says.
         options: as for `feasible`, with the same errors.
 
     Radii are in the unit of the program. Raises ToolError for a tool that there cannot be, for a side that
@@ -146,6 +146,7 @@ def request_of(options: ToolOptions) -> tuple[ToolRequest, BlockOptions]:
     """A tool of any radius, and the options about the block. Raises ToolError, ValueError."""
     side, tip = options.pop("side", None), options.pop("tip", None)
     make_tool(Decimal(0), tip)
-    outside = choice_of(OutsideCorner, options.pop("outside", OutsideCorner.ROLL.value), "outside")
+    way = options.pop("outside", None)
+    outside = choice_of(OutsideCorner, way, "outside") if way is not None else None
     chosen = choice_of(ToolSide, side, "side") if side is not None else None
     return ToolRequest(None, tip, chosen, outside), options

@@ -46,7 +46,7 @@ def _by_travel(report: ToolReport) -> Mapping[int, tuple[Travel, ...]]:
     starts = {id(each.run.leaving): path.end for each, path in runs}
     ends = {id(each.run.lead): path.start for each, path in runs}
     for each, path in runs:
-        rows = [(piece.element, each.written(piece), piece.is_own) for piece in each.offset.pieces or ()]
+        rows = [(piece.element, each.written(piece), piece.is_own) for piece in each.pieces]
         here, pieces = path.start, {number: [*own] for number, own in groupby(rows, key=itemgetter(0))}
         for number, step in enumerate(each.run.travels):
             own = pieces.get(number, [])

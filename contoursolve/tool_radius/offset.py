@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
-from math import atan2, degrees, dist, hypot, pi
+from math import atan2, cos, degrees, dist, hypot, pi, radians
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -11,10 +11,21 @@ from msgspec.structs import replace
 from contoursolve.geometry import FIRST, SECOND, Circle, Line, Turn, Values, dot, make_tangent
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment, largest_fitting
 from contoursolve.tolerance import AGREEMENT, INCREMENT, LENGTH, REGULAR
-from contoursolve.tool_radius.clearance import ahead, gaps_below, is_on, nearest
+from contoursolve.tool_radius.clearance import (
+    ahead,
+    crossings,
+    foot,
+    gaps_below,
+    is_on,
+    middle_of,
+    nearest,
+    split,
+    square_to,
+)
 from contoursolve.tool_radius.faults import ToolFault, ToolFaultKind
 from contoursolve.tool_radius.joint import STRAY, direction, join, meet_outside
 from contoursolve.tool_radius.tool import OutsideCorner, Tool
+from contoursolve.tool_radius.tool_settings import ToolSettings
 
 GOUGE = 1e-6
 """mm. Nearer than the radius by less than this is no gouge: a thousandth of the controls' least increment."""
@@ -62,6 +73,20 @@ class Gouge(Struct, frozen=True):
         return is_turned or self.wall == other.wall or dist(self.at, other.at) <= 2 * radius
 
 
+_USUAL = ToolSettings()
+
+
+class Rest(Struct, frozen=True):
+    """The rest that a tool leaves where its centre goes on from one element to a later one: how deep (mm), beside which
+    elements (their numbers), and by how much of the first and the last one it does not cut (mm)."""
+
+    center: Point
+    first: int
+    last: int
+    depth: float
+    lost: tuple[float, float]
+
+
 class OffsetPath:
     """The path of the centre of a tool of a radius (mm) to the left (`side` +1) or right (-1) of elements, square to
     the first and the last one at its ends. `levels` are the numbers of the pass of each, from 1, negative for what is
@@ -72,18 +97,23 @@ class OffsetPath:
         elements: Sequence[Segment],
         radius: float,
         side: int,
-        outside: OutsideCorner = OutsideCorner.ROLL,
+        settings: ToolSettings = _USUAL,
         levels: Sequence[int] | None = None,
     ) -> None:
-        self.elements, self.radius, self.side, self.outside = elements, radius, side, outside
+        self.elements, self.radius, self.side, self.settings = elements, radius, side, settings
         self.levels = levels or [1] * len(elements)
-        self.joints = [join(one, two, radius, side) for one, two in pairwise(elements)]
+        tangent = radians(settings.tangent)
+        self.joints = [join(one, two, radius, side, tangent) for one, two in pairwise(elements)]
 
     @cached_property
     def stops(self) -> tuple[ToolFault, ...]:
         """The faults that keep the tool from the path: of neighbours, or else of our own check, or else of any
         elements."""
-        return tuple(self._local()) or tuple(self._unverified()) or tuple(self._interferences())
+        return () if self.settings.leaves and self.shortcut else self._stops
+
+    @cached_property
+    def _stops(self) -> tuple[ToolFault, ...]:
+        return tuple(self._local()) or tuple(self._unverified(self._pieces)) or tuple(self._interferences())
 
     @cached_property
     def faults(self) -> tuple[ToolFault, ...]:
@@ -109,7 +139,7 @@ class OffsetPath:
     @cached_property
     def pieces(self) -> tuple[OffsetElement, ...] | None:
         """The path; None where it does not fit."""
-        return None if self.stops else self._pieces
+        return None if self.stops else self.shortcut if self._stops else self._pieces
 
     # What fits --------------------------------------------------------------------------------------------------
 
@@ -117,10 +147,14 @@ class OffsetPath:
         """The faults that each element has with its neighbours."""
         small = set[int]()
         for number, element in enumerate(self.elements):
-            short = self.radius - element.radius if isinstance(element, ArcSegment) else 0.0
-            if isinstance(element, ArcSegment) and element.turn.sign == self.side and short > LENGTH:
+            if not isinstance(element, ArcSegment) or element.turn.sign != self.side:
+                continue
+            short = self.radius - element.radius
+            if short > LENGTH:
                 yield ToolFault(ToolFaultKind.ARC_TOO_SMALL, number, short, element.radius, element.length)
                 small |= {number - 1, number, number + 1}
+            elif short >= -LENGTH and self.settings.refuses_point:
+                yield ToolFault(ToolFaultKind.EQUAL_RADIUS, number, short, None, element.length)
         for number, joint in enumerate(self.joints):
             if joint.is_lost and number not in small:
                 yield ToolFault(ToolFaultKind.NO_INTERSECTION, number, length=self.elements[number].length)
@@ -144,7 +178,7 @@ class OffsetPath:
 
     def _largest(self, near: slice) -> float:
         def stops(size: float) -> Sequence[ToolFault]:
-            return OffsetPath(self.elements[near], size, self.side, self.outside, self.levels[near]).stops
+            return OffsetPath(self.elements[near], size, self.side, self.settings, self.levels[near])._stops
 
         return largest_radius(stops, self.radius)[0]
 
@@ -159,11 +193,15 @@ class OffsetPath:
 
     @cached_property
     def _pieces(self) -> tuple[OffsetElement, ...]:
+        return self._offsets(is_trimmed=True)
+
+    def _offsets(self, *, is_trimmed: bool) -> tuple[OffsetElement, ...]:
+        """The offsets of all elements, and the ways around outside corners; in inside corners trimmed, or not."""
         moved = [self._moved(element) for element in self.elements]
         found = list[OffsetElement]()
         for number, element in enumerate(self.elements):
             around: list[Segment] = []
-            if number < len(self.joints):
+            if number < len(self.joints) and (is_trimmed or self.joints[number].turn <= 0):
                 moved[number], around, moved[number + 1] = self._joined(number, moved[number], moved[number + 1])
             own = moved[number]
             is_full = isinstance(own, ArcSegment) and own.radius > LENGTH and dist(element.start, element.end) <= LENGTH
@@ -174,12 +212,13 @@ class OffsetPath:
         return tuple(found)
 
     def _moved(self, element: Segment) -> Segment:
-        """An element moved to the side: a line as it is, an arc about the same centre."""
+        """An element moved to the side: a line as it is, an arc about the same centre, beyond which one that is too
+        small comes out turned around."""
         if isinstance(element, ArcSegment):
-            reach = max(element.radius - self.side * element.turn.sign * self.radius, 0.0)
+            reach = element.radius - self.side * element.turn.sign * self.radius
             base, share, ends = element.center, reach / element.radius, (element.start, element.end)
             start, end = (ahead(base, (at[0] - base[0], at[1] - base[1]), share) for at in ends)
-            return replace(element, start=start, end=end, radius=reach)
+            return replace(element, start=start, end=end, radius=abs(reach))
         normal = normal_of(element, self.side, at_end=False)
         start, end = (ahead(at, normal, self.radius) for at in (element.start, element.end))
         return replace(element, start=start, end=end)
@@ -192,11 +231,12 @@ class OffsetPath:
             return replace(before, end=joint.meeting.center), [], replace(after, start=joint.meeting.center)
         if joint.turn >= 0:
             return before, [], replace(after, start=here)
-        if self.outside is OutsideCorner.ROLL:
+        if self.settings.outside is OutsideCorner.ROLL:
             turn = Turn.CW if self.side > 0 else Turn.CCW
             return before, [ArcSegment("", here, there, one.end, self.radius, turn)], after
         way, on = direction(one, at_end=True), direction(other, at_end=False)
-        found = meet_outside(one, other, self.radius) if dot(way, on) >= -REGULAR else None
+        is_met = dot(way, on) >= cos(radians(self.settings.limit)) - REGULAR
+        found = meet_outside(one, other, self.radius) if is_met else None
         places = [ahead(here, way, self.radius), ahead(there, on, -self.radius)]
         places = [found.center] if found is not None else places
         # A line goes on to where the way around begins; beside an arc, its tangent does.
@@ -207,11 +247,55 @@ class OffsetPath:
         places = [before.end, *places, after.start]
         return before, [LineSegment("", a, b) for a, b in pairwise(places)], after
 
+    # What is left out --------------------------------------------------------------------------------------------
+
+    @cached_property
+    def shortcut(self) -> tuple[OffsetElement, ...] | None:
+        """The path that leaves out what the tool does not reach: what is free of the offsets of all elements, from
+        crossing to crossing; None where that is no way from the first to the last."""
+        whole = self._offsets(is_trimmed=False)
+        segments = [each.segment for each in whole]
+        parts = list[tuple[int, Segment]]()
+        for number, segment in enumerate(segments):
+            near = (segments[gap.wall] for gap in gaps_below([segment], segments, AGREEMENT) if gap.wall != number)
+            cuts = (at for other in near for at in crossings(segment, other) if is_on(segment, at) and is_on(other, at))
+            parts += [(number, part) for part in split(segment, cuts)]
+        middles = [replace(whole[number], segment=middle_of(part)) for number, part in parts]
+        cut = {place for place, _ in self._cuts(middles)}
+        found, here = list[OffsetElement](), segments[0].start
+        for place, (number, part) in enumerate(parts):
+            if place in cut or dist(here, part.start) > STRAY:
+                continue
+            here, own = part.end, whole[number]
+            if found and found[-1].element == own.element and found[-1].is_own is own.is_own and own.is_own:
+                found[-1] = replace(own, segment=replace(part, start=found[-1].segment.start))
+            else:
+                found.append(replace(own, segment=part))
+        is_whole = bool(found) and dist(here, segments[-1].end) <= STRAY
+        return None if not is_whole or any(self._cuts(found)) or any(self._unverified(found)) else tuple(found)
+
+    def rests(self, pieces: Sequence[OffsetElement]) -> Iterator[Rest]:
+        """The rests in the inside corners of a path, and beside what it leaves out."""
+        for one, two in pairwise(pieces):
+            center, first, last = one.segment.end, one.element, two.element + (not two.is_own)
+            is_round = last - first == 1 and self.joints[first].turn <= 0
+            if first >= last or is_round or min(self.levels[first : last + 1]) <= 0:
+                continue
+            left = self.elements[first + 1 : last]
+            depths = [dist(center, each.end) for each in self.elements[first + bool(left) : last - bool(left)]]
+            depths += [
+                max(dist(center, at) for at in [*square_to(each, center)] or (each.start, each.end)) for each in left
+            ]
+            before, behind = self.elements[first], self.elements[last]
+            parts = replace(before, start=foot(before, center)), replace(behind, end=foot(behind, center))
+            lost = [each.length if dist(each.start, each.end) > LENGTH else 0.0 for each in parts]
+            yield Rest(center, first, last, max(depths) - self.radius, (lost[0], lost[1]))
+
     # Our own check ----------------------------------------------------------------------------------------------
 
-    def _unverified(self) -> Iterator[ToolFault]:
+    def _unverified(self, pieces: Sequence[OffsetElement]) -> Iterator[ToolFault]:
         """The elements along which the centre is not at the radius, by the equation of a circle that touches them."""
-        for piece in self._pieces:
+        for piece in pieces:
             ends = (piece.segment.start, piece.segment.end) if piece.is_own else ()
             off = max((abs(self._touching(self.elements[piece.element], at)) for at in ends), default=0.0)
             if not off <= 2 * STRAY:
@@ -230,18 +314,21 @@ class OffsetPath:
             fact = make_tangent(Line("L", "A", "B"), nose, side)
         return float(fact.residual(Values(scalars, {}, {})))
 
-    def _gouges(self) -> Iterator[Gouge]:
+    def _cuts(self, pieces: Sequence[OffsetElement]) -> Iterator[tuple[int, Gouge]]:
+        """The cuts into walls of the pass of each piece, with the number of the piece."""
         for level in sorted({each for each in self.levels if each > 0}):
             walls = [number for number in self.walls if self.levels[number] == level]
-            pieces = [piece for piece in self._pieces if abs(self.levels[piece.element]) == level]
-            paths, parts = [piece.segment for piece in pieces], [self.walls[number] for number in walls]
+            places = [place for place, piece in enumerate(pieces) if abs(self.levels[piece.element]) == level]
+            paths, parts = [pieces[place].segment for place in places], [self.walls[number] for number in walls]
             for gap in gaps_below(paths, parts, self.radius - GOUGE):
-                yield Gouge(self.radius - gap.distance, walls[gap.wall], pieces[gap.piece].element, gap.at)
+                place, depth = places[gap.piece], self.radius - gap.distance
+                yield place, Gouge(depth, walls[gap.wall], pieces[place].element, gap.at)
 
     def _interferences(self) -> Iterator[ToolFault]:
         """Walls into which the tool cuts beside another element: of each place, the deepest."""
         told = list[Gouge]()
-        for each in sorted(self._gouges(), key=lambda gouge: (-round(gouge.depth, 6), -gouge.wall)):
+        gouges = (gouge for _, gouge in self._cuts(self._pieces))
+        for each in sorted(gouges, key=lambda gouge: (-round(gouge.depth, 6), -gouge.wall)):
             if any(each.is_like(other, self.radius) for other in told):
                 continue
             told.append(each)
@@ -259,12 +346,19 @@ def largest_radius(stops: Callable[[float], Sequence[ToolFault]], most: float) -
     return max(largest - GOUGE * (stops(beyond)[0].kind is ToolFaultKind.INTERFERENCE), 0.0), beyond
 
 
-NOTICED = 0.005
-"""mm. A smaller error is not told (assumed)."""
-
-
 _GROOVE = 4
 """Elements from one wall of a groove to the other, with its floor and two roundings."""
+
+
+def without_short(pieces: Sequence[OffsetElement], least: float) -> Iterator[OffsetElement]:
+    """A path without pieces shorter than some mm: the line behind begins where they do."""
+    here = None
+    for number, each in enumerate(pieces):
+        part = each.segment if here is None else replace(each.segment, start=here)
+        is_next_line = number + 1 < len(pieces) and isinstance(pieces[number + 1].segment, LineSegment)
+        here = part.start if is_next_line and each.segment.length < least else None
+        if here is None:
+            yield replace(each, segment=part)
 
 
 def shifted(segment: Segment, by: Point) -> Segment:
@@ -310,7 +404,9 @@ def flank_faults(elements: Sequence[Segment], side: int, tool: Tool) -> Iterator
                 yield ToolFault(kind, number, rest=(needed, has))
 
 
-def uncompensated(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[ToolFault]:
+def uncompensated(
+    elements: Sequence[Segment], side: int, radius: float, tip: Point, noticed: float
+) -> Iterator[ToolFault]:
     """The excess (mm; below 0: too deep) of elements along which the tip runs without compensation, square to the
     surface; of an arc, where it is most. A centre has it the same on all of them."""
     for number, element in enumerate(elements):
@@ -322,11 +418,11 @@ def uncompensated(elements: Sequence[Segment], side: int, radius: float, tip: Po
             ):
                 normals.append(normal)
         off = max((-radius * (1 + float(dot(tip, normal))) for normal in normals), key=abs)
-        if abs(off) >= NOTICED and (any(tip) or not number):
+        if abs(off) >= noticed and (any(tip) or not number):
             yield ToolFault(ToolFaultKind.UNCOMPENSATED, number, off)
 
 
-def stub(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> Iterator[ToolFault]:
+def stub(elements: Sequence[Segment], side: int, radius: float, tip: Point, noticed: float) -> Iterator[ToolFault]:
     """The stub (its diameter) that stands on the axis of a lathe where the tip does not go far enough past it."""
     found = list[tuple[float, int]]()
     for number, element in enumerate(elements):
@@ -335,17 +431,18 @@ def stub(elements: Sequence[Segment], side: int, radius: float, tip: Point) -> I
             if at[1] <= LENGTH and abs(along) > _CLEAR and tip[1] < 0:
                 found.append((2 * (at[1] - radius * (tip[1] + away)), number))
     size, number = min(found, default=(0.0, 0))
-    if size >= NOTICED:
+    if size >= noticed:
         yield ToolFault(ToolFaultKind.STUB, number, size)
 
 
 def uncut(made: OffsetPath) -> Iterator[ToolFault]:
-    """The rest that a tool leaves in the inside corners of a contour that it cuts."""
-    for number, joint in enumerate(made.joints if made.pieces is not None else ()):
-        meeting, element = joint.meeting, made.elements[number]
-        is_wall = min(made.levels[number : number + 2]) > 0
-        if meeting is not None and is_wall and (rest := dist(meeting.center, element.end) - made.radius) >= NOTICED:
-            yield ToolFault(ToolFaultKind.INSIDE_CORNER, number, rest, rest=(meeting.back, meeting.ahead))
+    """The rest that a tool leaves in the inside corners of a contour that it cuts, and of what it leaves out."""
+    noticed = GOUGE if made.settings.refuses_corner else made.settings.noticed
+    for each in made.rests(made.pieces or ()):
+        if each.last - each.first > 1 and each.depth > GOUGE:
+            yield ToolFault(ToolFaultKind.LEFT_OUT, each.first + 1, each.depth, working=each.last - 1, rest=each.lost)
+        elif each.last - each.first == 1 and each.depth >= noticed:
+            yield ToolFault(ToolFaultKind.INSIDE_CORNER, each.first, each.depth, rest=each.lost)
 
 
 def normal_of(element: Segment, side: int, *, at_end: bool) -> Point:

@@ -4,20 +4,22 @@ from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
 from itertools import groupby
-from math import dist
+from math import dist, radians
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.comparison import ROUGHING, Motion, Step, ToolPath, Travel, Unfollowed, in_cycle
+from contoursolve.controls import TOOL_FACTS, ToolFacts
 from contoursolve.gcode import Block, Word
 from contoursolve.geometry import Length, Plane, Turn
 from contoursolve.reading import Dialect, Effect, rows_of
 from contoursolve.solving import ArcSegment, LineSegment, Point, Segment
 from contoursolve.tolerance import AGREEMENT, LENGTH
 from contoursolve.tool_radius.clearance import foot
-from contoursolve.tool_radius.joint import TANGENT, join
+from contoursolve.tool_radius.joint import turn_of
 from contoursolve.tool_radius.tool import OutsideCorner, Tool, ToolError, ToolSide, tool_of
+from contoursolve.tool_radius.tool_settings import settings_of
 
 SIDES = {side.code: side for side in ToolSide}
 
@@ -33,7 +35,8 @@ class ToolRequest(Struct, frozen=True):
     tool: Tool | None = None
     tip: int | None = None
     side: ToolSide | None = None
-    outside: OutsideCorner = OutsideCorner.ROLL
+    outside: OutsideCorner | None = None
+    """The way around an outside corner; without it, as the program or the setting says."""
     table: Mapping[str, Tool] = {}
     """Tools by their T or D word, such as `T0101`."""
     default: Tool | None = None
@@ -71,6 +74,8 @@ class CuttingRun(Struct, frozen=True):
     """The line up to which nothing ends G41 or G42 behind it, where another tool or the end comes; 0 without one."""
     void: Word | None = None
     """The D or T word in force that calls no tool, `D0`."""
+    outside: OutsideCorner | None = None
+    """The way around outside corners that the program says."""
 
     @property
     def lines(self) -> tuple[int, ...]:
@@ -242,7 +247,7 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
     tool = stock.at(travels[0])
     radius = float(tool.radius) * (1.0 if tool.is_metric else float(travels[0].unit.in_mm))
     first = next((number for number, each in enumerate(travels) if each.element), 0) if group.side is None else 0
-    while first and abs(join(elements[first - 1], elements[first], radius, own.sign).turn) <= TANGENT:
+    while first and abs(turn_of(elements[first - 1], elements[first])) <= radians(stock.settings.tangent):
         first -= 1
     if first:
         lead, is_approached, travels, elements = travels[first - 1], True, travels[first:], elements[first:]
@@ -267,6 +272,7 @@ def _run(group: _Group, axes: Sequence[str], stock: "_Stock", side: ToolSide | N
         group.broken.reason if isinstance(group.broken, Unfollowed) else "",
         is_approached,
         void=stock.void(travels[0]) if group.side is not None else None,
+        outside=stock.outside(travels[0]),
     )
 
 
@@ -306,9 +312,16 @@ class _Stock:
     """The tools that a program states, by the places from which on they are in use, in the blocks as they run."""
 
     def __init__(self, asked: ToolRequest, blocks: Sequence[Block], dialect: Dialect) -> None:
-        self.asked, self.blocks = asked, blocks
+        self.asked, self.blocks, self.settings = asked, blocks, settings_of(dialect)
         # Such a control turns in its plane Z X, with X as diameter or radius.
         self.has_lathe = dialect.diameter is not None or dialect.plane.axes == _TURNED
+        corners = TOOL_FACTS.get(dialect.name, ToolFacts()).corners
+        self.corners = [
+            (place, OutsideCorner(corners[name]))
+            for place, block in enumerate(blocks if corners else ())
+            for word in block.words
+            if (name := f"{word.address}{word.number}") in corners
+        ]
         table = {_key(name): tool for name, tool in asked.table.items()}
         self.tools: list[tuple[int, Tool | Word]] = []
         self.voids: list[tuple[int, Word | None]] = []
@@ -346,6 +359,10 @@ class _Stock:
                 raise ToolError(f"{told} stand together in program line {block.line}; leave one out")
             self.switches += [(place, code) for code in codes]
 
+    def outside(self, step: Travel) -> OutsideCorner | None:
+        """The way around outside corners that the program says for a move."""
+        return next((way for place, way in reversed(self.corners) if place <= step.number), None)
+
     def changed(self, travels: Sequence[Travel]) -> int:
         """The line of another tool behind the first of some moves and before the last; 0 without one."""
         first, last = (bisect_right(self.changes, each.number) for each in (travels[0], travels[-1]))
@@ -382,7 +399,10 @@ class _Stock:
                 f"nothing says which tool cuts program line {step.line}; give --tool R0.8, or write the comment "
                 "(contoursolve tool: R0.8, tip 3) above it"
             )
-        return tool if self.asked.tip is None else replace(tool, tip=self.asked.tip)
+        tool = tool if self.asked.tip is None else replace(tool, tip=self.asked.tip)
+        tool = replace(tool, is_mirrored=self.settings.is_mirrored)
+        is_diameter = self.settings.is_diameter and tool.radius is not getattr(self.asked.default, "radius", None)
+        return replace(tool, radius=tool.radius / 2) if is_diameter else tool
 
 
 _ENDS = (2, 30)

@@ -26,7 +26,7 @@ def result_beside_tool(run: Run, wanted: ToolRequest) -> tuple[Result, ToolRepor
     return replace(result, diagnostics=tuple(sorted((*kept, *report.findings), key=rank))), report
 
 
-def wanted_tool(program: str, tool: str | None, tip: int | None, side: str | None, outside: str) -> ToolRequest:
+def wanted_tool(program: str, tool: str | None, tip: int | None, side: str | None, outside: str | None) -> ToolRequest:
     """The tool as it is asked for. Raises ToolError, SettingError."""
     folder = Path() if program.startswith("<") else Path(program).parent
     is_own = tool is None or tool.strip().lower() == FROM_PROGRAM
@@ -35,7 +35,7 @@ def wanted_tool(program: str, tool: str | None, tip: int | None, side: str | Non
         None if is_own or tool is None else read_tool(tool, tip),
         tip,
         ToolSide(side) if side else None,
-        OutsideCorner(outside),
+        OutsideCorner(outside) if outside else None,
         find_tool_table(folder, _tool_of) if is_own else {},
     )
 

@@ -72,9 +72,13 @@ class Tool(Struct, frozen=True):
     front: float | None = None
     """The same of a face that leans over before the tip."""
 
+    is_mirrored: bool = False
+    """Whether its tip is numbered as on LinuxCNC: mirrored in X."""
+
     def vector(self) -> Point:
         """From the centre to the programmed point, in radii."""
-        return TIPS[self.tip or 0]
+        first, second = TIPS[self.tip or 0]
+        return first, -second if self.is_mirrored else second
 
 
 _RADIUS = late_pattern(r"R?\s*+(?P<number>[-+]?(?:\d++\.?\d*+|\.\d++))", re.IGNORECASE | re.ASCII)

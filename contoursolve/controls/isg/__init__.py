@@ -6,7 +6,7 @@ Its words, language and rules come in; a control goes out. Begin with `language`
 import re
 
 from contoursolve.controls.chain import ChainFinder, forms_of
-from contoursolve.controls.control_settings import SETTINGS_OF_ALL
+from contoursolve.controls.control_settings import SETTINGS_OF_ALL, with_default
 from contoursolve.controls.isg.language import LANGUAGE, SETTINGS
 from contoursolve.controls.isg.lexicon import CHAMFER, MODES, ROUNDING, SYNTAX
 from contoursolve.controls.isg.rules import RULES
@@ -39,7 +39,7 @@ ISG = Dialect(
     find=ChainFinder(LANGUAGE),
     signs=_signs,
     contours="lines with #ANG, corners with #RND, #CHR or #CHF, and G301 or G302",
-    settings=(*SETTINGS, *SETTINGS_OF_ALL),
+    settings=(*SETTINGS, *with_default(SETTINGS_OF_ALL, "tool-equal-radius", "error")),
     motion=1,
     diameter=Diameter.OFF,
 )
