@@ -262,7 +262,7 @@ class OffsetPath:
             parts += [(number, part) for part in split(segment, cuts)]
         middles = [replace(whole[number], segment=middle_of(part)) for number, part in parts]
         cut = {place for place, _ in self._cuts(middles)}
-        found, here = list[OffsetElement](), segments[0].start
+        found, here = list[OffsetElement](), self._moved(self.elements[0]).start
         for place, (number, part) in enumerate(parts):
             if place in cut or dist(here, part.start) > STRAY:
                 continue
@@ -278,18 +278,26 @@ class OffsetPath:
         """The rests in the inside corners of a path, and beside what it leaves out."""
         for one, two in pairwise(pieces):
             center, first, last = one.segment.end, one.element, two.element + (not two.is_own)
-            is_round = last - first == 1 and self.joints[first].turn <= 0
-            if first >= last or is_round or min(self.levels[first : last + 1]) <= 0:
-                continue
-            left = self.elements[first + 1 : last]
-            depths = [dist(center, each.end) for each in self.elements[first + bool(left) : last - bool(left)]]
-            depths += [
-                max(dist(center, at) for at in [*square_to(each, center)] or (each.start, each.end)) for each in left
-            ]
-            before, behind = self.elements[first], self.elements[last]
-            parts = replace(before, start=foot(before, center)), replace(behind, end=foot(behind, center))
-            lost = [each.length if dist(each.start, each.end) > LENGTH else 0.0 for each in parts]
-            yield Rest(center, first, last, max(depths) - self.radius, (lost[0], lost[1]))
+            between = range(first + 1, last)
+            # An element that has just no length left is touched.
+            touched = [each for each in between if self._is_touched(each, center)]
+            for before, behind in pairwise([first, *touched, last]):
+                is_round = behind - before == 1 and self.joints[before].turn <= 0
+                if before < behind and not is_round and min(self.levels[before : behind + 1]) > 0:
+                    yield self._rest(center, before, behind)
+
+    def _is_touched(self, number: int, center: Point) -> bool:
+        return dist(center, foot(self.elements[number], center)) <= self.radius + STRAY
+
+    def _rest(self, center: Point, first: int, last: int) -> Rest:
+        before, *left, behind = self.elements[first : last + 1]
+        depths = [dist(center, each.end) for each in ([before], left[:-1])[bool(left)]]
+        depths += [
+            max(dist(center, at) for at in [*square_to(each, center)] or (each.start, each.end)) for each in left
+        ]
+        parts = replace(before, start=foot(before, center)), replace(behind, end=foot(behind, center))
+        back, on = (each.length if dist(each.start, each.end) > LENGTH else 0.0 for each in parts)
+        return Rest(center, first, last, max(depths) - self.radius, (back, on))
 
     # Our own check ----------------------------------------------------------------------------------------------
 

@@ -69,9 +69,15 @@ NOSE = ("R0.8, tip 3", TAPER, "right", LATHE)
         (
             ("R0.8, tip 3", GROOVE, "right", LATHE),
             [(-0.8, 15.0), (-10.8, 15.0), (-11.55, 14.4784), (-12.3, 15.0), (-20.8, 15.0)],
-            # To the corners of its floor.
-            (0.75**2 + (5 + (0.8**2 - 0.75**2) ** 0.5) ** 2) ** 0.5 - 0.8,
-            "leaves out what program lines 2 to 4 make",
+            5 - (0.8 - (0.8**2 - 0.75**2) ** 0.5),
+            "leaves out this line: 4.4784 mm stays there, 5.0000 mm before it and 5.0000 mm behind it",
+        ),
+        # Two lines across a square corner, of which the farther place is (-10.3, 10.2).
+        (
+            ("R2, tip 3", "X20. Z0. / G01 X20. Z-10. / X20.4 Z-10.3 / X21. Z-10.5 / X30. Z-10.5", "right", LATHE),
+            [(-2.0, 10.0), (-10.5, 10.0), (-10.5, 13.0)],
+            (1.8**2 + 1.8**2) ** 0.5 - 2,
+            "leaves out what program lines 2 to 3 make",
         ),
     ],
 )
