@@ -30,6 +30,7 @@ PROGRAMS = {
 
 PACKAGES = {
     "browser": ("playwright", "jupyterlab", "ipykernel", "anywidget", "htpy"),
+    "desktop": ("PyInstaller", "ezdxf", "htpy", "pygls", "resvg_py", "starlette", "uvicorn"),
     "notebook": ("nbclient", "nbformat", "ipykernel"),
     "site": ("zensical", "mkdocstrings_handlers"),
 }
@@ -42,6 +43,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--sarif-schema", metavar="FILE", help="the SARIF 2.1.0 schema, which our output is held against")
     group.addoption("--axe", metavar="FILE", help="axe.min.js of axe-core, by which pages are held to be accessible")
     group.addoption("--code-server", metavar="FOLDER", help="where code-server is, or is to stay for the next time")
+    group.addoption("--desktop", metavar="FOLDER", help="where PyInstaller has built the program without Python")
     group.addoption("--pyodide", metavar="FOLDER", help="npm's package pyodide, unpacked, which the page loads")
     group.addoption("--screenshots", metavar="FOLDER", help="where tests with a browser leave what they saw")
 

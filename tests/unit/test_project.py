@@ -42,9 +42,25 @@ def test_the_workflow_runs_ci_run_and_the_tests_of_the_readme_on_every_system() 
     _, *commands = line.split(" && ")
     run = [step["run"] for step in jobs["tests"]["steps"] if "run" in step]
     assert run == [command.replace(".venv/bin/python", "python") for command in commands]
-    for job in jobs.values():
+    for job in [*jobs.values(), *read_yaml(".github/workflows/desktop.yml")["jobs"].values()]:
         for step in job["steps"]:
             assert re.fullmatch(r"actions/[\w-]+@v\d+", step.get("uses", "actions/x@v1"))
+
+
+def test_the_program_without_python_is_built_on_every_system_and_attached_to_a_tag() -> None:
+    workflow = read_yaml(".github/workflows/desktop.yml")
+    assert workflow[True]["push"] == {"tags": ["v*"]}
+    build, attach = workflow["jobs"]["build"], workflow["jobs"]["attach"]
+    systems = {each["system"].partition("-")[0] for each in build["strategy"]["matrix"]["include"]}
+    assert systems == {"windows", "macos", "ubuntu"}
+    commands = " ".join(step.get("run", "") for step in build["steps"])
+    for name in re.findall(r"[\w./-]+\.(?:spec|py)\b", commands):
+        assert (ROOT / name).is_file()
+    assert (attach["if"], attach["permissions"]) == ("github.ref_type == 'tag'", {"contents": "write"})
+    assert workflow["permissions"] == {"contents": "read"}
+    brought = " ".join(PROJECT["optional-dependencies"]["desktop"])
+    (extras,) = re.findall(r"contoursolve\[([\w,]+)\]", brought)
+    assert PROJECT["optional-dependencies"].keys() >= {*extras.split(",")}
 
 
 def test_the_citation_is_of_this_version() -> None:

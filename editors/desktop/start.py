@@ -1,0 +1,74 @@
+"""Starts contoursolve on a computer without Python: the whole command line, and the workbench for a double click.
+
+Without arguments it is `contoursolve serve` of a folder of programs, with files alone `contoursolve serve FILE`: a
+double click passes nothing, and a file that is dropped on the program is its argument. So it does not matter how it was
+started, and a terminal gives the same as a double click. Nothing here or in the package starts a process of Python, so
+that nothing asks for multiprocessing.freeze_support.
+"""
+
+import os
+import sys
+from pathlib import Path
+
+from click import Context
+
+from contoursolve.__main__ import commands, main
+
+
+def arguments(given: list[str], here: Path, program: Path) -> list[str]:
+    """The arguments of the command line: what is given, or the workbench where no command is given."""
+    if not given:
+        return ["serve", str(_folder(here, program))]
+    is_file = Path(given[0]).exists() and given[0] not in commands().list_commands(Context(commands()))
+    return ["serve", *given] if is_file else given
+
+
+def _folder(here: Path, program: Path) -> Path:
+    """Where the programs are: the folder in which it was started, or the documents, where a double click tells none."""
+    is_told = here not in (program.parent, Path.home(), Path(here.anchor)) and "system32" not in str(here).lower()
+    return here if is_told else documents()
+
+
+def documents() -> Path:
+    """The folder of the user's documents, as the system knows it; the home folder where there is none."""
+    home = Path.home()
+    found = home / "Documents"
+    if sys.platform == "win32":
+        import winreg
+
+        key = r"Software\Microsoft\Windows\CurrentVersion\Explorer\User Shell Folders"
+        try:
+            with winreg.OpenKey(winreg.HKEY_CURRENT_USER, key) as folders:
+                found = Path(os.path.expandvars(winreg.QueryValueEx(folders, "Personal")[0]))
+        except OSError:
+            pass
+    settings = Path(os.environ.get("XDG_CONFIG_HOME") or home / ".config") / "user-dirs.dirs"
+    if settings.is_file():
+        for line in settings.read_text("utf-8", "replace").splitlines():
+            if line.startswith("XDG_DOCUMENTS_DIR="):
+                found = Path(line.partition("=")[2].strip('" ').replace("$HOME", str(home)))
+    return found if found.is_dir() else home
+
+
+def restore_library_path() -> None:
+    """Give programs that are started from here, such as the browser, their own libraries: PyInstaller's bootloader puts
+    the libraries of this program first."""
+    for name in ("LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH"):
+        before = os.environ.pop(f"{name}_ORIG", None)
+        if before is not None:
+            os.environ[name] = before
+        elif getattr(sys, "frozen", False):
+            os.environ.pop(name, None)
+
+
+if __name__ == "__main__":
+    restore_library_path()
+    given = sys.argv[1:]
+    sys.argv[1:] = arguments(given, Path.cwd(), Path(sys.executable))
+    try:
+        main()
+    except SystemExit as end:
+        # Windows closes the window of a double click, and with it what was told.
+        if end.code and sys.argv[1:] != given and sys.platform == "win32" and sys.stdin and sys.stdin.isatty():
+            input("Press Enter to close this window.")
+        raise
