@@ -19,8 +19,11 @@ def arguments(given: list[str], here: Path, program: Path) -> list[str]:
     """The arguments of the command line: what is given, or the workbench where no command is given."""
     if not given:
         return ["serve", str(_folder(here, program))]
-    is_file = Path(given[0]).exists() and given[0] not in commands().list_commands(Context(commands()))
-    return ["serve", *given] if is_file else given
+    files = [each for each in given if Path(each).exists()]
+    if not files or files[0] != given[0] or given[0] in commands().list_commands(Context(commands())):
+        return given
+    # Of several files the page lists the others, for they lie in one folder.
+    return ["serve", given[0], *(each for each in given if each not in files)]
 
 
 def _folder(here: Path, program: Path) -> Path:
@@ -34,7 +37,7 @@ def documents() -> Path:
     home = Path.home()
     found = home / "Documents"
     if sys.platform == "win32":
-        import winreg
+        import winreg  # noqa: PLC0415 - there only
 
         key = r"Software\Microsoft\Windows\CurrentVersion\Explorer\User Shell Folders"
         try:

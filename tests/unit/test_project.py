@@ -61,6 +61,11 @@ def test_the_program_without_python_is_built_on_every_system_and_attached_to_a_t
     brought = " ".join(PROJECT["optional-dependencies"]["desktop"])
     (extras,) = re.findall(r"contoursolve\[([\w,]+)\]", brought)
     assert PROJECT["optional-dependencies"].keys() >= {*extras.split(",")}
+    page = (ROOT / "docs" / "install.md").read_text(encoding="utf-8")
+    (told, without) = re.search(r"It has the extras (.*?)\. It is without (.*?),\s+which", page, re.DOTALL).groups()
+    assert re.findall(r"`(\w+)`", told) == extras.split(",")
+    of_users = PROJECT["optional-dependencies"].keys() - {"ci", "desktop", "docs", "peers", "test"}
+    assert {*re.findall(r"`(\w+)`", without)} == of_users - {*extras.split(",")}
 
 
 def test_the_citation_is_of_this_version() -> None:
