@@ -72,7 +72,7 @@ export class App {
       void this.openFiles(event.dataTransfer?.files ?? null);
     });
     root.addEventListener("keydown", (event) => {
-      if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
+      if (!(event.ctrlKey || event.metaKey) || event.altKey || root.querySelector("dialog[open]")) return;
       const key = event.key.toLowerCase();
       if (key === "s" && this.active) void (event.shiftKey ? this.saveAs() : this.saveActive());
       else if (key === "o") this.picker.click();

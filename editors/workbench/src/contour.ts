@@ -5,7 +5,8 @@ import { make } from "./dom";
 import type { Looked } from "./protocol";
 
 export interface Acted {
-  changed: Record<string, unknown>;
+  changed?: Record<string, unknown>;
+  state?: Record<string, unknown>; // all of it, where the text was changed meanwhile
   line: number | null;
   last: number | null;
   words?: Record<string, [number, number]>;
@@ -49,7 +50,7 @@ class Model {
 export interface ContourPanel {
   node: HTMLElement;
   open(looked: Looked | null): void;
-  changed(acted: Acted): void;
+  changed(news: Record<string, unknown>, words?: Record<string, [number, number]>): void;
   light(at: number): void;
   words: Record<string, [number, number]>;
 }
@@ -75,9 +76,9 @@ export function contourPanel(act: (action: Record<string, unknown>) => void, poi
       model = new Model({ ...looked.state }, act);
       close = explorer.render({ model, el: place });
     },
-    changed(acted) {
-      panel.words = acted.words ?? panel.words;
-      model?.tell(acted.changed ?? {});
+    changed(news, words) {
+      panel.words = words ?? panel.words;
+      model?.tell(news);
     },
     // The word at the cursor is lit here.
     light(at) {

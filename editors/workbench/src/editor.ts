@@ -1,7 +1,7 @@
 // The text of a program: findings underlined, contours marked at the edge, fixes at the word.
 import { defaultKeymap, history, historyKeymap, isolateHistory } from "@codemirror/commands";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
-import { Annotation, type ChangeDesc, ChangeSet, EditorState, type Extension, RangeSetBuilder, StateEffect, StateField, type Text, type TransactionSpec } from "@codemirror/state";
+import { Annotation, type ChangeDesc, ChangeSet, EditorState, type Extension, RangeSetBuilder, StateEffect, StateField, type Text, Transaction, type TransactionSpec } from "@codemirror/state";
 import {
   Decoration,
   type DecorationSet,
@@ -249,7 +249,7 @@ export function newState(text: string, heard: Heard, isReadOnly = false): Editor
       litField,
       inSight,
       lineNumbers(),
-      history({ joinToEvent: (transaction, isAdjacent) => isAdjacent || transaction.annotation(fromPython) === true }),
+      history(),
       drawSelection(),
       highlightActiveLine(),
       highlightSelectionMatches(),
@@ -261,7 +261,7 @@ export function newState(text: string, heard: Heard, isReadOnly = false): Editor
         ...historyKeymap,
         ...defaultKeymap,
       ]),
-      EditorView.contentAttributes.of({ "aria-label": "Program", spellcheck: "false", autocapitalize: "off", autocorrect: "off" }),
+      EditorView.contentAttributes.of({ "aria-label": "Program", tabindex: "0", spellcheck: "false", autocapitalize: "off", autocorrect: "off" }),
       EditorState.readOnly.of(isReadOnly),
       EditorView.updateListener.of((update) => {
         if (update.docChanged) {
@@ -279,13 +279,10 @@ export const markEffect = (found: Marks): StateEffect<Marks> => setMarks.of(foun
 export const litEffect = (range: readonly [number, number] | null): StateEffect<readonly [number, number] | null> => setLit.of(range);
 export const marksOf = (state: EditorState): Marks => state.field(marks);
 
-// Edits of Python as one change; `isHeld` while a reader drags: all of that is one step of undo.
-export function pythonEdits(edits: ChangeSet, isHeld: boolean): TransactionSpec {
-  return {
-    changes: edits,
-    annotations: isHeld ? [fromPython.of(true)] : [fromPython.of(true), isolateHistory.of("full")],
-    userEvent: "input.type.python",
-  };
+// Edits of Python: one step of undo, or none.
+export function pythonEdits(changes: ChangeSet, isStep = true): TransactionSpec {
+  const annotations = isStep ? [fromPython.of(true), isolateHistory.of("full")] : [fromPython.of(true), Transaction.addToHistory.of(false)];
+  return { changes, annotations };
 }
 
 export function changesOf(edits: Change[], length: number): ChangeSet {

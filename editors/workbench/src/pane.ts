@@ -45,6 +45,7 @@ export class ProgramPane {
   private isWide = true;
   private rest = 0;
   private isActing = 0; // actions of the explorer under way
+  private isHeld = false; // what its user drags
   private readonly editor: EditorView;
   private readonly bar = make("div", { class: "views", "aria-label": "Views of the program" });
   private readonly panels = new Map<ViewName, HTMLElement>();
@@ -221,7 +222,7 @@ export class ProgramPane {
     const program = this.program;
     if (!program) return;
     if (this.isShown("drawing") && this.own.seq !== program.view.seq) void this.draw(program);
-    if (this.isShown("contour") && !this.isActing) void this.look(program);
+    if (this.isShown("contour") && !this.isActing && !this.isHeld) void this.look(program);
     if (this.isShown("variables")) void this.setVariables(this.own.values);
   }
 
@@ -251,14 +252,16 @@ export class ProgramPane {
     if (!program) return;
     const beside = this.own;
     this.isActing += 1;
+    this.isHeld = action["is_held"] === true;
     try {
-      const acted = await program.ask<Acted>(() => ({ do: "act", line: beside.looked?.[0], action }), action["is_held"] === true || action["do"] === "release");
-      if (!acted || program !== this.program) return;
+      const acted = await program.ask<Acted>(() => ({ do: "act", line: beside.looked?.[0] ?? this.line, action }), this.isHeld);
+      if (program !== this.program) return;
       // The text is what the explorer made it: it need not look again.
-      if (acted.line !== null && acted.last !== null) beside.looked = [acted.line, acted.last, program.view.seq];
-      this.contour.changed(acted);
+      if (acted) beside.looked = acted.line !== null && acted.last !== null ? [acted.line, acted.last, program.view.seq] : null;
+      this.contour.changed({ number: action["number"], ...(acted?.changed ?? acted?.state) }, acted?.words);
     } finally {
       this.isActing -= 1;
+      if (!this.isActing) this.follow();
     }
   }
 

@@ -19,6 +19,7 @@ export class Program {
   private acknowledged: Text; // the text that the Desk has
   private pending: ChangeSet | null = null; // since then
   private isWhole = false; // whether the Desk needs the whole text, for it may have missed something
+  private held: { changes: ChangeSet; before: Text } | null = null; // what was dragged so far
   private last: Promise<unknown> = Promise.resolve();
   private timer = 0;
 
@@ -81,7 +82,8 @@ export class Program {
       await this.send();
       const what = question();
       const reply = what && (await this.tell<Reply & { edits?: Change[] } & Partial<View>>(what));
-      if (reply?.edits?.length) this.take(reply.edits, isHeld);
+      if (reply?.edits?.length) this.take(reply.edits, isHeld || (this.held !== null && what?.["do"] === "act"));
+      if (!isHeld && what?.["do"] === "act") this.letGo();
       if (reply?.seq !== undefined && reply.counts) this.adopt(reply as View);
       this.shown(this, null);
       return reply;
@@ -142,7 +144,24 @@ export class Program {
       this.pending = own.map(changes);
       changes = changes.map(own, true);
     }
-    this.update(pythonEdits(changes, isHeld));
+    if (!isHeld) return this.update(pythonEdits(changes));
+    this.held = this.held ? { ...this.held, changes: this.held.changes.compose(changes) } : { changes, before: this.state.doc };
+    this.update(pythonEdits(changes, false));
+  }
+
+  // All that was done while its user dragged becomes one step of undo.
+  private letGo(): void {
+    const held = this.held;
+    this.held = null;
+    if (!held || this.pending || this.state.doc.length !== held.changes.newLength) return;
+    this.update(pythonEdits(held.changes.invert(held.before), false));
+    this.update(pythonEdits(held.changes));
+    this.mark();
+  }
+
+  private mark(): void {
+    const marks = { findings: placed(this.findings, this.acknowledged), contours: this.contours };
+    this.update({ effects: markEffect(this.pending ? moveMarks(marks, this.pending) : marks) });
   }
 
   // The findings are about the text that the Desk has; what was typed since moves them.
@@ -151,7 +170,6 @@ export class Program {
     this.contours = view.contours ?? this.contours;
     if (!view.findings && !view.contours) return;
     this.findings = view.findings ?? this.findings;
-    const marks = { findings: placed(this.findings, this.acknowledged), contours: this.contours };
-    this.update({ effects: markEffect(this.pending ? moveMarks(marks, this.pending) : marks) });
+    this.mark();
   }
 }
