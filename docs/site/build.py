@@ -25,7 +25,6 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 import contoursolve
 from contoursolve import pictures
 from contoursolve.controls import DIALECTS
-from contoursolve.output.html import notebook_style
 from contoursolve.reading.dialect import Dialect
 from contoursolve.reading.rules import Rule
 
@@ -239,12 +238,17 @@ def reference_page() -> Iterator[str]:
 
 
 def try_page() -> str:
-    """The page with a block to type, and what it says about where Python comes from."""
+    """The page of the workbench, with what it shows before Python is there, and where Python comes from."""
     text = (TRY / "page.md").read_text(encoding="utf-8")
-    options = (f'<option value="{name}">{escape(dialect.title)}</option>' for name, dialect in DIALECTS.items())
+    controls = [{"name": name, "title": dialect.title} for name, dialect in DIALECTS.items()]
+    hello = {
+        "controls": controls,
+        "examples": [{"control": each["name"], "title": each["title"]} for each in controls],
+        "may_write": False,
+    }
     host, packages = urlsplit(PYODIDE).netloc or "This site", [each.partition("==")[0] for each in WHEELS]
     for name, said in {
-        "CONTROLS": "".join(options),
+        "HELLO": escape(json.dumps(hello)),
         "HOST": f"`{host}`" if "." in host else host,
         "PYODIDE": f"Pyodide {PYODIDE_VERSION}",
         "WHEELS": f"{', '.join(packages[:-1])} and {packages[-1]}",
@@ -254,17 +258,15 @@ def try_page() -> str:
 
 
 def write_try(folder: Path) -> None:
-    """What the page loads from this site: its scripts, the explorer's, this package, and wheels."""
+    """What the page loads from this site: the page of the workbench, this package, and wheels."""
     folder.mkdir()
     house = Path(contoursolve.__file__).parent
-    for path in (TRY / "page.js", TRY / "worker.js", house / "notebook" / "explorer.js"):
+    bundle = house / "workbench" / "page"
+    for path in (TRY / "worker.js", *(each for each in bundle.iterdir() if each.suffix != ".html")):
         shutil.copy(path, folder)
-    styles = [TRY / "page.css", house / "notebook" / "explorer.css"]
-    style = "".join(path.read_text(encoding="utf-8") for path in styles)
-    (folder / "page.css").write_text(notebook_style() + style, encoding="utf-8")
     with ZipFile(folder / "contoursolve.zip", "w", ZIP_DEFLATED) as archive:
         for path in sorted(house.rglob("*")):
-            if path.is_file() and path.suffix != ".pyc":
+            if path.is_file() and path.suffix != ".pyc" and path.parent != bundle:
                 entry = ZipInfo(
                     path.relative_to(house.parent).as_posix()
                 )  # of no date: the same files, the same archive

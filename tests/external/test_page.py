@@ -2,8 +2,8 @@
 CasADi have stand-ins."""
 
 import json
-import re
 import shutil
+from base64 import urlsafe_b64decode
 from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 from xml.etree import ElementTree
@@ -13,14 +13,14 @@ from browsing import Watched
 from distribution import make_distribution
 from numpy_host import serving
 
-from contoursolve.notebook.conversation import Conversation
-from contoursolve.notebook.exploration import begin
+from contoursolve.controls import DIALECTS
+from contoursolve.workbench import Desk
 
 pytestmark = [pytest.mark.site, pytest.mark.browser, pytest.mark.slow]
 LOADED = 100_000
 """ms. Python starts in 5 to 15 s; every operation of NumPy is a request here."""
 TEXT = "{http://www.w3.org/2000/svg}text"
-BLOCK, START = "G111 X100. A180. K-30. B120. P60. Q5.", "X40. Z0."
+CONTROL = "yasnac-lx3"
 
 
 @pytest.fixture(scope="module")
@@ -40,70 +40,83 @@ def address(request, site, tmp_path_factory):
         yield f"{host}/try.html"
 
 
+def program_of(url) -> str:
+    """The program in an address."""
+    packed = parse_qs(urlsplit(url).fragment)["program"][0]
+    return urlsafe_b64decode(packed + "=" * (-len(packed) % 4)).decode()
+
+
+def begun(page) -> None:
+    """Python has come, and the program is examined."""
+    trouble = page.locator(".workbench > .trouble:not(:empty)")
+    page.locator(".cm-line").first.or_(trouble).wait_for(timeout=LOADED)
+    assert not trouble.count(), trouble.inner_text()
+
+
 def shown(page) -> dict[str, str | list[str]]:
-    """What the explorer shows of a contour."""
+    """What the page shows of a program and its first contour."""
+    begun(page)
+    page.get_by_role("tab", name="Contour", exact=True).click()
     explorer = page.locator(".contoursolve.explorer")
-    said = page.locator("#said", has_text=re.compile("could not|Error"))
-    explorer.locator("figure svg[role=img]").or_(said).wait_for(timeout=LOADED)
-    assert not said.count(), said.inner_text()
+    explorer.locator("figure svg[role=img]").wait_for(timeout=LOADED)
     return {
-        "text": explorer.locator("textarea").input_value(),
+        "text": "\n".join(page.locator(".cm-line").all_inner_texts()).replace("\n\n", "\n"),
+        "findings": page.locator(".view.program .findings li button.go > span:last-child").all_text_contents(),
+        "fixes": page.locator(".view.program .findings .fixes button").all_text_contents(),
         "status": explorer.locator(".state strong").inner_text(),
-        "findings": explorer.locator(".finding pre").all_text_contents(),
-        "fixes": explorer.locator("button.fix").all_text_contents(),
         "picture": explorer.locator("figure svg[role=img] text").all_text_contents(),
     }
 
 
-def told(view) -> dict[str, str | list[str]]:
+def told(desk, view, text) -> dict[str, str | list[str]]:
     """The same of what Python says here."""
-    findings = view["findings"]
+    looked = desk.answer({"do": "look", "program": view["id"], "line": view["contours"][0]["line"]})["state"]["view"]
     return {
-        "text": view["text"],
-        "status": view["status"]["text"],
-        "findings": [
-            "".join(f"{''.join(piece for piece, _ in line)}\n" for line in each["lines"]) for each in findings
-        ],
-        "fixes": [f"{fix['text']} [{fix['effect']}]" for each in findings for fix in each["fixes"]],
-        "picture": ["".join(each.itertext()) for each in ElementTree.fromstring(view["picture"]).iter(TEXT)],
+        "text": text.replace("\n\n", "\n"),
+        "findings": [each["message"] for each in view["findings"]],
+        "fixes": [f"{fix['title']} [{fix['effect']}]" for each in view["findings"] for fix in each["fixes"]],
+        "status": looked["status"]["text"],
+        "picture": ["".join(each.itertext()) for each in ElementTree.fromstring(looked["picture"]).iter(TEXT)],
     }
 
 
-def test_a_block_is_solved_in_the_browser_and_its_address_shows_the_same(axe, browser, address, artefacts) -> None:
+def test_an_example_is_mended_in_the_browser_and_its_address_shows_the_same(axe, browser, address, artefacts) -> None:
     watched = Watched(browser, viewport={"width": 1300, "height": 1300})
     page = watched.page
     page.goto(address)
+    assert page.locator(".start .examples button").all_text_contents() == [each.title for each in DIALECTS.values()]
     assert axe(page) == []
     # Before anybody asks for Python, none of it is loaded.
     assert not [each for each in watched.asked if "pyodide" in each or each.endswith((".zip", ".whl"))]
     assert "cdn.jsdelivr.net" in page.locator("article").inner_text()
-    page.get_by_role("textbox", name="Block").fill(BLOCK)
-    page.keyboard.press("Tab")
-    page.keyboard.press("ControlOrMeta+a")
-    page.keyboard.type(START)
-    page.keyboard.press("Enter")
+    page.get_by_role("button", name=DIALECTS[CONTROL].title).click()
     found = shown(page)
     # In full depth: what is found here is found there.
-    conversation = Conversation(begin(BLOCK, start=START))
-    assert found == told(conversation.state["view"])
+    desk = Desk()
+    view = desk.answer({"do": "open", "example": CONTROL})
+    assert found == told(desk, view, view["text"])
     assert found["fixes"]
 
-    other = Watched(browser, color_scheme="dark")
+    other = Watched(browser, color_scheme="dark", viewport={"width": 390, "height": 844})
     other.page.goto(page.url)
-    assert shown(other.page) == found
+    begun(other.page)
     assert axe(other.page) == []
-    other.page.screenshot(path=artefacts / "page-dark.png", full_page=True)
+    other.page.locator(".workbench").screenshot(path=artefacts / "page-dark.png")
+    again = shown(other.page)
+    assert {**again, "text": ""} == {**found, "text": ""}
     other.check()
     other.page.close()
 
-    page.locator("button.fix").first.click()
+    page.locator(".view.program .findings .fixes button").first.click()
     page.wait_for_function(
-        "before => document.querySelector('.explorer textarea').value !== before", arg=BLOCK, timeout=LOADED
+        "before => document.querySelector('#workbench').shadowRoot.querySelector('.cm-content').innerText !== before",
+        arg=page.locator(".cm-content").inner_text(),
+        timeout=LOADED,
     )
-    wanted = told(conversation.answer({"do": "fix", "finding": 0, "fix": 0})["view"])
-    assert shown(page) == wanted
-    fixed = wanted["text"]
-    page.wait_for_url(lambda url: parse_qs(urlsplit(url).fragment) == {"block": [fixed], "start": [START]})
+    mended = desk.answer({"do": "fix", "program": view["id"], "seq": view["seq"], "finding": 0, "fix": 0})
+    (edit,) = mended["edits"]
+    fixed = f"{view['text'][: edit['from']]}{edit['text']}{view['text'][edit['to'] :]}"
+    page.wait_for_url(lambda url: program_of(url) == fixed)
     page.screenshot(path=artefacts / "page.png", full_page=True)
     watched.check()
     page.close()
@@ -113,9 +126,10 @@ def test_without_pyodide_the_page_says_what_to_do_and_may_be_asked_again(browser
     page = browser.new_page()
     page.route("**/pyodide/**", lambda route: route.abort())
     page.goto(address)
-    button = page.get_by_role("button", name="Load Python")
+    button = page.get_by_role("button", name=DIALECTS[CONTROL].title)
     button.click()
     page.get_by_text("Python could not be loaded").wait_for(timeout=LOADED)
+    assert "online" in page.locator(".workbench > .trouble").inner_text()
     assert button.is_enabled()
-    assert "online" in page.locator("#said").inner_text()
+    assert page.get_by_role("button", name="Try again").is_visible()
     page.close()

@@ -1,33 +1,32 @@
-// Python, in a worker: it holds one contour and answers one request after another.
+// Python, in a worker: it holds the Desk of the workbench and answers one question after another.
 
 const SPOKEN = `
+import sys
 from json import dumps, loads
 
-from contoursolve.notebook.conversation import Conversation
-from contoursolve.notebook.exploration import begin
+from contoursolve.workbench import Desk
 
-talk = None
+desk = Desk()
+lacking = []
 
-def opened(text, start, control, is_whole):
-    global talk
-    try:
-        talk = Conversation(begin(text, start=start or None, control=control or None))
-    except ModuleNotFoundError if not is_whole else ():
-        return dumps(["lacking", None])
-    except ValueError as error:
-        return dumps(["refused", str(error)])
-    except Exception as error:
-        return dumps(["refused", f"{type(error).__name__}: {error}"])
-    return dumps(["opened", talk.state])
+class Missing:
+    @staticmethod
+    def find_spec(name, path=None, target=None):
+        if path is None and name in later:
+            lacking.append(name)
 
-def changed(action):
-    return dumps(["changed", talk.answer(loads(action))])
+sys.meta_path.append(Missing)
+
+def answered(request):
+    lacking.clear()
+    reply = dumps(desk.answer(loads(request)))
+    return "" if lacking else reply
 `;
 
 let python = null; // a promise of Python with all that the first picture needs
-let rest = null; // and of what few blocks need
+let rest = null; // and of what few programs need
 
-const tell = (kind, value) => self.postMessage([kind, value]);
+const tell = (...told) => self.postMessage(told);
 
 async function load() {
   tell("progress", "Loading Python");
@@ -40,7 +39,9 @@ async function load() {
   await packages(loaded, sources.packages);
   for (const [content, kind] of await Promise.all(own)) loaded.unpackArchive(content, kind);
   tell("progress", "Starting contoursolve");
+  loaded.globals.set("later", loaded.toPy(sources.later));
   loaded.runPython(SPOKEN);
+  tell("progress", "");
   return { loaded, later: sources.later };
 }
 
@@ -60,22 +61,20 @@ function later() {
   return (rest ??= python.then(({ loaded, later }) => packages(loaded, later)));
 }
 
-async function answer(request) {
+async function answer({ number, request }) {
   python ??= load();
   const { loaded } = await python;
-  const ask = (name, ...values) => JSON.parse(loaded.globals.get(name)(...values));
-  if (request.do === "act") {
-    await later().catch(() => (rest = null)); // few actions need it; those say so
-    tell(...ask("changed", JSON.stringify(request.action)));
-    return;
-  }
-  let found = ask("opened", request.text, request.start, request.control, false);
-  if (found[0] === "lacking") {
+  const ask = () => loaded.globals.get("answered")(request);
+  // What opens a program may be asked twice; what changes one waits until all is there, if it can be had.
+  const isQuick = ["hello", "open"].includes(JSON.parse(request).do);
+  if (!isQuick) await later().catch(() => (rest = null));
+  let reply = ask();
+  if (!reply) {
     await later();
-    found = ask("opened", request.text, request.start, request.control, true);
+    reply = ask();
   }
-  tell(...found);
-  later().catch(() => (rest = null)); // asked for again with the next action
+  tell("reply", reply, number);
+  if (isQuick) later().catch(() => (rest = null)); // asked for again with the next question
 }
 
 let last = Promise.resolve();

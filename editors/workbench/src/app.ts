@@ -1,11 +1,17 @@
 // The page: programs as tabs, opened, saved and taken along; what goes wrong is said at the top.
-import { button, copyText, dialog, download, type Entry, labelled, make, menu, newId, showTabs } from "./dom";
+import { button, bytesOf, copyText, dialog, download, type Entry, labelled, make, menu, newId, showTabs } from "./dom";
 import { ProgramPane } from "./pane";
 import type { Program } from "./program";
 import { type Hello, type Made, type Transport, Trouble, type View } from "./protocol";
 
+const PAUSE = 300; // ms without a change until the address follows; browsers forbid to write it often
+const LONGEST_LINK = 6000; // characters of a program
+
 export class App {
   private hello: Hello | null = null;
+  private isGreeted = false; // whether the Desk was asked for its hello
+  private readonly isEmbedded: boolean;
+  private told = ""; // what the address holds
   private programs: Program[] = [];
   private active: Program | null = null;
   private readonly pane: ProgramPane;
@@ -23,8 +29,9 @@ export class App {
   constructor(
     private readonly root: HTMLElement,
     private readonly transport: Transport,
-    private readonly isEmbedded: boolean,
+    private readonly known: Hello | null,
   ) {
+    const isEmbedded = (this.isEmbedded = known !== null);
     root.classList.add("workbench");
     const title = make(isEmbedded ? "strong" : "h1", { class: "title", text: "contoursolve" });
     const actions = menu("Do", () => this.pane.entries());
@@ -85,27 +92,59 @@ export class App {
   }
 
   async begin(): Promise<void> {
-    try {
-      this.hello = await this.transport.ask<Hello>({ do: "hello" });
-    } catch (error) {
-      return this.tell(error);
+    // In a page of the documentation the Desk is loaded with the first program.
+    if (this.known) {
+      this.greet(this.known);
+      addEventListener("hashchange", () => void this.readAddress());
+      if (location.protocol === "file:") this.trouble.textContent = "Browsers start no Python in a page that is opened as a file. Open this page from a web server.";
+      else await this.readAddress();
+      return;
     }
-    const { style, controls, open } = this.hello;
-    if (style) {
+    const hello = await this.asked<Hello>({ do: "hello" });
+    if (!hello) return;
+    this.greet(hello);
+    if (hello.open) await this.open({ name: hello.open });
+  }
+
+  private greet(hello: Hello): void {
+    this.hello = hello;
+    this.isGreeted = hello.style !== undefined;
+    if (hello.style) {
       const sheet = new CSSStyleSheet();
-      sheet.replaceSync(style);
+      sheet.replaceSync(hello.style);
       const place = this.root.getRootNode() as Document | ShadowRoot;
       place.adoptedStyleSheets = [...place.adoptedStyleSheets, sheet];
     }
-    this.control.replaceChildren(make("option", { value: "", text: "as the words tell" }), ...controls.map((each) => make("option", { value: each.name, text: each.title })));
-    this.showStart();
-    if (open) await this.open({ name: open });
+    this.control.replaceChildren(make("option", { value: "", text: "as the words tell" }), ...hello.controls.map((each) => make("option", { value: each.name, text: each.title })));
+    if (!this.active) this.showStart();
   }
+
+  // The program and its control stand in the address of a page of the documentation, behind the #.
+  private async readAddress(): Promise<void> {
+    if (location.hash.slice(1) === this.told) return;
+    const told = new URLSearchParams(location.hash.slice(1));
+    const control = told.get("control");
+    const text = unpacked(told.get("program") ?? "");
+    if (text) await this.open({ name: "", text, ...(control && this.hello?.controls.some((each) => each.name === control) ? { control } : {}) });
+  }
+
+  private writeAddress(program: Program): void {
+    const { control } = this.pane;
+    const parts = new URLSearchParams({ program: packed(program.text), ...(control ? { control } : {}) });
+    const told = program.text.length <= LONGEST_LINK ? parts.toString() : "";
+    if (told === this.told) return;
+    this.told = told;
+    clearTimeout(this.writing);
+    this.writing = setTimeout(() => history.replaceState(null, "", `#${told}`), PAUSE);
+  }
+
+  private writing = 0;
 
   // Beginning ------------------------------------------------------------------------------------------------------
 
   private showStart(): void {
     const { examples, folder } = this.hello!;
+    const note = this.isEmbedded && !this.isGreeted ? make("p", { class: "muted", text: "The first program loads Python: about 30 MB, once." }) : null;
     const files = make("ul", { class: "files", "aria-label": "Programs in the folder" });
     const choices = examples.map((each) => make("li", {}, button(each.title, () => void this.open({ example: each.control }))));
     this.start.replaceChildren(
@@ -118,6 +157,7 @@ export class App {
         make("li", { text: "The drawing shows every contour. Touch one to see its words and to drag its points." }),
       ),
       make("div", { class: "bar" }, button("Open a file…", () => this.picker.click(), { class: "main" }), button("New program", () => void this.open({ name: "", text: "" }))),
+      ...(note ? [note] : []),
       ...(folder ? [make("h2", { text: `In the folder ${folder}` }), files] : []),
       make("h2", { text: "An example for each control" }),
       make("ul", { class: "examples", "aria-label": "Examples" }, ...choices),
@@ -141,6 +181,7 @@ export class App {
       { text: "New program", act: () => void this.open({ name: "", text: "" }) },
       ...(hello?.may_write ? [{ text: "Save", key: "Ctrl+S", act: () => void this.saveActive(), isOff: !active }, { text: "Save as…", key: "Ctrl+Shift+S", act: () => void this.saveAs(), isOff: !active }] : []),
       { text: "Download", act: () => this.downloadActive(), isOff: !active },
+      ...(this.isEmbedded ? [{ text: "Copy a link to this program", act: () => void this.copyLink(), isOff: !active || !this.told }] : []),
       { text: "Copy the text", act: () => void this.copyActive(), isOff: !active },
       ...(hello?.can_unlock && !hello.may_write ? [{ text: "Allow saving: enter the password…", act: () => void this.unlock() }] : []),
       { text: "Close", act: () => void this.close(active!), isOff: !active },
@@ -149,7 +190,12 @@ export class App {
 
   // Programs -------------------------------------------------------------------------------------------------------
 
-  private async open(what: { name?: string; text?: string; base64?: string; example?: string }): Promise<void> {
+  private async open(what: { name?: string; text?: string; base64?: string; example?: string; control?: string }): Promise<void> {
+    if (!this.isGreeted) {
+      const hello = await this.asked<Hello>({ do: "hello" });
+      if (!hello) return;
+      this.greet(hello);
+    }
     const known = what.text === undefined && what.base64 === undefined && what.name && this.programs.find((each) => each.name === what.name && each.view.base);
     if (known) return this.choose(known);
     const view = await this.asked<View>({ do: "open", ...what });
@@ -215,7 +261,8 @@ export class App {
     this.facts.textContent = [view.unit, view.trouble_control].filter(Boolean).join(" · ");
     this.save.textContent = this.hello?.may_write ? "Save" : "Download";
     this.save.setAttribute("aria-disabled", String(Boolean(this.hello?.may_write) && !active.isChanged));
-    if (!this.isEmbedded) document.title = `${active.isChanged ? "• " : ""}${titleOf(active)} - contoursolve`;
+    if (this.isEmbedded) this.writeAddress(active);
+    else document.title = `${active.isChanged ? "• " : ""}${titleOf(active)} - contoursolve`;
   }
 
   // Saving ---------------------------------------------------------------------------------------------------------
@@ -284,6 +331,11 @@ export class App {
     if (this.active) this.say((await copyText(this.active.text)) ? "The text is copied." : "This browser copies nothing: use Ctrl+C in the text.");
   }
 
+  private async copyLink(): Promise<void> {
+    history.replaceState(null, "", `#${this.told}`);
+    this.say((await copyText(location.href)) ? "The link is copied." : "The link stands in the address bar: copy it there.");
+  }
+
   private async unlock(): Promise<void> {
     const password = make("input", { type: "password", autocomplete: "current-password" });
     if (!(await dialog(this.root, "Allow saving", [labelled("Password", password)], "Allow"))) return;
@@ -325,6 +377,19 @@ export class App {
       button("Try again", () => void (this.hello ? (this.active?.ask(() => ({ do: "view" })) ?? this.asked({ do: "hello" })) : this.begin())),
       ...(this.active ? [button("Copy the text", () => void this.copyActive()), button("Download the text", () => this.downloadActive())] : []),
     );
+  }
+}
+
+// A text as it can stand in an address, whatever characters it has.
+function packed(text: string): string {
+  return btoa(String.fromCharCode(...new TextEncoder().encode(text))).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+}
+
+function unpacked(text: string): string {
+  try {
+    return new TextDecoder().decode(bytesOf(text.replaceAll("-", "+").replaceAll("_", "/")));
+  } catch {
+    return ""; // a link that was cut off, or that means a place on the page
   }
 }
 

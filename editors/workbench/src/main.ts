@@ -1,22 +1,33 @@
 import { App } from "./app";
+import type { Hello } from "./protocol";
 import { ServerTransport, WorkerTransport } from "./transport";
 import "../../../contoursolve/notebook/explorer.css";
 import "./workbench.css";
 
 const place = document.getElementById("workbench")!;
-const worker = place.dataset["worker"];
+const { worker, hello } = place.dataset;
 
-if (worker === undefined) void new App(place, new ServerTransport(), false).begin();
-else {
-  // In a page of others, with styles of its own: a shadow keeps both apart.
+if (worker === undefined || hello === undefined) void new App(place, new ServerTransport(), null).begin();
+else embed(worker, JSON.parse(hello));
+
+// In a page that has styles of its own: a shadow keeps both apart.
+function embed(address: string, known: Hello): void {
   const shadow = place.attachShadow({ mode: "open" });
   const sheet = document.createElement("link");
   sheet.rel = "stylesheet";
   sheet.href = new URL("workbench.css", import.meta.url).href;
   const root = document.createElement("div");
+  root.classList.add("embedded");
   shadow.append(sheet, root);
-  let app: App | null = null;
-  const transport = new WorkerTransport(new URL(worker, import.meta.url).href, (progress) => app?.progress(progress));
-  app = new App(root, transport, true);
+
+  const followTheme = () => {
+    const theme = document.body.dataset["mdColorScheme"] === "slate" ? "dark" : "light";
+    root.dataset["theme"] = theme;
+    document.body.dataset["theme"] = theme; // the explorer looks at the theme again when this changes
+  };
+  new MutationObserver(followTheme).observe(document.body, { attributes: true, attributeFilter: ["data-md-color-scheme"] });
+  followTheme();
+
+  const app: App = new App(root, new WorkerTransport(new URL(address, import.meta.url).href, (progress) => app.progress(progress)), known);
   void app.begin();
 }

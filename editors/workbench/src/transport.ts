@@ -62,7 +62,7 @@ export class WorkerTransport implements Transport {
   private start(): Worker {
     const worker = new Worker(this.address, { type: "module" });
     worker.onmessage = ({ data: [kind, value, number] }) => {
-      if (kind === "progress") this.tell(value ? `${value} …` : "");
+      if (kind === "progress") this.tell(value && `${value} …`);
       else if (kind === "failed") this.fail(value);
       else {
         this.waiting.get(number)?.done(JSON.parse(value));
