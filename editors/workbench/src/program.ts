@@ -34,6 +34,7 @@ export class Program {
     this.acknowledged = this.state.doc;
     this.saved = view.base && !view.has_changes ? this.state.doc : null;
     this.adopt(view);
+    if (view.examined < view.lines) void this.ask(() => null);
   }
 
   get name(): string {

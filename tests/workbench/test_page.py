@@ -1,0 +1,188 @@
+"""The page of the workbench in a real browser, on a real server process. Nothing leaves the machine."""
+
+import re
+
+import pytest
+from browsing import Watched
+from test_server import Served
+
+from contoursolve.controls import DIALECTS
+from contoursolve.workbench import Desk
+
+pytestmark = [pytest.mark.browser, pytest.mark.needs("starlette", "uvicorn")]
+SHAFT = "%\r\nG00 X40. Z0.\r\nG111 X100. A180. K-30. B120. P6.\r\nG00 X150. Z10.\r\nM30\r\n"
+SCREENS = {
+    "desktop": {"viewport": {"width": 1300, "height": 900}},
+    "desktop, dark": {"viewport": {"width": 1300, "height": 900}, "color_scheme": "dark"},
+    "phone": {"viewport": {"width": 390, "height": 844}, "has_touch": True},
+    "phone, dark": {"viewport": {"width": 390, "height": 844}, "has_touch": True, "color_scheme": "dark"},
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("parts")
+
+
+@pytest.fixture(scope="module")
+def served(folder):
+    server = Served(folder)
+    yield server
+    server.end()
+
+
+@pytest.fixture
+def opened(browser, served):
+    """Opens the workbench on a screen; afterwards the page has asked nobody but the server."""
+    pages = []
+
+    def open_page(program=None, screen="desktop", server=served):
+        watched = Watched(browser, **SCREENS[screen])
+        pages.append(watched)
+        watched.page.goto(f"http://{server.host}:{server.port}/?token={server.token}")
+        if program is not None:
+            watched.page.get_by_role("button", name=program, exact=True).click()
+            watched.page.locator(".cm-line").first.wait_for()
+        return watched.page
+
+    yield open_page
+    for each in pages:
+        each.check()
+        each.page.close()
+
+
+def text_of(page) -> str:
+    """The text of a short program, all of which is in sight."""
+    return "\n".join(line.removesuffix("\n") for line in page.locator(".cm-line").all_inner_texts())
+
+
+def said(page, text) -> None:
+    page.locator(".head .said", has_text=text).wait_for()
+
+
+def wait_for_text(page, text) -> None:
+    page.wait_for_function(
+        "text => [...document.querySelectorAll('.cm-line')].some(line => line.innerText.trim() === text)", arg=text
+    )
+
+
+def show(page, view) -> None:
+    page.get_by_role("tab", name=view, exact=True).click()
+
+
+@pytest.mark.parametrize("control", DIALECTS)
+def test_an_example_of_each_control_is_mended_and_saved(control, opened, folder) -> None:
+    from playwright.sync_api import expect  # noqa: PLC0415 - skipped without it
+
+    page = opened(DIALECTS[control].title)
+    desk = Desk()
+    view = desk.answer({"do": "open", "example": control})
+    while view["examined"] < view["lines"]:
+        view |= desk.answer({"do": "go_on", "program": view["id"]})
+    finding = next(number for number, each in enumerate(view["findings"]) if each["fixes"])
+    rows = page.locator(".view.program .findings li")
+    told = [each["message"] for each in view["findings"]]
+    expect(rows.locator(".go > span:last-child")).to_have_text(told)
+    rows.nth(finding).locator(".fixes button").first.click()
+    fixed = desk.answer({"do": "fix", "program": view["id"], "seq": view["seq"], "finding": finding, "fix": 0})
+    (edit,) = fixed["edits"]
+    wanted = f"{view['text'][: edit['from']]}{edit['text']}{view['text'][edit['to'] :]}"
+    page.locator(".programs button", has_text="•").wait_for()
+    page.keyboard.press("Control+Shift+s")
+    page.get_by_label("Name in the folder").fill(f"{control}.nc")
+    page.keyboard.press("Enter")
+    said(page, f"Saved as {control}.nc.")
+    assert (folder / f"{control}.nc").read_bytes() == wanted.encode()
+    assert text_of(page) == wanted
+
+
+def test_a_word_is_changed_by_its_row_or_in_the_text_and_taken_back(opened, folder) -> None:
+    (folder / "shaft.nc").write_bytes(SHAFT.encode())
+    page = opened("shaft.nc")
+    show(page, "Contour")
+    number = page.locator('.contour [data-word="K"] input[type=number]')
+    number.fill("-25")
+    number.press("Enter")
+    wait_for_text(page, "G111 X100. A180. K-25. B120. P6.")
+    page.locator(".cm-line").nth(2).click()
+    page.keyboard.press("Control+z")
+    wait_for_text(page, "G111 X100. A180. K-30. B120. P6.")
+    # What is typed in the text is what the explorer shows.
+    page.locator(".cm-line").nth(2).click()
+    page.keyboard.press("End")
+    page.keyboard.press("Backspace")
+    page.keyboard.type("5")
+    page.locator('.contour [data-word="P"] .word', has_text="P65").wait_for()
+    page.keyboard.press("Control+s")
+    said(page, "Saved as shaft.nc.")
+    # Ends of lines are those of the file.
+    assert (folder / "shaft.nc").read_bytes() == SHAFT.replace("P6.", "P65").encode()
+    assert not page.locator(".programs button", has_text="•").count()
+
+
+def test_by_keyboard_alone_a_finding_is_mended_at_its_word(opened, folder) -> None:
+    (folder / "wrong.nc").write_bytes(SHAFT.replace("P6.", "P60.").encode())
+    page = opened("wrong.nc")
+    page.locator(".cm-finding").first.wait_for()
+    page.keyboard.press("F8")
+    page.locator(".at-word").wait_for()
+    page.keyboard.press("Control+.")
+    page.locator(".at-word button:focus").wait_for()
+    page.keyboard.press("Enter")
+    wait_for_text(page, "G111 X100. A180. K-30. B120. P6.")
+    page.locator(".findings h2", has_text="No findings").wait_for()
+
+
+def test_a_file_that_another_program_changed_is_replaced_only_when_its_user_says_so(opened, folder) -> None:
+    (folder / "both.nc").write_bytes(SHAFT.encode())
+    page = opened("both.nc")
+    (folder / "both.nc").write_bytes(b"(OTHER)\r\n")
+    page.locator(".cm-line").nth(3).click()
+    page.keyboard.press("Home")
+    page.keyboard.type("N5 ")
+    page.keyboard.press("Control+s")
+    page.get_by_role("dialog").wait_for()
+    assert (folder / "both.nc").read_bytes() == b"(OTHER)\r\n"
+    page.get_by_role("button", name="Replace it").click()
+    said(page, "Saved as both.nc.")
+    assert (folder / "both.nc").read_bytes() == SHAFT.replace("G00 X150.", "N5 G00 X150.").encode()
+
+
+def test_where_the_server_is_gone_the_text_stays_and_can_be_taken_along(browser, tmp_path) -> None:
+    (tmp_path / "part.nc").write_bytes(SHAFT.encode())
+    server = Served(tmp_path)
+    page = browser.new_page()
+    page.goto(f"http://{server.host}:{server.port}/?token={server.token}")
+    page.get_by_role("button", name="part.nc").click()
+    page.locator(".cm-line").nth(1).click()
+    server.end()
+    page.keyboard.press("End")
+    page.keyboard.type(" M08")
+    page.locator(".trouble", has_text="Start it again").wait_for()
+    wait_for_text(page, "G00 X40. Z0. M08")
+    with page.expect_download() as loaded:
+        page.get_by_role("button", name="Download the text").click()
+    assert loaded.value.path().read_text() == SHAFT.replace("\r\n", "\n").replace("Z0.", "Z0. M08")
+    assert (tmp_path / "part.nc").read_bytes() == SHAFT.encode()
+    page.close()
+
+
+@pytest.mark.parametrize("screen", SCREENS)
+def test_every_view_can_be_reached_and_read(screen, axe, opened, folder, artefacts) -> None:
+    (folder / "axe.nc").write_bytes(SHAFT.replace("P6.", "P60.").encode())
+    page = opened(screen=screen)
+    page.get_by_role("button", name="axe.nc").wait_for()
+    assert axe(page) == []
+    page.get_by_role("button", name="axe.nc").click()
+    page.locator(".findings li").first.wait_for()
+    for tab in page.locator(".views button").all():
+        tab.click()
+        name = tab.inner_text().lower()
+        page.locator(f".view.{name} figure svg" if name == "contour" else f".view.{name}").first.wait_for()
+        assert axe(page) == []
+        page.screenshot(path=artefacts / f"workbench-{re.sub('[^a-z]', '', screen)}-{name}.png")
+    page.get_by_role("button", name="File").click()
+    assert axe(page) == []
+    page.keyboard.press("Escape")
+    # Nothing stands out of the screen.
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
