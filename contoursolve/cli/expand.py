@@ -300,6 +300,9 @@ def _rewrite(
             stated = {**told, "control": control, "settings": settings}
             beside = open_beside_tool(source, start, tool, stated, is_inline=wish.is_inline)
             source, control, writer = beside.source, beside.dialect, beside.writer
+            if control is not None and control.writing is not None and wish.post is not POSTS["same"]:
+                later = f"write that with -o first, then expand it with --post {wish.post.name}"
+                raise click.UsageError(f"--tool writes a program of {control.name} in its own words: {later}")
         asked = SolveOptions(start=start, **told).request(source.name)
         found = rewrite(source, body, wish, asked, control=control, settings=settings, progress=progress, writer=writer)
         if beside is not None:

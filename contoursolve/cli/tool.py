@@ -9,6 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from contoursolve.api import follow_program
+from contoursolve.controls import TOOL_FACTS, ToolFacts
 from contoursolve.diagnostics import Diagnostic
 from contoursolve.gcode import Block, OpenFile, Program, parse
 from contoursolve.output import Collected
@@ -136,4 +137,5 @@ def _moved_program(program: Program, result: Result, report: ToolReport) -> Move
         behind = max(lines)
     kept |= set() if is_solved else {*texts}
     moves, leaving = moves_of(replace(report, runs=tuple(good)))
-    return MovedProgram(moves, left, kept, remarks, warnings, leaving)
+    keeps_d = TOOL_FACTS.get(result.control or "", ToolFacts()).keeps_d
+    return MovedProgram(moves, left, kept, remarks, warnings, leaving, keeps_d)

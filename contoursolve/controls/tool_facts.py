@@ -20,6 +20,8 @@ class ToolFacts(Struct, frozen=True):
     """The words that say the way around an outside corner, `roll` or `intersect` (printed)."""
     needs_entry: bool = False
     """Whether it refuses a move to the contour that is no longer than the radius."""
+    keeps_d: bool = False
+    """Whether D chooses the lengths of a tool, too, so that it stays without G41 and G42 (assumed)."""
     no_offset: Evidence = _ASSUMED
     """The grade of what D0 does: G41 stays, with radius 0."""
 
@@ -51,6 +53,7 @@ _SIEMENS = ToolFacts(
     | _alarms(_ASSUMED, no_offset="10750"),
     "the control checks the next blocks, by default 3 (printed)",
     {"G450": "roll", "G451": "intersect"},
+    keeps_d=True,
 )
 _NAMED = "Tool radius too large"
 TOOL_FACTS: Mapping[str, ToolFacts] = {
@@ -68,6 +71,7 @@ TOOL_FACTS: Mapping[str, ToolFacts] = {
         "the control looks at this block and two more, and not farther (printed)",
         {"G25": "intersect", "G26": "roll"},
         needs_entry=True,
+        keeps_d=True,
     ),
     "mitsubishi": ToolFacts(
         _alarms(_ASSUMED, no_intersection="P152", interference="P153", entry_by_arc="P151"),

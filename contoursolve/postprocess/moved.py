@@ -12,6 +12,7 @@ from contoursolve.gcode import Block, Passage, Word, comment_out, parse_block, r
 from contoursolve.postprocess.emit import MotionBlock, emit
 from contoursolve.postprocess.expander import Expander
 from contoursolve.postprocess.expansion_report import Left
+from contoursolve.postprocess.restating import InOwnWords
 from contoursolve.program import Lines, Step
 from contoursolve.reading import Effect, State, advance, apply_modes, blocks_of, codes_of
 from contoursolve.solving import Point, Segment
@@ -32,6 +33,8 @@ class MovedProgram(Struct, frozen=True):
     """The warnings about the moves that begin at a line."""
     leaving: Set[int]
     """The lines behind which the tool is where the program has it."""
+    keeps_d: bool
+    """Whether D stays."""
 
     def lines(self, *args: Any, **options: Any) -> Lines:
         """The lines of the program on their way."""
@@ -39,7 +42,7 @@ class MovedProgram(Struct, frozen=True):
 
     def expander(self, *args: Any) -> "MovedExpander":
         """The pass over the program."""
-        found = MovedExpander(*args)
+        found = (MovedExpander if args[0].writing is None else MovedInOwnWords)(*args)
         found.moved = self
         return found
 
@@ -153,10 +156,17 @@ class MovedExpander(Expander):
         text, kept = block.text, list[Word]()
         for word, row in [(word, next(rows) if word.address == "G" else None) for word in block.words][::-1]:
             is_code = row is not None and not isinstance(row, Word) and row.effect is Effect.COMPENSATION
-            if not is_code and word.address != "D":
+            if not is_code and (word.address != "D" or self.moved.keeps_d):
                 kept.insert(0, word)
                 continue
             left, right = text[: word.span.column - 1], text[word.span.end_column - 1 :]
             is_apart = left[-1:] == " " and right[:1] not in ("", " ")
             text = left.rstrip(" ") + " " * is_apart + right if left.strip() else left + right.lstrip(" ")
         return block if len(kept) == len(block.words) else replace(block, text=text, words=tuple(kept))
+
+
+class MovedInOwnWords(MovedExpander, InOwnWords):
+    """The same in the plain words of a control that is not programmed in G codes."""
+
+    def _behind(self, block: Block, state: State) -> State | None:
+        return state if block.line in self.moved.leaving else None

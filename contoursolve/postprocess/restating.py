@@ -80,9 +80,14 @@ class InOwnWords(_Expander):
         self.claim = answer.claim
         yield from super()._replace(step, answer)
 
-    def _write(self, block: Block, moves: list[MotionBlock], end: str, _state: State, _solved: Block) -> str:
-        texts = self.own.write(block, [(move.code, move.words) for move in moves])
-        behind = self.own.close(self.claim.after) if block.line == self.claim.blocks[-1].line else []
+    def _behind(self, block: Block, _state: State) -> State | None:
+        """The state behind the last block of what is written."""
+        return self.claim.after if block.line == self.claim.blocks[-1].line else None
+
+    def _write(self, block: Block, moves: list[MotionBlock], end: str, state: State, solved: Block) -> str:
+        texts = self.own.write(solved, [(move.code, move.words) for move in moves])
+        after = self._behind(block, state)
+        behind = self.own.close(after) if after is not None else []
         frame, number = frame_of(block.text), block.find("N")
         comments = comment_out(block.text, block.syntax) if self.options.has_comments else []
         beside = [] if comments else own_comments(block)

@@ -183,6 +183,9 @@ class _Group(Struct):
     """The step that interrupts it while G41 or G42 is in force."""
 
 
+_ON = frozenset(f"G{code}" for code in SIDES)
+
+
 def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
     """Moves under G41 or G42, of which the first leads to the contour; or else cutting moves between those that do not
     cut. The first move behind leaves the contour."""
@@ -207,7 +210,8 @@ def _groups(path: ToolPath, *, is_stated: bool) -> Iterator[_Group]:
         is_off = isinstance(step, Travel) and step.compensation not in SIDES
         if group.side is not None and side is not None and side is not group.side:
             is_off = True
-        broken = None if is_off else broken or (step if group.side is not None else None)
+        is_lost = isinstance(step, Unfollowed) and not _ON.isdisjoint(step.words)
+        broken = None if is_off else broken or (step if group.side is not None or is_lost else None)
         group.broken = group.broken or broken
         yield group
         group = _Group([move] if is_there and move else [], None if is_there else move, None, side, broken)

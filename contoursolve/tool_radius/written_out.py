@@ -38,7 +38,8 @@ def written_out(run: Run, dialect: Dialect, *, is_inline: bool) -> list[Block]:
 
 
 def _refuse(event: ProgramEvent) -> None:
-    raise ToolError(f"program line {event.line}: {event.reason or 'nobody knows what runs here'}")
+    told = event.reason or "nobody knows what runs here"
+    raise ToolError(told if told.startswith("program line") else f"program line {event.line}: {told}")
 
 
 def _calls_profile(text: str, language: MacroLanguage) -> bool:

@@ -1,0 +1,142 @@
+"""Whole programs of each control with G41 and G42 (RL and RR): the path that is written, against points of the part."""
+
+import re
+from pathlib import Path
+
+import numpy
+import pytest
+from click.testing import CliRunner
+from oracle_tool import TIPS, clearance, parts_of, run
+
+from contoursolve.cli import main
+
+KLARTEXT = """\
+0 BEGIN PGM K MM
+1 TOOL CALL 1 Z S2000 F300
+2 L Z+50 R0 FMAX M3
+3 L X-30 Y-30 R0 FMAX
+4 L Z-5 F AUTO
+5 L X+0 Y+10 RL F300
+6 L IY+50
+7 RND R6
+8 L X+40 Y+80
+9 CHF 5
+10 L X+80
+11 CC X+80 Y+60
+12 C X+100 Y+60 DR-
+13 LP PR+30 PA-90
+14 CR X+60 Y+0 R+30 DR-
+15 L X+15
+16 L Y-30 R0 FMAX M9
+17 L X+200 Y-30 FMAX
+18 L X+200 Y+0 RR F300
+19 FL AN+90 LEN40
+20 RND R6
+21 FL AN+0 LEN40
+22 L X+260
+23 L X+300 Y-20 R0 FMAX M30
+24 END PGM K MM
+"""
+TURNED = "{0}\nT0101\nG00 X16. Z2.\nG42 G01 Z0. F0.2\n{1}\nG40 G00 X120.\nG00 Z60.\nM30\n"
+MILLED = "{0}\nT1 D1\nG00 X-20. Y-20.\nG41 G01 X0. Y8. D1 F300\n{1}\nX12.\nG40 G00 Y-20.\nM30\n"
+COMMA = "Y30. ,R6.\nX40. ,C3.\nY20.\nG03 X50. Y10. R10.\nG01 X60. Y8.\nY0."
+ASSIGNED = "Y30 RND=6\nX40 CHR=3\nY20\nG3 X50 Y10 CR=10\nG1 X60 Y8\nY0"
+PROGRAMS = {
+    "heidenhain": (KLARTEXT, 4, None, 2),
+    "fanuc-mill": (MILLED.format("G21 G17 G90", COMMA), 4, None, 1),
+    "haas-mill": (MILLED.format("G21 G17 G90", COMMA), 4, None, 1),
+    "nct-99m": (MILLED.format("G21 G17 G90", COMMA), 4, None, 1),
+    "mitsubishi": (MILLED.format("G21 G17 G90", COMMA), 4, None, 1),
+    "isg": (MILLED.format("G17 G90", "Y30 #RND=6\nX40 #CHR=3\nY20\nG03 X50 Y10 R10\nG01 X60 Y8\nY0"), 4, None, 1),
+    "siemens-840d": (
+        MILLED.format("G17 G90", ASSIGNED),
+        4,
+        None,
+        1,
+    ),
+    "siemens-808d": (
+        MILLED.format("G17 G90", ASSIGNED.replace("CHR", "CHF")),
+        4,
+        None,
+        1,
+    ),
+    "fanuc-lathe": (TURNED.format("G21", "X20. ,C2.\nZ-15. ,R3.\nX30. Z-40. ,R10.\nX60."), 0.8, 3, 1),
+    "haas-lathe": (TURNED.format("G21", "X20. ,C2.\nZ-15. ,R3.\nX30. Z-40. ,R10.\nX60."), 0.8, 3, 1),
+    "yasnac-lx3": (TURNED.format("", "X40.\nZ-15.\nG111 X100. A180. K-30. B120. P5. Q5.\nG01 Z-80."), 0.8, 3, 1),
+}
+
+
+@pytest.mark.parametrize("control", PROGRAMS)
+def test_a_whole_program_of_each_control(control: str, tmp_path: Path):
+    text, radius, tip, count = PROGRAMS[control]
+    (tmp_path / "a.nc").write_text(text)
+    words = ["--control", control, *(("--tip", str(tip)) if tip is not None else ())]
+    contours = run("solve", "--format", "json", "--tool", f"R{radius}", *words, str(tmp_path / "a.nc"))["contours"]
+    new = tmp_path / "new.nc"
+    made = ["expand", *words, "--tool", f"R{radius}", "--no-comments", str(tmp_path / "a.nc"), "-o", str(new)]
+    done = CliRunner().invoke(main, made)
+    assert (done.exit_code, len(contours)) == (0, count), done.output
+    assert not re.search(r"\b(?:G4[012]|R[LR]|RND|CHF|CHR|FL)\b|,[RC]", new.read_text())
+    assert ("D1" in new.read_text()) == (control in ("siemens-840d", "siemens-808d", "isg"))
+    written = run("solve", "--format", "json", "--tool", "R0", "--side", "left", *words, str(new))["contours"]
+    pieces = [part for contour in written for part in parts_of(contour["elements"])]
+    for contour in contours:
+        for piece in parts_of(contour["tool"]["elements"]):
+            at = piece.at(numpy.linspace(0, 1, 50))[0]
+            assert clearance(at, pieces).max() < 0.002
+            off = clearance(at - radius * TIPS[tip or 0], parts_of(contour["elements"])) - radius
+            assert abs(off).max() < 1e-6
+
+
+CALLED = """\
+0 BEGIN PGM K3 MM
+1 TOOL CALL 1 Z S2000 F300
+2 L Z+50 R0 FMAX M3
+3 L X-30 Y-30 R0 FMAX
+4 L Z+0 FMAX
+5 CALL LBL 1
+6 CALL LBL 1
+7 CC X+220 Y+20
+8 L X+220 Y+20 FMAX
+9 L X+230 Y+20 RL F300
+10 CP IPA+720 IZ-4 DR+
+11 CP IPA+360 DR+
+12 L X+220 Y+20 R0
+13 C X+220 Y+20 DR+
+14 L Z+50 FMAX M30
+15 LBL 1
+16 L IZ-2 FMAX
+17 {0}L X+0 Y+10 RL F300
+18 L Y+60
+19 RND R6
+20 L X+40
+21 L Y+0
+22 L X+15
+23 L X-30 Y-30 R0 FMAX
+24 LBL 0
+25 END PGM K3 MM
+"""
+
+
+def test_klartext_with_labels_and_a_helix_stays_klartext(tmp_path: Path):
+    (tmp_path / "a.h").write_text(CALLED.format(""))
+    new, words = tmp_path / "new.h", ("--control", "heidenhain", "--tool", "R4")
+    made = ["expand", *words, "--inline", "--no-comments", str(tmp_path / "a.h"), "-o", str(new)]
+    done = CliRunner().invoke(main, made)
+    assert (done.exit_code, "3 contours expanded" in done.stderr) == (0, True), done.output
+    lines = new.read_text().splitlines()
+    at = lines.index("9 L X+226 Y+20 F300")
+    assert lines[at + 2] == "C X+214 Y+20 Z-5 DR+"
+    assert lines[at + 8] == "C X+226 Y+20 Z-8 DR+"
+    # The arc behind turns about the pole of the program.
+    assert lines[lines.index("12 L X+220 Y+20") + 1] == "CC X+220 Y+20"
+    same = CliRunner().invoke(main, ["diff", *words, str(tmp_path / "a.h"), str(new)])
+    assert same.exit_code == 0, same.output
+    done = CliRunner().invoke(main, [*made[:-2], "--post", "fanuc"])
+    assert (done.exit_code, "then expand it with --post fanuc" in done.stderr) == (2, True)
+
+
+def test_an_approach_that_is_not_followed_is_no_entry(tmp_path: Path):
+    (tmp_path / "a.h").write_text(CALLED.format("APPR LT X+0 Y+10 LEN10 RL F300 ;"))
+    done = CliRunner().invoke(main, ["check", "--control", "heidenhain", "--tool", "R4", str(tmp_path / "a.h")])
+    assert (done.exit_code, "error[tool-interrupted]: program line 18 (APPR LT has" in done.stdout) == (1, True)
