@@ -1,18 +1,18 @@
 """Commands of a client beyond the protocol: pictures, the plain program, other controls, reports, notebooks."""
 
-import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 from lsprotocol import types
 
 import contoursolve
-from contoursolve import Conversion, Expansion, standing_alone, stated_words
+from contoursolve import stated_words
 from contoursolve.lsp.language_features import stretch, tool_beside
 from contoursolve.lsp.opened import Opened
+from contoursolve.notebook import Product, converted, expanded, notebook_about, page_about
 from contoursolve.pictures import Theme, draw_answer
 
-MOST_TOLD = 3
+_NO_CONTOUR = "there is no contour under the cursor"
 NOT_OPEN = "the program is not open in this editor"
 Reply = Mapping[str, str | None]
 
@@ -58,93 +58,40 @@ def picture_of(opened: Opened, position: types.Position) -> Any:
 
 def expand_program(opened: Opened | None) -> Reply:
     """The program in plain G-code, or why there is none."""
-    if opened is None:
-        return {"text": None, "message": NOT_OPEN}
-    program = opened.program
-    if program.dialect is None and opened.troubles:
-        return {"text": None, "message": "; ".join(opened.troubles)}
-    try:
-        found = contoursolve.expand(program.text, control=program.dialect, name=program.name)
-    except ValueError as error:
-        return {"text": None, "message": str(error)}
-    return {"text": found.text, "message": _what_was_left(found, program.dialect.title if program.dialect else "")}
+    return _reply("text", None if opened is None else _unread(opened) or expanded(opened.program))
 
 
 def convert_program(opened: Opened | None, control: str) -> Reply:
     """The program in the words of another control, or why there is none."""
-    if opened is None:
-        return {"text": None, "message": NOT_OPEN}
-    program = opened.program
-    try:
-        settings = opened.conventions
-        found = contoursolve.convert(
-            program.text, control, control=program.dialect, settings=settings, name=program.name
-        )
-    except ValueError as error:
-        return {"text": None, "message": str(error)}
-    message = _what_was_left(found, contoursolve.DIALECTS[control].title)
-    difference = found.comparison.difference if found.comparison else None
-    if difference is not None:
-        message = f"the new program is another path: {difference.reason}"
-    return {"text": found.text, "message": message}
-
-
-def _what_was_left(found: Expansion | Conversion, target: str) -> str:
-    """Reasons why contours were left as they are, and words that the target reads otherwise; empty without any."""
-    left = [f"program line {each.lines[0]}: {each.reason}" for each in found.summary.left]
-    left += [f"program line {each.line}: {each.sentence(target)}" for each in found.summary.unfamiliar]
-    return "; ".join(left[:MOST_TOLD]) + (f"; and {len(left) - MOST_TOLD} more" if len(left) > MOST_TOLD else "")
+    return _reply("text", converted(opened.program, control, opened.conventions) if opened else None)
 
 
 def report_on(opened: Opened | None) -> Reply:
     """A page about the program, or why there is none."""
-    if opened is None:
-        return {"html": None, "message": NOT_OPEN}
-    program = opened.program
-    if program.dialect is None and opened.troubles:
-        return {"html": None, "message": "; ".join(opened.troubles)}
-    try:
-        result, tool = contoursolve.solve(program.text, control=program.dialect, name=program.name), None
-        if isinstance(opened.tool(), contoursolve.ToolReport):
-            name = str(opened.path or program.name)
-            result, tool = contoursolve.solve_with_tool(program.text, control=program.dialect, name=name)
-        if not result.answers:
-            return {"html": None, "message": "the program has no contour block"}
-        page = contoursolve.report_page(result, contoursolve.__version__, tool=tool)
-    except (ValueError, ImportError) as error:
-        return {"html": None, "message": str(error)}
-    return {"html": "".join(page), "message": ""}
+    return _reply("html", None if opened is None else _unread(opened) or _page_about(opened))
+
+
+def _page_about(opened: Opened) -> Product:
+    name = str(opened.path or opened.program.name)
+    return page_about(opened.program, name, opened.tool(), contoursolve.__version__)
 
 
 def notebook_of(opened: Opened | None, line: int) -> Reply:
     """A notebook that explores the contour on a line, which counts from 0, or why there is none."""
-    answer = opened.program.contour_at(line + 1) if opened is not None else None
-    if opened is None or answer is None or opened.program.dialect is None:
-        return {"notebook": None, "message": "there is no contour under the cursor"}
-    if not answer.start.is_known:
-        return {"notebook": None, "message": "the start point of this contour is not known"}
-    dialect = opened.program.dialect
-    options: dict[str, Any] = {
-        "control": dialect.name,
-        "units": answer.unit.value,
-        "settings": dict(dialect.modes.settings),
-    }
-    text = standing_alone(answer, control=dialect, units=answer.unit.value, settings=dialect.modes.settings)
-    if not text:  # it rests on lines before it: they come along
-        text, options = opened.program.text, {"line": line + 1, **options}
-    told = "".join(f", {name}={value!r}" for name, value in options.items() if value)
-    code = f"import contoursolve\n\ncontoursolve.explore({text!r}{told})"
-    cell: dict[str, object] = {
-        "cell_type": "code",
-        "id": "contour",
-        "metadata": {},
-        "source": code,
-        "outputs": [],
-        "execution_count": None,
-    }
-    kernel = {"kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"}}
-    notebook = {"cells": [cell], "metadata": kernel, "nbformat": 4, "nbformat_minor": 5}
-    return {"notebook": json.dumps(notebook, indent=1, ensure_ascii=False), "message": ""}
+    return _reply("notebook", notebook_about(opened.program, line + 1) if opened else Product(None, _NO_CONTOUR))
+
+
+def _unread(opened: Opened) -> Product | None:
+    """The reason why nothing is made of a program whose control is not known; None where it is."""
+    if opened.program.dialect is not None or not opened.troubles:
+        return None
+    return Product(None, "; ".join(opened.troubles))
+
+
+def _reply(name: str, product: Product | None) -> Reply:
+    """A product under its name, with its message; without one, the program is not open."""
+    made = product or Product(None, NOT_OPEN)
+    return {name: made.text, "message": made.message}
 
 
 def file_of(opened: Opened | None, what: str, line: int) -> tuple[str, str | None]:
@@ -156,7 +103,7 @@ def file_of(opened: Opened | None, what: str, line: int) -> tuple[str, str | Non
     if what == "draw":
         answer = opened.program.contour_at(line + 1)
         if answer is None:
-            return "there is no contour under the cursor", None
+            return _NO_CONTOUR, None
         return f"{stem}-{line + 1}.svg", draw_answer(answer, beside=tool_beside(opened, answer)).svg
     if what == "explore":
         found = notebook_of(opened, line)

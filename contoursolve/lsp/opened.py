@@ -10,14 +10,11 @@ from msgspec import Struct, field
 import contoursolve
 from contoursolve.lsp.positions import ClientPositions
 from contoursolve.lsp.rule_pages import Pages
+from contoursolve.notebook import project_settings, stated_tool
 
 CONTROL = "control"
 FIX_ALL = f"{types.CodeActionKind.SourceFixAll.value}.contoursolve"
 """The kind of the action that applies all fixes that keep the contour; an editor may ask for it when it saves."""
-
-
-_LONGEST = 5_000
-"""Lines of a program that is solved again for its tool while somebody waits."""
 
 
 class ClientSettings(Struct, frozen=True):
@@ -70,7 +67,7 @@ class Opened:
     ) -> None:
         self.uri, self.version, self.path, self.pages = item.uri, item.version, path, pages
         self.client = client
-        self.options, self._project = options, _project_of(path)
+        self.options, self._project = options, project_settings(path)
         self._tool: tuple[int, contoursolve.ToolReport | str | None] | None = None
         name = path.name if path else item.uri
         self.program = contoursolve.OpenProgram(item.text, settings=self._settings(), name=name)
@@ -84,7 +81,7 @@ class Opened:
 
     def configure(self, options: ClientSettings) -> None:
         """Follow other options, or another project file."""
-        self.options, self._project = options, _project_of(self.path)
+        self.options, self._project = options, project_settings(self.path)
         self.program.configure(None, self._settings())
         self._tool = None
 
@@ -126,19 +123,8 @@ class Opened:
         """The report about the tool that the program or its project file states; the reason where nothing can be said,
         None where no tool is stated."""
         if self._tool is None or self._tool[0] != self.version:
-            self._tool = self.version, self._look_at_tool()
+            self._tool = self.version, stated_tool(self.program, self.path)
         return self._tool[1]
-
-    def _look_at_tool(self) -> "contoursolve.ToolReport | str | None":
-        program, name = self.program, str(self.path) if self.path is not None else "<program>"
-        is_stated = "contoursolve tool" in program.text
-        try:
-            has_table = self.path is not None and contoursolve.find_tool_table(self.path.parent)
-            if program.dialect is None or not (is_stated or has_table) or len(program.blocks) > _LONGEST:
-                return None
-            return contoursolve.solve_with_tool(program.text, name=name, control=program.dialect, depth="verdict")[1]
-        except (OSError, ValueError) as error:
-            return str(error) if is_stated else None
 
     @property
     def conventions(self) -> dict[str, str]:
@@ -151,11 +137,3 @@ class Opened:
         project = {} if isinstance(self._project, str) else self._project
         control = project.get(CONTROL, self.options.control)
         return {**self.conventions, **({CONTROL: control} if control else {})}
-
-
-def _project_of(path: Path | None) -> dict[str, str] | str:
-    """The settings of the project file of a program, or what is wrong with it."""
-    try:
-        return contoursolve.find_settings(path.parent) if path is not None else {}
-    except (OSError, ValueError) as error:  # a name that no file may have, or a SettingError
-        return str(error)

@@ -2,4 +2,14 @@ from . import mime_bundle as mime_bundle
 from .conversation import Conversation as Conversation
 from .exploration import begin as begin
 from .explore import explore as explore, explore_map as explore_map
+from .open_products import (
+    Product as Product,
+    converted as converted,
+    expanded as expanded,
+    notebook_about as notebook_about,
+    page_about as page_about,
+    project_settings as project_settings,
+    solved as solved,
+    stated_tool as stated_tool,
+)
 from .standing_alone import standing_alone as standing_alone

@@ -160,6 +160,7 @@ def test_the_language_server_knows_what_the_package_exports():
         "__init__",
         "diagnostics",
         "lsp",
+        "notebook",
         "pictures",
     }
 
